@@ -1,0 +1,86 @@
+/* ambulo/mechanics.h - recursive inverse dynamics of a given motion, in batches.
+ *
+ * For n time nodes and d coordinates, motions are row-major [n][d] arrays: q (rad
+ * or m), qd (per second), qdd (per second squared). Outputs:
+ *   tau      [n][d]       generalized force at each coordinate, N m or N
+ *   wrench   [n][6]       root wrench: moment M about the world origin (N m), then
+ *                         force F (N), world axes: what the surroundings must apply
+ *                         to the body, F = sum m (a - g)      (seed Eqs. 15'-16')
+ *   points   [n][p][3]    positions of the model's points, world frame, m
+ * No external force acts but gravity. Two independent routes are provided:
+ *   - ambulo_mechanics_*  spatial recursion in world coordinates, eight time nodes
+ *     at a time; with hand-derived derivatives;
+ *   - ambulo_lagrangian_* the seed's transformation-matrix recursion, Eqs. (4)-(12),
+ *     written plainly from the page; the oracle of the tests.
+ *
+ * A workspace holds scratch; use one per thread. The model is only read.
+ */
+#ifndef AMBULO_MECHANICS_H
+#define AMBULO_MECHANICS_H
+
+#include "ambulo/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ambulo_mechanics ambulo_mechanics;   /* workspace */
+
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_create(
+    const ambulo_model *model, const ambulo_allocator *allocator, ambulo_mechanics **mechanics);
+AMBULO_API void ambulo_mechanics_free(ambulo_mechanics *mechanics);  /* accepts NULL */
+
+/* Inverse dynamics of `nodes` states. tau, wrench, points may each be NULL.
+ * Errors: E_ARGUMENT, E_NUMERIC (an input or a result is not finite). */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_inverse_dynamics(
+    ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
+    double *tau, double *wrench, double *points);
+
+/* Vector-Jacobian product: given weights on tau [n][d], wrench [n][6] and points
+ * [n][p][3] (each may be NULL), the gradient of their weighted sum with respect
+ * to q, qd and qdd, each [n][d] and none NULL. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_gradient(
+    ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
+    const double *tau_weights, const double *wrench_weights, const double *point_weights,
+    double *q_gradient, double *qd_gradient, double *qdd_gradient);
+
+/* Full Jacobians of tau [n][d][d] with respect to q, qd, qdd (rows: tau; the last
+ * is the mass matrix), of the wrench [n][6][d] likewise, and of the points
+ * [n][3 p][d] with respect to q. Each output may be NULL. */
+typedef struct ambulo_jacobians {
+  double *tau_q, *tau_qd, *tau_qdd;           /* [n][d][d] */
+  double *wrench_q, *wrench_qd, *wrench_qdd;  /* [n][6][d] */
+  double *points_q;                           /* [n][3 p][d] */
+} ambulo_jacobians;
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_jacobians(
+    ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
+    const ambulo_jacobians *jacobians);
+
+/* Instruction set the kernels run on: "avx512", "avx2", "baseline". */
+AMBULO_API const char *ambulo_instruction_set(void);
+
+/* ------------------------------------------------------- reference recursion */
+
+/* The seed's recursion for one state (any output may be NULL): A, B, C matrices
+ * forward (Eqs. 4-6), D and E backward (Eqs. 11-12), tau by Eq. (10). Allocates
+ * nothing; `scratch` has ambulo_lagrangian_scratch_size(model) bytes, aligned for
+ * double. The complex form takes interleaved (re, im) pairs everywhere, which is
+ * the memory layout of C's double complex, and serves complex-step derivatives. */
+AMBULO_API size_t ambulo_lagrangian_scratch_size(const ambulo_model *model);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_inverse_dynamics(
+    const ambulo_model *model, const double *q, const double *qd, const double *qdd, double *tau,
+    double *wrench, double *points, void *scratch);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_inverse_dynamics_complex(
+    const ambulo_model *model, const double *q, const double *qd, const double *qdd, double *tau,
+    double *wrench, double *points, void *scratch);
+
+/* Kinetic and potential energy of one state (J); potential is zero at the world
+ * origin. Energy balance: dE/dt = qd . tau. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_energy(
+    const ambulo_model *model, const double *q, const double *qd, double *kinetic,
+    double *potential, void *scratch);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,163 @@
+/* ambulo/model.h - the skeleton: an immutable tree of Denavit-Hartenberg links.
+ *
+ * Each link hangs on its parent by one classical ("distal") DH transform
+ *
+ *     T(q) = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha)
+ *
+ * (Denavit & Hartenberg 1955; the seed's Fig. 1). A revolute link adds its
+ * coordinate q to theta, a prismatic link adds q to d, a fixed link has no
+ * coordinate. The link frame is the frame *after* the transform; bodies and
+ * points are given in it. Units: SI and radians, always.
+ *
+ * A model is built from a definition in memory or from a YAML file
+ * (docs/model-format.md), checked, and never changes afterwards: it may be shared
+ * between threads without locks.
+ *
+ * Coordinates are numbered in the order in which links with a coordinate appear.
+ */
+#ifndef AMBULO_MODEL_H
+#define AMBULO_MODEL_H
+
+#include "ambulo/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ambulo_model ambulo_model;
+
+typedef enum ambulo_joint_type {
+  AMBULO_FIXED,
+  AMBULO_REVOLUTE,
+  AMBULO_PRISMATIC
+} ambulo_joint_type;
+
+/* One coordinate q_i. Ranges are +-INFINITY where unlimited. */
+typedef struct ambulo_coordinate {
+  const char *name;        /* e.g. "knee_angle_r" */
+  ambulo_joint_type type;  /* AMBULO_REVOLUTE (rad, N m) or AMBULO_PRISMATIC (m, N) */
+  double range[2];         /* [min, max], rad or m */
+  double speed[2];         /* [min, max], rad/s or m/s */
+  double torque[2];        /* [min, max] generalized force, N m or N */
+  int actuated;            /* 0: a global (root) coordinate that no muscle drives */
+  int mirror;              /* coordinate that takes its place in the mirror image; itself if unpaired */
+  double mirror_sign;      /* +1 or -1: q_mirror = mirror_sign * q */
+} ambulo_coordinate;
+
+/* One link as given (after scaling to the subject). */
+typedef struct ambulo_link {
+  const char *name;
+  int parent;              /* index of the parent link; -1: the world */
+  ambulo_joint_type type;
+  double theta, d, a, alpha;   /* DH constants: rad, m, m, rad */
+  int coordinate;          /* coordinate index; -1 for a fixed link */
+  double mass;             /* kg; 0: no body */
+  double com[3];           /* centre of mass in the link frame, m */
+  double inertia[6];       /* about the centre of mass, link axes: xx yy zz xy xz yz, kg m^2 */
+} ambulo_link;
+
+/* A named point fixed on a link. */
+typedef struct ambulo_point {
+  const char *name;
+  int link;
+  double position[3];      /* link frame, m */
+} ambulo_point;
+
+/* A foot: which points touch the ground. Points are indices. A planar foot has
+ * one heel and one toe point; a spatial one two of each. */
+typedef struct ambulo_foot {
+  const char *name;        /* "left", "right" */
+  int heel[2];             /* corner points at the heel; [1] = -1 if there is only one */
+  int toe[2];              /* corner points at the toe; [1] = -1 if there is only one */
+  int heel_center;         /* point placed on the foothold */
+  int toe_center;          /* point that fixes the heading, and the place in toe contact */
+  int mirror;              /* foot that takes its place in the mirror image */
+} ambulo_foot;
+
+/* ------------------------------------------------------------ build in code */
+
+/* Everything a model consists of. Arrays are borrowed during the call only.
+ * In the definition `parent`, `link`, `mirror` and point numbers are indices
+ * into these arrays; `links[i].coordinate` is ignored (numbered by order);
+ * `coordinates[k]` describes the k-th link that has a coordinate. */
+typedef struct ambulo_model_definition {
+  int cookie;              /* set by ambulo_model_definition_default() */
+  const char *name;
+  double gravity[3];       /* m/s^2, world frame; up is -gravity/|gravity| */
+  double forward[3];       /* walking direction, world frame; must not be vertical */
+  const ambulo_link *links;
+  int link_count;
+  const ambulo_coordinate *coordinates;
+  int coordinate_count;
+  const ambulo_point *points;
+  int point_count;
+  const ambulo_foot *feet;
+  int foot_count;
+  double stature;          /* m; 0 if unknown */
+} ambulo_model_definition;
+
+/* Gravity -9.81 along y, forward x, no links. */
+AMBULO_API ambulo_model_definition ambulo_model_definition_default(void);
+/* A link, a coordinate with neutral values (unlimited, actuated, own mirror). */
+AMBULO_API ambulo_link ambulo_link_default(void);
+AMBULO_API ambulo_coordinate ambulo_coordinate_default(void);
+
+/* Checks the definition (acyclic, masses positive, inertias physical, limits
+ * ordered, names unique) and builds the model. `diagnostics` may be NULL.
+ * Errors: E_ARGUMENT, E_MODEL, E_LIMIT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_create(
+    const ambulo_model_definition *definition, const ambulo_allocator *allocator,
+    ambulo_diagnostics *diagnostics, ambulo_model **model);
+
+/* ---------------------------------------------------------------- from YAML */
+
+/* The person a model is scaled to. A zero (or AMBULO_SEX_FILE) keeps what the
+ * file says. */
+typedef enum ambulo_sex { AMBULO_SEX_FILE, AMBULO_FEMALE, AMBULO_MALE } ambulo_sex;
+typedef struct ambulo_subject {
+  double mass;             /* kg; 0: as in the file */
+  double stature;          /* m; 0: as in the file */
+  ambulo_sex sex;
+} ambulo_subject;
+
+/* Loads a model file, or text that is already in memory (`name` then stands for
+ * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.
+ * Errors: E_IO, E_PARSE, E_SCHEMA, E_MODEL, E_LIMIT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load(
+    const char *path, const ambulo_subject *subject, const ambulo_allocator *allocator,
+    ambulo_diagnostics *diagnostics, ambulo_model **model);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
+    const char *text, size_t length, const char *name, const ambulo_subject *subject,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_model **model);
+
+/* Accepts NULL. */
+AMBULO_API void ambulo_model_free(ambulo_model *model);
+
+/* ------------------------------------------------------------------ queries */
+/* Pointers belong to the model. Out-of-range indices give NULL; names that do
+ * not exist give -1. */
+
+AMBULO_API const char *ambulo_model_name(const ambulo_model *model);
+AMBULO_API int ambulo_model_link_count(const ambulo_model *model);
+AMBULO_API int ambulo_model_coordinate_count(const ambulo_model *model);
+AMBULO_API int ambulo_model_point_count(const ambulo_model *model);
+AMBULO_API int ambulo_model_foot_count(const ambulo_model *model);
+AMBULO_API const ambulo_link *ambulo_model_link(const ambulo_model *model, int index);
+AMBULO_API const ambulo_coordinate *ambulo_model_coordinate(const ambulo_model *model, int index);
+AMBULO_API const ambulo_point *ambulo_model_point(const ambulo_model *model, int index);
+AMBULO_API const ambulo_foot *ambulo_model_foot(const ambulo_model *model, int index);
+AMBULO_API int ambulo_model_find_link(const ambulo_model *model, const char *name);
+AMBULO_API int ambulo_model_find_coordinate(const ambulo_model *model, const char *name);
+AMBULO_API int ambulo_model_find_point(const ambulo_model *model, const char *name);
+AMBULO_API int ambulo_model_find_foot(const ambulo_model *model, const char *name);
+AMBULO_API double ambulo_model_mass(const ambulo_model *model);       /* kg, whole body */
+AMBULO_API double ambulo_model_stature(const ambulo_model *model);    /* m; 0 if unknown */
+AMBULO_API const double *ambulo_model_gravity(const ambulo_model *model);  /* [3], m/s^2 */
+AMBULO_API const double *ambulo_model_up(const ambulo_model *model);       /* [3], unit */
+AMBULO_API const double *ambulo_model_forward(const ambulo_model *model);  /* [3], unit, horizontal */
+AMBULO_API const double *ambulo_model_left(const ambulo_model *model);     /* [3], unit: up x forward */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,116 @@
+/* ambulo/status.h - status codes, diagnostics, allocator hook.
+ *
+ * Every fallible function returns an ambulo_status and leaves its outputs
+ * untouched on failure. A status says whether the *call* was legal and could be
+ * carried out; what a solver concluded is an ambulo_verdict (solve.h), and how
+ * good the point is stands in the audit (solve.h).
+ *
+ * Messages for people are collected in an ambulo_diagnostics list that the
+ * caller owns; the library never prints.
+ */
+#ifndef AMBULO_STATUS_H
+#define AMBULO_STATUS_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(AMBULO_BUILDING_SHARED) && defined(__GNUC__)
+#define AMBULO_API __attribute__((visibility("default")))
+#else
+#define AMBULO_API
+#endif
+
+#if defined(__GNUC__)
+#define AMBULO_NODISCARD __attribute__((warn_unused_result))
+#else
+#define AMBULO_NODISCARD
+#endif
+
+/* One list for codes, names and texts: X(identifier, name, exit status, text).
+ * "exit status" is what the command-line program returns for it. */
+#define AMBULO_STATUS_LIST(X) \
+  X(AMBULO_OK, "OK", 0, "success") \
+  X(AMBULO_E_ARGUMENT, "E_ARGUMENT", 2, "an argument is outside its documented range") \
+  X(AMBULO_E_IO, "E_IO", 4, "a file could not be read or written") \
+  X(AMBULO_E_PARSE, "E_PARSE", 3, "the text is not well-formed") \
+  X(AMBULO_E_SCHEMA, "E_SCHEMA", 3, "the text is well-formed but not what the format asks for") \
+  X(AMBULO_E_MODEL, "E_MODEL", 3, "the model is physically or structurally impossible") \
+  X(AMBULO_E_PROBLEM, "E_PROBLEM", 3, "the problem contradicts itself or its model") \
+  X(AMBULO_E_LIMIT, "E_LIMIT", 5, "a size limit was exceeded") \
+  X(AMBULO_E_MEMORY, "E_MEMORY", 5, "memory could not be allocated") \
+  X(AMBULO_E_NUMERIC, "E_NUMERIC", 1, "a value became non-finite or a factorization failed") \
+  X(AMBULO_E_INTERNAL, "E_INTERNAL", 6, "an internal invariant was violated; please report it")
+
+typedef enum ambulo_status {
+#define AMBULO_STATUS_ENUM(id, name, exit_status, text) id,
+  AMBULO_STATUS_LIST(AMBULO_STATUS_ENUM)
+#undef AMBULO_STATUS_ENUM
+} ambulo_status;
+
+/* Short name ("E_PARSE") and one-sentence text of a status. Never NULL; the
+ * strings are static. */
+AMBULO_API const char *ambulo_status_name(ambulo_status status);
+AMBULO_API const char *ambulo_status_text(ambulo_status status);
+
+/* Process exit status that the command-line program uses for `status`. */
+AMBULO_API int ambulo_status_exit_code(ambulo_status status);
+
+/* ---------------------------------------------------------------- allocator */
+
+/* All memory of an object comes from the allocator given when it was created.
+ * resize(user, NULL, n) allocates, resize(user, p, n) reallocates,
+ * resize(user, p, 0) frees and returns NULL. Returned memory must be aligned
+ * for any type. NULL instead of an allocator means realloc/free.
+ * The allocator must outlive the object. */
+typedef struct ambulo_allocator {
+  void *(*resize)(void *user, void *pointer, size_t size);
+  void *user;
+} ambulo_allocator;
+
+/* -------------------------------------------------------------- diagnostics */
+
+typedef enum ambulo_severity {
+  AMBULO_NOTE,
+  AMBULO_WARNING,
+  AMBULO_ERROR
+} ambulo_severity;
+
+/* One message about an input. Strings belong to the list. */
+typedef struct ambulo_diagnostic {
+  ambulo_severity severity;
+  ambulo_status status;    /* AMBULO_OK for notes and warnings */
+  const char *file;        /* NULL: not about a file */
+  int line;                /* 1-based; 0: no position */
+  int column;              /* 1-based; 0: no position */
+  const char *path;        /* key path such as "links[3].body.mass"; NULL: none */
+  const char *message;     /* what is wrong (got X); expected Y */
+  const char *hint;        /* "did you mean 'mass'?"; NULL: none */
+} ambulo_diagnostic;
+
+/* A list of messages; keeps the first 20 errors and counts the rest. */
+typedef struct ambulo_diagnostics ambulo_diagnostics;
+
+/* NULL on failure to allocate. `allocator` may be NULL. */
+AMBULO_API ambulo_diagnostics *ambulo_diagnostics_create(const ambulo_allocator *allocator);
+/* Accepts NULL. */
+AMBULO_API void ambulo_diagnostics_free(ambulo_diagnostics *diagnostics);
+AMBULO_API void ambulo_diagnostics_clear(ambulo_diagnostics *diagnostics);
+/* Number of messages kept; number of errors found, kept or not. NULL counts 0. */
+AMBULO_API size_t ambulo_diagnostics_count(const ambulo_diagnostics *diagnostics);
+AMBULO_API size_t ambulo_diagnostics_error_count(const ambulo_diagnostics *diagnostics);
+/* Message `index`; NULL if out of range. Valid until the list changes. */
+AMBULO_API const ambulo_diagnostic *ambulo_diagnostics_get(const ambulo_diagnostics *diagnostics,
+                                                           size_t index);
+/* Writes "file:line:col: error[E_X]: message\n  hint: ..." (no trailing newline,
+ * always terminated when size > 0; control characters escaped) and returns the
+ * length the whole text needs, like snprintf. */
+AMBULO_API size_t ambulo_diagnostics_format(const ambulo_diagnostics *diagnostics, size_t index,
+                                            char *buffer, size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,29 @@
+/* base/diagnostics.h - adding messages to a list (the list itself: ambulo/status.h). */
+#ifndef AMBULO_BASE_DIAGNOSTICS_H
+#define AMBULO_BASE_DIAGNOSTICS_H
+
+#include "ambulo/status.h"
+
+/* Where in an input something stands; all members may be NULL / 0. */
+typedef struct ambulo__place {
+  const char *file;
+  int line, column;
+  const char *path;
+} ambulo__place;
+
+/* Adds an error and returns `status`, so that a caller can `return` it. A NULL
+ * list or a failed allocation drops the message, never the status. `hint` may be
+ * NULL. The text is printf-formatted. */
+ambulo_status ambulo__error(ambulo_diagnostics *list, ambulo_status status, ambulo__place place,
+                            const char *hint, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *hint,
+                     const char *format, ...) __attribute__((format(printf, 4, 5)));
+void ambulo__note(ambulo_diagnostics *list, ambulo__place place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The candidate nearest to `word` in edit distance (at most a third of its
+ * letters wrong, case ignored), or NULL. */
+const char *ambulo__nearest(const char *word, const char *const *candidates, size_t count);
+
+#endif

@@ -1,0 +1,22 @@
+/* base/numtext.h - numbers as text, independent of the locale. */
+#ifndef AMBULO_BASE_NUMTEXT_H
+#define AMBULO_BASE_NUMTEXT_H
+
+#include <stddef.h>
+
+/* Reads a finite decimal number that fills the whole of text[0..length):
+ * [+-]digits[.digits][e[+-]digits], at least one digit. Correctly rounded.
+ * Returns 1 and sets *value, or 0 (not a number, not finite, underflow to
+ * nonsense, trailing text; *value untouched). */
+int ambulo__parse_double(const char *text, size_t length, double *value);
+/* The same for a whole number in [min, max]. */
+int ambulo__parse_integer(const char *text, size_t length, long long min, long long max,
+                          long long *value);
+
+/* Shortest text that reads back to the same double ("0.1", "1e-05", "nan",
+ * "inf"); always with '.', never with ','. Returns the length written; buffer
+ * must hold AMBULO__NUMTEXT_SIZE bytes. */
+#define AMBULO__NUMTEXT_SIZE 32
+size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value);
+
+#endif

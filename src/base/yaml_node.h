@@ -1,0 +1,91 @@
+/* base/yaml_node.h - a YAML document as a tree that remembers line and column.
+ *
+ * A strict subset, read from libyaml's events: one document, a mapping at the
+ * top, depth <= 32, <= 16 MiB, UTF-8, no anchors, aliases, tags or merge keys, no
+ * duplicate keys. Scalars keep their text; what they mean is decided by the
+ * typed getters, which report what they got and what they expected.
+ *
+ * The getters never stop at the first fault: they record an error in the
+ * reader's diagnostics, return a neutral value, and the caller goes on to find
+ * the next one; ambulo__yaml_finish() tells whether anything was wrong. Each key
+ * that is asked for is marked as known; ambulo__yaml_close() reports the others
+ * with the nearest known name.
+ */
+#ifndef AMBULO_BASE_YAML_NODE_H
+#define AMBULO_BASE_YAML_NODE_H
+
+#include "ambulo/status.h"
+#include "base/diagnostics.h"
+
+typedef struct ambulo__yaml ambulo__yaml;            /* a document */
+typedef struct ambulo__yaml_node ambulo__yaml_node;  /* a node of it */
+
+typedef enum ambulo__yaml_kind {
+  AMBULO__YAML_SCALAR,
+  AMBULO__YAML_SEQUENCE,
+  AMBULO__YAML_MAPPING
+} ambulo__yaml_kind;
+
+/* Reads a regular file (never a directory, FIFO or device) or text in memory.
+ * Errors: E_IO, E_PARSE, E_SCHEMA (root is not a mapping, duplicate keys),
+ * E_LIMIT, E_MEMORY. */
+ambulo_status ambulo__yaml_load(const char *path, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo__yaml **document);
+ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char *name,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo__yaml **document);
+void ambulo__yaml_free(ambulo__yaml *document);  /* accepts NULL */
+
+/* Replaces or adds the scalar at a dotted path ("time.intervals",
+ * "objective[0].weight") by a YAML flow text ("36", "[1, 2]", "off"): what
+ * `--set path=value` does. Errors: E_SCHEMA (no such parent), E_PARSE, E_MEMORY. */
+ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const char *value);
+
+const ambulo__yaml_node *ambulo__yaml_root(const ambulo__yaml *document);
+const char *ambulo__yaml_file(const ambulo__yaml *document);
+/* E_SCHEMA (or the first other error) if any getter complained, else AMBULO_OK. */
+ambulo_status ambulo__yaml_finish(const ambulo__yaml *document);
+
+ambulo__yaml_kind ambulo__yaml_kind_of(const ambulo__yaml_node *node);
+int ambulo__yaml_count(const ambulo__yaml_node *node);   /* items of a sequence, pairs of a mapping; 0 for NULL */
+const ambulo__yaml_node *ambulo__yaml_item(const ambulo__yaml_node *sequence, int index);
+/* Pairs in file order: key text and value. */
+const char *ambulo__yaml_key(const ambulo__yaml_node *mapping, int index);
+const ambulo__yaml_node *ambulo__yaml_value(const ambulo__yaml_node *mapping, int index);
+/* Value of a key, NULL when absent; marks the key as known. NULL mapping gives NULL. */
+const ambulo__yaml_node *ambulo__yaml_get(const ambulo__yaml_node *mapping, const char *key);
+/* The same; absence is an error ("missing required key 'mass' in links[2]"). */
+const ambulo__yaml_node *ambulo__yaml_require(const ambulo__yaml_node *mapping, const char *key);
+/* Marks a key as known without reading it. */
+void ambulo__yaml_expect(const ambulo__yaml_node *mapping, const char *key);
+/* Reports every key of `mapping` that nobody asked for. */
+void ambulo__yaml_close(const ambulo__yaml_node *mapping);
+/* file, line, column and key path of a node (path lives as long as the document). */
+ambulo__place ambulo__yaml_place(const ambulo__yaml_node *node);
+/* Records an error at a node. */
+ambulo_status ambulo__yaml_error(const ambulo__yaml_node *node, ambulo_status status,
+                                 const char *hint, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Records a warning at a node. */
+void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Raw text of a plain or quoted scalar; NULL (with an error) for other kinds. */
+const char *ambulo__yaml_text(const ambulo__yaml_node *node);
+/* Typed values. A NULL node gives `fallback` silently (so that
+ * number(get(map, "k"), 1.0) reads an optional key). */
+double ambulo__yaml_number(const ambulo__yaml_node *node, double fallback);
+double ambulo__yaml_number_in(const ambulo__yaml_node *node, double min, double max,
+                              double fallback);
+int ambulo__yaml_integer(const ambulo__yaml_node *node, int min, int max, int fallback);
+int ambulo__yaml_boolean(const ambulo__yaml_node *node, int fallback);   /* true / false only */
+/* Index of the scalar in words[0..count), error with the list (and nearest) otherwise. */
+int ambulo__yaml_choice(const ambulo__yaml_node *node, const char *const *words, int count,
+                        int fallback);
+/* A name: 1-64 characters of letters, digits, '_', '-', '.'. NULL with an error otherwise. */
+const char *ambulo__yaml_name(const ambulo__yaml_node *node);
+/* A sequence of exactly `count` numbers into values[]; 1 on success. A NULL node
+ * leaves values[] as they are and returns 0. */
+int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values);
+
+#endif

@@ -1,0 +1,75 @@
+/* mechanics/plan.h - a model compiled for the lane kernels, and the kernels.
+ *
+ * Compilation merges fixed links and massless links into constants, recognises
+ * axis-aligned constants (a relabelling of columns, no arithmetic), and lists the
+ * structural nonzeros of every Jacobian. Planning happens once; a plan is
+ * immutable and may be shared by threads.
+ *
+ * All kernels work on ONE block of AMBULO__LANES time nodes; every array is
+ * [entry][lane], 64-byte aligned, entries as below. d = coordinates, p = points.
+ * World axes; moments about the world origin.
+ */
+#ifndef AMBULO_MECHANICS_PLAN_H
+#define AMBULO_MECHANICS_PLAN_H
+
+#include "base/alloc.h"
+#include "base/lanes.h"
+#include "model/model.h"
+
+typedef struct ambulo__plan ambulo__plan;
+
+/* Errors: E_MEMORY. The plan keeps no pointer to the model. */
+ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                  ambulo__plan **plan);
+void ambulo__plan_free(ambulo__plan *plan);  /* accepts NULL */
+
+int ambulo__plan_coordinates(const ambulo__plan *plan);
+int ambulo__plan_points(const ambulo__plan *plan);
+/* Doubles of scratch that any kernel needs; 64-byte aligned. The scratch carries
+ * the forward pass over to the reverse sweep and to the Jacobians. */
+size_t ambulo__plan_scratch(const ambulo__plan *plan);
+
+/* Output rows of the mechanics, in this order: tau (d rows), moment (3), force
+ * (3), point coordinates (3 p: x, y, z of point 0, then of point 1, ...). */
+static inline int ambulo__plan_rows(const ambulo__plan *plan) {
+  return ambulo__plan_coordinates(plan) + 6 + 3 * ambulo__plan_points(plan);
+}
+
+/* Structural nonzeros of the Jacobian of output row r: columns
+ * column[start[r] .. start[r+1]), ascending coordinate indices. Rows tau, moment
+ * and force depend on q, qd and qdd through the same columns; point rows on q
+ * only. dynamic_count = start[d + 6]. */
+typedef struct ambulo__plan_pattern {
+  const int *start;        /* [rows + 1] */
+  const int *column;       /* [start[rows]] */
+  int dynamic_count;       /* entries of the rows that also depend on qd and qdd */
+  int count;               /* start[rows] */
+} ambulo__plan_pattern;
+ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan);
+
+/* Kernels, one set per instruction set. q, qd, qdd: [d]. */
+typedef struct ambulo__kernels {
+  const char *name;        /* "avx512", "avx2", "baseline", "scalar" */
+
+  /* out: [rows], see above. Fills scratch for the two below. */
+  void (*forward)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
+                  double *out, double *scratch);
+
+  /* After forward on the same scratch: given weights on the outputs [rows], the
+   * gradient of sum_r weight_r out_r with respect to q, qd, qdd ([d] each). */
+  void (*reverse)(const ambulo__plan *plan, const double *qd, const double *qdd,
+                  const double *weights, double *gq, double *gqd, double *gqdd, double *scratch);
+
+  /* After forward on the same scratch: Jacobian entries in pattern order:
+   * jq [count], jqd and jqdd [dynamic_count]. */
+  void (*jacobian)(const ambulo__plan *plan, const double *qd, const double *qdd, double *jq,
+                   double *jqd, double *jqdd, double *scratch);
+} ambulo__kernels;
+
+/* The fastest set this processor can run; the environment variable AMBULO_ISA
+ * (avx512, avx2, baseline, scalar) overrides it where the processor allows. */
+const ambulo__kernels *ambulo__kernels_select(void);
+/* A set by name, NULL if unknown or not runnable here. */
+const ambulo__kernels *ambulo__kernels_by_name(const char *name);
+
+#endif

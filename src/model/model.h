@@ -1,0 +1,44 @@
+/* model/model.h - the inside of an ambulo_model. Immutable once created. */
+#ifndef AMBULO_MODEL_MODEL_H
+#define AMBULO_MODEL_MODEL_H
+
+#include "ambulo/model.h"
+#include "base/alloc.h"
+
+/* Arrays are owned by the model. Links stand in topological order: every parent
+ * before its children (a definition in another order is sorted, names kept). */
+struct ambulo_model {
+  ambulo_allocator allocator;
+  char *name;
+  double gravity[3];           /* world, m/s^2 */
+  double up[3], forward[3], left[3];
+  double mass, stature;
+  ambulo_link *links;          /* [link_count] */
+  int link_count;
+  ambulo_coordinate *coordinates;  /* [coordinate_count]; coordinates[i].name is links' business */
+  int *coordinate_link;        /* [coordinate_count]: the link that carries coordinate i */
+  int coordinate_count;
+  ambulo_point *points;        /* [point_count] */
+  int point_count;
+  ambulo_foot *feet;           /* [foot_count] */
+  int foot_count;
+};
+
+/* Structural and physical checks of a definition, all of them, each with the
+ * name of the link or coordinate it is about. places[i] (may be NULL) is where
+ * link i stands in a file. */
+#include "base/diagnostics.h"
+typedef struct ambulo__model_places {
+  const ambulo__place *links, *coordinates, *points, *feet;  /* each may be NULL */
+  ambulo__place model;
+} ambulo__model_places;
+ambulo_status ambulo__model_check(const ambulo_model_definition *definition,
+                                  const ambulo__model_places *places,
+                                  ambulo_diagnostics *diagnostics);
+/* ambulo_model_create with places for the messages. */
+ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
+                                  const ambulo__model_places *places,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_model **model);
+
+#endif

@@ -1,0 +1,73 @@
+/* trajectory/basis.h - one linear map from unknowns to the motion at time nodes.
+ *
+ * The unknowns of a trajectory of d coordinates are n "control points" of d
+ * numbers each, row-major: x[c * d + i]. At any time t a few neighbouring control
+ * points determine the motion:
+ *
+ *     D^o q_i(t) = sum_{k < span} weight[o][k] x[(first + k) * d + i],   o = 0..3
+ *
+ * What a control point is depends on the discretization:
+ *   B-spline (Eq. 23)            the control points of a clamped spline
+ *   central difference (18-19)   node values q_-1 ... q_N+1 (one ghost at each end)
+ *   cubic Hermite (20-22)        q_0, h qd_0, q_1, h qd_1, ... (h = node spacing, so
+ *                                that all unknowns have the unit of q)
+ */
+#ifndef AMBULO_TRAJECTORY_BASIS_H
+#define AMBULO_TRAJECTORY_BASIS_H
+
+#include "base/alloc.h"
+
+#define AMBULO__MAX_DEGREE 7
+#define AMBULO__MAX_SPAN (AMBULO__MAX_DEGREE + 1)
+
+typedef enum ambulo__basis_kind {
+  AMBULO__BSPLINE,
+  AMBULO__CENTRAL_DIFFERENCE,
+  AMBULO__HERMITE
+} ambulo__basis_kind;
+
+/* The map at one time. Weights beyond span are zero. Order 3 (jerk) is zero for
+ * central differences. */
+typedef struct ambulo__basis_point {
+  int first, span;
+  double weight[4][AMBULO__MAX_SPAN];
+} ambulo__basis_point;
+
+typedef struct ambulo__basis ambulo__basis;
+
+/* degree 3..7 and intervals >= 1 for B-splines; knots (may be NULL: uniform) are
+ * the intervals + 1 strictly increasing breakpoints from 0 to duration. For the
+ * other two, degree and knots are ignored and intervals is the number N of time
+ * intervals. Errors: E_ARGUMENT, E_MEMORY. */
+ambulo_status ambulo__basis_create(ambulo__basis_kind kind, int degree, int intervals,
+                                   double duration, const double *knots,
+                                   const ambulo_allocator *allocator, ambulo__basis **basis);
+void ambulo__basis_free(ambulo__basis *basis);  /* accepts NULL */
+
+ambulo__basis_kind ambulo__basis_get_kind(const ambulo__basis *basis);
+int ambulo__basis_control_points(const ambulo__basis *basis);
+int ambulo__basis_degree(const ambulo__basis *basis);
+int ambulo__basis_intervals(const ambulo__basis *basis);
+double ambulo__basis_duration(const ambulo__basis *basis);
+const double *ambulo__basis_breakpoints(const ambulo__basis *basis);  /* [intervals + 1] */
+/* Largest span of any time. */
+int ambulo__basis_span(const ambulo__basis *basis);
+
+/* The map at time t in [0, duration] (clamped to it). Leading and trailing
+ * control points with all-zero weights are trimmed. Between nodes, central
+ * differences blend the maps of the two nodes linearly. */
+void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point *point);
+
+/* A representative time of control point c (Greville abscissa; node time), and
+ * whether it stands for a value (1) or for a scaled rate (0, Hermite): what a
+ * start that is linear in time needs. */
+double ambulo__basis_abscissa(const ambulo__basis *basis, int c, int *is_value);
+
+/* Carries unknowns from one basis to another on the same duration: exact when the
+ * target contains the source (knot insertion), least squares otherwise.
+ * x_from [n_from * d], x_to [n_to * d]. Errors: E_MEMORY, E_NUMERIC. */
+ambulo_status ambulo__basis_transfer(const ambulo__basis *from, const double *x_from,
+                                     const ambulo__basis *to, double *x_to, int d,
+                                     const ambulo_allocator *allocator);
+
+#endif
