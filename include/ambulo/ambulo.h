@@ -1,0 +1,38 @@
+/* ambulo/ambulo.h - Ambulo: prediction of human motion by optimization.
+ *
+ *     model.h      the skeleton (immutable)
+ *     mechanics.h  inverse dynamics of given motions, in batches
+ *     problem.h    what to minimize, subject to what (immutable) + evaluation workspace
+ *     solve.h      the solver, the verdict and the audit
+ *     report.h     results on disk
+ *     status.h     status codes, messages, allocator
+ *
+ * Lifecycle:  model/problem --load or create--> solve --> result --> report --> free
+ *
+ * Threads: models and problems may be shared; workspaces, diagnostics and results
+ * belong to one thread at a time. The library has no global state, never prints and
+ * never exits. OpenBLAS starts a thread per core unless OPENBLAS_NUM_THREADS=1 is set
+ * before the process starts; the library does not change that (the matrices here are
+ * too small to gain from it).
+ */
+#ifndef AMBULO_AMBULO_H
+#define AMBULO_AMBULO_H
+
+#define AMBULO_VERSION_STRING "0.1.0"
+
+#include "ambulo/mechanics.h"
+#include "ambulo/model.h"
+#include "ambulo/problem.h"
+#include "ambulo/report.h"
+#include "ambulo/solve.h"
+#include "ambulo/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+/* The version of the library that is running. */
+AMBULO_API const char *ambulo_version(void);
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,59 @@
+/* ambulo/report.h - results and motions on disk (docs/results.md).
+ *
+ * Writers produce whole files or nothing: temporary name, fsync, rename.
+ */
+#ifndef AMBULO_REPORT_H
+#define AMBULO_REPORT_H
+
+#include "ambulo/mechanics.h"
+#include "ambulo/solve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ambulo_report_options {
+  int cookie;          /* set by ambulo_report_options_default() */
+  int samples;         /* times in motion.csv; 0: the nodes */
+  int overwrite;       /* 1: replace an existing result folder */
+} ambulo_report_options;
+AMBULO_API ambulo_report_options ambulo_report_options_default(void);
+
+/* E_IO now if ambulo_report_write could not write `directory` later (it exists
+ * and overwrite is 0; its parent is missing or not writable). */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_check(
+    const char *directory, const ambulo_report_options *options, ambulo_diagnostics *diagnostics);
+
+/* Writes summary.json, motion.csv, motion.sto, solution.yaml and gait.svg into
+ * `directory`, all or nothing. Errors: E_IO, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(
+    const ambulo_problem *problem, const ambulo_result *result, const char *directory,
+    const ambulo_report_options *options, const ambulo_allocator *allocator,
+    ambulo_diagnostics *diagnostics);
+
+/* The text of summary.json; free with ambulo_text_free. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(
+    const ambulo_problem *problem, const ambulo_result *result, const ambulo_allocator *allocator,
+    char **text);
+AMBULO_API void ambulo_text_free(char *text, const ambulo_allocator *allocator);
+
+/* Reads a solution.yaml into x [variable_count of problem]. A solution on another
+ * grid or basis of the same model and duration is carried over. Errors: E_IO,
+ * E_PARSE, E_SCHEMA, E_PROBLEM (other coordinates), E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_load(
+    const char *path, const ambulo_problem *problem, const ambulo_allocator *allocator,
+    ambulo_diagnostics *diagnostics, double *x);
+
+/* Inverse dynamics of a motion file (CSV, STO or MOT, columns named after the
+ * model's coordinates, with or without the prefix "q."; missing coordinates are zero
+ * with a warning; derivatives from an interpolating spline). Writes a CSV with
+ * time, q.*, qd.*, qdd.*, tau.*, zmp.* to `output` (atomically), or returns the text
+ * in *text when output is NULL. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_file(
+    const ambulo_model *model, const char *motion, const char *output,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, char **text);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
