@@ -1,0 +1,36 @@
+/* gait/channels.h - everything that is known at a time node, numbered.
+ *
+ * A channel is one scalar quantity at every node: a coordinate, its rates, a
+ * torque, a component of the root wrench or of a point's position. Constraint rows
+ * and objective terms are functions of channels; the chain rule from channels to
+ * unknowns is then written once (nlp/evaluate.c, nlp/local_rows.c).
+ *
+ * Storage: [block][channel][lane] (base/lanes.h).
+ *
+ *   q        [d]        rad, m             0
+ *   qd       [d]        per s              d
+ *   qdd      [d]        per s^2            2 d
+ *   tau      [d]        N m, N             3 d   \
+ *   moment   [3]        N m                4 d    | in the order of the mechanics'
+ *   force    [3]        N                  4 d+3  | output rows (mechanics/plan.h)
+ *   points   [p][3]     m                  4 d+6 /
+ */
+#ifndef AMBULO_GAIT_CHANNELS_H
+#define AMBULO_GAIT_CHANNELS_H
+
+typedef struct ambulo__channels {
+  int coordinates, points;
+} ambulo__channels;
+
+static inline int ambulo__channel_q(const ambulo__channels *c, int i) { (void)c; return i; }
+static inline int ambulo__channel_qd(const ambulo__channels *c, int i) { return c->coordinates + i; }
+static inline int ambulo__channel_qdd(const ambulo__channels *c, int i) { return 2 * c->coordinates + i; }
+static inline int ambulo__channel_tau(const ambulo__channels *c, int i) { return 3 * c->coordinates + i; }
+static inline int ambulo__channel_moment(const ambulo__channels *c, int axis) { return 4 * c->coordinates + axis; }
+static inline int ambulo__channel_force(const ambulo__channels *c, int axis) { return 4 * c->coordinates + 3 + axis; }
+static inline int ambulo__channel_point(const ambulo__channels *c, int point, int axis) { return 4 * c->coordinates + 6 + 3 * point + axis; }
+static inline int ambulo__channel_count(const ambulo__channels *c) { return 4 * c->coordinates + 6 + 3 * c->points; }
+/* First channel that the mechanics computes. */
+static inline int ambulo__channel_outputs(const ambulo__channels *c) { return 3 * c->coordinates; }
+
+#endif

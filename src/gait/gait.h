@@ -1,0 +1,50 @@
+/* gait/gait.h - from a problem definition to constraint rows.
+ *
+ * One function a family; each appends its rows for all nodes in node order. All take
+ * the same frame. Axes: up n, forward f, left l = n x f; ground plane n . r = h.
+ */
+#ifndef AMBULO_GAIT_GAIT_H
+#define AMBULO_GAIT_GAIT_H
+
+#include "base/diagnostics.h"
+#include "gait/channels.h"
+#include "gait/row_table.h"
+#include "model/model.h"
+#include "trajectory/basis.h"
+
+typedef struct ambulo__gait_frame {
+  const ambulo_problem_definition *definition;
+  const ambulo_model *model;
+  const ambulo__basis *basis;
+  ambulo__channels channels;
+  const double *times;      /* [nodes] */
+  int nodes;
+  const int *active;        /* [nodes][feet]: contact index or -1 */
+} ambulo__gait_frame;
+
+/* Checks contacts (known feet, from < to, no overlap on one foot, inside [0, T]) and
+ * fills active[nodes][feet]. Every node needs support when penetration, strike or ZMP
+ * rows are asked for. Footholds further apart than the legs can span are refused.
+ * Errors name foot, times and lengths. */
+ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
+                                    const double *times, int nodes, int *active,
+                                    ambulo_diagnostics *diagnostics);
+ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *definition,
+                                           const double *times, int nodes, const int *active,
+                                           ambulo_diagnostics *diagnostics);
+
+/* "ground_penetration": corner heights, = 0 in contact, >= 0 otherwise (m). */
+void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* "foot_strike": horizontal place of the contact point, and the heading of a flat foot (m).
+ * Lateral rows are left out for models in which no coordinate moves the point sideways. */
+void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* "zmp" (Eq. 17', m) and "normal_force" (n.F / mg - minimum_force, body weights).
+ * E_PROBLEM with the time when a support polygon is empty. */
+ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_table *table,
+                               ambulo_diagnostics *diagnostics);
+/* "joint_limit", "speed_limit", "torque_limit". */
+void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* "initial_state", "final_state", "periodic", "mirrored". */
+void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+
+#endif

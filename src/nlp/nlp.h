@@ -1,0 +1,107 @@
+/* nlp/nlp.h - the inside of a problem and of a workspace; what the solver builds on.
+ *
+ * Unknowns x [control_points][d] row-major, so that the unknowns a node depends on
+ * are contiguous: node k touches x[first_k * d .. (first_k + span_k) * d), the "local
+ * unknowns" of the node; local index = (c - first_k) * d + i. All matrices built from
+ * node rows are therefore banded.
+ *
+ * Rows (problem->rows) are in physical units, as in ambulo/problem.h:
+ * equality c = 0, inequality c >= 0. A row whose terms all stand on one node is
+ * "local"; the others (periodic, mirrored ends) are "border" rows; a row on unknowns
+ * is a "variable" row and also kept as border.
+ */
+#ifndef AMBULO_NLP_NLP_H
+#define AMBULO_NLP_NLP_H
+
+#include "gait/gait.h"
+#include "mechanics/plan.h"
+#include "objective/term.h"
+#include "trajectory/basis.h"
+#include "trajectory/lane_map.h"
+
+struct ambulo_problem {
+  ambulo_allocator allocator;
+  ambulo_problem_definition definition;  /* deep copy: every array belongs to the problem */
+  char *name;
+  ambulo_model *owned_model;      /* freed with the problem; NULL if the caller owns it */
+  const ambulo_model *model;
+  ambulo__plan *plan;
+  const ambulo__kernels *kernels;
+  ambulo__basis *basis;
+  ambulo__lane_map *map;
+  ambulo__channels channels;
+  int coordinates, control_points, variables;
+  int nodes, blocks;
+  double *times;                  /* [nodes], s */
+  double *quadrature;             /* [nodes], trapezoidal weights, s */
+  int *active;                    /* [nodes][feet] contact index or -1 */
+  ambulo__row_table table;
+  int rows, equalities;
+  unsigned long long hash;
+};
+
+struct ambulo_workspace {
+  ambulo_allocator allocator;
+  const ambulo_problem *problem;
+  int channel_count;
+  double *x;                      /* [variables]: the point the rest belongs to */
+  int has_values, has_jacobian;   /* channels / channel Jacobians are those of x */
+  double *channel;                /* [blocks][channels][8] */
+  double *weight;                 /* [blocks][channels][8]: adjoint of channel */
+  double *gradient_lanes;         /* [3][d][8]: a block's gq, gqd, gqdd */
+  double *scratch;                /* kernels' scratch, one block at a time */
+  double *jq, *jqd, *jqdd;        /* [blocks][pattern entries][8] */
+  double *row_value;              /* [rows] */
+  double *term_value;             /* [terms] */
+  double objective;
+  double *user_gradient;          /* [user row instances][channels]: slopes of user rows */
+  int *user_slot;                 /* [rows]: index into user_gradient, or -1 */
+  double *node_state;             /* scratch for callbacks: [2][channels] */
+  long evaluations, jacobians;
+  double seconds_evaluate;
+};
+
+/* ------------------------------------------------------------- evaluation */
+
+/* Channels, objective and rows at x; nothing if x is the point already held.
+ * E_NUMERIC if a value is not finite (the workspace then holds no point). */
+ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x);
+/* Also the channel Jacobians. */
+ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x);
+
+/* After ambulo__evaluate: gradient of objective_weight * J + sum_r weights[r] c_r. */
+void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
+                      const double *row_weights, double *gradient);
+
+/* Number of evaluated quantities is O(nodes); no m x n array exists anywhere. */
+
+/* ------------------------------------------------------------- local rows */
+
+/* After ambulo__evaluate_jacobian: gradient of row r with respect to the local
+ * unknowns of its node (local rows only): gradient[span * d], zero-filled first. */
+void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient);
+/* Gradient of one channel at one node with respect to the node's local unknowns. */
+void ambulo__channel_local_gradient(const ambulo_workspace *workspace, int node, int channel,
+                                    double *gradient);
+/* Gradient of any row added into a dense vector [variables], times `factor`. */
+void ambulo__row_add_gradient(const ambulo_workspace *workspace, int row, double factor,
+                              double *gradient);
+
+/* First local unknown of a node and their number. */
+static inline int ambulo__node_first(const ambulo_problem *p, int node) {
+  return ambulo__lane_map_points(p->map)[node].first * p->coordinates;
+}
+static inline int ambulo__node_width(const ambulo_problem *p, int node) {
+  return ambulo__lane_map_points(p->map)[node].span * p->coordinates;
+}
+/* 1 if all terms of the row stand on one node. */
+static inline int ambulo__row_is_local(const ambulo_problem *p, int row) {
+  return p->table.rows[row].node >= 0;
+}
+
+/* Gauss-Newton matrix of the objective, one node: added to the symmetric
+ * local[width * width] (row-major, both triangles). Uses the curvature of the terms
+ * (objective/term.h). */
+void ambulo__node_gauss_newton(const ambulo_workspace *workspace, int node, double *local);
+
+#endif
