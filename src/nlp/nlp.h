@@ -13,6 +13,7 @@
 #ifndef AMBULO_NLP_NLP_H
 #define AMBULO_NLP_NLP_H
 
+#include "ambulo/solve.h"
 #include "gait/gait.h"
 #include "mechanics/plan.h"
 #include "objective/term.h"
@@ -22,7 +23,7 @@
 struct ambulo_problem {
   ambulo_allocator allocator;
   ambulo_problem_definition definition;  /* deep copy: every array belongs to the problem */
-  char *name;
+  ambulo_options file_options;    /* what the problem file asks of the solver */
   ambulo_model *owned_model;      /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
@@ -57,6 +58,7 @@ struct ambulo_workspace {
   double *user_gradient;          /* [user row instances][channels]: slopes of user rows */
   int *user_slot;                 /* [rows]: index into user_gradient, or -1 */
   double *node_state;             /* scratch for callbacks: [2][channels] */
+  double *local_scratch;          /* scratch for one local gradient: [span * d] */
   long evaluations, jacobians;
   double seconds_evaluate;
 };

@@ -1,0 +1,110 @@
+/* nlp/definition_copy.c - a problem owns every array of its definition. */
+#include "nlp/problem.h"
+
+#include <string.h>
+
+/* a copy of count * size bytes; NULL stays NULL; sets *failed when memory runs out */
+static void *copy_array(const ambulo_allocator *a, const void *from, size_t count, size_t size,
+                        int *failed) {
+  if (!from || count == 0) return NULL;
+  void *to = ambulo__alloc(a, count, size);
+  if (to) {
+    memcpy(to, from, count * size);
+  } else {
+    *failed = 1;
+  }
+  return to;
+}
+
+static char *copy_text(const ambulo_allocator *a, const char *text, int *failed) {
+  if (!text) return NULL;
+  char *copy = ambulo__strdup(a, text);
+  if (!copy) *failed = 1;
+  return copy;
+}
+
+static void copy_terms(const ambulo_problem_definition *from, const ambulo_allocator *a,
+                       ambulo_problem_definition *to, int *failed) {
+  size_t d = (size_t)ambulo_model_coordinate_count(from->model);
+  size_t nodes = (size_t)from->intervals + 1;
+  if (from->term_count <= 0) return;
+  ambulo_term *terms = ambulo__alloc(a, (size_t)from->term_count, sizeof *terms);
+  if (!terms) {
+    *failed = 1;
+    return;
+  }
+  to->terms = terms;
+  to->term_count = from->term_count;
+  for (int t = 0; t < from->term_count; t++) {
+    const ambulo_term *source = &from->terms[t];
+    terms[t] = *source;
+    terms[t].name = copy_text(a, source->name, failed);
+    terms[t].scale = copy_array(a, source->scale, d, sizeof(double), failed);
+    terms[t].offset = copy_array(a, source->offset, d, sizeof(double), failed);
+    terms[t].reference = copy_array(a, source->reference, nodes * d, sizeof(double), failed);
+  }
+}
+
+static void copy_user_rows(const ambulo_problem_definition *from, const ambulo_allocator *a,
+                           ambulo_problem_definition *to, int *failed) {
+  if (from->user_row_count <= 0) return;
+  ambulo_user_row *rows = ambulo__alloc(a, (size_t)from->user_row_count, sizeof *rows);
+  if (!rows) {
+    *failed = 1;
+    return;
+  }
+  to->user_rows = rows;
+  to->user_row_count = from->user_row_count;
+  for (int i = 0; i < from->user_row_count; i++) {
+    rows[i] = from->user_rows[i];
+    rows[i].name = copy_text(a, from->user_rows[i].name, failed);
+    rows[i].unit = copy_text(a, from->user_rows[i].unit, failed);
+  }
+}
+
+ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
+                                      const ambulo_allocator *a, ambulo_problem_definition *to) {
+  int failed = 0;
+  *to = *from;
+  to->terms = NULL;
+  to->user_rows = NULL;
+  to->term_count = to->user_row_count = 0;
+  to->name = copy_text(a, from->name ? from->name : "problem", &failed);
+  size_t breakpoints = from->breakpoints ? (size_t)from->spline_intervals + 1 : 0;
+  to->breakpoints = copy_array(a, from->breakpoints, breakpoints, sizeof(double), &failed);
+  to->contacts = copy_array(a, from->contacts, (size_t)from->contact_count,
+                            sizeof *from->contacts, &failed);
+  to->end_values = copy_array(a, from->end_values, (size_t)from->end_value_count,
+                              sizeof *from->end_values, &failed);
+  copy_terms(from, a, to, &failed);
+  copy_user_rows(from, a, to, &failed);
+  return failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+/* the copies are ours: casting the borrowed view's const away is sound here only */
+static void release(const ambulo_allocator *a, const void *pointer) {
+  union {
+    const void *constant;
+    void *owned;
+  } view = {pointer};
+  ambulo__free(a, view.owned);
+}
+
+void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definition *d) {
+  for (int t = 0; t < d->term_count; t++) {
+    release(a, d->terms[t].name);
+    release(a, d->terms[t].scale);
+    release(a, d->terms[t].offset);
+    release(a, d->terms[t].reference);
+  }
+  for (int i = 0; i < d->user_row_count; i++) {
+    release(a, d->user_rows[i].name);
+    release(a, d->user_rows[i].unit);
+  }
+  release(a, d->terms);
+  release(a, d->user_rows);
+  release(a, d->name);
+  release(a, d->breakpoints);
+  release(a, d->contacts);
+  release(a, d->end_values);
+}

@@ -1,0 +1,183 @@
+/* nlp/evaluate.c - one point: channels, objective and rows, everything once.
+ *
+ * Quantities (d coordinates, N + 1 nodes, blocks of 8 nodes):
+ *   x         [control_points][d]            unknowns
+ *   channel   [blocks][channels][8]          q, qd, qdd, tau, M, F, points (gait/channels.h)
+ *   row       c_r = constant + sum coefficient * channel         (Eqs. 14, 17')
+ *   objective J = sum_terms weight sum_k w_k sum_i phi(u_ik)      (Eq. 13, trapezoidal w_k)
+ *
+ * x -> (q, qd, qdd) is linear (trajectory/basis.h), (q, qd, qdd) -> (tau, M, F, points) is
+ * the forward recursion, channels -> rows and J is local to a node. Cost O(N).
+ *
+ * Everything is cached on x: solvers ask for the objective, the constraints and their
+ * gradients separately, and SLSQP repeats every third point.
+ */
+#include "nlp/nlp.h"
+#include "nlp/states.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+double ambulo__seconds_now(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double *block_of(const ambulo_workspace *workspace, double *base, int block) {
+  return base + (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;
+}
+
+static double channel_at(const ambulo_workspace *workspace, int node, int channel) {
+  return workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
+static void compute_block(ambulo_workspace *workspace, int block) {
+  const ambulo_problem *p = workspace->problem;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  double *c = block_of(workspace, workspace->channel, block);
+  p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, c + 3 * d8, workspace->scratch);
+}
+
+static void compute_channels(ambulo_workspace *workspace, const double *x) {
+  const ambulo_problem *p = workspace->problem;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
+  double *c = workspace->channel;
+  ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
+  for (int block = 0; block < p->blocks; block++) compute_block(workspace, block);
+}
+
+void ambulo__node_state_fill(const ambulo_workspace *workspace, int node, double *state) {
+  for (int c = 0; c < workspace->channel_count; c++) state[c] = channel_at(workspace, node, c);
+}
+
+ambulo_node_state ambulo__node_state_view(const ambulo_problem *p, int node, const double *state) {
+  int d = p->coordinates;
+  ambulo_node_state view = {p->times[node], node,          state,
+                            state + d,      state + 2 * d, state + 3 * d,
+                            state + 4 * d,  state + 4 * d + 6};
+  return view;
+}
+
+ambulo_node_gradient ambulo__node_gradient_view(const ambulo_problem *p, double *slope) {
+  int d = p->coordinates;
+  ambulo_node_gradient view = {slope,         slope + d,     slope + 2 * d,
+                               slope + 3 * d, slope + 4 * d, slope + 4 * d + 6};
+  return view;
+}
+
+static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  const ambulo_problem *p = workspace->problem;
+  double sum = 0.0;
+  for (int k = 0; k < p->nodes; k++) {
+    ambulo__node_state_fill(workspace, k, workspace->node_state);
+    ambulo_node_state state = ambulo__node_state_view(p, k, workspace->node_state);
+    sum += p->quadrature[k] * term->function(term->user, &state, NULL);
+  }
+  return sum;
+}
+
+static double residual_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
+  const ambulo_problem *p = workspace->problem;
+  double sum = 0.0;
+  for (int i = 0; i < p->coordinates; i++) {
+    double scale = ambulo__term_scale(term, i);
+    if (scale == 0.0) continue;
+    int channel = ambulo__term_channel(term, &p->channels, i);
+    for (int k = 0; k < p->nodes; k++) {
+      double offset = ambulo__term_offset(term, p->coordinates, k, i);
+      double u = scale * (channel_at(workspace, k, channel) - offset);
+      sum += p->quadrature[k] * ambulo__term_residual(term, u).value;
+    }
+  }
+  return sum;
+}
+
+static double evaluate_terms(ambulo_workspace *workspace) {
+  const ambulo_problem_definition *definition = &workspace->problem->definition;
+  double total = 0.0;
+  for (int t = 0; t < definition->term_count; t++) {
+    const ambulo_term *term = &definition->terms[t];
+    double value = term->kind == AMBULO_USER_TERM ? user_term_value(workspace, term)
+                                                  : residual_term_value(workspace, term);
+    workspace->term_value[t] = term->weight * value;
+    total += workspace->term_value[t];
+  }
+  return total;
+}
+
+static double user_row_value(ambulo_workspace *workspace, int row) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__table_row *r = &p->table.rows[row];
+  const ambulo_user_row *user = &p->definition.user_rows[r->user];
+  double *slope = workspace->user_gradient +
+                  (size_t)workspace->user_slot[row] * (size_t)workspace->channel_count;
+  memset(slope, 0, (size_t)workspace->channel_count * sizeof *slope);
+  ambulo__node_state_fill(workspace, r->node, workspace->node_state);
+  ambulo_node_state state = ambulo__node_state_view(p, r->node, workspace->node_state);
+  ambulo_node_gradient gradient = ambulo__node_gradient_view(p, slope);
+  return user->function(user->user, &state, &gradient);
+}
+
+static double linear_row_value(const ambulo_workspace *workspace, const ambulo__table_row *row) {
+  const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
+  double value = row->constant;
+  for (int t = 0; t < row->term_count; t++) {
+    double y = term[t].node < 0 ? workspace->x[term[t].channel]
+                                : channel_at(workspace, term[t].node, term[t].channel);
+    value += term[t].coefficient * y;
+  }
+  return value;
+}
+
+static int evaluate_rows(ambulo_workspace *workspace) {
+  const ambulo_problem *p = workspace->problem;
+  int finite = 1;
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    workspace->row_value[r] =
+        row->user >= 0 ? user_row_value(workspace, r) : linear_row_value(workspace, row);
+    finite &= isfinite(workspace->row_value[r]) != 0;
+  }
+  return finite;
+}
+
+ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
+  size_t bytes = (size_t)workspace->problem->variables * sizeof *x;
+  if (workspace->has_values && memcmp(x, workspace->x, bytes) == 0) return AMBULO_OK;
+  double start = ambulo__seconds_now();
+  if (x != workspace->x) memcpy(workspace->x, x, bytes);
+  workspace->has_values = workspace->has_jacobian = 0;
+  compute_channels(workspace, workspace->x);
+  workspace->objective = evaluate_terms(workspace);
+  int finite = evaluate_rows(workspace) && isfinite(workspace->objective);
+  workspace->evaluations++;
+  workspace->seconds_evaluate += ambulo__seconds_now() - start;
+  if (!finite) return AMBULO_E_NUMERIC;
+  workspace->has_values = 1;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x) {
+  ambulo_status status = ambulo__evaluate(workspace, x);
+  if (status || workspace->has_jacobian) return status;
+  double start = ambulo__seconds_now();
+  const ambulo_problem *p = workspace->problem;
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  for (int b = 0; b < p->blocks; b++) {
+    double *c = block_of(workspace, workspace->channel, b);
+    size_t all = (size_t)b * (size_t)pattern.count * AMBULO__LANES;
+    size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
+    /* the scratch of a single block serves all: refill it for this one */
+    compute_block(workspace, b);
+    p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, workspace->jq + all,
+                         workspace->jqd + dynamic, workspace->jqdd + dynamic, workspace->scratch);
+  }
+  workspace->jacobians++;
+  workspace->has_jacobian = 1;
+  workspace->seconds_evaluate += ambulo__seconds_now() - start;
+  return AMBULO_OK;
+}

@@ -1,0 +1,121 @@
+/* nlp/gradient.c - gradient of a weighted sum of objective and rows: one reverse sweep.
+ *
+ * L = s J + sum_r lambda_r c_r. With y the channels and w their adjoints dL/dy, mirrored
+ * block by block from evaluate.c:
+ *
+ *   terms:     w_c(k) += s * weight * w_k phi'(u) scale
+ *   rows:      w_c(k) += lambda_r * coefficient          (unknowns: straight into dL/dx)
+ *   mechanics: (gq, gqd, gqdd) = reverse sweep of (tau, M, F, points) with their adjoints
+ *   basis:     dL/dx = B0' (gq + w_q) + B1' (gqd + w_qd) + B2' (gqdd + w_qdd)
+ */
+#include "nlp/nlp.h"
+#include "nlp/states.h"
+
+#include <string.h>
+
+static double *weight_at(ambulo_workspace *workspace, int node, int channel) {
+  return &workspace->weight[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
+static double channel_at(const ambulo_workspace *workspace, int node, int channel) {
+  return workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
+static void add_residual_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
+  const ambulo_problem *p = workspace->problem;
+  for (int i = 0; i < p->coordinates; i++) {
+    double scale = ambulo__term_scale(term, i);
+    if (scale == 0.0) continue;
+    int channel = ambulo__term_channel(term, &p->channels, i);
+    for (int k = 0; k < p->nodes; k++) {
+      double offset = ambulo__term_offset(term, p->coordinates, k, i);
+      double u = scale * (channel_at(workspace, k, channel) - offset);
+      double slope = ambulo__term_residual(term, u).slope * scale;
+      *weight_at(workspace, k, channel) += factor * p->quadrature[k] * slope;
+    }
+  }
+}
+
+static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
+  const ambulo_problem *p = workspace->problem;
+  int count = workspace->channel_count;
+  double *state = workspace->node_state, *slope = state + count;
+  for (int k = 0; k < p->nodes; k++) {
+    ambulo__node_state_fill(workspace, k, state);
+    memset(slope, 0, (size_t)count * sizeof *slope);
+    ambulo_node_state view = ambulo__node_state_view(p, k, state);
+    ambulo_node_gradient gradient = ambulo__node_gradient_view(p, slope);
+    (void)term->function(term->user, &view, &gradient);
+    for (int c = 0; c < count; c++) {
+      *weight_at(workspace, k, c) += factor * p->quadrature[k] * slope[c];
+    }
+  }
+}
+
+static void add_terms(ambulo_workspace *workspace, double objective_weight) {
+  const ambulo_problem_definition *definition = &workspace->problem->definition;
+  for (int t = 0; t < definition->term_count; t++) {
+    const ambulo_term *term = &definition->terms[t];
+    double factor = objective_weight * term->weight;
+    if (factor == 0.0) continue;
+    if (term->kind == AMBULO_USER_TERM) {
+      add_user_term(workspace, term, factor);
+    } else {
+      add_residual_term(workspace, term, factor);
+    }
+  }
+}
+
+static void add_rows(ambulo_workspace *workspace, const double *row_weights, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  for (int r = 0; r < p->rows; r++) {
+    double lambda = row_weights[r];
+    if (lambda == 0.0) continue;
+    const ambulo__table_row *row = &p->table.rows[r];
+    if (row->user >= 0) {
+      const double *slope = ambulo__user_slope(workspace, r);
+      for (int c = 0; c < workspace->channel_count; c++) {
+        *weight_at(workspace, row->node, c) += lambda * slope[c];
+      }
+      continue;
+    }
+    const ambulo__row_term *term = p->table.terms + row->first_term;
+    for (int t = 0; t < row->term_count; t++) {
+      double value = lambda * term[t].coefficient;
+      if (term[t].node < 0) {
+        gradient[term[t].channel] += value;
+      } else {
+        *weight_at(workspace, term[t].node, term[t].channel) += value;
+      }
+    }
+  }
+}
+
+/* adds the mechanics' reverse sweep to the adjoints of q, qd, qdd of one block */
+static void reverse_block(ambulo_workspace *workspace, int block) {
+  const ambulo_problem *p = workspace->problem;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  size_t offset = (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;
+  double *c = workspace->channel + offset, *w = workspace->weight + offset;
+  double *g = workspace->gradient_lanes;
+  p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, c + 3 * d8, workspace->scratch);
+  p->kernels->reverse(p->plan, c + d8, c + 2 * d8, w + 3 * d8, g, g + d8, g + 2 * d8,
+                      workspace->scratch);
+  for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
+}
+
+void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
+                      const double *row_weights, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  double start = ambulo__seconds_now();
+  size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  double *w = workspace->weight;
+  memset(w, 0, (size_t)p->blocks * stride * sizeof *w);
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+  if (objective_weight != 0.0) add_terms(workspace, objective_weight);
+  if (row_weights) add_rows(workspace, row_weights, gradient);
+  for (int block = 0; block < p->blocks; block++) reverse_block(workspace, block);
+  ambulo__lane_map_transpose(p->map, w, w + d8, w + 2 * d8, NULL, stride, gradient);
+  workspace->seconds_evaluate += ambulo__seconds_now() - start;
+}

@@ -1,0 +1,147 @@
+/* nlp/local_rows.c - gradients of channels and rows with respect to a node's local unknowns.
+ *
+ * A node's motion is D^o q_i = sum_c b_o[c] x[(first + c) d + i] (trajectory/basis.h). A
+ * channel y with partial derivatives y_q, y_qd, y_qdd (columns of the mechanics' pattern)
+ * therefore has
+ *
+ *   dy / dx[(first + c) d + i] = b_0[c] y_q[i] + b_1[c] y_qd[i] + b_2[c] y_qdd[i]
+ *
+ * Local index c * d + i. A row is a sum of channels; the Gauss-Newton matrix of a node is
+ * sum_channels curvature * g g' with g such a gradient.
+ */
+#include "nlp/nlp.h"
+#include "nlp/states.h"
+
+#include <string.h>
+
+/* adds factor * (gradient of q, qd or qdd of coordinate i) */
+static void add_motion(const ambulo__basis_point *point, int d, int order, int i, double factor,
+                       double *gradient) {
+  for (int c = 0; c < point->span; c++) gradient[c * d + i] += factor * point->weight[order][c];
+}
+
+/* adds factor * (gradient of mechanics output row `output`) */
+static void add_output(const ambulo_workspace *workspace, int node, int output, double factor,
+                       double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  int d = p->coordinates, dynamic = output < d + 6;
+  for (int e = pattern.start[output]; e < pattern.start[output + 1]; e++) {
+    int i = pattern.column[e];
+    double jq = factor * workspace->jq[ambulo__lane_index(node, pattern.count, e)];
+    double jqd = 0.0, jqdd = 0.0;
+    if (dynamic) {
+      size_t at = ambulo__lane_index(node, pattern.dynamic_count, e);
+      jqd = factor * workspace->jqd[at];
+      jqdd = factor * workspace->jqdd[at];
+    }
+    for (int c = 0; c < point->span; c++) {
+      gradient[c * d + i] +=
+          point->weight[0][c] * jq + point->weight[1][c] * jqd + point->weight[2][c] * jqdd;
+    }
+  }
+}
+
+static void add_channel(const ambulo_workspace *workspace, int node, int channel, double factor,
+                        double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
+  int d = p->coordinates, outputs = ambulo__channel_outputs(&p->channels);
+  if (channel < outputs) {
+    add_motion(point, d, channel / d, channel % d, factor, gradient);
+  } else {
+    add_output(workspace, node, channel - outputs, factor, gradient);
+  }
+}
+
+void ambulo__channel_local_gradient(const ambulo_workspace *workspace, int node, int channel,
+                                    double *gradient) {
+  memset(gradient, 0, (size_t)ambulo__node_width(workspace->problem, node) * sizeof *gradient);
+  add_channel(workspace, node, channel, 1.0, gradient);
+}
+
+static void add_user_row(const ambulo_workspace *workspace, int row, double factor,
+                         double *gradient) {
+  const double *slope = ambulo__user_slope(workspace, row);
+  int node = workspace->problem->table.rows[row].node;
+  for (int c = 0; c < workspace->channel_count; c++) {
+    if (slope[c] != 0.0) add_channel(workspace, node, c, factor * slope[c], gradient);
+  }
+}
+
+void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__table_row *r = &p->table.rows[row];
+  memset(gradient, 0, (size_t)ambulo__node_width(p, r->node) * sizeof *gradient);
+  if (r->user >= 0) {
+    add_user_row(workspace, row, 1.0, gradient);
+    return;
+  }
+  const ambulo__row_term *term = p->table.terms + r->first_term;
+  for (int t = 0; t < r->term_count; t++) {
+    add_channel(workspace, r->node, term[t].channel, term[t].coefficient, gradient);
+  }
+}
+
+void ambulo__row_add_gradient(const ambulo_workspace *workspace, int row, double factor,
+                              double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__table_row *r = &p->table.rows[row];
+  if (r->user >= 0) {
+    add_user_row(workspace, row, factor, gradient + ambulo__node_first(p, r->node));
+    return;
+  }
+  const ambulo__row_term *term = p->table.terms + r->first_term;
+  for (int t = 0; t < r->term_count; t++) {
+    double value = factor * term[t].coefficient;
+    if (term[t].node < 0) {
+      gradient[term[t].channel] += value;
+    } else {
+      double *local = gradient + ambulo__node_first(p, term[t].node);
+      add_channel(workspace, term[t].node, term[t].channel, value, local);
+    }
+  }
+}
+
+/* --------------------------------------------------------- Gauss-Newton */
+
+/* curvature of the objective along one channel of one node, summed over the terms */
+static double channel_curvature(const ambulo_workspace *workspace, int node, int channel, int i) {
+  const ambulo_problem *p = workspace->problem;
+  double y = workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
+  double sum = 0.0;
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    if (term->kind == AMBULO_USER_TERM) continue;
+    if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
+    double scale = ambulo__term_scale(term, i);
+    double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
+    sum += term->weight * scale * scale * ambulo__term_residual(term, u).curvature;
+  }
+  return sum * p->quadrature[node];
+}
+
+static void add_outer(int width, double curvature, const double *g, double *local) {
+  for (int a = 0; a < width; a++) {
+    double factor = curvature * g[a];
+    if (factor == 0.0) continue;
+    double *row = local + (size_t)a * (size_t)width;
+    for (int b = 0; b < width; b++) row[b] += factor * g[b];
+  }
+}
+
+void ambulo__node_gauss_newton(const ambulo_workspace *workspace, int node, double *local) {
+  const ambulo_problem *p = workspace->problem;
+  double *g = workspace->local_scratch;
+  int width = ambulo__node_width(p, node), d = p->coordinates;
+  for (int order = 0; order < 4; order++) {
+    for (int i = 0; i < d; i++) {
+      int channel = order * d + i;
+      double curvature = channel_curvature(workspace, node, channel, i);
+      if (curvature == 0.0) continue;
+      ambulo__channel_local_gradient(workspace, node, channel, g);
+      add_outer(width, curvature, g, local);
+    }
+  }
+}

@@ -1,0 +1,240 @@
+/* nlp/problem.c - building a problem: deep copy, grid, schedule, rows, hash.
+ *
+ * Order of construction (each step may refuse): definition checked and copied -> basis and
+ * lane map -> compiled mechanics -> schedule at the nodes -> rows of every family -> counts
+ * and hash. After that nothing changes.
+ */
+#include "nlp/problem.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { DEFINITION_COOKIE = 0x616d6270, MAX_INTERVALS = 100000, MAX_ROWS = 50000000 };
+
+ambulo_problem_definition ambulo_problem_definition_default(void) {
+  ambulo_problem_definition definition = {
+      .cookie = DEFINITION_COOKIE,
+      .duration = 1.0,
+      .intervals = 12,
+      .discretization = AMBULO_BSPLINE,
+      .degree = 3,
+      .minimum_force = -1.0,
+      .ends_order = 1,
+  };
+  return definition;
+}
+
+ambulo_term ambulo_term_default(ambulo_term_kind kind) {
+  ambulo_term term = {.kind = kind, .weight = 1.0, .smoothing = 1.0};
+  return term;
+}
+
+static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+
+#define REFUSE(diagnostics, ...) \
+  ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, __VA_ARGS__)
+
+static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  if (!(d->duration > 0.0) || !isfinite(d->duration))
+    status = REFUSE(list, "time.duration is %g s; expected a positive time", d->duration);
+  if (d->intervals < 1 || d->intervals > MAX_INTERVALS)
+    status = REFUSE(list, "time.intervals is %d; expected 1 to %d", d->intervals, MAX_INTERVALS);
+  if (d->spline_intervals < 0 || d->spline_intervals > MAX_INTERVALS)
+    status = REFUSE(list, "trajectory.intervals is %d; expected 1 to %d (0: as many as time intervals)",
+                    d->spline_intervals, MAX_INTERVALS);
+  if (d->discretization == AMBULO_BSPLINE && (d->degree < 3 || d->degree > AMBULO__MAX_DEGREE))
+    status = REFUSE(list, "trajectory.degree is %d; expected 3 to %d", d->degree, AMBULO__MAX_DEGREE);
+  for (int i = 0; d->breakpoints && !status && i < d->spline_intervals; i++) {
+    if (d->breakpoints[i + 1] > d->breakpoints[i]) continue;
+    status = REFUSE(list, "trajectory.breakpoints[%d] is %g s after %g s; expected rising times",
+                    i + 1, d->breakpoints[i + 1], d->breakpoints[i]);
+  }
+  return status;
+}
+
+static ambulo_status check_term(const ambulo_problem_definition *d, int t,
+                                ambulo_diagnostics *list) {
+  const ambulo_term *term = &d->terms[t];
+  const ambulo__term_info *info = ambulo__term_info_of(term->kind);
+  if (!info) return REFUSE(list, "objective[%d]: unknown term kind %d", t, (int)term->kind);
+  if (!(term->weight >= 0.0) || !isfinite(term->weight))
+    return REFUSE(list, "objective[%d] (%s): weight is %g; expected a number >= 0", t, info->name,
+                  term->weight);
+  if (term->kind == AMBULO_TORQUE_ABSOLUTE && !(term->smoothing > 0.0))
+    return REFUSE(list, "objective[%d] (%s): smoothing is %g; expected a positive number", t,
+                  info->name, term->smoothing);
+  if (term->kind == AMBULO_TRACKING && !term->reference)
+    return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
+  if (term->kind == AMBULO_USER_TERM && !term->function)
+    return REFUSE(list, "objective[%d] (%s): no function", t, info->name);
+  return AMBULO_OK;
+}
+
+static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  double total = 0.0;
+  for (int t = 0; t < d->term_count; t++) {
+    ambulo_status one = check_term(d, t, list);
+    if (one) status = one;
+    total += d->terms[t].weight;
+  }
+  if (!status && d->term_count > 0 && total == 0.0)
+    status = REFUSE(list, "every objective weight is 0; expected a positive one, or no objective");
+  for (int i = 0; i < d->user_row_count; i++) {
+    if (!d->user_rows[i].function || !d->user_rows[i].name || !d->user_rows[i].unit)
+      status = REFUSE(list, "user row %d has no function, name or unit", i);
+  }
+  return status;
+}
+
+static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  int coordinates = ambulo_model_coordinate_count(d->model);
+  if (d->ends_order < 0 || d->ends_order > 2)
+    status = REFUSE(list, "ends.order is %d; expected 0, 1 or 2", d->ends_order);
+  for (int i = 0; i < d->end_value_count; i++) {
+    const ambulo_end_value *end = &d->end_values[i];
+    if (end->coordinate < 0 || end->coordinate >= coordinates)
+      status = REFUSE(list, "end value %d names coordinate %d; the model has %d", i,
+                      end->coordinate, coordinates);
+    if (end->order < 0 || end->order > 2 || !isfinite(end->value))
+      status = REFUSE(list, "end value %d: order %d, value %g; expected order 0 to 2, finite", i,
+                      end->order, end->value);
+  }
+  if (!isfinite(d->travel)) status = REFUSE(list, "ends.travel is %g m; expected a finite length", d->travel);
+  return status;
+}
+
+ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
+                                       ambulo_diagnostics *diagnostics) {
+  if (!d || d->cookie != DEFINITION_COOKIE || !d->model) return AMBULO_E_ARGUMENT;
+  ambulo_status status = check_grid(d, diagnostics);
+  ambulo_status terms = check_terms(d, diagnostics);
+  ambulo_status ends = check_ends(d, diagnostics);
+  if (!status) status = terms;
+  if (!status) status = ends;
+  if (d->support_margin < 0.0)
+    status = REFUSE(diagnostics, "constraints.zmp_margin is %g m; expected >= 0", d->support_margin);
+  return status;
+}
+
+/* ------------------------------------------------------------ construction */
+
+static ambulo_status build_grid(ambulo_problem *p) {
+  const ambulo_problem_definition *d = &p->definition;
+  int spline = d->spline_intervals ? d->spline_intervals : d->intervals;
+  static const ambulo__basis_kind kinds[] = {AMBULO__BSPLINE, AMBULO__CENTRAL_DIFFERENCE,
+                                             AMBULO__HERMITE};
+  int intervals = d->discretization == AMBULO_BSPLINE ? spline : d->intervals;
+  ambulo_status status =
+      ambulo__basis_create(kinds[d->discretization], d->degree, intervals, d->duration,
+                           d->breakpoints, &p->allocator, &p->basis);
+  if (status) return status;
+  p->nodes = d->intervals + 1;
+  p->blocks = ambulo__block_count(p->nodes);
+  p->times = ambulo__alloc(&p->allocator, (size_t)p->nodes, sizeof *p->times);
+  p->quadrature = ambulo__alloc(&p->allocator, (size_t)p->nodes, sizeof *p->quadrature);
+  if (!p->times || !p->quadrature) return AMBULO_E_MEMORY;
+  for (int k = 0; k < p->nodes; k++) {
+    p->times[k] = (double)k * d->duration / (double)d->intervals;
+    int end = k == 0 || k == d->intervals;
+    p->quadrature[k] = (end ? 0.5 : 1.0) * d->duration / (double)d->intervals;
+  }
+  p->control_points = ambulo__basis_control_points(p->basis);
+  p->variables = p->control_points * p->coordinates;
+  return ambulo__lane_map_create(p->basis, p->times, p->nodes, p->coordinates, &p->allocator,
+                                 &p->map);
+}
+
+static void add_user_rows(ambulo_problem *p) {
+  for (int u = 0; u < p->definition.user_row_count; u++) {
+    const ambulo_user_row *user = &p->definition.user_rows[u];
+    for (int k = 0; k < p->nodes; k++) {
+      if (p->times[k] < user->from - 1e-9 || p->times[k] > user->to + 1e-9) continue;
+      ambulo__row_begin(&p->table, user->name, "", "", user->unit, user->relation, k, p->times[k],
+                        0.0);
+      if (!p->table.status) p->table.rows[p->table.row_count - 1].user = u;
+    }
+  }
+}
+
+static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  const ambulo_problem_definition *d = &p->definition;
+  ambulo__gait_frame frame = {d, p->model, p->basis, p->channels, p->times, p->nodes, p->active};
+  ambulo_status status = AMBULO_OK;
+  if (d->ground_penetration) ambulo__ground_rows(&frame, &p->table);
+  if (d->foot_strike) ambulo__foot_strike_rows(&frame, &p->table);
+  status = ambulo__zmp_rows(&frame, &p->table, diagnostics);
+  if (status) return status;
+  ambulo__limit_rows(&frame, &p->table);
+  ambulo__end_rows(&frame, &p->table);
+  add_user_rows(p);
+  if (p->table.status) return p->table.status;
+  p->rows = p->table.row_count;
+  for (int r = 0; r < p->rows; r++) p->equalities += p->table.rows[r].relation == AMBULO_EQUAL;
+  return AMBULO_OK;
+}
+
+static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  const ambulo_problem_definition *d = &p->definition;
+  size_t feet = (size_t)ambulo_model_foot_count(p->model);
+  p->active = ambulo__alloc(&p->allocator, (size_t)p->nodes * feet, sizeof *p->active);
+  if (!p->active) return AMBULO_E_MEMORY;
+  ambulo_status status =
+      ambulo__schedule_fill(d, p->times, p->nodes, p->active, diagnostics);
+  if (status) return status;
+  return ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
+}
+
+static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  p->model = p->definition.model;
+  p->coordinates = ambulo_model_coordinate_count(p->model);
+  p->channels.coordinates = p->coordinates;
+  p->channels.points = ambulo_model_point_count(p->model);
+  ambulo_status status = build_grid(p);
+  if (!status) status = ambulo__plan_create(p->model, &p->allocator, &p->plan);
+  if (!status) status = build_schedule(p, diagnostics);
+  if (!status) status = build_rows(p, diagnostics);
+  if (status) return status;
+  p->kernels = ambulo__kernels_select();
+  p->hash = ambulo__problem_hash_of(p);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+  if (!problem) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__definition_check(definition, diagnostics);
+  if (status) return status;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_problem *p = ambulo__alloc(&own, 1, sizeof *p);
+  if (!p) return AMBULO_E_MEMORY;
+  p->allocator = own;
+  p->file_options = ambulo_options_default();
+  ambulo__row_table_init(&p->table, &own);
+  status = ambulo__definition_copy(definition, &own, &p->definition);
+  if (!status) status = build(p, diagnostics);
+  if (status) {
+    ambulo_problem_free(p);
+    return status;
+  }
+  *problem = p;
+  return AMBULO_OK;
+}
+
+void ambulo_problem_free(ambulo_problem *p) {
+  if (!p) return;
+  ambulo_allocator a = p->allocator;
+  ambulo__row_table_clear(&p->table);
+  ambulo__lane_map_free(p->map);
+  ambulo__basis_free(p->basis);
+  ambulo__plan_free(p->plan);
+  ambulo__free(&a, p->times);
+  ambulo__free(&a, p->quadrature);
+  ambulo__free(&a, p->active);
+  ambulo__definition_free(&a, &p->definition);
+  ambulo_model_free(p->owned_model);
+  ambulo__free(&a, p);
+}

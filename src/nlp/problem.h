@@ -1,0 +1,22 @@
+/* nlp/problem.h - pieces of problem construction. */
+#ifndef AMBULO_NLP_PROBLEM_H
+#define AMBULO_NLP_PROBLEM_H
+
+#include "nlp/nlp.h"
+
+/* Every check that needs no grid; all faults are reported. E_ARGUMENT for a definition
+ * that did not come from ambulo_problem_definition_default(). */
+ambulo_status ambulo__definition_check(const ambulo_problem_definition *definition,
+                                       ambulo_diagnostics *diagnostics);
+/* Deep copy: arrays, names, scales, references (the model stays shared). E_MEMORY leaves
+ * a half copy that ambulo__definition_free accepts. */
+ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_problem_definition *to);
+void ambulo__definition_free(const ambulo_allocator *allocator,
+                             ambulo_problem_definition *definition);
+/* FNV-1a over rows, terms, grid and link parameters, the same on every machine with
+ * the same byte order. */
+unsigned long long ambulo__problem_hash_of(const ambulo_problem *problem);
+
+#endif
