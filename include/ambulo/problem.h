@@ -164,7 +164,7 @@ typedef struct ambulo_problem_definition {
   int intervals;              /* N; nodes = N + 1 */
   ambulo_discretization discretization;
   int degree;                 /* of the B-spline, 3..7 */
-  int spline_intervals;       /* K; 0: as many as time intervals */
+  int spline_intervals;       /* K, intervals of the trajectory; 0: as many as time intervals */
   const double *breakpoints;  /* [K + 1] from 0 to T; NULL: uniform */
 
   const ambulo_contact *contacts;

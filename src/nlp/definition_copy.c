@@ -72,8 +72,8 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   to->name = copy_text(a, from->name ? from->name : "problem", &failed);
   size_t breakpoints = from->breakpoints ? (size_t)from->spline_intervals + 1 : 0;
   to->breakpoints = copy_array(a, from->breakpoints, breakpoints, sizeof(double), &failed);
-  to->contacts = copy_array(a, from->contacts, (size_t)from->contact_count,
-                            sizeof *from->contacts, &failed);
+  to->contacts =
+      copy_array(a, from->contacts, (size_t)from->contact_count, sizeof *from->contacts, &failed);
   to->end_values = copy_array(a, from->end_values, (size_t)from->end_value_count,
                               sizeof *from->end_values, &failed);
   copy_terms(from, a, to, &failed);

@@ -55,9 +55,8 @@ void ambulo__node_state_fill(const ambulo_workspace *workspace, int node, double
 
 ambulo_node_state ambulo__node_state_view(const ambulo_problem *p, int node, const double *state) {
   int d = p->coordinates;
-  ambulo_node_state view = {p->times[node], node,          state,
-                            state + d,      state + 2 * d, state + 3 * d,
-                            state + 4 * d,  state + 4 * d + 6};
+  ambulo_node_state view = {p->times[node], node,          state,         state + d,
+                            state + 2 * d,  state + 3 * d, state + 4 * d, state + 4 * d + 6};
   return view;
 }
 
@@ -173,8 +172,8 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
     /* the scratch of a single block serves all: refill it for this one */
     compute_block(workspace, b);
-    p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, workspace->jq + all,
-                         workspace->jqd + dynamic, workspace->jqdd + dynamic, workspace->scratch);
+    p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, workspace->jq + all, workspace->jqd + dynamic,
+                         workspace->jqdd + dynamic, workspace->scratch);
   }
   workspace->jacobians++;
   workspace->has_jacobian = 1;

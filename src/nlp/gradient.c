@@ -52,17 +52,14 @@ static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, 
   }
 }
 
-static void add_terms(ambulo_workspace *workspace, double objective_weight) {
-  const ambulo_problem_definition *definition = &workspace->problem->definition;
-  for (int t = 0; t < definition->term_count; t++) {
-    const ambulo_term *term = &definition->terms[t];
-    double factor = objective_weight * term->weight;
-    if (factor == 0.0) continue;
-    if (term->kind == AMBULO_USER_TERM) {
-      add_user_term(workspace, term, factor);
-    } else {
-      add_residual_term(workspace, term, factor);
-    }
+static void add_term(ambulo_workspace *workspace, int t, double objective_weight) {
+  const ambulo_term *term = &workspace->problem->definition.terms[t];
+  double factor = objective_weight * term->weight;
+  if (factor == 0.0) return;
+  if (term->kind == AMBULO_USER_TERM) {
+    add_user_term(workspace, term, factor);
+  } else {
+    add_residual_term(workspace, term, factor);
   }
 }
 
@@ -104,18 +101,36 @@ static void reverse_block(ambulo_workspace *workspace, int block) {
   for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
 }
 
-void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
-                      const double *row_weights, double *gradient) {
+static void clear(ambulo_workspace *workspace, double *gradient) {
   const ambulo_problem *p = workspace->problem;
-  double start = ambulo__seconds_now();
+  size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
+  memset(workspace->weight, 0, lanes * sizeof *workspace->weight);
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+}
+
+/* from the adjoints of the channels to the gradient */
+static void pull_back(ambulo_workspace *workspace, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
   size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *w = workspace->weight;
-  memset(w, 0, (size_t)p->blocks * stride * sizeof *w);
-  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
-  if (objective_weight != 0.0) add_terms(workspace, objective_weight);
-  if (row_weights) add_rows(workspace, row_weights, gradient);
   for (int block = 0; block < p->blocks; block++) reverse_block(workspace, block);
   ambulo__lane_map_transpose(p->map, w, w + d8, w + 2 * d8, NULL, stride, gradient);
+}
+
+void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
+                      const double *row_weights, double *gradient) {
+  double start = ambulo__seconds_now();
+  clear(workspace, gradient);
+  for (int t = 0; t < workspace->problem->definition.term_count; t++)
+    add_term(workspace, t, objective_weight);
+  if (row_weights) add_rows(workspace, row_weights, gradient);
+  pull_back(workspace, gradient);
   workspace->seconds_evaluate += ambulo__seconds_now() - start;
+}
+
+void ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient) {
+  clear(workspace, gradient);
+  add_term(workspace, term, 1.0);
+  pull_back(workspace, gradient);
 }

@@ -22,9 +22,9 @@
 
 struct ambulo_problem {
   ambulo_allocator allocator;
-  ambulo_problem_definition definition;  /* deep copy: every array belongs to the problem */
-  ambulo_options file_options;    /* what the problem file asks of the solver */
-  ambulo_model *owned_model;      /* freed with the problem; NULL if the caller owns it */
+  ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
+  ambulo_options file_options;          /* what the problem file asks of the solver */
+  ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
   const ambulo__kernels *kernels;
@@ -33,9 +33,9 @@ struct ambulo_problem {
   ambulo__channels channels;
   int coordinates, control_points, variables;
   int nodes, blocks;
-  double *times;                  /* [nodes], s */
-  double *quadrature;             /* [nodes], trapezoidal weights, s */
-  int *active;                    /* [nodes][feet] contact index or -1 */
+  double *times;      /* [nodes], s */
+  double *quadrature; /* [nodes], trapezoidal weights, s */
+  int *active;        /* [nodes][feet] contact index or -1 */
   ambulo__row_table table;
   int rows, equalities;
   unsigned long long hash;
@@ -45,20 +45,20 @@ struct ambulo_workspace {
   ambulo_allocator allocator;
   const ambulo_problem *problem;
   int channel_count;
-  double *x;                      /* [variables]: the point the rest belongs to */
-  int has_values, has_jacobian;   /* channels / channel Jacobians are those of x */
-  double *channel;                /* [blocks][channels][8] */
-  double *weight;                 /* [blocks][channels][8]: adjoint of channel */
-  double *gradient_lanes;         /* [3][d][8]: a block's gq, gqd, gqdd */
-  double *scratch;                /* kernels' scratch, one block at a time */
-  double *jq, *jqd, *jqdd;        /* [blocks][pattern entries][8] */
-  double *row_value;              /* [rows] */
-  double *term_value;             /* [terms] */
+  double *x;                    /* [variables]: the point the rest belongs to */
+  int has_values, has_jacobian; /* channels / channel Jacobians are those of x */
+  double *channel;              /* [blocks][channels][8] */
+  double *weight;               /* [blocks][channels][8]: adjoint of channel */
+  double *gradient_lanes;       /* [3][d][8]: a block's gq, gqd, gqdd */
+  double *scratch;              /* kernels' scratch, one block at a time */
+  double *jq, *jqd, *jqdd;      /* [blocks][pattern entries][8] */
+  double *row_value;            /* [rows] */
+  double *term_value;           /* [terms] */
   double objective;
-  double *user_gradient;          /* [user row instances][channels]: slopes of user rows */
-  int *user_slot;                 /* [rows]: index into user_gradient, or -1 */
-  double *node_state;             /* scratch for callbacks: [2][channels] */
-  double *local_scratch;          /* scratch for one local gradient: [span * d] */
+  double *user_gradient; /* [user row instances][channels]: slopes of user rows */
+  int *user_slot;        /* [rows]: index into user_gradient, or -1 */
+  double *node_state;    /* scratch for callbacks: [2][channels] */
+  double *local_scratch; /* scratch for one local gradient: [span * d] */
   long evaluations, jacobians;
   double seconds_evaluate;
 };
@@ -75,7 +75,8 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
 void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
                       const double *row_weights, double *gradient);
 
-/* Number of evaluated quantities is O(nodes); no m x n array exists anywhere. */
+/* After ambulo__evaluate: gradient of one objective term (its weight included). */
+void ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient);
 
 /* ------------------------------------------------------------- local rows */
 

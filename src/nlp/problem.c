@@ -31,7 +31,7 @@ ambulo_term ambulo_term_default(ambulo_term_kind kind) {
 
 static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
-#define REFUSE(diagnostics, ...) \
+#define REFUSE(diagnostics, ...)                                                                   \
   ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, __VA_ARGS__)
 
 static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
@@ -41,10 +41,12 @@ static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagn
   if (d->intervals < 1 || d->intervals > MAX_INTERVALS)
     status = REFUSE(list, "time.intervals is %d; expected 1 to %d", d->intervals, MAX_INTERVALS);
   if (d->spline_intervals < 0 || d->spline_intervals > MAX_INTERVALS)
-    status = REFUSE(list, "trajectory.intervals is %d; expected 1 to %d (0: as many as time intervals)",
-                    d->spline_intervals, MAX_INTERVALS);
+    status =
+        REFUSE(list, "trajectory.intervals is %d; expected 1 to %d (0: as many as time intervals)",
+               d->spline_intervals, MAX_INTERVALS);
   if (d->discretization == AMBULO_BSPLINE && (d->degree < 3 || d->degree > AMBULO__MAX_DEGREE))
-    status = REFUSE(list, "trajectory.degree is %d; expected 3 to %d", d->degree, AMBULO__MAX_DEGREE);
+    status =
+        REFUSE(list, "trajectory.degree is %d; expected 3 to %d", d->degree, AMBULO__MAX_DEGREE);
   for (int i = 0; d->breakpoints && !status && i < d->spline_intervals; i++) {
     if (d->breakpoints[i + 1] > d->breakpoints[i]) continue;
     status = REFUSE(list, "trajectory.breakpoints[%d] is %g s after %g s; expected rising times",
@@ -102,7 +104,8 @@ static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagn
       status = REFUSE(list, "end value %d: order %d, value %g; expected order 0 to 2, finite", i,
                       end->order, end->value);
   }
-  if (!isfinite(d->travel)) status = REFUSE(list, "ends.travel is %g m; expected a finite length", d->travel);
+  if (!isfinite(d->travel))
+    status = REFUSE(list, "ends.travel is %g m; expected a finite length", d->travel);
   return status;
 }
 
@@ -115,7 +118,8 @@ ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
   if (!status) status = terms;
   if (!status) status = ends;
   if (d->support_margin < 0.0)
-    status = REFUSE(diagnostics, "constraints.zmp_margin is %g m; expected >= 0", d->support_margin);
+    status =
+        REFUSE(diagnostics, "constraints.zmp_margin is %g m; expected >= 0", d->support_margin);
   return status;
 }
 
@@ -126,10 +130,9 @@ static ambulo_status build_grid(ambulo_problem *p) {
   int spline = d->spline_intervals ? d->spline_intervals : d->intervals;
   static const ambulo__basis_kind kinds[] = {AMBULO__BSPLINE, AMBULO__CENTRAL_DIFFERENCE,
                                              AMBULO__HERMITE};
-  int intervals = d->discretization == AMBULO_BSPLINE ? spline : d->intervals;
   ambulo_status status =
-      ambulo__basis_create(kinds[d->discretization], d->degree, intervals, d->duration,
-                           d->breakpoints, &p->allocator, &p->basis);
+      ambulo__basis_create(kinds[d->discretization], d->degree, spline, d->duration, d->breakpoints,
+                           &p->allocator, &p->basis);
   if (status) return status;
   p->nodes = d->intervals + 1;
   p->blocks = ambulo__block_count(p->nodes);
@@ -181,8 +184,7 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   size_t feet = (size_t)ambulo_model_foot_count(p->model);
   p->active = ambulo__alloc(&p->allocator, (size_t)p->nodes * feet, sizeof *p->active);
   if (!p->active) return AMBULO_E_MEMORY;
-  ambulo_status status =
-      ambulo__schedule_fill(d, p->times, p->nodes, p->active, diagnostics);
+  ambulo_status status = ambulo__schedule_fill(d, p->times, p->nodes, p->active, diagnostics);
   if (status) return status;
   return ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
 }

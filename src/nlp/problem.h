@@ -15,6 +15,13 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
                                       ambulo_problem_definition *to);
 void ambulo__definition_free(const ambulo_allocator *allocator,
                              ambulo_problem_definition *definition);
+/* The same problem on another grid: `intervals` time intervals and `spline_intervals`
+ * intervals of the trajectory. Breakpoints of its own are kept only while their number
+ * stays; tracked references are interpolated linearly. The model stays shared, so the
+ * new problem must not outlive `problem`. */
+ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int intervals,
+                                        int spline_intervals, const ambulo_allocator *allocator,
+                                        ambulo_problem **out);
 /* FNV-1a over rows, terms, grid and link parameters, the same on every machine with
  * the same byte order. */
 unsigned long long ambulo__problem_hash_of(const ambulo_problem *problem);

@@ -64,10 +64,21 @@ ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
 void ambulo_workspace_free(ambulo_workspace *w) {
   if (!w) return;
   ambulo_allocator a = w->allocator;
-  double *aligned[] = {w->x,  w->channel, w->weight,    w->gradient_lanes, w->scratch,
-                       w->jq, w->jqd,     w->jqdd,      w->row_value,      w->term_value,
-                       w->user_gradient,  w->node_state, w->local_scratch};
-  for (size_t i = 0; i < sizeof aligned / sizeof *aligned; i++) ambulo__free_aligned(&a, aligned[i]);
+  double *aligned[] = {w->x,
+                       w->channel,
+                       w->weight,
+                       w->gradient_lanes,
+                       w->scratch,
+                       w->jq,
+                       w->jqd,
+                       w->jqdd,
+                       w->row_value,
+                       w->term_value,
+                       w->user_gradient,
+                       w->node_state,
+                       w->local_scratch};
+  for (size_t i = 0; i < sizeof aligned / sizeof *aligned; i++)
+    ambulo__free_aligned(&a, aligned[i]);
   ambulo__free(&a, w->user_slot);
   ambulo__free(&a, w);
 }

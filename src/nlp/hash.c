@@ -1,0 +1,86 @@
+/* nlp/hash.c - one number for everything a problem was resolved to.
+ *
+ * FNV-1a, 64 bit (Fowler, Noll, Vo 1991; offset basis and prime of their page), over the
+ * bytes of names and the bit patterns of numbers. It tells two inputs apart; it is no
+ * cryptographic digest. */
+#include "nlp/problem.h"
+
+#include <string.h>
+
+typedef unsigned long long hash;
+
+static hash add_bytes(hash h, const void *data, size_t size) {
+  const unsigned char *byte = data;
+  for (size_t i = 0; i < size; i++) h = (h ^ byte[i]) * 1099511628211ULL;
+  return h;
+}
+
+static hash add_text(hash h, const char *text) {
+  return text ? add_bytes(h, text, strlen(text) + 1) : add_bytes(h, "", 1);
+}
+
+static hash add_numbers(hash h, const double *value, size_t count) {
+  for (size_t i = 0; value && i < count; i++) {
+    double number = value[i] == 0.0 ? 0.0 : value[i]; /* -0 is 0 */
+    h = add_bytes(h, &number, sizeof number);
+  }
+  return h;
+}
+
+static hash add_integer(hash h, long long value) {
+  return add_bytes(h, &value, sizeof value);
+}
+
+static hash add_model(hash h, const ambulo_model *model) {
+  h = add_text(h, ambulo_model_name(model));
+  h = add_numbers(h, ambulo_model_gravity(model), 3);
+  for (int i = 0; i < ambulo_model_link_count(model); i++) {
+    const ambulo_link *link = ambulo_model_link(model, i);
+    double constants[] = {link->theta, link->d, link->a, link->alpha, link->mass};
+    h = add_integer(add_text(h, link->name), link->parent * 8 + (int)link->type);
+    h = add_numbers(h, constants, 5);
+    h = add_numbers(add_numbers(h, link->com, 3), link->inertia, 6);
+  }
+  for (int i = 0; i < ambulo_model_point_count(model); i++) {
+    const ambulo_point *point = ambulo_model_point(model, i);
+    h = add_numbers(add_integer(add_text(h, point->name), point->link), point->position, 3);
+  }
+  return h;
+}
+
+static hash add_terms(hash h, const ambulo_problem *p) {
+  size_t d = (size_t)p->coordinates;
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    double constants[] = {term->weight, term->smoothing};
+    h = add_numbers(add_integer(add_text(h, term->name), (int)term->kind), constants, 2);
+    h = add_numbers(add_numbers(h, term->scale, d), term->offset, d);
+    h = add_numbers(h, term->reference, (size_t)p->nodes * d);
+  }
+  return h;
+}
+
+static hash add_rows(hash h, const ambulo_problem *p) {
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    h = add_text(add_text(add_text(h, row->family), row->subject), row->detail);
+    h = add_numbers(add_integer(h, (int)row->relation), &row->constant, 1);
+    for (int t = 0; t < row->term_count; t++) {
+      const ambulo__row_term *term = &p->table.terms[row->first_term + t];
+      h = add_integer(add_integer(h, term->node), term->channel);
+      h = add_numbers(h, &term->coefficient, 1);
+    }
+  }
+  return h;
+}
+
+unsigned long long ambulo__problem_hash_of(const ambulo_problem *p) {
+  hash h = 14695981039346656037ULL;
+  h = add_model(h, p->model);
+  h = add_integer(h, (int)p->definition.discretization * 16 + p->definition.degree);
+  h = add_numbers(h, &p->definition.duration, 1);
+  h = add_integer(add_integer(h, p->nodes), p->control_points);
+  h = add_numbers(h, ambulo__basis_breakpoints(p->basis),
+                  (size_t)ambulo__basis_intervals(p->basis) + 1);
+  return add_rows(add_terms(h, p), p);
+}

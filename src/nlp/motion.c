@@ -1,0 +1,97 @@
+/* nlp/motion.c - the motion of given control points at any times.
+ *
+ * The same route as evaluate.c (linear map, forward recursion), on times of the caller's
+ * choice, unpacked to node-major arrays. ZMP on the plane n . r = h (Eq. 16'):
+ *
+ *     p = (n x M + h F) / (n . F)
+ */
+#include "nlp/nlp.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct dense {
+  ambulo__lane_map *map;
+  double *channel, *scratch;
+} dense;
+
+static void dense_free(const ambulo_allocator *a, dense *d) {
+  ambulo__lane_map_free(d->map);
+  ambulo__free_aligned(a, d->channel);
+  ambulo__free_aligned(a, d->scratch);
+}
+
+static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocator *a,
+                                  const double *times, int count, dense *d) {
+  size_t channels = (size_t)ambulo__channel_count(&p->channels);
+  size_t lanes = (size_t)ambulo__block_count(count) * AMBULO__LANES;
+  d->channel = ambulo__alloc_aligned(a, channels * lanes, sizeof(double));
+  d->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof(double));
+  ambulo_status status =
+      ambulo__lane_map_create(p->basis, times, count, p->coordinates, a, &d->map);
+  if (!status && (!d->channel || !d->scratch)) status = AMBULO_E_MEMORY;
+  return status;
+}
+
+/* copies channels [first, first + size) of every node to out[node][size] */
+static int unpack(const dense *d, int channels, int first, int size, int count, double *out) {
+  int finite = 1;
+  for (int k = 0; out && k < count; k++) {
+    for (int c = 0; c < size; c++) {
+      double value = d->channel[ambulo__lane_index(k, channels, first + c)];
+      out[(size_t)k * (size_t)size + (size_t)c] = value;
+      finite &= isfinite(value) != 0;
+    }
+  }
+  return finite;
+}
+
+static void zero_moment_point(const double *n, double height, const double *wrench, double *zmp) {
+  const double *m = wrench, *f = wrench + 3;
+  double normal = n[0] * f[0] + n[1] * f[1] + n[2] * f[2];
+  double cross[3] = {n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
+                     n[0] * m[1] - n[1] * m[0]};
+  for (int i = 0; i < 3; i++)
+    zmp[i] = normal > 0.0 ? (cross[i] + height * f[i]) / normal : (double)NAN;
+}
+
+static void fill_zmp(const ambulo_problem *p, const dense *d, int channels, int count,
+                     double *zmp) {
+  for (int k = 0; k < count; k++) {
+    double wrench[6];
+    for (int c = 0; c < 6; c++) {
+      int channel = ambulo__channel_moment(&p->channels, c);
+      wrench[c] = d->channel[ambulo__lane_index(k, channels, channel)];
+    }
+    zero_moment_point(ambulo_model_up(p->model), p->definition.ground_height, wrench, zmp + 3 * k);
+  }
+}
+
+ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *workspace,
+                                    const double *x, int count, const double *times,
+                                    const ambulo_motion *motion) {
+  if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
+    return AMBULO_E_ARGUMENT;
+  dense d = {NULL, NULL, NULL};
+  const ambulo_allocator *a = &workspace->allocator;
+  ambulo_status status = dense_create(p, a, times, count, &d);
+  if (!status) {
+    int channels = ambulo__channel_count(&p->channels), c = p->coordinates;
+    size_t stride = (size_t)channels * AMBULO__LANES, d8 = (size_t)c * AMBULO__LANES;
+    ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
+    for (int b = 0; b < ambulo__block_count(count); b++) {
+      double *y = d.channel + (size_t)b * stride;
+      p->kernels->forward(p->plan, y, y + d8, y + 2 * d8, y + 3 * d8, d.scratch);
+    }
+    int finite = unpack(&d, channels, 0, c, count, motion->q);
+    finite &= unpack(&d, channels, c, c, count, motion->qd);
+    finite &= unpack(&d, channels, 2 * c, c, count, motion->qdd);
+    finite &= unpack(&d, channels, 3 * c, c, count, motion->tau);
+    finite &= unpack(&d, channels, 4 * c, 6, count, motion->wrench);
+    finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
+    if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
+    if (!finite) status = AMBULO_E_NUMERIC;
+  }
+  dense_free(a, &d);
+  return status;
+}

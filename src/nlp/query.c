@@ -1,0 +1,108 @@
+/* nlp/query.c - what a problem tells about itself; evaluation behind the public names. */
+#include "nlp/problem.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *ambulo_problem_name(const ambulo_problem *p) {
+  return p->definition.name;
+}
+const ambulo_model *ambulo_problem_model(const ambulo_problem *p) {
+  return p->model;
+}
+double ambulo_problem_duration(const ambulo_problem *p) {
+  return p->definition.duration;
+}
+int ambulo_problem_node_count(const ambulo_problem *p) {
+  return p->nodes;
+}
+int ambulo_problem_control_point_count(const ambulo_problem *p) {
+  return p->control_points;
+}
+int ambulo_problem_variable_count(const ambulo_problem *p) {
+  return p->variables;
+}
+int ambulo_problem_row_count(const ambulo_problem *p) {
+  return p->rows;
+}
+int ambulo_problem_equality_count(const ambulo_problem *p) {
+  return p->equalities;
+}
+ambulo_ends ambulo_problem_ends(const ambulo_problem *p) {
+  return p->definition.ends;
+}
+int ambulo_problem_contact_count(const ambulo_problem *p) {
+  return p->definition.contact_count;
+}
+int ambulo_problem_term_count(const ambulo_problem *p) {
+  return p->definition.term_count;
+}
+unsigned long long ambulo_problem_hash(const ambulo_problem *p) {
+  return p->hash;
+}
+
+const ambulo_contact *ambulo_problem_contact(const ambulo_problem *p, int index) {
+  if (index < 0 || index >= p->definition.contact_count) return NULL;
+  return &p->definition.contacts[index];
+}
+
+const char *ambulo_problem_term_name(const ambulo_problem *p, int index) {
+  if (index < 0 || index >= p->definition.term_count) return NULL;
+  const ambulo_term *term = &p->definition.terms[index];
+  return term->name ? term->name : ambulo__term_info_of(term->kind)->name;
+}
+
+ambulo_status ambulo_problem_row(const ambulo_problem *p, int index, ambulo_row *row) {
+  if (!p || !row || index < 0 || index >= p->rows) return AMBULO_E_ARGUMENT;
+  const ambulo__table_row *r = &p->table.rows[index];
+  ambulo_row view = {r->family, r->subject, r->detail, r->unit, r->relation, r->node, r->time};
+  *row = view;
+  return AMBULO_OK;
+}
+
+int ambulo_problem_contact_at(const ambulo_problem *p, int foot, double time) {
+  const double tolerance = 1e-9;
+  const ambulo_problem_definition *d = &p->definition;
+  for (int c = 0; c < d->contact_count; c++) {
+    const ambulo_contact *contact = &d->contacts[c];
+    if (contact->foot != foot || time < contact->from - tolerance) continue;
+    int last = contact->to >= d->duration - tolerance;
+    if (time < contact->to - tolerance || last) return c;
+  }
+  return -1;
+}
+
+/* ---------------------------------------------------------------- evaluation */
+
+ambulo_status ambulo_problem_evaluate(const ambulo_problem *p, ambulo_workspace *workspace,
+                                      const double *x, double *objective, double *terms,
+                                      double *rows) {
+  if (!p || !workspace || workspace->problem != p || !x) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__evaluate(workspace, x);
+  if (status) return status;
+  if (objective) *objective = workspace->objective;
+  if (terms) memcpy(terms, workspace->term_value, (size_t)p->definition.term_count * sizeof *terms);
+  if (rows) memcpy(rows, workspace->row_value, (size_t)p->rows * sizeof *rows);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_problem_gradient(const ambulo_problem *p, ambulo_workspace *workspace,
+                                      const double *x, double objective_weight,
+                                      const double *row_weights, double *gradient) {
+  if (!p || !workspace || workspace->problem != p || !x || !gradient) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__evaluate(workspace, x);
+  if (status) return status;
+  ambulo__gradient(workspace, objective_weight, row_weights, gradient);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_problem_row_gradient(const ambulo_problem *p, ambulo_workspace *workspace,
+                                          const double *x, int row, double *gradient) {
+  if (!p || !workspace || workspace->problem != p || !x || !gradient) return AMBULO_E_ARGUMENT;
+  if (row < 0 || row >= p->rows) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__evaluate_jacobian(workspace, x);
+  if (status) return status;
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+  ambulo__row_add_gradient(workspace, row, 1.0, gradient);
+  return AMBULO_OK;
+}
