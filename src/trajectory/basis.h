@@ -4,7 +4,7 @@
  * numbers each, row-major: x[c * d + i]. At any time t a few neighbouring control
  * points determine the motion:
  *
- *     D^o q_i(t) = sum_{k < span} weight[o][k] x[(first + k) * d + i],   o = 0..3
+ *     D^o q_i(t) = sum_{k < span} weight[o][k] x[(first + k) * d + i],   o = 0..2
  *
  * What a control point is depends on the discretization:
  *   B-spline (Eq. 23)            the control points of a clamped spline
@@ -26,10 +26,19 @@ typedef enum ambulo__basis_kind {
   AMBULO__HERMITE
 } ambulo__basis_kind;
 
-/* The map at one time. Weights beyond span are zero. Order 3 (jerk) is zero for
- * central differences. */
+/* The map at one time. Orders 0..2 (value, rate, acceleration) stand on control points
+ * first .. first + span - 1, order 3 (jerk) on jerk_first .. jerk_first + jerk_span - 1:
+ *
+ *     D^3 q_i(t) = sum_{k < jerk_span} weight[3][k] x[(jerk_first + k) * d + i]
+ *
+ * The windows are kept apart because at a breakpoint of a cubic spline q, qd and qdd rest
+ * on three control points while the jerk, which jumps there (its right-hand limit is
+ * given; the left-hand one at the end), rests on four: a common window would widen every
+ * band matrix for the sake of the jerk. Weights beyond a window are zero. jerk_span is 0
+ * for central differences. */
 typedef struct ambulo__basis_point {
   int first, span;
+  int jerk_first, jerk_span;
   double weight[4][AMBULO__MAX_SPAN];
 } ambulo__basis_point;
 
@@ -50,12 +59,13 @@ int ambulo__basis_degree(const ambulo__basis *basis);
 int ambulo__basis_intervals(const ambulo__basis *basis);
 double ambulo__basis_duration(const ambulo__basis *basis);
 const double *ambulo__basis_breakpoints(const ambulo__basis *basis);  /* [intervals + 1] */
-/* Largest span of any time. */
+/* Largest span of any time (orders 0..3). */
 int ambulo__basis_span(const ambulo__basis *basis);
 
-/* The map at time t in [0, duration] (clamped to it). Leading and trailing
- * control points with all-zero weights are trimmed. Between nodes, central
- * differences blend the maps of the two nodes linearly. */
+/* The map at time t in [0, duration] (clamped to it; a breakpoint missed by rounding
+ * counts as hit). Leading and trailing control points without weight (below 1e-14 of the
+ * largest of each order) are trimmed. Between nodes, central differences blend the maps
+ * of the two nodes linearly. */
 void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point *point);
 
 /* A representative time of control point c (Greville abscissa; node time), and
@@ -64,8 +74,12 @@ void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point 
 double ambulo__basis_abscissa(const ambulo__basis *basis, int c, int *is_value);
 
 /* Carries unknowns from one basis to another on the same duration: exact when the
- * target contains the source (knot insertion), least squares otherwise.
- * x_from [n_from * d], x_to [n_to * d]. Errors: E_MEMORY, E_NUMERIC. */
+ * target contains the source (knot insertion), least squares in time otherwise. Central
+ * differences are no functions of time: as a source they are read as the Hermite curve
+ * through their node values and rates, as a target they take node values, with the ghost
+ * nodes set so that the rates at both ends are kept.
+ * x_from [n_from * d], x_to [n_to * d]. Errors: E_ARGUMENT (durations differ), E_MEMORY,
+ * E_NUMERIC. */
 ambulo_status ambulo__basis_transfer(const ambulo__basis *from, const double *x_from,
                                      const ambulo__basis *to, double *x_to, int d,
                                      const ambulo_allocator *allocator);
