@@ -1,0 +1,222 @@
+/* base/diagnostics.c - the list of messages about an input. */
+#include "base/diagnostics.h"
+#include "base/alloc.h"
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_ERRORS = 20, MAX_MESSAGES = 64, MAX_TEXT = 1024, MAX_WORD = 64 };
+
+struct ambulo_diagnostics {
+  ambulo_allocator allocator;
+  ambulo_diagnostic items[MAX_MESSAGES];
+  size_t count, kept_errors, error_count;
+};
+
+ambulo_diagnostics *ambulo_diagnostics_create(const ambulo_allocator *allocator) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_diagnostics *list = ambulo__alloc(&own, 1, sizeof *list);
+  if (list) list->allocator = own;
+  return list;
+}
+
+/* the strings of an item are ours; the public view shows them as const */
+static void release(const ambulo_allocator *a, const char *text) {
+  union {
+    const char *constant;
+    char *owned;
+  } view = {text};
+  ambulo__free(a, view.owned);
+}
+
+static void clear_item(const ambulo_allocator *a, ambulo_diagnostic *item) {
+  release(a, item->file);
+  release(a, item->path);
+  release(a, item->message);
+  release(a, item->hint);
+  memset(item, 0, sizeof *item);
+}
+
+void ambulo_diagnostics_clear(ambulo_diagnostics *list) {
+  if (!list) return;
+  for (size_t i = 0; i < list->count; i++) clear_item(&list->allocator, &list->items[i]);
+  list->count = list->kept_errors = list->error_count = 0;
+}
+
+void ambulo_diagnostics_free(ambulo_diagnostics *list) {
+  if (!list) return;
+  ambulo_allocator a = list->allocator;
+  ambulo_diagnostics_clear(list);
+  ambulo__free(&a, list);
+}
+
+size_t ambulo_diagnostics_count(const ambulo_diagnostics *list) { return list ? list->count : 0; }
+
+size_t ambulo_diagnostics_error_count(const ambulo_diagnostics *list) {
+  return list ? list->error_count : 0;
+}
+
+const ambulo_diagnostic *ambulo_diagnostics_get(const ambulo_diagnostics *list, size_t index) {
+  return list && index < list->count ? &list->items[index] : NULL;
+}
+
+/* ------------------------------------------------------------------ adding */
+
+static char *copy_or_null(const ambulo_allocator *a, const char *text) {
+  return text ? ambulo__strdup(a, text) : NULL;
+}
+
+static int has_room(const ambulo_diagnostics *list, ambulo_severity severity) {
+  if (list->count == MAX_MESSAGES) return 0;
+  if (severity == AMBULO_ERROR) return list->kept_errors < MAX_ERRORS;
+  /* warnings leave room for every error that may still come */
+  return list->count + MAX_ERRORS - list->kept_errors < MAX_MESSAGES;
+}
+
+static void add(ambulo_diagnostics *list, ambulo_severity severity, ambulo_status status,
+                ambulo__place place, const char *hint, const char *format, va_list arguments) {
+  if (!list) return;
+  if (severity == AMBULO_ERROR) list->error_count++;
+  if (!has_room(list, severity)) return;
+  char text[MAX_TEXT];
+  (void)vsnprintf(text, sizeof text, format, arguments);
+  const ambulo_allocator *a = &list->allocator;
+  ambulo_diagnostic item = {severity,
+                            status,
+                            copy_or_null(a, place.file),
+                            place.line,
+                            place.column,
+                            copy_or_null(a, place.path),
+                            copy_or_null(a, text),
+                            copy_or_null(a, hint)};
+  if (!item.message) {
+    clear_item(a, &item);
+    return;
+  }
+  list->items[list->count++] = item;
+  if (severity == AMBULO_ERROR) list->kept_errors++;
+}
+
+ambulo_status ambulo__error(ambulo_diagnostics *list, ambulo_status status, ambulo__place place,
+                            const char *hint, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  add(list, AMBULO_ERROR, status, place, hint, format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *hint,
+                     const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  add(list, AMBULO_WARNING, AMBULO_OK, place, hint, format, arguments);
+  va_end(arguments);
+}
+
+void ambulo__note(ambulo_diagnostics *list, ambulo__place place, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  add(list, AMBULO_NOTE, AMBULO_OK, place, NULL, format, arguments);
+  va_end(arguments);
+}
+
+/* -------------------------------------------------------------- formatting */
+
+typedef struct writer {
+  char *buffer;
+  size_t size, length;
+} writer;
+
+static void put(writer *w, char c) {
+  if (w->length + 1 < w->size) w->buffer[w->length] = c;
+  w->length++;
+}
+
+/* control characters (terminal escapes among them) are shown as \xNN */
+static void put_text(writer *w, const char *text) {
+  static const char digits[] = "0123456789abcdef";
+  for (; *text; text++) {
+    unsigned char c = (unsigned char)*text;
+    if (c >= 0x20 && c != 0x7f) {
+      put(w, (char)c);
+      continue;
+    }
+    put(w, '\\');
+    put(w, 'x');
+    put(w, digits[c >> 4]);
+    put(w, digits[c & 15]);
+  }
+}
+
+static void put_place(writer *w, const ambulo_diagnostic *item) {
+  char number[48];
+  put_text(w, item->file ? item->file : "ambulo");
+  if (item->file && item->line > 0) {
+    (void)snprintf(number, sizeof number, ":%d:%d", item->line,
+                   item->column > 0 ? item->column : 1);
+    put_text(w, number);
+  }
+  put_text(w, ": ");
+}
+
+size_t ambulo_diagnostics_format(const ambulo_diagnostics *list, size_t index, char *buffer,
+                                 size_t size) {
+  static const char *const severities[] = {"note", "warning", "error"};
+  writer w = {buffer, size, 0};
+  const ambulo_diagnostic *item = ambulo_diagnostics_get(list, index);
+  if (item) {
+    put_place(&w, item);
+    put_text(&w, severities[item->severity]);
+    if (item->severity == AMBULO_ERROR) {
+      put(&w, '[');
+      put_text(&w, ambulo_status_name(item->status));
+      put(&w, ']');
+    }
+    put_text(&w, ": ");
+    put_text(&w, item->message);
+    if (item->hint) {
+      put(&w, '\n');
+      put_text(&w, "  hint: ");
+      put_text(&w, item->hint);
+    }
+  }
+  if (size > 0) buffer[w.length < size ? w.length : size - 1] = '\0';
+  return w.length;
+}
+
+/* ---------------------------------------------------------- nearest names */
+
+static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
+
+/* Levenshtein distance without regard to case; words longer than MAX_WORD are cut */
+static size_t edit_distance(const char *a, const char *b) {
+  size_t row[MAX_WORD + 1];
+  size_t la = smaller(strlen(a), MAX_WORD), lb = smaller(strlen(b), MAX_WORD);
+  for (size_t j = 0; j <= lb; j++) row[j] = j;
+  for (size_t i = 1; i <= la; i++) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= lb; j++) {
+      size_t above = row[j];
+      int same = tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
+      row[j] = smaller(smaller(above, row[j - 1]) + 1, diagonal + (same ? 0 : 1));
+      diagonal = above;
+    }
+  }
+  return row[lb];
+}
+
+const char *ambulo__nearest(const char *word, const char *const *candidates, size_t count) {
+  const char *best = NULL;
+  size_t least = (strlen(word) + 2) / 3 + 1;
+  for (size_t i = 0; i < count; i++) {
+    size_t distance = edit_distance(word, candidates[i]);
+    if (distance >= least) continue;
+    least = distance;
+    best = candidates[i];
+  }
+  return best;
+}
