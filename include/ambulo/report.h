@@ -53,6 +53,19 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_file(
     const ambulo_model *model, const char *motion, const char *output,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, char **text);
 
+/* What a YAML file is, by its keys: a model has `links`, a problem a `model`. */
+typedef enum ambulo_file_kind { AMBULO_FILE_MODEL, AMBULO_FILE_PROBLEM } ambulo_file_kind;
+/* Errors: E_IO, E_PARSE, E_SCHEMA (neither), E_LIMIT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(
+    const char *path, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+    ambulo_file_kind *kind);
+
+/* The versions of what is running, as text. */
+typedef struct ambulo_versions {
+  char ambulo[24], nlopt[24], libyaml[24], blas[64], instruction_set[24];
+} ambulo_versions;
+AMBULO_API void ambulo_versions_get(ambulo_versions *versions);
+
 #ifdef __cplusplus
 }
 #endif

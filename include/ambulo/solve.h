@@ -63,6 +63,8 @@ typedef struct ambulo_options {
 } ambulo_options;
 
 AMBULO_API ambulo_options ambulo_options_default(void);
+/* The defaults, changed by what the problem file says under `solver:`. */
+AMBULO_API ambulo_options ambulo_problem_options(const ambulo_problem *problem);
 
 /* Violation of one family of rows. */
 typedef struct ambulo_violation {

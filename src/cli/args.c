@@ -1,0 +1,230 @@
+/* cli/args.c - command lines: --name value, --name=value, -o value, -ovalue, -- ends options. */
+#include "cli/args.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/output.h"
+
+/* ------------------------------------------------------------- nearest word */
+
+enum { LONGEST_WORD = 40 };
+
+static int smallest(int a, int b, int c) {
+  int least = a < b ? a : b;
+  return least < c ? least : c;
+}
+
+/* Levenshtein distance, one row at a time */
+static int edit_distance(const char *a, const char *b) {
+  int row[LONGEST_WORD + 1];
+  int length = (int)strlen(b);
+  if (length > LONGEST_WORD) return LONGEST_WORD;
+  for (int j = 0; j <= length; j++) row[j] = j;
+  for (int i = 1; a[i - 1]; i++) {
+    int diagonal = row[0];
+    row[0] = i;
+    for (int j = 1; j <= length; j++) {
+      int replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = smallest(replaced, row[j] + 1, row[j - 1] + 1);
+    }
+  }
+  return row[length];
+}
+
+const char *ambulo__cli_nearest(const char *word, const char *const *words, int count) {
+  size_t length = strlen(word);
+  if (length == 0 || length > LONGEST_WORD) return NULL;
+  int best = (int)(length + 2) / 3 + 1;
+  const char *nearest = NULL;
+  for (int i = 0; i < count; i++) {
+    int distance = edit_distance(word, words[i]);
+    if (distance >= best) continue;
+    best = distance;
+    nearest = words[i];
+  }
+  return nearest;
+}
+
+/* ------------------------------------------------------------------ queries */
+
+static int same(const ambulo__cli_input *input, int given, const char *name) {
+  return strcmp(input->command->options[input->options[given]].name, name) == 0;
+}
+
+const char *ambulo__cli_value(const ambulo__cli_input *input, const char *name) {
+  const char *value = NULL;
+  for (int i = 0; i < input->given_count; i++) {
+    if (same(input, i, name)) value = input->values[i];
+  }
+  return value;
+}
+
+int ambulo__cli_flag(const ambulo__cli_input *input, const char *name) {
+  for (int i = 0; i < input->given_count; i++) {
+    if (same(input, i, name)) return 1;
+  }
+  return 0;
+}
+
+int ambulo__cli_values(const ambulo__cli_input *input, const char *name, const char **values) {
+  int count = 0;
+  for (int i = 0; i < input->given_count; i++) {
+    if (same(input, i, name)) values[count++] = input->values[i];
+  }
+  return count;
+}
+
+int ambulo__cli_number(const ambulo__cli_input *input, const char *name, double min, double max,
+                       double *value) {
+  const char *text = ambulo__cli_value(input, name);
+  if (!text) return 1;
+  char *end = NULL;
+  errno = 0;
+  double number = strtod(text, &end);
+  /* strtod also takes hexadecimal, "inf" and leading blanks; a plain number has none of these */
+  int plain = text[0] && strspn(text, "0123456789.eE+-") == strlen(text) && !*end;
+  if (!plain || !isfinite(number) || number < min || number > max) {
+    ambulo__cli_usage_error(input->command->name, NULL,
+                            "--%s is '%s'; expected a number from %g to %g", name, text, min, max);
+    return 0;
+  }
+  *value = number;
+  return 1;
+}
+
+int ambulo__cli_integer(const ambulo__cli_input *input, const char *name, int min, int max,
+                        int *value) {
+  const char *text = ambulo__cli_value(input, name);
+  if (!text) return 1;
+  char *end = NULL;
+  errno = 0;
+  long number = strtol(text, &end, 10);
+  int plain = text[0] && strspn(text, "0123456789-") == strlen(text) && !*end && !errno;
+  if (!plain || number < min || number > max) {
+    ambulo__cli_usage_error(input->command->name, NULL,
+                            "--%s is '%s'; expected a whole number from %d to %d", name, text, min,
+                            max);
+    return 0;
+  }
+  *value = (int)number;
+  return 1;
+}
+
+/* ------------------------------------------------------------------ parsing */
+
+typedef struct parser {
+  const ambulo__cli_command *command;
+  int argc, next;
+  char **argv;
+  const char **arguments, **values;
+  int *options;
+  int argument_count, given_count;
+} parser;
+
+static int unknown_option(const parser *p, const char *text, size_t length) {
+  const ambulo__cli_command *command = p->command;
+  char word[LONGEST_WORD + 1] = "", hint[LONGEST_WORD + 32];
+  const char *names[64];
+  int count = 0;
+  for (; count < command->option_count && count < 63; count++) names[count] = command->options[count].name;
+  names[count++] = "help";
+  if (length <= LONGEST_WORD) memcpy(word, text, length);
+  const char *nearest = ambulo__cli_nearest(word, names, count);
+  if (nearest) ambulo__cli_format(hint, sizeof hint, "did you mean '--%s'?", nearest);
+  return ambulo__cli_usage_error(command->name, nearest ? hint : NULL, "unknown option '%s'",
+                                 p->argv[p->next]);
+}
+
+/* index of the option that argv[next] names, with the value attached to it (or NULL) */
+static int find_option(const parser *p, const char **attached) {
+  const char *text = p->argv[p->next];
+  int by_name = text[1] == '-';
+  const char *name = text + (by_name ? 2 : 1);
+  size_t length = by_name ? strcspn(name, "=") : 1;
+  *attached = NULL;
+  if (by_name && name[length] == '=') *attached = name + length + 1;
+  if (!by_name && name[1]) *attached = name + 1;
+  for (int i = 0; i < p->command->option_count; i++) {
+    const ambulo__cli_option *option = &p->command->options[i];
+    int match = by_name ? strlen(option->name) == length && !strncmp(option->name, name, length)
+                        : option->letter == name[0];
+    if (match) return i;
+  }
+  unknown_option(p, name, length);
+  return -1;
+}
+
+/* 0, or the exit code of a usage error */
+static int parse_option(parser *p) {
+  const char *attached;
+  int index = find_option(p, &attached);
+  if (index < 0) return 2;
+  const ambulo__cli_option *option = &p->command->options[index];
+  const char *value = attached;
+  if (!option->value && attached)
+    return ambulo__cli_usage_error(p->command->name, NULL, "--%s takes no value (got '%s')",
+                                   option->name, attached);
+  if (option->value && !attached) {
+    if (p->next + 1 >= p->argc)
+      return ambulo__cli_usage_error(p->command->name, NULL, "--%s needs a value: %s",
+                                     option->name, option->value);
+    value = p->argv[++p->next];
+  }
+  p->options[p->given_count] = index;
+  p->values[p->given_count++] = value;
+  return 0;
+}
+
+static int parse(parser *p, int *help) {
+  int options_ended = 0;
+  for (; p->next < p->argc; p->next++) {
+    const char *text = p->argv[p->next];
+    if (options_ended || text[0] != '-' || !text[1]) {
+      p->arguments[p->argument_count++] = text;
+    } else if (!strcmp(text, "--")) {
+      options_ended = 1;
+    } else if (!strcmp(text, "--help") || !strcmp(text, "-h")) {
+      *help = 1;
+      return 0;
+    } else {
+      int code = parse_option(p);
+      if (code) return code;
+    }
+  }
+  const ambulo__cli_command *c = p->command;
+  if (p->argument_count < c->minimum)
+    return ambulo__cli_usage_error(c->name, NULL, "missing argument; expected %s", c->arguments);
+  if (c->maximum >= 0 && p->argument_count > c->maximum)
+    return ambulo__cli_usage_error(c->name, NULL, "unexpected argument '%s'; expected %s",
+                                   p->arguments[c->maximum], c->arguments);
+  return 0;
+}
+
+int ambulo__cli_run(const ambulo__cli_command *command, int argc, char **argv) {
+  size_t room = (size_t)argc + 1;
+  parser p = {.command = command, .argc = argc, .next = 2, .argv = argv};
+  p.arguments = calloc(room, sizeof *p.arguments);
+  p.values = calloc(room, sizeof *p.values);
+  p.options = calloc(room, sizeof *p.options);
+  int code = 5, help = 0;
+  if (p.arguments && p.values && p.options) {
+    code = parse(&p, &help);
+    if (help) {
+      ambulo__cli_print_help(command);
+    } else if (!code) {
+      ambulo__cli_input input = {command,   p.arguments, p.argument_count,
+                                 p.options, p.values,    p.given_count};
+      code = command->run(&input);
+    }
+  } else {
+    ambulo__cli_error("E_MEMORY", NULL, "not enough memory for the command line");
+  }
+  free(p.arguments);
+  free(p.values);
+  free(p.options);
+  return code;
+}

@@ -1,0 +1,196 @@
+/* cli/cmd_solve.c - ambulo solve: one problem, one result folder.
+ *
+ * Order: output is checked before any work is done; the problem is read; it is solved with a
+ * progress line on terminals; the result is written whatever the verdict, and marked. Ctrl-C
+ * and SIGTERM stop the solver at its next evaluation and keep the best point; a second one
+ * ends the program at once. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "cli/summary.h"
+
+/* the only thing a signal handler may touch */
+static volatile sig_atomic_t pending_signal = 0;
+
+static void note_signal(int number) {
+  pending_signal = number;
+}
+
+static void catch_signals(void) {
+  struct sigaction action;
+  memset(&action, 0, sizeof action);
+  action.sa_handler = note_signal;
+  action.sa_flags = (int)SA_RESETHAND;  /* the second one kills */
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+typedef struct job {
+  const ambulo__cli_input *input;
+  char *directory;               /* where the result goes */
+  ambulo_report_options report;
+  ambulo_problem *problem;
+  ambulo_result *result;
+  double *start;                 /* NULL: zero */
+  double time_limit;             /* s; < 0: as in the file */
+  ambulo_diagnostics *diagnostics;
+  int terminal;                  /* 1: show progress */
+} job;
+
+static int show_progress(void *user, const ambulo_progress *p) {
+  const job *j = user;
+  if (j->terminal) {
+    char left[40] = "";
+    if (p->seconds_left >= 0.0) snprintf(left, sizeof left, ", %.0f s left", p->seconds_left);
+    fprintf(stderr, "\riteration %d: objective %.6g, violation %.1e, %d evaluations, %.1f s%s\033[K",
+            p->iteration, p->objective, p->violation, p->evaluations, p->seconds, left);
+    fflush(stderr);
+  }
+  return pending_signal != 0;
+}
+
+/* "<problem file without folder and ending>_result" */
+static char *default_directory(const char *problem) {
+  const char *base = strrchr(problem, '/');
+  base = base ? base + 1 : problem;
+  const char *dot = strrchr(base, '.');
+  size_t length = dot && dot != base ? (size_t)(dot - base) : strlen(base);
+  static const char ending[] = "_result";
+  char *name = malloc(length + sizeof ending);
+  if (!name) return NULL;
+  memcpy(name, base, length);
+  memcpy(name + length, ending, sizeof ending);
+  return name;
+}
+
+static int read_options(job *j) {
+  const ambulo__cli_input *input = j->input;
+  const char *directory = ambulo__cli_value(input, "output");
+  if (directory && !directory[0])
+    return ambulo__cli_usage_error("solve", NULL, "--output is empty; expected a folder name");
+  j->report = ambulo_report_options_default();
+  j->report.overwrite = ambulo__cli_flag(input, "force");
+  j->time_limit = -1.0;
+  if (!ambulo__cli_number(input, "time-limit", 0.0, 1e9, &j->time_limit) ||
+      !ambulo__cli_integer(input, "samples", 2, 1000000, &j->report.samples))
+    return 2;
+  j->directory = directory ? strdup(directory) : default_directory(input->arguments[0]);
+  j->diagnostics = ambulo_diagnostics_create(NULL);
+  if (!j->directory || !j->diagnostics) return ambulo_status_exit_code(AMBULO_E_MEMORY);
+  j->terminal = isatty(STDERR_FILENO) && !ambulo__cli_flag(input, "quiet");
+  return 0;
+}
+
+static ambulo_status load_problem(job *j) {
+  const char **overrides = calloc((size_t)j->input->given_count + 1, sizeof *overrides);
+  if (!overrides) return AMBULO_E_MEMORY;
+  int count = ambulo__cli_values(j->input, "set", overrides);
+  ambulo_status status = ambulo_problem_load(j->input->arguments[0], overrides, count, NULL,
+                                             j->diagnostics, &j->problem);
+  free(overrides);
+  return status;
+}
+
+static ambulo_status load_start(job *j) {
+  const char *start = ambulo__cli_value(j->input, "start");
+  if (!start || !strcmp(start, "zero")) return AMBULO_OK;
+  j->start = calloc((size_t)ambulo_problem_variable_count(j->problem), sizeof *j->start);
+  if (!j->start) return AMBULO_E_MEMORY;
+  return ambulo_solution_load(start, j->problem, NULL, j->diagnostics, j->start);
+}
+
+static ambulo_status solve(job *j) {
+  ambulo_options options = ambulo_problem_options(j->problem);
+  if (j->time_limit >= 0.0) options.time_limit = j->time_limit;
+  options.progress = show_progress;
+  options.user = j;
+  catch_signals();
+  ambulo_status status =
+      ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
+  if (j->terminal) fprintf(stderr, "\r\033[K");
+  return status;
+}
+
+static ambulo_status print_outcome(job *j) {
+  if (ambulo__cli_flag(j->input, "json")) {
+    char *text = NULL;
+    ambulo_status status = ambulo_report_summary(j->problem, j->result, NULL, &text);
+    if (status) return status;
+    fputs(text, stdout);
+    ambulo_text_free(text, NULL);
+  } else if (!ambulo__cli_flag(j->input, "quiet")) {
+    ambulo__cli_print_result(j->problem, j->result);
+    printf("written to   %s\n", j->directory);
+  }
+  return AMBULO_OK;
+}
+
+static int verdict_exit_code(const ambulo_result *result) {
+  ambulo_verdict verdict = ambulo_result_verdict(result);
+  if (pending_signal) return 128 + (int)pending_signal;
+  return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE ? 0 : 1;
+}
+
+static int run_job(job *j) {
+  int code = read_options(j);
+  if (code) return code;
+  const char *file = j->input->arguments[0];
+  ambulo_status status = ambulo_report_check(j->directory, &j->report, j->diagnostics);
+  if (status) return ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
+  status = load_problem(j);
+  if (!status) status = load_start(j);
+  if (!status) status = solve(j);
+  if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);
+  status = ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL,
+                               j->diagnostics);
+  code = ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
+  ambulo_status printed = print_outcome(j);
+  if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
+  return code ? code : verdict_exit_code(j->result);
+}
+
+static int run(const ambulo__cli_input *input) {
+  job j = {.input = input};
+  int code = run_job(&j);
+  ambulo_result_free(j.result);
+  ambulo_problem_free(j.problem);
+  ambulo_diagnostics_free(j.diagnostics);
+  free(j.start);
+  free(j.directory);
+  return code;
+}
+
+static const ambulo__cli_option options[] = {
+    {"output", 'o', "DIR", "result folder (default: <problem>_result)"},
+    {"set", 0, "path=value", "replace a value of the problem file, e.g. time.intervals=36;\nmay be repeated"},
+    {"start", 0, "zero|FILE", "start from zero (default) or from a solution.yaml"},
+    {"time-limit", 0, "S", "stop after S seconds with the best point; 0: no limit"},
+    {"samples", 0, "n", "times in motion.csv (default: the time nodes)"},
+    {"force", 0, NULL, "replace an existing result folder"},
+    {"quiet", 'q', NULL, "no progress, no summary"},
+    {"json", 0, NULL, "print summary.json instead of the summary"},
+};
+
+const ambulo__cli_command ambulo__cli_solve = {
+    .name = "solve",
+    .arguments = "PROBLEM.yaml",
+    .summary = "predict a motion and write a result folder",
+    .description =
+        "Solves the problem and writes summary.json, motion.csv, motion.sto, solution.yaml and\n"
+        "gait.svg into a new folder, all or nothing. The verdict comes from an audit of the\n"
+        "point, not from the solver. Exit code 0: feasible or optimal; 1: the result was written\n"
+        "but is not a solution, and says so.",
+    .example = "ambulo solve models/yardstick_36.yaml -o walk --time-limit 60\n"
+               "ambulo solve models/yardstick_72.yaml --start walk/solution.yaml",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum = 1,
+    .maximum = 1,
+    .run = run,
+};

@@ -1,0 +1,13 @@
+/* cli/commands.h - the commands, one file each. */
+#ifndef AMBULO_CLI_COMMANDS_H
+#define AMBULO_CLI_COMMANDS_H
+
+#include "cli/args.h"
+
+extern const ambulo__cli_command ambulo__cli_solve;
+extern const ambulo__cli_command ambulo__cli_evaluate;
+extern const ambulo__cli_command ambulo__cli_check;
+extern const ambulo__cli_command ambulo__cli_info;
+extern const ambulo__cli_command ambulo__cli_inverse;
+
+#endif

@@ -1,0 +1,79 @@
+/* cli/main.c - the program: finds the command, runs it, and makes sure its output arrived. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+
+static const ambulo__cli_command *const commands[] = {
+    &ambulo__cli_solve, &ambulo__cli_evaluate, &ambulo__cli_check,
+    &ambulo__cli_info,  &ambulo__cli_inverse,
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static void print_overview(void) {
+  printf("ambulo %s - predicts human motion by optimization\n\n", ambulo_version());
+  printf("usage: ambulo COMMAND ARGUMENTS [options]\n\ncommands:\n");
+  for (int i = 0; i < COMMAND_COUNT; i++)
+    printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
+  printf("\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts.\n");
+  printf("exit codes: 0 solved; 1 ended without a valid solution; 2 usage; 3 invalid input;\n"
+         "            4 input/output; 5 memory or size limit; 6 internal error;\n"
+         "            130/143 interrupted (the best point is saved)\n");
+  printf("\nexample:\n  ambulo solve models/yardstick_12.yaml -o walk\n");
+}
+
+static void print_version(void) {
+  ambulo_versions versions;
+  ambulo_versions_get(&versions);
+  printf("ambulo %s\n", versions.ambulo);
+  printf("NLopt %s, libyaml %s, %s, instruction set %s\n", versions.nlopt, versions.libyaml,
+         versions.blas, versions.instruction_set);
+}
+
+/* OpenBLAS starts a thread per core before main(); the matrices here are too small to gain
+ * from them. The variable is only read at load time, so the program starts itself again. */
+static void single_threaded_blas(char **argv) {
+  if (getenv("OPENBLAS_NUM_THREADS")) return;
+  if (setenv("OPENBLAS_NUM_THREADS", "1", 1)) return;
+  execv("/proc/self/exe", argv);
+  /* without /proc the program goes on with the threads it has */
+}
+
+static int unknown_command(const char *word) {
+  const char *names[COMMAND_COUNT];
+  char hint[64];
+  for (int i = 0; i < COMMAND_COUNT; i++) names[i] = commands[i]->name;
+  const char *nearest = ambulo__cli_nearest(word, names, COMMAND_COUNT);
+  if (nearest) ambulo__cli_format(hint, sizeof hint, "did you mean '%s'?", nearest);
+  return ambulo__cli_usage_error(NULL, nearest ? hint : NULL, "unknown %s '%s'",
+                                 word[0] == '-' ? "option" : "command", word);
+}
+
+static int dispatch(int argc, char **argv) {
+  if (argc < 2) return ambulo__cli_usage_error(NULL, NULL, "no command given");
+  const char *word = argv[1];
+  if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
+    print_overview();
+    return 0;
+  }
+  if (!strcmp(word, "--version") || !strcmp(word, "version")) {
+    print_version();
+    return 0;
+  }
+  for (int i = 0; i < COMMAND_COUNT; i++) {
+    if (!strcmp(word, commands[i]->name)) return ambulo__cli_run(commands[i], argc, argv);
+  }
+  return unknown_command(word);
+}
+
+int main(int argc, char **argv) {
+  ambulo__cli_guard_streams();
+  single_threaded_blas(argv);
+  /* a reader that closes the pipe shows up as a failed write, exit code 4 */
+  signal(SIGPIPE, SIG_IGN);
+  return ambulo__cli_finish(dispatch(argc, argv));
+}

@@ -1,0 +1,31 @@
+/* cli/output.h - data goes to stdout, messages go to stderr. */
+#ifndef AMBULO_CLI_OUTPUT_H
+#define AMBULO_CLI_OUTPUT_H
+
+#include "ambulo/ambulo.h"
+
+/* snprintf that always terminates and says nothing about truncation */
+void ambulo__cli_format(char *buffer, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* "ambulo: error[CODE]: ..." and an optional hint line. */
+void ambulo__cli_error(const char *code, const char *hint, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The same with E_ARGUMENT and a pointer to the command's help; returns 2. `command`
+ * may be NULL. */
+int ambulo__cli_usage_error(const char *command, const char *hint, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Prints every message of the list; if `status` is a failure that left no error in it,
+ * says what the status means. Returns the exit code of `status`. */
+int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
+                            const char *subject);
+
+/* Flushes stdout. `code` if all output arrived, else a message and 4. */
+int ambulo__cli_finish(int code);
+
+/* Descriptors 0, 1 and 2 exist afterwards, so that no file that is opened later takes
+ * their place; a missing stdout then fails to be written, as it should. */
+void ambulo__cli_guard_streams(void);
+
+#endif

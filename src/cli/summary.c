@@ -1,0 +1,140 @@
+/* cli/summary.c - a result as a person reads it: what is the point, how good is it, what did it cost. */
+#include "cli/summary.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void print_objective(const ambulo_problem *problem, const ambulo_result *result) {
+  int count = ambulo_problem_term_count(problem);
+  const double *terms = ambulo_result_terms(result);
+  if (count == 0) {
+    printf("objective    none: a feasible motion was asked for\n");
+    return;
+  }
+  printf("objective    %.8g\n", ambulo_result_objective(result));
+  for (int i = 0; i < count; i++)
+    printf("  %-24s %.6g\n", ambulo_problem_term_name(problem, i), terms[i]);
+}
+
+static void print_place(const ambulo_violation *v) {
+  if (v->subject && v->subject[0]) printf("  %s", v->subject);
+  if (v->detail && v->detail[0]) printf(" %s", v->detail);
+  printf("  t = %.3f s\n", v->time);
+}
+
+static void print_violation(const char *label, const ambulo_violation *v) {
+  if (!v->family || !v->family[0]) {
+    printf("  %-24s no rows\n", label);
+  } else if (!(v->worst > 0.0)) {
+    printf("  %-24s none\n", label);
+  } else {
+    printf("  %-24s %.2e %s  %s", label, v->worst, v->unit, v->family);
+    print_place(v);
+  }
+}
+
+static void print_audit(const ambulo_result *result) {
+  const ambulo_audit *audit = ambulo_result_audit(result);
+  printf("audit\n");
+  print_violation("violation at nodes", &audit->violation);
+  print_violation("violation between nodes", &audit->dense_violation);
+  printf("  %-24s %.2e\n", "KKT residual", audit->kkt);
+  printf("  %-24s %d, rank %d", "active rows", audit->active_rows, audit->rank);
+  if (audit->dropped_equalities) printf(", %d dependent equalities", audit->dropped_equalities);
+  printf("\n");
+}
+
+static void print_families(const ambulo_result *result) {
+  int count = ambulo_result_family_count(result);
+  if (count == 0) return;
+  printf("worst violation by family\n");
+  for (int i = 0; i < count; i++) {
+    const ambulo_violation *v = ambulo_result_family(result, i);
+    printf("  %-24s %.2e %s", v->family, v->worst, v->unit);
+    if (v->worst > 0.0) {
+      print_place(v);
+    } else {
+      printf("\n");
+    }
+  }
+}
+
+void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {
+  ambulo_verdict verdict = ambulo_result_verdict(result);
+  const ambulo_timing *timing = ambulo_result_timing(result);
+  printf("problem      %s\n", ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "");
+  printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  print_objective(problem, result);
+  print_audit(result);
+  print_families(result);
+  printf("size         %d unknowns, %d rows (%d equalities), %d nodes\n",
+         ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem),
+         ambulo_problem_equality_count(problem), ambulo_problem_node_count(problem));
+  printf("effort       %d iterations, %d evaluations, %.3f s (evaluation %.3f, linear algebra "
+         "%.3f, NLopt %.3f)\n",
+         ambulo_result_iterations(result), ambulo_result_evaluations(result), timing->total,
+         timing->evaluate, timing->linear_algebra, timing->nlopt);
+  if (ambulo_result_ending(result)) printf("ending       %s\n", ambulo_result_ending(result));
+}
+
+void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result) {
+  const double *values = ambulo_result_rows(result);
+  const double *multipliers = ambulo_result_multipliers(result);
+  printf("rows\n%7s %-20s %-20s %-10s %8s %2s %14s %-6s %12s\n", "row", "family", "subject",
+         "detail", "time", "", "value", "unit", "multiplier");
+  for (int r = 0; r < ambulo_problem_row_count(problem); r++) {
+    ambulo_row row;
+    if (ambulo_problem_row(problem, r, &row)) continue;
+    printf("%7d %-20s %-20s %-10s %8.4f %2s %14.6e %-6s %12.4e\n", r, row.family, row.subject,
+           row.detail, row.time, row.relation == AMBULO_EQUAL ? "=" : ">=", values[r], row.unit,
+           multipliers ? multipliers[r] : 0.0);
+  }
+}
+
+/* JSON has no infinities or NaN */
+static void print_json_number(double value) {
+  if (isfinite(value)) {
+    printf("%.17g", value);
+  } else {
+    printf("null");
+  }
+}
+
+/* names consist of letters, digits, '_', '-', '.'; units and details are fixed words: none
+ * needs an escape, but a quote or backslash of a caller's own row is not let through */
+static void print_json_text(const char *key, const char *text) {
+  printf("\"%s\": \"", key);
+  for (const char *c = text ? text : ""; *c; c++) {
+    if (*c == '"' || *c == '\\' || (unsigned char)*c < 0x20) {
+      printf("\\u%04x", (unsigned char)*c);
+    } else {
+      putchar(*c);
+    }
+  }
+  printf("\", ");
+}
+
+void ambulo__cli_print_rows_json(const ambulo_problem *problem, const ambulo_result *result) {
+  const double *values = ambulo_result_rows(result);
+  const double *multipliers = ambulo_result_multipliers(result);
+  int count = ambulo_problem_row_count(problem);
+  printf("[");
+  for (int r = 0; r < count; r++) {
+    ambulo_row row;
+    if (ambulo_problem_row(problem, r, &row)) continue;
+    printf("%s\n    {", r ? "," : "");
+    print_json_text("family", row.family);
+    print_json_text("subject", row.subject);
+    print_json_text("detail", row.detail);
+    print_json_text("unit", row.unit);
+    print_json_text("relation", row.relation == AMBULO_EQUAL ? "= 0" : ">= 0");
+    printf("\"time\": ");
+    print_json_number(row.time);
+    printf(", \"value\": ");
+    print_json_number(values[r]);
+    printf(", \"multiplier\": ");
+    print_json_number(multipliers ? multipliers[r] : 0.0);
+    printf("}");
+  }
+  printf("\n  ]");
+}

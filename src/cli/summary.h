@@ -1,0 +1,16 @@
+/* cli/summary.h - a result in words, on stdout. */
+#ifndef AMBULO_CLI_SUMMARY_H
+#define AMBULO_CLI_SUMMARY_H
+
+#include "ambulo/ambulo.h"
+
+/* Verdict, objective by term, audit by family, effort. */
+void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result);
+
+/* Every row: index, family, subject, detail, time, value, unit, multiplier. */
+void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result);
+
+/* The same as a JSON array. */
+void ambulo__cli_print_rows_json(const ambulo_problem *problem, const ambulo_result *result);
+
+#endif
