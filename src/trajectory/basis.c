@@ -13,9 +13,12 @@
 
 static const ambulo__basis_methods *methods_of(ambulo__basis_kind kind) {
   switch (kind) {
-  case AMBULO__BSPLINE: return &ambulo__bspline_methods;
-  case AMBULO__CENTRAL_DIFFERENCE: return &ambulo__central_difference_methods;
-  case AMBULO__HERMITE: return &ambulo__hermite_methods;
+  case AMBULO__BSPLINE:
+    return &ambulo__bspline_methods;
+  case AMBULO__CENTRAL_DIFFERENCE:
+    return &ambulo__central_difference_methods;
+  case AMBULO__HERMITE:
+    return &ambulo__hermite_methods;
   }
   return NULL;
 }
@@ -94,13 +97,27 @@ void ambulo__basis_free(ambulo__basis *basis) {
   ambulo__free(&allocator, basis);
 }
 
-ambulo__basis_kind ambulo__basis_get_kind(const ambulo__basis *basis) { return basis->kind; }
-int ambulo__basis_control_points(const ambulo__basis *basis) { return basis->control_points; }
-int ambulo__basis_degree(const ambulo__basis *basis) { return basis->degree; }
-int ambulo__basis_intervals(const ambulo__basis *basis) { return basis->intervals; }
-double ambulo__basis_duration(const ambulo__basis *basis) { return basis->duration; }
-const double *ambulo__basis_breakpoints(const ambulo__basis *basis) { return basis->breakpoints; }
-int ambulo__basis_span(const ambulo__basis *basis) { return basis->span; }
+ambulo__basis_kind ambulo__basis_get_kind(const ambulo__basis *basis) {
+  return basis->kind;
+}
+int ambulo__basis_control_points(const ambulo__basis *basis) {
+  return basis->control_points;
+}
+int ambulo__basis_degree(const ambulo__basis *basis) {
+  return basis->degree;
+}
+int ambulo__basis_intervals(const ambulo__basis *basis) {
+  return basis->intervals;
+}
+double ambulo__basis_duration(const ambulo__basis *basis) {
+  return basis->duration;
+}
+const double *ambulo__basis_breakpoints(const ambulo__basis *basis) {
+  return basis->breakpoints;
+}
+int ambulo__basis_span(const ambulo__basis *basis) {
+  return basis->span;
+}
 
 /* interval of t: breakpoint[i] <= t < breakpoint[i + 1], the last one closed */
 static int find_interval(const ambulo__basis *basis, double t) {

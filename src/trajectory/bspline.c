@@ -17,7 +17,9 @@
  * last weight of orders 0 .. p - 1 exactly zero. */
 #include "trajectory/basis_methods.h"
 
-static int control_points(int degree, int intervals) { return intervals + degree; }
+static int control_points(int degree, int intervals) {
+  return intervals + degree;
+}
 
 static int span(int degree, int intervals) {
   (void)intervals;

@@ -15,7 +15,7 @@
 struct ambulo__lane_map {
   ambulo_allocator allocator;
   int nodes, coordinates;
-  ambulo__basis_point *points;  /* [blocks * 8] */
+  ambulo__basis_point *points; /* [blocks * 8] */
 };
 
 ambulo_status ambulo__lane_map_create(const ambulo__basis *basis, const double *times, int nodes,
@@ -47,8 +47,12 @@ void ambulo__lane_map_free(ambulo__lane_map *map) {
   ambulo__free(&allocator, map);
 }
 
-int ambulo__lane_map_nodes(const ambulo__lane_map *map) { return map->nodes; }
-int ambulo__lane_map_coordinates(const ambulo__lane_map *map) { return map->coordinates; }
+int ambulo__lane_map_nodes(const ambulo__lane_map *map) {
+  return map->nodes;
+}
+int ambulo__lane_map_coordinates(const ambulo__lane_map *map) {
+  return map->coordinates;
+}
 const ambulo__basis_point *ambulo__lane_map_points(const ambulo__lane_map *map) {
   return map->points;
 }
@@ -90,9 +94,14 @@ void ambulo__lane_map_forward(const ambulo__lane_map *map, const double *x, doub
     const double *control = x + (size_t)point->first * (size_t)d;
     size_t at = (size_t)(node / AMBULO__LANES) * block_stride + (size_t)(node % AMBULO__LANES);
     switch (point->span) {
-    case 3: forward_node(point, 3, d, control, q + at, qd + at, qdd + at); break;
-    case 4: forward_node(point, 4, d, control, q + at, qd + at, qdd + at); break;
-    default: forward_node(point, point->span, d, control, q + at, qd + at, qdd + at);
+    case 3:
+      forward_node(point, 3, d, control, q + at, qd + at, qdd + at);
+      break;
+    case 4:
+      forward_node(point, 4, d, control, q + at, qd + at, qdd + at);
+      break;
+    default:
+      forward_node(point, point->span, d, control, q + at, qd + at, qdd + at);
     }
     if (jerk) forward_jerk(point, d, x, jerk + at);
   }
@@ -131,9 +140,14 @@ void ambulo__lane_map_transpose(const ambulo__lane_map *map, const double *gq, c
     double *control = gx + (size_t)point->first * (size_t)d;
     size_t at = (size_t)(node / AMBULO__LANES) * block_stride + (size_t)(node % AMBULO__LANES);
     switch (point->span) {
-    case 3: transpose_node(point, 3, d, gq + at, gqd + at, gqdd + at, control); break;
-    case 4: transpose_node(point, 4, d, gq + at, gqd + at, gqdd + at, control); break;
-    default: transpose_node(point, point->span, d, gq + at, gqd + at, gqdd + at, control);
+    case 3:
+      transpose_node(point, 3, d, gq + at, gqd + at, gqdd + at, control);
+      break;
+    case 4:
+      transpose_node(point, 4, d, gq + at, gqd + at, gqdd + at, control);
+      break;
+    default:
+      transpose_node(point, point->span, d, gq + at, gqd + at, gqdd + at, control);
     }
     if (gjerk) transpose_jerk(point, d, gjerk + at, gx);
   }

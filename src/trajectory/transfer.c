@@ -145,7 +145,8 @@ static void add_sample(projection *p, const ambulo__basis_point *point, double w
     int column = point->first + a;
     double *gram = p->gram + (size_t)column * (size_t)(p->band + 1);
     for (int b = a; b < point->span; b++) gram[b - a] += w * point->weight[0][b];
-    for (int i = 0; i < p->d; i++) p->rhs[(size_t)i * (size_t)p->n + (size_t)column] += w * p->value[i];
+    for (int i = 0; i < p->d; i++)
+      p->rhs[(size_t)i * (size_t)p->n + (size_t)column] += w * p->value[i];
   }
 }
 

@@ -1,0 +1,77 @@
+/* base/file_steps.c - see file_steps.h. */
+#include "base/file_steps.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+ambulo_status ambulo__io_error(ambulo_diagnostics *diagnostics, const char *path,
+                               const char *action) {
+  ambulo__place place = {.file = path};
+  return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL, "cannot %s: %s", action,
+                       strerror(errno));
+}
+
+ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const char *path) {
+  ambulo__place place = {.file = path};
+  return ambulo__error(diagnostics, AMBULO_E_MEMORY, place, NULL, "out of memory");
+}
+
+char *ambulo__sibling_name(const ambulo_allocator *allocator, const char *path, const char *kind,
+                           int k) {
+  size_t size = strlen(path) + strlen(kind) + 48;
+  char *name = ambulo__alloc(allocator, size, 1);
+  if (name) snprintf(name, size, "%s.%s-%ld-%d", path, kind, (long)getpid(), k);
+  return name;
+}
+
+char *ambulo__join_path(const ambulo_allocator *allocator, const char *folder, const char *name) {
+  size_t size = strlen(folder) + strlen(name) + 2;
+  char *path = ambulo__alloc(allocator, size, 1);
+  if (path) snprintf(path, size, "%s/%s", folder, name);
+  return path;
+}
+
+int ambulo__write_all(int file, const char *data, size_t length) {
+  while (length > 0) {
+    ssize_t count = write(file, data, length);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return -1;
+    data += count;
+    length -= (size_t)count;
+  }
+  return 0;
+}
+
+int ambulo__sync_folder(const char *path) {
+  int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return -1;
+  int result = fsync(folder);
+  int reason = errno;
+  close(folder);
+  if (result != 0 && (reason == EINVAL || reason == ENOTSUP || reason == EROFS)) return 0;
+  errno = reason;
+  return result;
+}
+
+ambulo_status ambulo__sync_parent(const char *path, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics) {
+  const char *slash = strrchr(path, '/');
+  int result;
+  if (!slash) {
+    result = ambulo__sync_folder(".");
+  } else if (slash == path) {
+    result = ambulo__sync_folder("/");
+  } else {
+    char *parent = ambulo__strdup(allocator, path);
+    if (!parent) return ambulo__io_memory_error(diagnostics, path);
+    parent[slash - path] = '\0';
+    result = ambulo__sync_folder(parent);
+    int reason = errno;
+    ambulo__free(allocator, parent);
+    errno = reason;
+  }
+  return result == 0 ? AMBULO_OK : ambulo__io_error(diagnostics, path, "flush the folder of");
+}

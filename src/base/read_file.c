@@ -1,0 +1,65 @@
+/* base/read_file.c - POSIX reading; see read_file.h for what is refused. */
+#include "base/read_file.h"
+#include "base/file_steps.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* reads to the end or to `limit` + 1 bytes; -1 with errno on failure */
+static ssize_t read_all(int file, char *buffer, size_t capacity) {
+  size_t length = 0;
+  while (length < capacity) {
+    ssize_t count = read(file, buffer + length, capacity - length);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return -1;
+    if (count == 0) break;
+    length += (size_t)count;
+  }
+  return (ssize_t)length;
+}
+
+static ambulo_status read_open_file(int file, const char *path, size_t limit,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, char **text, size_t *length) {
+  ambulo__place place = {.file = path};
+  struct stat info;
+  if (fstat(file, &info) != 0) return ambulo__io_error(diagnostics, path, "inspect");
+  if (!S_ISREG(info.st_mode)) {
+    return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL, "not a regular file%s",
+                         S_ISDIR(info.st_mode) ? " (it is a folder)" : "");
+  }
+  if ((unsigned long long)info.st_size > (unsigned long long)limit) {
+    return ambulo__error(diagnostics, AMBULO_E_LIMIT, place, NULL,
+                         "file too large (got %lld bytes); expected at most %zu",
+                         (long long)info.st_size, limit);
+  }
+  size_t size = (size_t)info.st_size;
+  char *data = ambulo__alloc(allocator, size + 1, 1);
+  if (!data) {
+    return ambulo__error(diagnostics, AMBULO_E_MEMORY, place, NULL, "cannot allocate %zu bytes",
+                         size + 1);
+  }
+  ssize_t count = read_all(file, data, size);
+  if (count < 0) {
+    ambulo_status status = ambulo__io_error(diagnostics, path, "read");
+    ambulo__free(allocator, data);
+    return status;
+  }
+  data[count] = '\0';
+  *text = data;
+  *length = (size_t)count;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__read_file(const char *path, size_t limit, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, char **text, size_t *length) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  /* O_NONBLOCK: opening a FIFO without a writer would wait for one */
+  int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return ambulo__io_error(diagnostics, path, "open");
+  ambulo_status status = read_open_file(file, path, limit, &own, diagnostics, text, length);
+  close(file);
+  return status;
+}

@@ -1,0 +1,14 @@
+/* base/read_file.h - a whole regular file into memory. */
+#ifndef AMBULO_BASE_READ_FILE_H
+#define AMBULO_BASE_READ_FILE_H
+
+#include "base/alloc.h"
+#include "base/diagnostics.h"
+
+/* *text: the bytes and a NUL, free with ambulo__free. Directories, FIFOs, sockets and
+ * devices are refused without blocking. Errors: E_IO (with strerror), E_LIMIT (larger than
+ * `limit` bytes), E_MEMORY. */
+ambulo_status ambulo__read_file(const char *path, size_t limit, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, char **text, size_t *length);
+
+#endif
