@@ -1,91 +1,197 @@
 # Ambulo: build, test, check, install. `make help` lists the targets.
 #
-# Two commands are complete on a fresh machine: `make demo` and `make check`.
+#   make VARIANT=debug|san|cov   other builds, each in a folder of its own
+#   make CC=clang CFLAGS=-O3     another compiler, flags added at the end
+#   make JOBS=1                  compile and test one thing at a time
 
 VARIANT ?= release
-CC      ?= cc
-PREFIX  ?= /usr/local
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+PKG_CONFIG ?= pkg-config
 
-VERSION := $(shell sed -n 's/.*AMBULO_VERSION_STRING "\(.*\)"/\1/p' include/ambulo/ambulo.h)
-SOVERSION := 0
-UNAME_S := $(shell uname -s)
-UNAME_M := $(shell uname -m)
-
-BUILD := build
-ifneq ($(VARIANT),release)
-BUILD := build/$(VARIANT)
+ifeq ($(VARIANT),release)
+  OUT := build
+  MODE := -O2 -g
+else ifeq ($(VARIANT),debug)
+  OUT := build/debug
+  MODE := -O0 -g3
+else ifeq ($(VARIANT),san)
+  OUT := build/san
+  MODE := -O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
+else ifeq ($(VARIANT),cov)
+  OUT := build/cov
+  MODE := -O0 -g --coverage
+else
+  $(error VARIANT is '$(VARIANT)'; expected release, debug, san or cov)
 endif
+
+# ------------------------------------------------------------------- flags
+
+VERSION := $(shell sed -n 's/^.define AMBULO_VERSION_STRING "\(.*\)"/\1/p' include/ambulo/ambulo.h)
+SOVERSION := $(firstword $(subst ., ,$(VERSION)))
+MACHINE := $(shell $(CC) -dumpmachine 2>/dev/null || uname -m)
+X86 := $(filter x86_64%,$(MACHINE))
 
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
-            -Wmissing-prototypes -Wvla -Werror
-# Contraction to fused multiply-add is off outside the kernels: the same source line then
-# gives the same bits whatever the compiler and the machine. The kernels turn it on for
-# themselves (below), where it is worth a factor of two. -ffast-math is off everywhere:
-# finite checks and compensated sums must mean what they say.
-CFLAGS_release := -O2 -g
-CFLAGS_debug   := -O0 -g3
-CFLAGS_san     := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
-CFLAGS_cov     := -O0 -g --coverage
-ALL_CFLAGS = -std=c11 $(WARNINGS) $(CFLAGS_$(VARIANT)) -ffp-contract=off -fPIC -fvisibility=hidden \
-             -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED -Iinclude -Isrc $(DEP_CFLAGS) $(CFLAGS)
-ALL_LDFLAGS = $(filter -fsanitize% --coverage,$(CFLAGS_$(VARIANT))) $(LDFLAGS)
+  -Wmissing-prototypes -Wvla -Werror
 
-DEP_CFLAGS := $(shell pkg-config --cflags nlopt yaml-0.1 2>/dev/null)
-BLAS_LIBS  := $(shell pkg-config --libs openblas 2>/dev/null || echo -lopenblas)
-DEP_LIBS   := $(shell pkg-config --libs nlopt yaml-0.1 2>/dev/null || echo -lnlopt -lyaml) $(BLAS_LIBS) -lm -lpthread
+# Floating point, decided here once.
+# Everywhere: no contraction, so that a*b + c rounds twice on every compiler and processor and
+# a result does not depend on how an expression happened to be grouped; no errno, which nothing
+# here reads and which keeps sqrt from being one instruction. Never -ffast-math: the code
+# tests for NaN and infinity.
+# Kernels (the innermost recursion over time nodes): contraction is allowed, since a fused
+# multiply-add is half of their speed and at most as far from the exact sum; their results are
+# compared to the reference with a tolerance, and differ in the last bits between instruction
+# sets. No trap is ever enabled, so operations may be moved across branches.
+FLOATING := -ffp-contract=off -fno-math-errno
+KERNEL := -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -Wno-psabi
+KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
+KERNEL_avx2 := -mavx2 -mfma
 
-# One kernel source, one object per instruction set, chosen at run time.
-KERNEL_FLAGS := -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math
-KERNEL_FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
-KERNEL_FLAGS_avx2   := -mavx2 -mfma
-ifneq ($(UNAME_M),x86_64)
-KERNEL_FLAGS_avx512 :=
-KERNEL_FLAGS_avx2 :=
+ALL_CPPFLAGS = -Iinclude -Isrc -D_POSIX_C_SOURCE=200809L -DAMBULO_BUILDING_SHARED $(CPPFLAGS)
+ALL_CFLAGS = -std=c11 $(WARNINGS) $(MODE) $(FLOATING) -fPIC -fvisibility=hidden
+
+# Libraries by pkg-config where it knows them, by their usual names otherwise.
+probe = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && $(PKG_CONFIG) $(2) $(1))
+libs_of = $(or $(call probe,$(1),--libs),$(2))
+links = $(shell echo 'int main(void) { return 0; }' | \
+  $(CC) -x c - $(1) -o /dev/null 2>/dev/null && echo yes)
+LAPACK_LIBS = $(or $(call probe,openblas,--libs),$(if $(call links,-lopenblas),-lopenblas),\
+  $(call probe,lapack blas,--libs),-llapack -lblas)
+ifeq ($(shell uname -s),Darwin)
+  export PKG_CONFIG_PATH := $(PKG_CONFIG_PATH):$(shell brew --prefix openblas 2>/dev/null)/lib/pkgconfig
+  SHARED := -dynamiclib -install_name @rpath/libambulo.so.$(SOVERSION)
+else
+  SHARED := -shared -Wl,-soname,libambulo.so.$(SOVERSION)
 endif
+DEPENDENCIES := nlopt yaml-0.1
+DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflags))
+LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(LAPACK_LIBS)) -lm -lpthread
+CMOCKA = $(call libs_of,cmocka,-lcmocka)
+ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
-LIB_SOURCES := $(filter-out src/cli/%,$(wildcard src/*/*.c))
-CLI_SOURCES := $(wildcard src/cli/*.c)
-LIB_OBJECTS := $(LIB_SOURCES:%.c=$(BUILD)/obj/%.o)
-CLI_OBJECTS := $(CLI_SOURCES:%.c=$(BUILD)/obj/%.o)
-TEST_SOURCES := $(wildcard tests/*/test_*.c)
-TESTS := $(TEST_SOURCES:tests/%.c=$(BUILD)/tests/%)
-BENCH_SOURCES := $(wildcard bench/bench_*.c)
-BENCHES := $(BENCH_SOURCES:bench/%.c=$(BUILD)/bench/%)
+# ----------------------------------------------------------------- sources
 
-.PHONY: all
-all: $(BUILD)/libambulo.a $(BUILD)/libambulo.so $(BUILD)/ambulo
+SOURCES := $(sort $(wildcard src/*/*.c))
+ifeq ($(X86),)
+  SOURCES := $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
+endif
+CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
+LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES)))
+CLI_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(CLI_SOURCES))
+TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
+TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
+BENCH_SOURCES := $(sort $(wildcard bench/bench_*.c))
+BENCHES := $(patsubst %.c,$(OUT)/%,$(BENCH_SOURCES))
+HEADERS := $(sort $(wildcard include/ambulo/*.h))
 
-$(BUILD)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.PHONY: all help setup demo check tests run-tests bench sanitize valgrind coverage \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror \
+  install uninstall clean force
+
+# A second make with as many jobs as there are processors, unless -j was given. It also reads
+# this file afresh, after the set-up may have installed what pkg-config is asked for.
+submake = +@$(MAKE) --no-print-directory $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
+
+help:
+	@echo 'make              build/ambulo, build/libambulo.a, build/libambulo.so'
+	@echo 'make demo         install what is missing, build, solve models/demo_walk.yaml'
+	@echo 'make check        install what is missing, build, run all tests'
+	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
+	@echo 'make valgrind     a few test programs under valgrind'
+	@echo 'make coverage     line coverage of the tests, by folder'
+	@echo 'make lint         format, static analysis, folder order, sizes, symbols, test mirror'
+	@echo 'make bench        build and run the programs of bench/'
+	@echo 'make setup        only install what is missing'
+	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
+	@echo 'make clean        remove build/'
+	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS='
+
+# ------------------------------------------------------------------- build
+
+all: $(OUT)/libambulo.a $(OUT)/libambulo.so $(if $(CLI_SOURCES),$(OUT)/ambulo)
+
+# rewritten only when what it says changes: objects are rebuilt with new flags, archives
+# with a new list of sources
+define RECORD
+@mkdir -p $(@D); echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
+endef
+$(OUT)/obj/flags: force
+	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(KERNEL) $(CFLAGS))
+$(OUT)/obj/sources: force
+	$(call RECORD,$(SOURCES) $(LDFLAGS) $(LIBS))
+
+kernel_flags = $(KERNEL) $(KERNEL_$(patsubst kernels_%,%,$(basename $(notdir $<))))
+compile = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
+
+$(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) $(KERNEL_FLAGS) $(KERNEL_FLAGS_$*) -MMD -MP -c $< -o $@
+	$(call compile,$(if $(filter release,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))))
 
-$(BUILD)/obj/%.o: %.c
+$(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
+	$(call compile,$(if $(filter tests/%,$<),-Itests))
 
-$(BUILD)/libambulo.a: $(LIB_OBJECTS)
+$(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
-	ar rcs $@ $^
+	$(AR) rcs $@ $(LIB_OBJECTS)
 
-$(BUILD)/libambulo.so: $(LIB_OBJECTS)
-	$(CC) -shared -Wl,-soname,libambulo.so.$(SOVERSION) $(ALL_LDFLAGS) $^ -o $@ $(DEP_LIBS)
+$(OUT)/libambulo.so: $(LIB_OBJECTS) $(OUT)/obj/sources
+	$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
-$(BUILD)/ambulo: $(CLI_OBJECTS) $(BUILD)/libambulo.a
-	$(CC) $(ALL_LDFLAGS) $(CLI_OBJECTS) $(BUILD)/libambulo.a -o $@ $(DEP_LIBS)
+$(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a
+	$(CC) $(MODE) $(CLI_OBJECTS) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
 
-$(BUILD)/tests/%: tests/%.c $(BUILD)/libambulo.a
+# the parts of the program are linked into its tests, its main() is not
+CLI_PARTS := $(filter-out %/main.o,$(CLI_OBJECTS))
+$(OUT)/tests/cli/test_%: $(OUT)/obj/tests/cli/test_%.o $(CLI_PARTS) $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) -Itests -DAMBULO_SOURCE_DIR='"$(CURDIR)"' -MMD -MP $(ALL_LDFLAGS) $< $(BUILD)/libambulo.a -o $@ -lcmocka $(DEP_LIBS)
+	$(CC) $(MODE) $< $(CLI_PARTS) $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
-$(BUILD)/bench/%: bench/%.c $(BUILD)/libambulo.a
+$(OUT)/tests/%: $(OUT)/obj/tests/%.o $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) -DAMBULO_SOURCE_DIR='"$(CURDIR)"' -MMD -MP $(ALL_LDFLAGS) $< $(BUILD)/libambulo.a -o $@ $(DEP_LIBS)
+	$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
-.PHONY: tests benches clean
+$(OUT)/bench/%: $(OUT)/obj/bench/%.o $(OUT)/libambulo.a
+	@mkdir -p $(@D)
+	$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
+
+.SECONDARY:
+-include $(wildcard $(OUT)/obj/*/*.d $(OUT)/obj/*/*/*.d)
+
+# --------------------------------------------------- set-up, demo and tests
+
+# installs only what a build, a test run or lint lacks; the stamp makes it instant afterwards
+build/.ready-%: .setup/install.sh
+	@.setup/install.sh $*
+	@mkdir -p build && touch $@
+setup: build/.ready-test
+
+demo: build/.ready-build
+	$(submake) all
+	build/ambulo solve models/demo_walk.yaml -o build/demo --force
+
+check: build/.ready-test
+	$(submake) run-tests
+
 tests: $(TESTS)
-benches: $(BENCHES)
+
+# every program that was built runs, whatever became of the others; a failed build is a failure
+run-tests:
+	+@status=0; $(MAKE) --no-print-directory -k all tests || status=$$?; \
+	  BUILD_STATUS=$$status JOBS=$(JOBS) OUT=$(OUT) tests/support/run_tests.sh $(TESTS)
+
+sanitize: build/.ready-test
+	$(submake) VARIANT=san run-tests
+
+bench: build/.ready-build
+	$(submake) $(BENCHES)
+	@for program in $(BENCHES); do echo "# $$program"; $$program || exit 1; done
 
 clean:
 	rm -rf build
-
--include $(LIB_OBJECTS:.o=.d) $(CLI_OBJECTS:.o=.d) $(TESTS:=.d) $(BENCHES:=.d)
+force:

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Runs test programs (arguments) and tests/cli/run.sh, JOBS at a time, and sums up.
+# The last line is "N passed, N failed"; the exit status is 0 only when nothing failed.
+# Environment: OUT (build folder), JOBS, BUILD_STATUS (non-zero: something did not build),
+# TEST_WRAPPER (a command put before each program), TEST_TIMEOUT in seconds.
+set -u
+out=${OUT:-build}
+logs=$out/logs
+rm -rf "$logs"
+mkdir -p "$logs"
+export logs TEST_WRAPPER=${TEST_WRAPPER:-} TEST_TIMEOUT=${TEST_TIMEOUT:-900}
+export OPENBLAS_NUM_THREADS=1 AMBULO=$PWD/$out/ambulo
+
+run_one() {
+  local name=${1//\//_} begin=$SECONDS status=0
+  # shellcheck disable=SC2086
+  timeout "$TEST_TIMEOUT" $TEST_WRAPPER "$1" >"$logs/$name.log" 2>&1 </dev/null || status=$?
+  echo "$status" >"$logs/$name.status"
+  local word=ok
+  [ "$status" = 0 ] || word=FAILED
+  printf '%-8s %s (%d s)\n' "$word" "$1" $((SECONDS - begin))
+}
+export -f run_one
+
+programs=("$@")
+[ -x tests/cli/run.sh ] && [ -x "$out/ambulo" ] && programs+=(tests/cli/run.sh)
+present=() missing=()
+for program in "${programs[@]}"; do
+  if [ -x "$program" ]; then present+=("$program"); else missing+=("$program"); fi
+done
+printf '%s\0' "${present[@]}" | xargs -0 -r -n1 -P "${JOBS:-1}" bash -c 'run_one "$1"' run_one
+
+# sum of the numbers that a pattern (with one group) captures in a log
+sum() { sed -nE "s/$2/\1/p" "$1" | awk '{ s += $1 } END { print s + 0 }'; }
+
+passed=0 failed=0
+for program in "${present[@]}"; do
+  log=$logs/${program//\//_}.log
+  status=$(cat "${log%.log}.status")
+  good=$(sum "$log" '^\[  PASSED  \] ([0-9]+) test\(s\).*')
+  bad=$(sum "$log" '^\[  FAILED  \] ([0-9]+) test\(s\).*')
+  good=$((good + $(sum "$log" '^([0-9]+) passed, [0-9]+ failed$')))
+  bad=$((bad + $(sum "$log" '^[0-9]+ passed, ([0-9]+) failed$')))
+  if [ "$status" != 0 ]; then
+    # a crash, a time-out or a sanitizer report ends a program before it can count
+    [ "$bad" -gt 0 ] || bad=1
+    printf '\n----- %s: exit status %s\n' "$program" "$status"
+    grep -vE '^\[ (RUN|      OK) ' "$log" | tail -n 60
+  elif [ $((good + bad)) = 0 ]; then
+    printf '\n----- %s: ran no test\n' "$program"
+    bad=1
+  fi
+  passed=$((passed + good))
+  failed=$((failed + bad))
+done
+for program in "${missing[@]}"; do
+  echo "not built: $program"
+  failed=$((failed + 1))
+done
+if [ "${BUILD_STATUS:-0}" != 0 ] && [ ${#missing[@]} = 0 ]; then
+  echo 'the build failed; programs of an earlier build were run'
+  failed=$((failed + 1))
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
