@@ -22,6 +22,10 @@ typedef struct ambulo__gait_frame {
   const int *active;        /* [nodes][feet]: contact index or -1 */
 } ambulo__gait_frame;
 
+/* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that
+ * ends at `duration` includes it. */
+int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time);
+
 /* Checks contacts (known feet, from < to, no overlap on one foot, inside [0, T]) and
  * fills active[nodes][feet]. Every node needs support when penetration, strike or ZMP
  * rows are asked for. Footholds further apart than the legs can span are refused.

@@ -1,0 +1,83 @@
+/* gait/ends.c - the state at the two ends of the motion.
+ *
+ *   prescribed   D^o q_i(t_e) - value = 0                          unit of D^o q
+ *   periodic     s_o (D^o q_i(T) - D^o q_i(0)) - shift_i = 0       rad, m
+ *   mirrored     s_o (D^o q_m(T) - sign D^o q_i(0)) - shift_m = 0  rad, m
+ *
+ * with o = 0 .. ends_order, m the coordinate that takes the place of i in the mirror
+ * image. s_0 = 1; s_o = 1 / max_c |D^o B_c(0)| is a time to the power o that turns
+ * rates into the size of the control-point differences they stand for, so that all
+ * these rows have the unit of q and compare with each other.
+ * shift = travel (a . f) for the root translations (axis a, forward f) at o = 0.
+ */
+#include "gait/gait.h"
+#include "gait/neutral_pose.h"
+
+#include <math.h>
+
+static int channel_of(const ambulo__channels *channels, int order, int coordinate) {
+  if (order == 0) return ambulo__channel_q(channels, coordinate);
+  if (order == 1) return ambulo__channel_qd(channels, coordinate);
+  return ambulo__channel_qdd(channels, coordinate);
+}
+
+static const char *const order_words[] = {"value", "rate", "acceleration"};
+
+static void prescribed_row(const ambulo__gait_frame *frame, const ambulo_end_value *end,
+                           ambulo__row_table *table) {
+  static const char *const units[2][3] = {{"m", "m/s", "m/s^2"}, {"rad", "rad/s", "rad/s^2"}};
+  const ambulo_coordinate *c = &frame->model->coordinates[end->coordinate];
+  int node = end->final ? frame->nodes - 1 : 0;
+  ambulo__row_begin(table, end->final ? "final_state" : "initial_state", c->name,
+                    order_words[end->order], units[c->type == AMBULO_REVOLUTE][end->order],
+                    AMBULO_EQUAL, node, frame->times[node], -end->value);
+  ambulo__row_term_add(table, node, channel_of(&frame->channels, end->order, end->coordinate), 1.0);
+}
+
+static double order_scale(const ambulo__gait_frame *frame, int order) {
+  if (order == 0) return 1.0;
+  ambulo__basis_point start;
+  ambulo__basis_at(frame->basis, 0.0, &start);
+  double largest = 0.0;
+  for (int k = 0; k < start.span; k++) largest = fmax(largest, fabs(start.weight[order][k]));
+  return largest > 0.0 ? 1.0 / largest : 1.0;
+}
+
+/* how far one period carries coordinate i, m */
+static double shift_of(const ambulo__gait_frame *frame, int i) {
+  if (!ambulo__is_root_translation(frame->model, i)) return 0.0;
+  double axis[3], along = 0.0;
+  ambulo__neutral_axis(frame->model, i, axis);
+  for (int k = 0; k < 3; k++) along += axis[k] * frame->model->forward[k];
+  return frame->definition->travel * along;
+}
+
+static void matching_row(const ambulo__gait_frame *frame, int i, int order, int mirrored,
+                         ambulo__row_table *table) {
+  const ambulo_coordinate *from = &frame->model->coordinates[i];
+  int target = mirrored ? from->mirror : i;
+  double sign = mirrored ? from->mirror_sign : 1.0;
+  double scale = order_scale(frame, order);
+  double shift = order == 0 ? shift_of(frame, target) : 0.0;
+  const ambulo_coordinate *to = &frame->model->coordinates[target];
+  int last = frame->nodes - 1;
+  ambulo__row_begin(table, mirrored ? "mirrored" : "periodic", to->name, order_words[order],
+                    to->type == AMBULO_REVOLUTE ? "rad" : "m", AMBULO_EQUAL, -1, frame->times[last],
+                    -shift);
+  ambulo__row_term_add(table, last, channel_of(&frame->channels, order, target), scale);
+  ambulo__row_term_add(table, 0, channel_of(&frame->channels, order, i), -sign * scale);
+}
+
+void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+  const ambulo_problem_definition *definition = frame->definition;
+  for (int e = 0; e < definition->end_value_count; e++) {
+    prescribed_row(frame, &definition->end_values[e], table);
+  }
+  if (definition->ends == AMBULO_ENDS_FREE) return;
+  int mirrored = definition->ends == AMBULO_ENDS_MIRRORED;
+  for (int i = 0; i < frame->model->coordinate_count; i++) {
+    for (int order = 0; order <= definition->ends_order; order++) {
+      matching_row(frame, i, order, mirrored, table);
+    }
+  }
+}

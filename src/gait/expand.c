@@ -1,0 +1,91 @@
+/* gait/expand.c - a regular walk as a list of contacts.
+ *
+ * Step s = ..., -1, 0, 1, ... strikes at s Ts with the foot that alternates from
+ * `first_foot`; its foothold is (start + s L, +-W / 2), + for the foot that stands
+ * further left at q = 0. With the stride S = 2 Ts the foot is
+ *
+ *     on its heel   from  s Ts + heel_strike S   to  s Ts + foot_flat S
+ *     flat          from  s Ts + foot_flat S     to  s Ts + heel_off S
+ *     on its toes   from  s Ts + heel_off S      to  s Ts + toe_off S
+ *
+ * Spans are cut to [0, steps Ts]; empty ones are left out, except that a foot which comes
+ * down exactly at the end is in contact at that instant.
+ */
+#include "gait/gait.h"
+#include "gait/neutral_pose.h"
+
+#include <math.h>
+
+static const double shortest_span = 1e-9; /* s */
+
+enum { MOST_STEPS = 10000 };
+
+static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
+  double lengths[] = {gait->step_length, gait->step_width, gait->start};
+  for (int i = 0; i < 3; i++) {
+    if (!isfinite(lengths[i])) return 0;
+  }
+  return model->foot_count == 2 && gait->first_foot >= 0 && gait->first_foot < 2 &&
+         gait->steps >= 1 && gait->steps <= MOST_STEPS && gait->step_time > 0.0 &&
+         isfinite(gait->step_time) && gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
+         gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
+         gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
+}
+
+/* the foot that stands further left at q = 0 */
+static int left_foot(const ambulo_model *model) {
+  double along[2] = {0.0, 0.0};
+  for (int foot = 0; foot < 2; foot++) {
+    double r[3];
+    ambulo__neutral_point(model, model->feet[foot].heel_center, r);
+    for (int axis = 0; axis < 3; axis++) along[foot] += model->left[axis] * r[axis];
+  }
+  return along[1] > along[0];
+}
+
+typedef struct writer {
+  ambulo_contact *contacts;
+  int capacity, count;
+  double duration;
+} writer;
+
+static void write_span(writer *w, ambulo_contact contact) {
+  int lands_at_end = fabs(contact.from - w->duration) <= shortest_span;
+  if (contact.to <= shortest_span || contact.from > w->duration + shortest_span) return;
+  contact.from = fmax(contact.from, 0.0);
+  contact.to = fmin(contact.to, w->duration);
+  if (lands_at_end && contact.to > w->duration - shortest_span) {
+    contact.from = contact.to = w->duration;
+  } else if (contact.to - contact.from <= shortest_span) {
+    return;
+  }
+  if (w->count < w->capacity) w->contacts[w->count] = contact;
+  w->count++;
+}
+
+ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *gait,
+                                 ambulo_contact *contacts, int capacity, int *count) {
+  if (!model || !gait || !count || (!contacts && capacity > 0)) return AMBULO_E_ARGUMENT;
+  if (!gait_is_legal(model, gait)) return AMBULO_E_ARGUMENT;
+  writer w = {contacts, capacity, 0, (double)gait->steps * gait->step_time};
+  double stride = 2.0 * gait->step_time;
+  const double fraction[] = {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off};
+  int left = left_foot(model);
+  /* a foot is down for less than one stride and strikes at most half a stride early */
+  for (int step = -3; step <= gait->steps + 1; step++) {
+    int foot = step % 2 == 0 ? gait->first_foot : 1 - gait->first_foot;
+    double strike = (double)step * gait->step_time;
+    double side = foot == left ? 0.5 : -0.5;
+    for (int mode = AMBULO_CONTACT_HEEL; mode <= AMBULO_CONTACT_TOE; mode++) {
+      ambulo_contact contact = {
+          .foot = foot,
+          .mode = (ambulo_contact_mode)mode,
+          .from = strike + fraction[mode] * stride,
+          .to = strike + fraction[mode + 1] * stride,
+          .place = {gait->start + (double)step * gait->step_length, side * gait->step_width}};
+      if (contact.to - contact.from > shortest_span) write_span(&w, contact);
+    }
+  }
+  *count = w.count;
+  return w.count > capacity ? AMBULO_E_LIMIT : AMBULO_OK;
+}

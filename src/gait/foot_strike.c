@@ -1,0 +1,46 @@
+/* gait/foot_strike.c - a loaded foot stays on its foothold ("foot strike").
+ *
+ *     f . r - place_f = 0,   l . r - place_l = 0,   m
+ *
+ * of the point that the contact holds (gait/foot_outline.h); a flat foot also keeps its
+ * toe centre straight ahead, l . r_toe - place_l = 0: the heading. Rows along left are
+ * left out where no coordinate can move the point sideways.
+ */
+#include "gait/foot_outline.h"
+#include "gait/gait.h"
+#include "gait/neutral_pose.h"
+
+static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,
+                      const double direction[3], double place, ambulo__row_table *table) {
+  ambulo__row_begin(table, "foot_strike", frame->model->points[point].name, detail, "m",
+                    AMBULO_EQUAL, node, frame->times[node], -place);
+  for (int axis = 0; axis < 3; axis++) {
+    ambulo__row_term_add(table, node, ambulo__channel_point(&frame->channels, point, axis),
+                         direction[axis]);
+  }
+}
+
+static void contact_rows(const ambulo__gait_frame *frame, int node, const ambulo_contact *contact,
+                         ambulo__row_table *table) {
+  const ambulo_model *model = frame->model;
+  double place[2];
+  int point = ambulo__contact_point(model, contact, place);
+  place_row(frame, node, point, "forward", model->forward, place[0], table);
+  if (!ambulo__link_moves_sideways(model, model->points[point].link)) return;
+  place_row(frame, node, point, "left", model->left, place[1], table);
+  if (contact->mode != AMBULO_CONTACT_FLAT) return;
+  int toe = model->feet[contact->foot].toe_center;
+  place_row(frame, node, toe, "heading", model->left, place[1], table);
+}
+
+void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+  int feet = frame->model->foot_count;
+  for (int node = 0; node < frame->nodes; node++) {
+    for (int foot = 0; foot < feet; foot++) {
+      int contact = frame->active[node * feet + foot];
+      if (contact >= 0) {
+        contact_rows(frame, node, &frame->definition->contacts[contact], table);
+      }
+    }
+  }
+}

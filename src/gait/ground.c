@@ -1,0 +1,35 @@
+/* gait/ground.c - no corner of a foot below the ground ("ground penetration").
+ *
+ *     height = n . r - h  = 0 (corner in contact)  or >= 0 (otherwise),  m
+ *
+ * at every node. The four corners of a flat spatial sole are coplanar, so one of its
+ * four rows depends on the others; the solver's rank check drops it.
+ */
+#include "gait/foot_outline.h"
+#include "gait/gait.h"
+
+static void height_row(const ambulo__gait_frame *frame, int node, int point,
+                       ambulo_relation relation, ambulo__row_table *table) {
+  ambulo__row_begin(table, "ground_penetration", frame->model->points[point].name, "height", "m",
+                    relation, node, frame->times[node], -frame->definition->ground_height);
+  for (int axis = 0; axis < 3; axis++) {
+    ambulo__row_term_add(table, node, ambulo__channel_point(&frame->channels, point, axis),
+                         frame->model->up[axis]);
+  }
+}
+
+void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+  int feet = frame->model->foot_count;
+  for (int node = 0; node < frame->nodes; node++) {
+    for (int foot = 0; foot < feet; foot++) {
+      int contact = frame->active[node * feet + foot];
+      ambulo__foot_outline outline = ambulo__foot_outline_of(frame->model, foot);
+      for (int c = 0; c < outline.count; c++) {
+        int down =
+            contact >= 0 && ambulo__corner_in_contact(frame->definition->contacts[contact].mode,
+                                                      outline.is_heel[c]);
+        height_row(frame, node, outline.point[c], down ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE, table);
+      }
+    }
+  }
+}

@@ -1,0 +1,82 @@
+/* gait/neutral_pose.c - DH transforms at q = 0, applied from a link to the world.
+ *
+ * T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) (ambulo/model.h). A vector v of
+ * the link frame reads in the parent frame:
+ *
+ *     w = Rot_x(alpha) v,  w_x += a (points only)
+ *     T v = ( c w_x - s w_y,  s w_x + c w_y,  w_z + d (points only) ),  c, s of theta
+ *
+ * The joint of a link turns about, or slides along, the z axis of its parent frame.
+ */
+#include "gait/neutral_pose.h"
+
+#include <math.h>
+
+static const double parallel_tolerance = 1e-9;
+
+/* v of the link frame into the parent frame; `is_point` adds the translation */
+static void to_parent(const ambulo_link *link, int is_point, double v[3]) {
+  double ca = cos(link->alpha), sa = sin(link->alpha);
+  double ct = cos(link->theta), st = sin(link->theta);
+  double x = v[0] + (is_point ? link->a : 0.0);
+  double y = ca * v[1] - sa * v[2];
+  double z = sa * v[1] + ca * v[2];
+  v[0] = ct * x - st * y;
+  v[1] = st * x + ct * y;
+  v[2] = z + (is_point ? link->d : 0.0);
+}
+
+static void to_world(const ambulo_model *model, int link, int is_point, double v[3]) {
+  for (int i = link; i >= 0; i = model->links[i].parent) to_parent(&model->links[i], is_point, v);
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]) {
+  const ambulo_point *p = &model->points[point];
+  for (int axis = 0; axis < 3; axis++) world[axis] = p->position[axis];
+  to_world(model, p->link, 1, world);
+}
+
+static void link_axis(const ambulo_model *model, int link, double axis[3]) {
+  axis[0] = axis[1] = 0.0;
+  axis[2] = 1.0;
+  to_world(model, model->links[link].parent, 0, axis);
+}
+
+void ambulo__neutral_axis(const ambulo_model *model, int coordinate, double axis[3]) {
+  link_axis(model, model->coordinate_link[coordinate], axis);
+}
+
+/* does the joint of this one link leave the plane, its ancestors left alone? */
+static int joint_moves_sideways(const ambulo_model *model, int link) {
+  if (model->links[link].coordinate < 0) return 0;
+  double axis[3];
+  link_axis(model, link, axis);
+  double along = fabs(dot(axis, model->left));
+  if (model->links[link].type == AMBULO_PRISMATIC) return along > parallel_tolerance;
+  return along < 1.0 - parallel_tolerance;
+}
+
+int ambulo__link_moves_sideways(const ambulo_model *model, int link) {
+  for (int i = link; i >= 0; i = model->links[i].parent) {
+    if (joint_moves_sideways(model, i)) return 1;
+  }
+  return 0;
+}
+
+int ambulo__model_moves_sideways(const ambulo_model *model) {
+  for (int i = 0; i < model->link_count; i++) {
+    if (joint_moves_sideways(model, i)) return 1;
+  }
+  return 0;
+}
+
+int ambulo__is_root_translation(const ambulo_model *model, int coordinate) {
+  for (int i = model->coordinate_link[coordinate]; i >= 0; i = model->links[i].parent) {
+    if (model->links[i].type == AMBULO_REVOLUTE) return 0;
+  }
+  return model->coordinates[coordinate].type == AMBULO_PRISMATIC;
+}

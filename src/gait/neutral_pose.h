@@ -1,0 +1,27 @@
+/* gait/neutral_pose.h - the skeleton at q = 0: where points are, how joints point.
+ *
+ * The neutral pose is the one in which a model stands upright with flat feet; the
+ * geometry of feet and the directions of the root coordinates are read off it. */
+#ifndef AMBULO_GAIT_NEUTRAL_POSE_H
+#define AMBULO_GAIT_NEUTRAL_POSE_H
+
+#include "model/model.h"
+
+/* World position of a model's point at q = 0, m. */
+void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]);
+
+/* World direction (unit) of the joint axis of a coordinate at q = 0. */
+void ambulo__neutral_axis(const ambulo_model *model, int coordinate, double axis[3]);
+
+/* 1 if some coordinate can move `link` out of the vertical plane of progression. When
+ * every revolute axis above it is parallel to left at q = 0 it stays so for all q, and
+ * no revolute joint leaves the plane; a prismatic one must then be perpendicular to left. */
+int ambulo__link_moves_sideways(const ambulo_model *model, int link);
+/* The same for any link of the model. */
+int ambulo__model_moves_sideways(const ambulo_model *model);
+
+/* 1 if only fixed and prismatic links lie between the world and the link of `coordinate`,
+ * itself prismatic: a translation of the whole body. */
+int ambulo__is_root_translation(const ambulo_model *model, int coordinate);
+
+#endif

@@ -1,0 +1,102 @@
+/* gait/reach.c - footholds that the legs can span.
+ *
+ * Whatever the angles, two points of a tree are no further apart than
+ *
+ *     reach = |p_a| + sum over the links between them of sqrt(a^2 + d^2) + |p_b|
+ *
+ * (each DH transform moves the origin by that much; p_a, p_b in their link frames). The
+ * links are those from each foot up to, not including, their common ancestor. A
+ * prismatic joint among them can stretch without bound: no check.
+ *
+ * Compared are the points that two contacts hold (gait/foot_outline.h), whenever two
+ * different feet are down at the same time or hand over to each other.
+ */
+#include "gait/foot_outline.h"
+#include "gait/gait.h"
+
+#include <math.h>
+
+static const double time_tolerance = 1e-9;   /* s */
+static const double length_tolerance = 1e-9; /* m */
+
+static int depth_of(const ambulo_model *model, int link) {
+  int depth = 0;
+  for (int i = link; i >= 0; i = model->links[i].parent) depth++;
+  return depth;
+}
+
+static double link_length(const ambulo_link *link) {
+  return link->type == AMBULO_PRISMATIC ? INFINITY : hypot(link->a, link->d);
+}
+
+static double point_offset(const ambulo_model *model, int point) {
+  const double *p = model->points[point].position;
+  return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+}
+
+static double reach_between(const ambulo_model *model, int a, int b) {
+  double reach = point_offset(model, a) + point_offset(model, b);
+  int i = model->points[a].link, j = model->points[b].link;
+  int depth_i = depth_of(model, i), depth_j = depth_of(model, j);
+  while (i != j) {
+    int climb_i = depth_i >= depth_j, climb_j = depth_j >= depth_i;
+    if (climb_i) {
+      reach += link_length(&model->links[i]);
+      i = model->links[i].parent;
+      depth_i--;
+    }
+    if (climb_j) {
+      reach += link_length(&model->links[j]);
+      j = model->links[j].parent;
+      depth_j--;
+    }
+  }
+  return reach;
+}
+
+/* the first node at which both contacts hold, or the instant of the hand-over */
+static double common_time(const double *times, int nodes, int feet, const int *active, int i,
+                          const ambulo_contact *a, int j, const ambulo_contact *b) {
+  for (int k = 0; k < nodes; k++) {
+    const int *at = active + k * feet;
+    if (at[a->foot] == i && at[b->foot] == j) return times[k];
+  }
+  return fmax(a->from, b->from);
+}
+
+static ambulo_status check_pair(const ambulo_problem_definition *definition, int i, int j,
+                                double time, ambulo_diagnostics *diagnostics) {
+  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+  const ambulo_model *model = definition->model;
+  const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
+  double place_a[2], place_b[2];
+  int point_a = ambulo__contact_point(model, a, place_a);
+  int point_b = ambulo__contact_point(model, b, place_b);
+  double distance = hypot(place_a[0] - place_b[0], place_a[1] - place_b[1]);
+  double reach = reach_between(model, point_a, point_b);
+  if (distance <= reach + length_tolerance) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, "shorten the step",
+                       "contacts[%d] (foot '%s') and contacts[%d] (foot '%s') are out of reach at "
+                       "t = %.6g s: %.4g m apart; expected at most %.4g m, the legs' length",
+                       i, model->feet[a->foot].name, j, model->feet[b->foot].name, time, distance,
+                       reach);
+}
+
+ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *definition,
+                                           const double *times, int nodes, const int *active,
+                                           ambulo_diagnostics *diagnostics) {
+  ambulo_status status = AMBULO_OK;
+  int feet = ambulo_model_foot_count(definition->model);
+  if (!definition->foot_strike) return AMBULO_OK;
+  for (int i = 0; i < definition->contact_count; i++) {
+    for (int j = i + 1; j < definition->contact_count; j++) {
+      const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
+      if (a->foot == b->foot) continue;
+      if (fmin(a->to, b->to) < fmax(a->from, b->from) - time_tolerance) continue;
+      double time = common_time(times, nodes, feet, active, i, a, j, b);
+      ambulo_status one = check_pair(definition, i, j, time, diagnostics);
+      if (one) status = one;
+    }
+  }
+  return status;
+}

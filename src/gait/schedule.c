@@ -1,0 +1,143 @@
+/* gait/schedule.c - which contact is active at which node; contradictions in time.
+ *
+ * A node at t belongs to a contact when from <= t < to, both within 1e-9 s; a contact
+ * that ends at the duration includes it. Overlaps and gaps are found on the time axis,
+ * not only at the nodes: a finer grid must not turn a legal schedule into an illegal one.
+ */
+#include "gait/gait.h"
+
+#include <math.h>
+
+static const double time_tolerance = 1e-9; /* s */
+
+static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+
+#define REFUSE(list, hint, ...) ambulo__error(list, AMBULO_E_PROBLEM, nowhere, hint, __VA_ARGS__)
+
+int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time) {
+  if (time < contact->from - time_tolerance) return 0;
+  if (time < contact->to - time_tolerance) return 1;
+  return contact->to >= duration - time_tolerance && time <= duration + time_tolerance;
+}
+
+static ambulo_status check_contact(const ambulo_problem_definition *definition, int index,
+                                   ambulo_diagnostics *list) {
+  const ambulo_contact *c = &definition->contacts[index];
+  double duration = definition->duration;
+  int feet = ambulo_model_foot_count(definition->model);
+  if (c->foot < 0 || c->foot >= feet) {
+    return REFUSE(list, NULL, "contacts[%d]: no foot %d; the model '%s' has %d", index, c->foot,
+                  ambulo_model_name(definition->model), feet);
+  }
+  const char *foot = ambulo_model_foot(definition->model, c->foot)->name;
+  if ((int)c->mode < AMBULO_CONTACT_HEEL || (int)c->mode > AMBULO_CONTACT_TOE) {
+    return REFUSE(list, NULL,
+                  "contacts[%d]: foot '%s' in unknown mode %d; expected heel, flat or toe", index,
+                  foot, (int)c->mode);
+  }
+  if (!isfinite(c->place[0]) || !isfinite(c->place[1])) {
+    return REFUSE(list, NULL,
+                  "contacts[%d]: foot '%s' has the foothold (%g, %g) m; expected finite "
+                  "lengths",
+                  index, foot, c->place[0], c->place[1]);
+  }
+  if (!(c->from >= -time_tolerance) || !(c->to <= duration + time_tolerance)) {
+    return REFUSE(list, NULL,
+                  "contacts[%d]: foot '%s' from %.6g s to %.6g s; expected times in 0 to "
+                  "%.6g s",
+                  index, foot, c->from, c->to, duration);
+  }
+  int at_end = c->from == c->to && c->to >= duration - time_tolerance;
+  if (!(c->from < c->to) && !at_end) {
+    return REFUSE(list, NULL, "contacts[%d]: foot '%s' from %.6g s to %.6g s; expected from < to",
+                  index, foot, c->from, c->to);
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status check_overlaps(const ambulo_problem_definition *definition,
+                                    ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < definition->contact_count; i++) {
+    for (int j = i + 1; j < definition->contact_count; j++) {
+      const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
+      if (a->foot != b->foot) continue;
+      double common = fmin(a->to, b->to) - fmax(a->from, b->from);
+      int both_at_end = common == 0.0 && a->to == b->to && (a->from == a->to || b->from == b->to);
+      if (common <= time_tolerance && !both_at_end) continue;
+      status = REFUSE(list, NULL,
+                      "contacts[%d] and contacts[%d] overlap on foot '%s': %.6g s to %.6g s and "
+                      "%.6g s to %.6g s; expected one contact of a foot at a time",
+                      i, j, ambulo_model_foot(definition->model, a->foot)->name, a->from, a->to,
+                      b->from, b->to);
+    }
+  }
+  return status;
+}
+
+/* The end of support that begins before `time` and lasts through it; `time` if none does. */
+static double support_after(const ambulo_problem_definition *definition, double time) {
+  double end = time;
+  for (int i = 0; i < definition->contact_count; i++) {
+    const ambulo_contact *c = &definition->contacts[i];
+    if (c->from <= time + time_tolerance && c->to > end) end = c->to;
+  }
+  return end;
+}
+
+static double next_contact(const ambulo_problem_definition *definition, double time) {
+  double next = definition->duration;
+  for (int i = 0; i < definition->contact_count; i++) {
+    double from = definition->contacts[i].from;
+    if (from > time && from < next) next = from;
+  }
+  return next;
+}
+
+static ambulo_status check_gaps(const ambulo_problem_definition *definition,
+                                ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  double time = 0.0;
+  while (time < definition->duration - time_tolerance) {
+    double end = support_after(definition, time);
+    if (end > time) {
+      time = end;
+      continue;
+    }
+    double next = next_contact(definition, time + time_tolerance);
+    status = REFUSE(list,
+                    "the rows asked for (ground_penetration, foot_strike, zmp) need support "
+                    "at all times",
+                    "contacts: no foot touches the ground from %.6g s to %.6g s; "
+                    "expected at least one contact at every time",
+                    time, next);
+    time = next;
+  }
+  return status;
+}
+
+ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
+                                    const double *times, int nodes, int *active,
+                                    ambulo_diagnostics *diagnostics) {
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < definition->contact_count; i++) {
+    ambulo_status one = check_contact(definition, i, diagnostics);
+    if (one) status = one;
+  }
+  if (status) return status;
+  status = check_overlaps(definition, diagnostics);
+  int needs_support = definition->ground_penetration || definition->foot_strike ||
+                      definition->support != AMBULO_SUPPORT_OFF;
+  ambulo_status gaps = needs_support ? check_gaps(definition, diagnostics) : AMBULO_OK;
+  if (!status) status = gaps;
+  if (status) return status;
+  int feet = ambulo_model_foot_count(definition->model);
+  for (int k = 0; k < nodes; k++) {
+    for (int foot = 0; foot < feet; foot++) active[k * feet + foot] = -1;
+    for (int i = 0; i < definition->contact_count; i++) {
+      const ambulo_contact *c = &definition->contacts[i];
+      if (ambulo__contact_holds(c, definition->duration, times[k])) active[k * feet + c->foot] = i;
+    }
+  }
+  return AMBULO_OK;
+}

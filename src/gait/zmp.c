@@ -1,0 +1,119 @@
+/* gait/zmp.c - the zero-moment point stays inside the support region (Eq. 17').
+ *
+ * On the plane n . r = h the ZMP is p = (n x M + h F) / (n . F)              (16')
+ * with (M, F) the root wrench about the world origin. With forward f, left l = n x f,
+ * f x n = -l and l x n = f its coordinates times n . F are
+ *
+ *     (n.F) p_f = -l . M + h f . F,      (n.F) p_l = f . M + h l . F.
+ *
+ * A side (a, b), c of the region asks a p_f + b p_l - c >= 0. Multiplied by n . F / mg,
+ * which is positive for a body that presses on the ground, this is linear in (M, F):
+ *
+ *     [ a (-l.M + h f.F) + b (f.M + h l.F) - c n.F ] / mg >= 0,                 m
+ *
+ * exact distance to the side when n . F = mg. Sides of a polygon with vertices v_k:
+ * (a, b) = n x (v_k+1 - v_k) / |v_k+1 - v_k|, c = (a, b) . v_k + margin.
+ * The sign of n . F is held by its own row: n.F / mg - minimum_force >= 0.
+ */
+#include "gait/gait.h"
+#include "gait/neutral_pose.h"
+#include "gait/support_polygon.h"
+
+#include <math.h>
+
+/* a region smaller than this (m^2, planar: m) is empty */
+static const double smallest_region = 1e-9;
+
+static double body_weight(const ambulo_model *model) {
+  const double *g = model->gravity;
+  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
+static void side_row(const ambulo__gait_frame *frame, int node, const ambulo__half_plane *side,
+                     ambulo__row_table *table) {
+  const ambulo_model *model = frame->model;
+  double a = side->normal[0], b = side->normal[1], c = side->offset;
+  double h = frame->definition->ground_height, mg = body_weight(model);
+  ambulo__row_begin(table, "zmp", "support", side->detail, "m", AMBULO_NOT_NEGATIVE, node,
+                    frame->times[node], 0.0);
+  for (int i = 0; i < 3; i++) {
+    double f = model->forward[i], l = model->left[i], n = model->up[i];
+    ambulo__row_term_add(table, node, ambulo__channel_moment(&frame->channels, i),
+                         (b * f - a * l) / mg);
+    ambulo__row_term_add(table, node, ambulo__channel_force(&frame->channels, i),
+                         (h * (a * f + b * l) - c * n) / mg);
+  }
+}
+
+static void force_row(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
+  double mg = body_weight(frame->model);
+  ambulo__row_begin(table, "normal_force", "ground", "vertical", "body weight", AMBULO_NOT_NEGATIVE,
+                    node, frame->times[node], -frame->definition->minimum_force);
+  for (int i = 0; i < 3; i++) {
+    ambulo__row_term_add(table, node, ambulo__channel_force(&frame->channels, i),
+                         frame->model->up[i] / mg);
+  }
+}
+
+static const char *const mode_words[] = {"on its heel", "flat", "on its toes"};
+
+static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, double size,
+                                  int planar, ambulo_diagnostics *diagnostics) {
+  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+  const ambulo_problem_definition *definition = frame->definition;
+  const int *active = frame->active + node * frame->model->foot_count;
+  const char *foot = "no foot", *mode = "loaded";
+  int loaded = 0;
+  for (int i = 0; i < frame->model->foot_count; i++) {
+    if (active[i] < 0) continue;
+    foot = frame->model->feet[i].name;
+    mode = mode_words[definition->contacts[active[i]].mode];
+    loaded++;
+  }
+  if (loaded > 1) {
+    foot = "several feet";
+    mode = "down";
+  }
+  const char *hint = definition->support == AMBULO_SUPPORT_HULL
+                         ? "the hull of the corners in contact is a line while only heels or toes "
+                           "of one foot touch; 'zmp: box' counts the whole foot"
+                         : "lower constraints.zmp_margin";
+  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, hint,
+                       "constraints.zmp: the support polygon is empty at t = %.6g s (%s %s, margin "
+                       "%.6g m, %s %.3g %s); expected a positive %s",
+                       frame->times[node], foot, mode, definition->support_margin,
+                       planar ? "length" : "area", size, planar ? "m" : "m^2",
+                       planar ? "length" : "area");
+}
+
+static ambulo_status node_rows(const ambulo__gait_frame *frame, int node, int planar,
+                               ambulo__row_table *table, ambulo_diagnostics *diagnostics) {
+  ambulo__support_region region;
+  const int *active = frame->active + node * frame->model->foot_count;
+  ambulo_status status = ambulo__support_region_of(frame->definition, active, planar, &region);
+  if (status) {
+    static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+    return ambulo__error(
+        diagnostics, status, nowhere, NULL,
+        "constraints.zmp: too many foot corners at t = %.6g s; expected at most %d",
+        frame->times[node], AMBULO__POLYGON_CAPACITY - 1);
+  }
+  if (region.size < smallest_region) {
+    return refuse_empty(frame, node, region.size, planar, diagnostics);
+  }
+  for (int k = 0; k < region.count; k++) side_row(frame, node, &region.side[k], table);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_table *table,
+                               ambulo_diagnostics *diagnostics) {
+  int planar = !ambulo__model_moves_sideways(frame->model);
+  for (int node = 0; node < frame->nodes; node++) {
+    if (frame->definition->support != AMBULO_SUPPORT_OFF) {
+      ambulo_status status = node_rows(frame, node, planar, table, diagnostics);
+      if (status) return status;
+    }
+    if (frame->definition->minimum_force >= 0.0) force_row(frame, node, table);
+  }
+  return table->status;
+}
