@@ -1,0 +1,132 @@
+/* The reverse sweep against row gradients, central differences, and a sabotaged callback. */
+#include "support/problem_fixture.h"
+
+static double hand_height(void *user, const ambulo_node_state *state,
+                          ambulo_node_gradient *gradient) {
+  double factor = *(const double *)user;
+  if (gradient) {
+    gradient->points[1] += 2.0 * factor * state->points[1] * state->qd[0];
+    gradient->qd[0] += factor * state->points[1] * state->points[1];
+    gradient->wrench[4] += 0.001;
+    gradient->tau[1] += 0.01 * state->qdd[1];
+    gradient->qdd[1] += 0.01 * state->tau[1];
+    gradient->q[0] += cos(state->q[0]);
+  }
+  return factor * state->points[1] * state->points[1] * state->qd[0] + 0.001 * state->wrench[4] +
+         0.01 * state->tau[1] * state->qdd[1] + sin(state->q[0]);
+}
+
+/* the same function with one slope forgotten */
+static double hand_height_wrong(void *user, const ambulo_node_state *state,
+                                ambulo_node_gradient *gradient) {
+  double value = hand_height(user, state, gradient);
+  if (gradient) gradient->qd[0] = 0.0;
+  return value;
+}
+
+static double worst_error(fixture *f, const char *family) {
+  ambulo_derivative_error errors[16];
+  int count = 0;
+  double worst = -1.0;
+  assert_int_equal(ambulo_problem_check_derivatives(f->problem, f->workspace, f->x, 0.0, errors,
+                                                    16, &count),
+                   AMBULO_OK);
+  for (int i = 0; i < count; i++) {
+    if (family && strcmp(errors[i].family, family) != 0) continue;
+    if (errors[i].error > worst) worst = errors[i].error;
+  }
+  return worst;
+}
+
+static void every_family_and_term_agrees_with_central_differences(void **state) {
+  (void)state;
+  static double factor = 0.8;
+  fixture f = {.model = arm_create()};
+  double scale[2] = {0.3, 0.5}, offset[2] = {1.0, -2.0}, reference[11 * 2];
+  for (int i = 0; i < 22; i++) reference[i] = cos(0.3 * i);
+  ambulo_term terms[5];
+  for (int k = 0; k < 5; k++) {
+    terms[k] = ambulo_term_default((ambulo_term_kind)k);
+    terms[k].weight = 0.1 + 0.2 * k;
+    terms[k].scale = scale;
+  }
+  terms[AMBULO_TORQUE_SQUARED].offset = offset;
+  terms[AMBULO_TORQUE_ABSOLUTE].smoothing = 0.7;
+  terms[AMBULO_TRACKING].reference = reference;
+  terms[AMBULO_USER_TERM].function = hand_height;
+  terms[AMBULO_USER_TERM].user = &factor;
+  ambulo_user_row row = {"hand", "m", AMBULO_NOT_NEGATIVE, 0.25, 0.75, hand_height, &factor};
+  ambulo_problem_definition definition = arm_definition(f.model);
+  definition.terms = terms;
+  definition.term_count = 5;
+  definition.user_rows = &row;
+  definition.user_row_count = 1;
+  definition.ends = AMBULO_ENDS_PERIODIC;
+  definition.ends_order = 2;
+  fixture_open(&f, &definition);
+  double error = worst_error(&f, NULL);
+  if (!(error < 1e-7)) print_error("worst relative error %.3g\n", error);
+  assert_true(error >= 0.0 && error < 1e-7);
+  assert_true(worst_error(&f, "hand") >= 0.0);
+  fixture_close(&f);
+}
+
+static void a_wrong_callback_is_found(void **state) {
+  (void)state;
+  static double factor = 0.8;
+  fixture f = {.model = arm_create()};
+  ambulo_user_row row = {"hand", "m", AMBULO_EQUAL, 0.0, 1.0, hand_height_wrong, &factor};
+  ambulo_problem_definition definition = arm_definition(f.model);
+  definition.user_rows = &row;
+  definition.user_row_count = 1;
+  fixture_open(&f, &definition);
+  assert_true(worst_error(&f, "hand") > 1e-4);
+  assert_true(worst_error(&f, "torque_limit") < 1e-7);
+  fixture_close(&f);
+}
+
+static void other_bases_have_right_gradients_too(void **state) {
+  (void)state;
+  for (int basis = 0; basis < 3; basis++) {
+    fixture f = {.model = arm_create()};
+    ambulo_problem_definition definition = arm_definition(f.model);
+    definition.discretization = (ambulo_discretization)basis;
+    definition.degree = 5;
+    fixture_open(&f, &definition);
+    assert_true(worst_error(&f, NULL) < 1e-7);
+    fixture_close(&f);
+  }
+}
+
+static void weights_combine_objective_and_rows(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  ambulo_problem_definition definition = arm_definition(f.model);
+  fixture_open(&f, &definition);
+  double *weights = calloc((size_t)f.m, sizeof *weights), *row = calloc((size_t)f.n, sizeof *row);
+  double *sum = calloc((size_t)f.n, sizeof *sum);
+  for (int r = 0; r < f.m; r++) weights[r] = r % 3 ? 0.0 : cos(r);
+  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.5, NULL, sum), 0);
+  for (int r = 0; r < f.m; r++) {
+    if (weights[r] == 0.0) continue;
+    assert_int_equal(ambulo_problem_row_gradient(f.problem, f.workspace, f.x, r, row), 0);
+    for (int j = 0; j < f.n; j++) sum[j] += weights[r] * row[j];
+  }
+  assert_int_equal(
+      ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.5, weights, f.gradient), 0);
+  for (int j = 0; j < f.n; j++) assert_close(f.gradient[j], sum[j], 1e-10);
+  free(weights);
+  free(row);
+  free(sum);
+  fixture_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_family_and_term_agrees_with_central_differences),
+      cmocka_unit_test(a_wrong_callback_is_found),
+      cmocka_unit_test(other_bases_have_right_gradients_too),
+      cmocka_unit_test(weights_combine_objective_and_rows),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,162 @@
+/* Building: what is refused and how it is said; copies; memory running out; the hash. */
+#include "nlp/problem.h"
+#include "support/fail_alloc.h"
+#include "support/problem_fixture.h"
+
+static void expect_refusal(const ambulo_problem_definition *definition, const char *text) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_create(definition, NULL, list, &problem), AMBULO_E_PROBLEM);
+  assert_null(problem);
+  assert_true(ambulo_diagnostics_count(list) > 0);
+  const char *message = ambulo_diagnostics_get(list, 0)->message;
+  if (!strstr(message, text)) print_error("got '%s', expected '%s'\n", message, text);
+  assert_non_null(strstr(message, text));
+  ambulo_diagnostics_free(list);
+}
+
+static void faults_are_named(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  const ambulo_problem_definition good = arm_definition(model);
+  ambulo_problem_definition d = good;
+  d.duration = -1.0;
+  expect_refusal(&d, "time.duration is -1 s");
+  d = good;
+  d.intervals = 0;
+  expect_refusal(&d, "time.intervals is 0");
+  d = good;
+  d.spline_intervals = -3;
+  expect_refusal(&d, "trajectory.intervals is -3");
+  d = good;
+  d.degree = 2;
+  expect_refusal(&d, "trajectory.degree is 2");
+  d = good;
+  double breakpoints[3] = {0.0, 0.8, 0.7};
+  d.spline_intervals = 2;
+  d.breakpoints = breakpoints;
+  expect_refusal(&d, "trajectory.breakpoints[2] is 0.7 s after 0.8 s");
+  d = good;
+  d.ends_order = 3;
+  expect_refusal(&d, "ends.order is 3");
+  d = good;
+  ambulo_end_value end = {5, 0, 0, 0.0};
+  d.end_values = &end;
+  d.end_value_count = 1;
+  expect_refusal(&d, "end value 0 names coordinate 5; the model has 2");
+  d = good;
+  d.travel = INFINITY;
+  expect_refusal(&d, "ends.travel is inf m");
+  d = good;
+  d.support_margin = -0.1;
+  expect_refusal(&d, "zmp_margin is -0.1 m");
+  ambulo_model_free(model);
+}
+
+static void faulty_terms_are_named(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  d.terms = &term;
+  term.weight = -2.0;
+  expect_refusal(&d, "objective[0] (torque_squared): weight is -2");
+  term.weight = 0.0;
+  expect_refusal(&d, "every objective weight is 0");
+  term = ambulo_term_default(AMBULO_TORQUE_ABSOLUTE);
+  term.smoothing = 0.0;
+  expect_refusal(&d, "objective[0] (torque_absolute): smoothing is 0");
+  term = ambulo_term_default(AMBULO_TRACKING);
+  expect_refusal(&d, "objective[0] (tracking): no reference motion");
+  term = ambulo_term_default(AMBULO_USER_TERM);
+  expect_refusal(&d, "no function");
+  ambulo_model_free(model);
+}
+
+static void a_stale_definition_is_refused(void **state) {
+  (void)state;
+  ambulo_problem_definition zero;
+  memset(&zero, 0, sizeof zero);
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_create(&zero, NULL, NULL, &problem), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_create(NULL, NULL, NULL, &problem), AMBULO_E_ARGUMENT);
+  assert_null(problem);
+}
+
+static void the_problem_owns_its_arrays(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  double scale[2] = {2.0, 0.5};
+  ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  term.scale = scale;
+  ambulo_problem_definition d = arm_definition(f.model);
+  d.terms = &term;
+  fixture_open(&f, &d);
+  double before, after;
+  assert_int_equal(ambulo_problem_evaluate(f.problem, f.workspace, f.x, &before, NULL, NULL), 0);
+  scale[0] = 100.0;
+  term.weight = 9.0;
+  f.x[0] += 1.0;
+  assert_int_equal(ambulo_problem_evaluate(f.problem, f.workspace, f.x, &after, NULL, NULL), 0);
+  f.x[0] -= 1.0;
+  assert_int_equal(ambulo_problem_evaluate(f.problem, f.workspace, f.x, &after, NULL, NULL), 0);
+  assert_true(before == after);
+  fixture_close(&f);
+}
+
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  int completed = 0;
+  for (size_t k = 0; k < 400 && !completed; k++) {
+    fail_alloc counter;
+    ambulo_allocator allocator = fail_alloc_init(&counter, k);
+    ambulo_problem *problem = NULL;
+    ambulo_workspace *workspace = NULL;
+    ambulo_status status = ambulo_problem_create(&d, &allocator, NULL, &problem);
+    if (!status) status = ambulo_workspace_create(problem, &allocator, &workspace);
+    if (status) assert_int_equal(status, AMBULO_E_MEMORY);
+    completed = !status;
+    ambulo_workspace_free(workspace);
+    ambulo_problem_free(problem);
+    assert_int_equal(fail_alloc_live(&counter), 0);
+  }
+  assert_true(completed);
+  ambulo_model_free(model);
+}
+
+static void the_hash_sees_every_change(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  unsigned long long hashes[5];
+  for (int i = 0; i < 5; i++) {
+    ambulo_problem_definition changed = d;
+    double scale[2] = {1.0, 1.0 + 1e-15};
+    ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+    changed.terms = &term;
+    if (i == 2) changed.intervals = 11;
+    if (i == 3) term.scale = scale;
+    if (i == 4) changed.torque_limits = 0;
+    ambulo_problem *problem = NULL;
+    assert_int_equal(ambulo_problem_create(&changed, NULL, NULL, &problem), AMBULO_OK);
+    hashes[i] = ambulo_problem_hash(problem);
+    ambulo_problem_free(problem);
+  }
+  assert_true(hashes[0] == hashes[1]);
+  for (int i = 2; i < 5; i++) assert_true(hashes[i] != hashes[0]);
+  ambulo_model_free(model);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(faults_are_named),
+      cmocka_unit_test(faulty_terms_are_named),
+      cmocka_unit_test(a_stale_definition_is_refused),
+      cmocka_unit_test(the_problem_owns_its_arrays),
+      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(the_hash_sees_every_change),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
