@@ -1,0 +1,106 @@
+/* trajectory/motion_file.c - the table of motion_file.h: memory, names, units, loading. */
+#include "trajectory/motion_file.h"
+#include "base/read_file.h"
+
+#include <string.h>
+#include <strings.h>
+
+ambulo_status ambulo__motion_create(int rows, int columns, const char *const *names,
+                                    const ambulo_allocator *allocator, ambulo__motion **motion) {
+  if (rows < 0 || columns < 0 || (columns > 0 && !names) || !motion) return AMBULO_E_ARGUMENT;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__motion *m = ambulo__alloc(&own, 1, sizeof *m);
+  if (!m) return AMBULO_E_MEMORY;
+  m->allocator = own;
+  m->rows = rows;
+  m->columns = columns;
+  m->time = ambulo__alloc(&own, (size_t)rows, sizeof *m->time);
+  m->values = ambulo__alloc(&own, (size_t)rows * (size_t)columns, sizeof *m->values);
+  m->names = ambulo__alloc(&own, (size_t)columns, sizeof *m->names);
+  int complete = m->time && m->values && m->names;
+  for (int c = 0; complete && c < columns; c++) {
+    m->names[c] = ambulo__strdup(&own, names[c]);
+    complete = m->names[c] != NULL;
+  }
+  if (!complete) {
+    ambulo__motion_free(m);
+    return AMBULO_E_MEMORY;
+  }
+  *motion = m;
+  return AMBULO_OK;
+}
+
+void ambulo__motion_free(ambulo__motion *motion) {
+  if (!motion) return;
+  ambulo_allocator allocator = motion->allocator;
+  for (int c = 0; motion->names && c < motion->columns; c++) {
+    ambulo__free(&allocator, motion->names[c]);
+  }
+  ambulo__free(&allocator, motion->names);
+  ambulo__free(&allocator, motion->time);
+  ambulo__free(&allocator, motion->values);
+  ambulo__free(&allocator, motion);
+}
+
+ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status =
+      ambulo__read_file(path, AMBULO__MOTION_MAX_BYTES, &own, diagnostics, &text, &length);
+  if (status) return status;
+  status = ambulo__motion_read_text(text, length, path, ambulo__motion_format_of(path), &own,
+                                    diagnostics, motion);
+  ambulo__free(&own, text);
+  return status;
+}
+
+ambulo__motion_format ambulo__motion_format_of(const char *name) {
+  const char *dot = strrchr(name, '.');
+  if (!dot) return AMBULO__MOTION_AUTO;
+  if (strcasecmp(dot, ".csv") == 0) return AMBULO__MOTION_CSV;
+  if (strcasecmp(dot, ".sto") == 0 || strcasecmp(dot, ".mot") == 0) return AMBULO__MOTION_STO;
+  return AMBULO__MOTION_AUTO;
+}
+
+int ambulo__motion_column(const ambulo__motion *motion, const char *name) {
+  for (int c = 0; c < motion->columns; c++) {
+    if (strcmp(motion->names[c], name) == 0) return c;
+  }
+  return -1;
+}
+
+/* ".../NAME/value" or ".../NAME" */
+static int path_names(const char *column, const char *name) {
+  const char *suffix = "/value";
+  size_t length = strlen(column), name_length = strlen(name), cut = strlen(suffix);
+  if (length > cut && strcmp(column + length - cut, suffix) == 0) length -= cut;
+  if (length < name_length) return 0;
+  size_t start = length - name_length;
+  return memcmp(column + start, name, name_length) == 0 && (start == 0 || column[start - 1] == '/');
+}
+
+int ambulo__motion_coordinate(const ambulo__motion *motion, const char *name) {
+  int column = ambulo__motion_column(motion, name);
+  for (int c = 0; column < 0 && c < motion->columns; c++) {
+    const char *candidate = motion->names[c];
+    if (strncmp(candidate, "q.", 2) == 0 && strcmp(candidate + 2, name) == 0) column = c;
+  }
+  for (int c = 0; column < 0 && c < motion->columns; c++) {
+    if (path_names(motion->names[c], name)) column = c;
+  }
+  return column;
+}
+
+void ambulo__motion_to_radians(ambulo__motion *motion, const unsigned char *is_angle) {
+  if (!motion->in_degrees) return;
+  const double radian = 3.14159265358979323846 / 180.0;
+  for (int r = 0; r < motion->rows; r++) {
+    double *row = motion->values + (size_t)r * (size_t)motion->columns;
+    for (int c = 0; c < motion->columns; c++) {
+      if (is_angle[c]) row[c] *= radian;
+    }
+  }
+  motion->in_degrees = 0;
+}

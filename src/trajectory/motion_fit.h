@@ -1,0 +1,31 @@
+/* trajectory/motion_fit.h - a smooth curve through a sampled motion, with its rates.
+ *
+ * Inverse dynamics of a measured motion needs qd and qdd: each column is fitted by a spline
+ * of degree 3 or 5, which interpolates the samples or smooths them. */
+#ifndef AMBULO_TRAJECTORY_MOTION_FIT_H
+#define AMBULO_TRAJECTORY_MOTION_FIT_H
+
+#include "trajectory/basis.h"
+#include "trajectory/motion_file.h"
+
+typedef struct ambulo__motion_fit ambulo__motion_fit;
+
+/* degree 3 or 5; at least degree + 1 rows. cutoff = 0 interpolates; cutoff > 0 (Hz) smooths:
+ * a sine of that frequency keeps half its amplitude, slower ones nearly all.
+ * Errors: E_ARGUMENT (degree, rows, cutoff, times not increasing), E_MEMORY, E_NUMERIC. */
+ambulo_status ambulo__motion_fit_create(const ambulo__motion *motion, int degree, double cutoff,
+                                        const ambulo_allocator *allocator,
+                                        ambulo__motion_fit **fit);
+void ambulo__motion_fit_free(ambulo__motion_fit *fit);  /* accepts NULL */
+
+/* The curves at times[count] (the motion's own clock; clamped to its range):
+ * q, qd, qdd [count][columns], each may be NULL. */
+void ambulo__motion_fit_at(const ambulo__motion_fit *fit, const double *times, int count,
+                           double *q, double *qd, double *qdd);
+
+/* The spline behind it, on [0, last time - first time], and its control points
+ * [control_points][columns]: what ambulo__basis_transfer() takes. */
+const ambulo__basis *ambulo__motion_fit_basis(const ambulo__motion_fit *fit);
+const double *ambulo__motion_fit_control_points(const ambulo__motion_fit *fit);
+
+#endif
