@@ -9,13 +9,14 @@
  * before its children (a definition in another order is sorted, names kept). */
 struct ambulo_model {
   ambulo_allocator allocator;
-  char *name;
+  char *text;                  /* every name, one after the other, each with its NUL */
+  const char *name;
   double gravity[3];           /* world, m/s^2 */
   double up[3], forward[3], left[3];
   double mass, stature;
   ambulo_link *links;          /* [link_count] */
   int link_count;
-  ambulo_coordinate *coordinates;  /* [coordinate_count]; coordinates[i].name is links' business */
+  ambulo_coordinate *coordinates;  /* [coordinate_count]; ancestors before descendants */
   int *coordinate_link;        /* [coordinate_count]: the link that carries coordinate i */
   int coordinate_count;
   ambulo_point *points;        /* [point_count] */

@@ -1,0 +1,89 @@
+/* model/body_check.c - could this body exist?
+ *
+ * Inertia I about the centre of mass, [xx yy zz xy xz yz], kg m^2. With the second moments of
+ * mass S = tr(I)/2 - I >= 0 (an integral of squares), the principal moments obey
+ *   0 <= I1 <= I2 <= I3 <= I1 + I2.
+ * Equality is legal (a thin rod, a flat plate, a point), so rounding needs a tolerance.
+ */
+#include <math.h>
+
+#include "model/check.h"
+
+static const double LEAST_MASS = 1e-9, LARGEST_MASS = 1e6; /* kg */
+static const double ROUNDING = 1e-9;                       /* relative to the largest moment */
+
+/* One Jacobi rotation that clears a[p][q]. */
+static void rotate(double a[3][3], int p, int q) {
+  if (a[p][q] == 0) return;
+  double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1));
+  double c = 1 / sqrt(t * t + 1), s = t * c;
+  for (int k = 0; k < 3; k++) {
+    double kp = a[k][p], kq = a[k][q];
+    a[k][p] = c * kp - s * kq;
+    a[k][q] = s * kp + c * kq;
+  }
+  for (int k = 0; k < 3; k++) {
+    double pk = a[p][k], qk = a[q][k];
+    a[p][k] = c * pk - s * qk;
+    a[q][k] = s * pk + c * qk;
+  }
+}
+
+static void order(double *low, double *high) {
+  if (*low <= *high) return;
+  double swap = *low;
+  *low = *high;
+  *high = swap;
+}
+
+void ambulo__principal_moments(const double in[6], double moments[3]) {
+  double a[3][3] = {{in[0], in[3], in[4]}, {in[3], in[1], in[5]}, {in[4], in[5], in[2]}};
+  /* cyclic Jacobi converges quadratically: 3x3 is done to rounding after 5 sweeps */
+  for (int sweep = 0; sweep < 10; sweep++) {
+    rotate(a, 0, 1);
+    rotate(a, 0, 2);
+    rotate(a, 1, 2);
+  }
+  for (int i = 0; i < 3; i++) moments[i] = a[i][i];
+  order(&moments[0], &moments[1]);
+  order(&moments[1], &moments[2]);
+  order(&moments[0], &moments[1]);
+}
+
+static ambulo_status check_inertia(const char *what, const double inertia[6], ambulo__place place,
+                                   ambulo_diagnostics *diagnostics) {
+  double m[3];
+  ambulo__principal_moments(inertia, m);
+  double slack = ROUNDING * fabs(m[2]);
+  if (m[0] < -slack || m[2] < 0) {
+    return ambulo__error(diagnostics, AMBULO_E_MODEL, place, NULL,
+                         "inertia of '%s' is not positive semidefinite (smallest eigenvalue %s "
+                         "kg m^2); expected no negative eigenvalue",
+                         what, ambulo__number_text(m[0]).text);
+  }
+  if (m[2] > m[0] + m[1] + slack) {
+    return ambulo__error(diagnostics, AMBULO_E_MODEL, place,
+                         "no distribution of mass has such an inertia",
+                         "inertia of '%s' breaks the triangle inequality (principal moments %s, "
+                         "%s, %s kg m^2); expected the largest at most the sum of the others",
+                         what, ambulo__number_text(m[0]).text, ambulo__number_text(m[1]).text,
+                         ambulo__number_text(m[2]).text);
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__check_body(const char *what, double mass, const double com[3],
+                                 const double inertia[6], ambulo__place place,
+                                 ambulo_diagnostics *diagnostics) {
+  if (!(mass >= LEAST_MASS && mass <= LARGEST_MASS)) {
+    return ambulo__error(diagnostics, AMBULO_E_MODEL, place, NULL,
+                         "mass of '%s' is out of range (got %s kg); expected 1e-9 to 1e6 kg", what,
+                         ambulo__number_text(mass).text);
+  }
+  if (!ambulo__finite3(com) || !ambulo__finite3(inertia) || !ambulo__finite3(inertia + 3)) {
+    return ambulo__error(diagnostics, AMBULO_E_MODEL, place, NULL,
+                         "centre of mass and inertia of '%s' must be finite numbers", what);
+  }
+  return check_inertia(what, inertia, place, diagnostics);
+}

@@ -1,0 +1,62 @@
+/* model/check.h - the single checks behind ambulo__model_check. */
+#ifndef AMBULO_MODEL_CHECK_H
+#define AMBULO_MODEL_CHECK_H
+
+#include "base/diagnostics.h"
+#include "base/numtext.h"
+#include "model/model.h"
+
+enum {
+  AMBULO__MAX_LINKS = 4096,
+  AMBULO__MAX_POINTS = 4096,
+  AMBULO__MAX_FEET = 64,
+  AMBULO__MAX_PARTS = 256, /* bodies merged into one link */
+  AMBULO__MAX_NAME = 64
+};
+
+/* A number as text in messages, independent of the locale:
+ * printf("%s", ambulo__number_text(x).text). */
+typedef struct ambulo__number {
+  char text[AMBULO__NUMTEXT_SIZE];
+} ambulo__number;
+ambulo__number ambulo__number_text(double value);
+
+/* 1 if the three values are finite. */
+int ambulo__finite3(const double v[3]);
+
+/* A body that could exist: mass finite and in range, centre of mass finite, inertia
+ * [xx yy zz xy xz yz] positive semidefinite with principal moments that obey the
+ * triangle inequality. `what` names it in messages. Reports at most one error. */
+ambulo_status ambulo__check_body(const char *what, double mass, const double com[3],
+                                 const double inertia[6], ambulo__place place,
+                                 ambulo_diagnostics *diagnostics);
+
+/* Eigenvalues of a symmetric 3x3 matrix [xx yy zz xy xz yz], ascending. */
+void ambulo__principal_moments(const double inertia[6], double moments[3]);
+
+/* What a check needs, and its verdict so far. */
+typedef struct ambulo__checker {
+  const ambulo_model_definition *definition;
+  const ambulo__model_places *places; /* may be NULL */
+  ambulo_diagnostics *diagnostics;
+  ambulo_status status;
+} ambulo__checker;
+
+ambulo__place ambulo__place_of_model(const ambulo__checker *c);
+ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link);
+
+/* Names: allowed characters, no two alike. `kind` is "link", "point" ... */
+typedef const char *(*ambulo__name_of)(const ambulo_model_definition *definition, int index);
+void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo__name_of name,
+                         const ambulo__place *places);
+/* Parents exist, no cycles, one root; DH constants; bodies. */
+void ambulo__check_links(ambulo__checker *c);
+/* Ranges ordered, mirror pairs mutual. */
+void ambulo__check_coordinates(ambulo__checker *c);
+/* Points on links, feet on points. */
+void ambulo__check_contacts(ambulo__checker *c);
+
+/* Name of the coordinate of a definition: its own or, when NULL, its link's. */
+const char *ambulo__coordinate_name(const ambulo_model_definition *definition, int index);
+
+#endif

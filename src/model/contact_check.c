@@ -1,0 +1,136 @@
+/* model/contact_check.c - coordinates, points and feet: ranges, pairs, references. */
+#include <math.h>
+
+#include "model/check.h"
+
+static ambulo__place place_in(const ambulo__checker *c, const ambulo__place *list, int index) {
+  return list ? list[index] : ambulo__place_of_model(c);
+}
+
+/* ------------------------------------------------------------- coordinates */
+
+static ambulo__place place_of_coordinate(const ambulo__checker *c, int index) {
+  return place_in(c, c->places ? c->places->coordinates : NULL, index);
+}
+
+/* An interval may be unbounded, or one point; never empty or undefined. */
+static void check_interval(ambulo__checker *c, int index, const char *what,
+                           const double interval[2]) {
+  const char *name = ambulo__coordinate_name(c->definition, index);
+  if (interval[0] <= interval[1] && interval[0] < INFINITY && interval[1] > -INFINITY) return;
+  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                            "%s limits of coordinate '%s' contradict each other (got [%s, %s]); "
+                            "expected lower <= upper",
+                            what, name ? name : "", ambulo__number_text(interval[0]).text,
+                            ambulo__number_text(interval[1]).text);
+}
+
+static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, int index) {
+  for (int i = 0, seen = 0; i < d->link_count; i++) {
+    if (d->links[i].type != AMBULO_FIXED && seen++ == index) return d->links[i].type;
+  }
+  return AMBULO_FIXED;
+}
+
+static void report_mirror(ambulo__checker *c, int index, const char *why) {
+  const char *name = ambulo__coordinate_name(c->definition, index);
+  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                            "mirror image of coordinate '%s' %s", name ? name : "", why);
+}
+
+static void check_mirror(ambulo__checker *c, int index) {
+  const ambulo_model_definition *d = c->definition;
+  const ambulo_coordinate *self = &d->coordinates[index];
+  int other = self->mirror < 0 ? index : self->mirror;
+  if (other >= d->coordinate_count) {
+    report_mirror(c, index, "does not exist; expected the index of a coordinate");
+    return;
+  }
+  const ambulo_coordinate *image = &d->coordinates[other];
+  if (self->mirror_sign != 1 && self->mirror_sign != -1) {
+    report_mirror(c, index, "has a sign that is neither +1 nor -1");
+    return;
+  }
+  if ((image->mirror < 0 ? other : image->mirror) != index) {
+    report_mirror(c, index, "has another mirror image itself; expected a pair");
+  } else if (image->mirror_sign != self->mirror_sign) {
+    report_mirror(c, index, "has another sign; expected the same on both");
+  } else if (type_of_coordinate(d, index) != type_of_coordinate(d, other)) {
+    report_mirror(c, index, "is of another kind; expected two angles or two displacements");
+  }
+}
+
+void ambulo__check_coordinates(ambulo__checker *c) {
+  for (int i = 0; i < c->definition->coordinate_count; i++) {
+    const ambulo_coordinate *coordinate = &c->definition->coordinates[i];
+    check_interval(c, i, "range", coordinate->range);
+    check_interval(c, i, "speed", coordinate->speed);
+    check_interval(c, i, "torque", coordinate->torque);
+    check_mirror(c, i);
+  }
+}
+
+/* ----------------------------------------------------------- points and feet */
+
+static void check_point(ambulo__checker *c, int index) {
+  const ambulo_point *point = &c->definition->points[index];
+  ambulo__place place = place_in(c, c->places ? c->places->points : NULL, index);
+  const char *name = point->name ? point->name : "";
+  if (point->link < 0 || point->link >= c->definition->link_count) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "link of point '%s' does not exist (got index %d); expected 0 to %d",
+                              name, point->link, c->definition->link_count - 1);
+  }
+  if (!ambulo__finite3(point->position)) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "position of point '%s' must be three finite numbers", name);
+  }
+}
+
+static int is_point(const ambulo_model_definition *d, int index) {
+  return index >= 0 && index < d->point_count;
+}
+
+static void check_foot(ambulo__checker *c, int index) {
+  const ambulo_model_definition *d = c->definition;
+  const ambulo_foot *foot = &d->feet[index];
+  ambulo__place place = place_in(c, c->places ? c->places->feet : NULL, index);
+  const char *name = foot->name ? foot->name : "";
+  int good = is_point(d, foot->heel[0]) && is_point(d, foot->toe[0]) &&
+             (foot->heel[1] == -1 || is_point(d, foot->heel[1])) &&
+             (foot->toe[1] == -1 || is_point(d, foot->toe[1])) &&
+             is_point(d, foot->heel_center) && is_point(d, foot->toe_center);
+  if (!good) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "foot '%s' refers to points that do not exist; expected point "
+                              "indices 0 to %d (-1 only for a missing second corner)",
+                              name, d->point_count - 1);
+  } else if ((foot->heel[1] == -1) != (foot->toe[1] == -1)) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "foot '%s' has two corners at one end and one at the other; "
+                              "expected as many at the heel as at the toe",
+                              name);
+  } else if (foot->heel[0] == foot->heel[1] || foot->toe[0] == foot->toe[1] ||
+             foot->heel[0] == foot->toe[0] || foot->heel_center == foot->toe_center) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "foot '%s' uses one point twice; expected different corners, and "
+                              "different centres of heel and toe",
+                              name);
+  }
+  int mirror = foot->mirror < 0 ? index : foot->mirror;
+  if (mirror >= d->foot_count) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "mirror image of foot '%s' does not exist (got index %d)", name,
+                              mirror);
+  } else if ((d->feet[mirror].mirror < 0 ? mirror : d->feet[mirror].mirror) != index) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "mirror image of foot '%s' has another mirror image itself; "
+                              "expected a pair",
+                              name);
+  }
+}
+
+void ambulo__check_contacts(ambulo__checker *c) {
+  for (int i = 0; i < c->definition->point_count; i++) check_point(c, i);
+  for (int i = 0; i < c->definition->foot_count; i++) check_foot(c, i);
+}

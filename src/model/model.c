@@ -1,0 +1,211 @@
+/* model/model.c - building an immutable model from a definition, and freeing it. */
+#include <math.h>
+#include <string.h>
+
+#include "model/check.h"
+
+enum { DEFINITION_COOKIE = 0x616d626d };
+
+ambulo_model_definition ambulo_model_definition_default(void) {
+  return (ambulo_model_definition){.cookie = DEFINITION_COOKIE,
+                                   .name = "model",
+                                   .gravity = {0, -9.81, 0},
+                                   .forward = {1, 0, 0}};
+}
+
+ambulo_link ambulo_link_default(void) {
+  return (ambulo_link){.parent = -1, .type = AMBULO_FIXED, .coordinate = -1};
+}
+
+ambulo_coordinate ambulo_coordinate_default(void) {
+  return (ambulo_coordinate){.type = AMBULO_REVOLUTE,
+                             .range = {-INFINITY, INFINITY},
+                             .speed = {-INFINITY, INFINITY},
+                             .torque = {-INFINITY, INFINITY},
+                             .actuated = 1,
+                             .mirror = -1,
+                             .mirror_sign = 1};
+}
+
+/* -------------------------------------------------------------- renumbering */
+
+/* Numbers before and after sorting. */
+typedef struct numbering {
+  int *order;            /* [links] new -> old */
+  int *place;            /* [links] old -> new; -1: not placed yet */
+  int *old_coordinate;   /* [links] old link -> old coordinate; -1: fixed */
+  int *new_coordinate;   /* [coordinates] old -> new */
+} numbering;
+
+static void split(numbering *n, int *block, int links) {
+  n->order = block;
+  n->place = block + links;
+  n->old_coordinate = block + 2 * links;
+  n->new_coordinate = block + 3 * links;
+}
+
+/* Parents before children, otherwise in the given order. The unplaced ancestors of a link are
+ * stacked at the far end of `order`, which cannot meet the placed ones: together they are at
+ * most all links. */
+static void sort_links(const ambulo_model_definition *d, numbering *n) {
+  int count = 0, coordinate = 0;
+  for (int i = 0; i < d->link_count; i++) n->place[i] = -1;
+  for (int i = 0; i < d->link_count; i++) {
+    int top = d->link_count;
+    for (int k = i; k >= 0 && n->place[k] < 0; k = d->links[k].parent) n->order[--top] = k;
+    while (top < d->link_count) {
+      int link = n->order[top++];
+      n->order[count] = link;
+      n->place[link] = count++;
+    }
+    n->old_coordinate[i] = d->links[i].type == AMBULO_FIXED ? -1 : coordinate++;
+  }
+  coordinate = 0;
+  for (int i = 0; i < d->link_count; i++) {
+    int old = n->old_coordinate[n->order[i]];
+    if (old >= 0) n->new_coordinate[old] = coordinate++;
+  }
+}
+
+/* ------------------------------------------------------------------ copying */
+
+static size_t text_size(const ambulo_model_definition *d) {
+  size_t size = strlen(d->name) + 1;
+  for (int i = 0; i < d->link_count; i++) size += strlen(d->links[i].name) + 1;
+  for (int i = 0; i < d->coordinate_count; i++) size += strlen(ambulo__coordinate_name(d, i)) + 1;
+  for (int i = 0; i < d->point_count; i++) size += strlen(d->points[i].name) + 1;
+  for (int i = 0; i < d->foot_count; i++) size += strlen(d->feet[i].name) + 1;
+  return size;
+}
+
+static const char *keep(char **end, const char *name) {
+  char *kept = *end;
+  size_t size = strlen(name) + 1;
+  memcpy(kept, name, size);
+  *end += size;
+  return kept;
+}
+
+static void copy_links(ambulo_model *m, const ambulo_model_definition *d, const numbering *n,
+                       char **text) {
+  for (int i = 0; i < m->link_count; i++) {
+    ambulo_link *link = &m->links[i];
+    *link = d->links[n->order[i]];
+    link->name = keep(text, link->name);
+    if (link->parent >= 0) link->parent = n->place[link->parent];
+    int old = n->old_coordinate[n->order[i]];
+    link->coordinate = old >= 0 ? n->new_coordinate[old] : -1;
+    m->mass += link->mass;
+    if (old < 0) continue;
+    ambulo_coordinate *coordinate = &m->coordinates[link->coordinate];
+    *coordinate = d->coordinates[old];
+    coordinate->name = keep(text, ambulo__coordinate_name(d, old));
+    coordinate->type = link->type;
+    coordinate->mirror = n->new_coordinate[coordinate->mirror < 0 ? old : coordinate->mirror];
+    m->coordinate_link[link->coordinate] = i;
+  }
+}
+
+static void copy_contacts(ambulo_model *m, const ambulo_model_definition *d, const numbering *n,
+                          char **text) {
+  for (int i = 0; i < m->point_count; i++) {
+    m->points[i] = d->points[i];
+    m->points[i].name = keep(text, d->points[i].name);
+    m->points[i].link = n->place[d->points[i].link];
+  }
+  for (int i = 0; i < m->foot_count; i++) {
+    m->feet[i] = d->feet[i];
+    m->feet[i].name = keep(text, d->feet[i].name);
+    if (m->feet[i].mirror < 0) m->feet[i].mirror = i;
+  }
+}
+
+/* up = -g/|g|; forward made horizontal; left = up x forward. */
+static void set_directions(ambulo_model *m, const double forward[3]) {
+  const double *g = m->gravity;
+  double *u = m->up, *f = m->forward, *l = m->left;
+  double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  for (int i = 0; i < 3; i++) u[i] = g[i] == 0 ? 0 : -g[i] / size;
+  double climb = u[0] * forward[0] + u[1] * forward[1] + u[2] * forward[2];
+  for (int i = 0; i < 3; i++) f[i] = forward[i] - climb * u[i];
+  size = sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+  for (int i = 0; i < 3; i++) f[i] /= size;
+  l[0] = u[1] * f[2] - u[2] * f[1];
+  l[1] = u[2] * f[0] - u[0] * f[2];
+  l[2] = u[0] * f[1] - u[1] * f[0];
+}
+
+static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
+  const ambulo_allocator *a = &m->allocator;
+  size_t links = (size_t)d->link_count, coordinates = (size_t)d->coordinate_count;
+  m->text = ambulo__alloc(a, text_size(d), 1);
+  m->links = ambulo__alloc(a, links, sizeof *m->links);
+  m->coordinates = ambulo__alloc(a, coordinates, sizeof *m->coordinates);
+  m->coordinate_link = ambulo__alloc(a, coordinates, sizeof *m->coordinate_link);
+  m->points = ambulo__alloc(a, (size_t)d->point_count, sizeof *m->points);
+  m->feet = ambulo__alloc(a, (size_t)d->foot_count, sizeof *m->feet);
+  return m->text && m->links && m->coordinates && m->coordinate_link && m->points && m->feet;
+}
+
+static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
+  size_t links = (size_t)d->link_count, coordinates = (size_t)d->coordinate_count;
+  int *block = ambulo__alloc(&m->allocator, 3 * links + coordinates, sizeof *block);
+  if (!block || !allocate(m, d)) {
+    ambulo__free(&m->allocator, block);
+    return AMBULO_E_MEMORY;
+  }
+  numbering n;
+  split(&n, block, d->link_count);
+  sort_links(d, &n);
+  m->link_count = d->link_count;
+  m->coordinate_count = d->coordinate_count;
+  m->point_count = d->point_count;
+  m->foot_count = d->foot_count;
+  m->stature = d->stature;
+  char *text = m->text;
+  m->name = keep(&text, d->name);
+  copy_links(m, d, &n, &text);
+  copy_contacts(m, d, &n, &text);
+  memcpy(m->gravity, d->gravity, sizeof m->gravity);
+  set_directions(m, d->forward);
+  ambulo__free(&m->allocator, block);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
+                                  const ambulo__model_places *places,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_model **model) {
+  if (!definition || definition->cookie != DEFINITION_COOKIE || !model) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__model_check(definition, places, diagnostics);
+  if (status != AMBULO_OK) return status;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_model *m = ambulo__alloc(&own, 1, sizeof *m);
+  if (!m) return AMBULO_E_MEMORY;
+  m->allocator = own;
+  status = copy(m, definition);
+  if (status != AMBULO_OK) {
+    ambulo_model_free(m);
+    return status;
+  }
+  *model = m;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_model_create(const ambulo_model_definition *definition,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_model **model) {
+  return ambulo__model_build(definition, NULL, allocator, diagnostics, model);
+}
+
+void ambulo_model_free(ambulo_model *model) {
+  if (!model) return;
+  ambulo_allocator a = model->allocator;
+  ambulo__free(&a, model->text);
+  ambulo__free(&a, model->links);
+  ambulo__free(&a, model->coordinates);
+  ambulo__free(&a, model->coordinate_link);
+  ambulo__free(&a, model->points);
+  ambulo__free(&a, model->feet);
+  ambulo__free(&a, model);
+}

@@ -1,0 +1,199 @@
+/* model/model_check.c - what every definition must satisfy: sizes, names, the world. */
+#include <math.h>
+#include <string.h>
+
+#include "model/check.h"
+
+ambulo__number ambulo__number_text(double value) {
+  ambulo__number number;
+  size_t length = ambulo__print_double(number.text, value);
+  number.text[length] = '\0';
+  return number;
+}
+
+int ambulo__finite3(const double v[3]) {
+  return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
+  return c->places ? c->places->model : (ambulo__place){0};
+}
+
+static ambulo__place place_in(const ambulo__checker *c, const ambulo__place *list, int index) {
+  return list ? list[index] : ambulo__place_of_model(c);
+}
+
+ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link) {
+  return place_in(c, c->places ? c->places->links : NULL, link);
+}
+
+/* ------------------------------------------------------------------- sizes */
+
+static int counts_are_sane(const ambulo_model_definition *d) {
+  return d->link_count >= 0 && d->coordinate_count >= 0 && d->point_count >= 0 &&
+         d->foot_count >= 0 && (d->links || d->link_count == 0) &&
+         (d->coordinates || d->coordinate_count == 0) && (d->points || d->point_count == 0) &&
+         (d->feet || d->foot_count == 0);
+}
+
+static ambulo_status check_sizes(ambulo__checker *c) {
+  const ambulo_model_definition *d = c->definition;
+  ambulo__place place = ambulo__place_of_model(c);
+  if (!counts_are_sane(d)) return AMBULO_E_ARGUMENT;
+  const struct {
+    const char *kind;
+    int count, limit;
+  } sizes[] = {{"links", d->link_count, AMBULO__MAX_LINKS},
+               {"coordinates", d->coordinate_count, AMBULO__MAX_LINKS},
+               {"points", d->point_count, AMBULO__MAX_POINTS},
+               {"feet", d->foot_count, AMBULO__MAX_FEET}};
+  for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+    if (sizes[i].count <= sizes[i].limit) continue;
+    return ambulo__error(c->diagnostics, AMBULO_E_LIMIT, place, NULL,
+                         "too many %s (got %d); expected at most %d", sizes[i].kind, sizes[i].count,
+                         sizes[i].limit);
+  }
+  int joints = 0;
+  for (int i = 0; i < d->link_count; i++) joints += d->links[i].type != AMBULO_FIXED;
+  if (joints == 0) {
+    return ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                         "the model cannot move (got %d links, none revolute or prismatic); "
+                         "expected at least one joint",
+                         d->link_count);
+  }
+  if (joints != d->coordinate_count) {
+    return ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                         "one coordinate belongs to each revolute or prismatic link (got %d "
+                         "coordinates for %d such links)",
+                         d->coordinate_count, joints);
+  }
+  return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------- names */
+
+static int is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-' || c == '.';
+}
+
+static int is_name(const char *text) {
+  size_t length = 0;
+  if (!text) return 0;
+  for (; text[length]; length++) {
+    if (!is_name_character(text[length]) || length == AMBULO__MAX_NAME) return 0;
+  }
+  return length > 0;
+}
+
+static void report_name(ambulo__checker *c, const char *kind, const char *name,
+                        ambulo__place place) {
+  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                            "%s name is not allowed (got '%.80s'); expected 1 to %d letters, "
+                            "digits, '_', '-' or '.'",
+                            kind, name ? name : "", (int)AMBULO__MAX_NAME);
+}
+
+static void report_duplicate(ambulo__checker *c, const char *kind, const char *name,
+                             ambulo__place first, ambulo__place second) {
+  if (first.line > 0) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, second, NULL,
+                              "two %ss are named '%s' (the first one at line %d); expected "
+                              "different names",
+                              kind, name, first.line);
+  } else {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, second, NULL,
+                              "two %ss are named '%s'; expected different names", kind, name);
+  }
+}
+
+void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo__name_of name_of,
+                         const ambulo__place *places) {
+  for (int i = 0; i < count; i++) {
+    const char *name = name_of(c->definition, i);
+    ambulo__place place = place_in(c, places, i);
+    if (!is_name(name)) {
+      report_name(c, kind, name, place);
+      continue;
+    }
+    for (int k = 0; k < i; k++) {
+      const char *other = name_of(c->definition, k);
+      if (!other || strcmp(name, other) != 0) continue;
+      report_duplicate(c, kind, name, place_in(c, places, k), place);
+      break;
+    }
+  }
+}
+
+static const char *link_name(const ambulo_model_definition *d, int i) { return d->links[i].name; }
+static const char *point_name(const ambulo_model_definition *d, int i) { return d->points[i].name; }
+static const char *foot_name(const ambulo_model_definition *d, int i) { return d->feet[i].name; }
+static const char *model_name(const ambulo_model_definition *d, int i) {
+  (void)i;
+  return d->name;
+}
+
+const char *ambulo__coordinate_name(const ambulo_model_definition *d, int index) {
+  if (d->coordinates[index].name) return d->coordinates[index].name;
+  for (int i = 0, seen = 0; i < d->link_count; i++) {
+    if (d->links[i].type != AMBULO_FIXED && seen++ == index) return d->links[i].name;
+  }
+  return NULL;
+}
+
+static void check_all_names(ambulo__checker *c) {
+  const ambulo_model_definition *d = c->definition;
+  const ambulo__model_places none = {0}, *p = c->places ? c->places : &none;
+  ambulo__check_names(c, "model", 1, model_name, NULL);
+  ambulo__check_names(c, "link", d->link_count, link_name, p->links);
+  ambulo__check_names(c, "coordinate", d->coordinate_count, ambulo__coordinate_name,
+                      p->coordinates);
+  ambulo__check_names(c, "point", d->point_count, point_name, p->points);
+  ambulo__check_names(c, "foot", d->foot_count, foot_name, p->feet);
+}
+
+/* --------------------------------------------------------------- the world */
+
+static void check_world(ambulo__checker *c) {
+  const double *g = c->definition->gravity, *f = c->definition->forward;
+  ambulo__place place = ambulo__place_of_model(c);
+  double gg = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+  double ff = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+  double gf = g[0] * f[0] + g[1] * f[1] + g[2] * f[2];
+  if (!isfinite(gg) || sqrt(gg) < 1e-9 || sqrt(gg) > 1e6) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "gravity must be finite and not zero, it tells what is up (got "
+                              "[%s, %s, %s]); expected a vector such as [0, -9.81, 0]",
+                              ambulo__number_text(g[0]).text, ambulo__number_text(g[1]).text,
+                              ambulo__number_text(g[2]).text);
+    return;
+  }
+  if (!isfinite(ff) || ff < 1e-18 || ff * gg - gf * gf < 1e-12 * ff * gg) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "the walking direction `forward` must not be zero or vertical (got "
+                              "[%s, %s, %s]); expected a horizontal vector such as [1, 0, 0]",
+                              ambulo__number_text(f[0]).text, ambulo__number_text(f[1]).text,
+                              ambulo__number_text(f[2]).text);
+  }
+  double stature = c->definition->stature;
+  if (!isfinite(stature) || stature < 0 || stature > 100) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "stature is out of range (got %s); expected 0 (unknown) to 100 m",
+                              ambulo__number_text(stature).text);
+  }
+}
+
+ambulo_status ambulo__model_check(const ambulo_model_definition *definition,
+                                  const ambulo__model_places *places,
+                                  ambulo_diagnostics *diagnostics) {
+  ambulo__checker c = {definition, places, diagnostics, AMBULO_OK};
+  if (!definition) return AMBULO_E_ARGUMENT;
+  ambulo_status sizes = check_sizes(&c);
+  if (sizes != AMBULO_OK) return sizes;
+  check_all_names(&c);
+  check_world(&c);
+  ambulo__check_links(&c);
+  ambulo__check_coordinates(&c);
+  ambulo__check_contacts(&c);
+  return c.status;
+}
