@@ -191,19 +191,28 @@ size_t ambulo_diagnostics_format(const ambulo_diagnostics *list, size_t index, c
 
 static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
 
-/* Levenshtein distance without regard to case; words longer than MAX_WORD are cut */
+static int same_letter(char a, char b) {
+  return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
+/* letters inserted, dropped, replaced or swapped with their neighbour to get from a to b,
+ * without regard to case; words longer than MAX_WORD are cut */
 static size_t edit_distance(const char *a, const char *b) {
-  size_t row[MAX_WORD + 1];
+  size_t rows[3][MAX_WORD + 1]; /* i - 2, i - 1 and i letters of a; j letters of b */
+  size_t *before = rows[0], *last = rows[1], *row = rows[2];
   size_t la = smaller(strlen(a), MAX_WORD), lb = smaller(strlen(b), MAX_WORD);
   for (size_t j = 0; j <= lb; j++) row[j] = j;
   for (size_t i = 1; i <= la; i++) {
-    size_t diagonal = row[0];
+    size_t *free_row = before;
+    before = last;
+    last = row;
+    row = free_row;
     row[0] = i;
     for (size_t j = 1; j <= lb; j++) {
-      size_t above = row[j];
-      int same = tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
-      row[j] = smaller(smaller(above, row[j - 1]) + 1, diagonal + (same ? 0 : 1));
-      diagonal = above;
+      size_t replaced = last[j - 1] + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
+      row[j] = smaller(smaller(last[j], row[j - 1]) + 1, replaced);
+      if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]))
+        row[j] = smaller(row[j], before[j - 2] + 1);
     }
   }
   return row[lb];
@@ -211,7 +220,8 @@ static size_t edit_distance(const char *a, const char *b) {
 
 const char *ambulo__nearest(const char *word, const char *const *candidates, size_t count) {
   const char *best = NULL;
-  size_t least = (strlen(word) + 2) / 3 + 1;
+  size_t length = smaller(strlen(word), MAX_WORD);
+  size_t least = length / 3 + 1;
   for (size_t i = 0; i < count; i++) {
     size_t distance = edit_distance(word, candidates[i]);
     if (distance >= least) continue;

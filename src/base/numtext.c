@@ -7,11 +7,15 @@
 #define _GNU_SOURCE
 #include "base/numtext.h"
 
+#include <float.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
 
 enum { MAX_NUMBER_LENGTH = 400 };
 
@@ -21,7 +25,7 @@ static size_t skip_digits(const char *text, size_t length, size_t at) {
 }
 
 /* [+-]digits[.digits][e[+-]digits] with a digit before or after the point */
-static int is_decimal(const char *text, size_t length) {
+int ambulo__is_decimal(const char *text, size_t length) {
   size_t at = 0;
   if (at < length && (text[at] == '+' || text[at] == '-')) at++;
   size_t whole = at;
@@ -45,19 +49,25 @@ static int is_decimal(const char *text, size_t length) {
 
 static double read_c_locale(const char *text) {
   locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  if (c == (locale_t)0) return strtod(text, NULL);
+  if (c == (locale_t)0) return (double)NAN;
   double value = strtod_l(text, NULL, c);
   freelocale(c);
   return value;
 }
 
+/* before the exponent */
+static int has_nonzero_digit(const char *text) {
+  return text[strcspn(text, "123456789eE")] != '\0' &&
+         strchr("123456789", text[strcspn(text, "123456789eE")]) != NULL;
+}
+
 int ambulo__parse_double(const char *text, size_t length, double *value) {
   char copy[MAX_NUMBER_LENGTH];
-  if (length == 0 || length >= sizeof copy || !is_decimal(text, length)) return 0;
+  if (length == 0 || length >= sizeof copy || !ambulo__is_decimal(text, length)) return 0;
   memcpy(copy, text, length);
   copy[length] = '\0';
   double result = read_c_locale(copy);
-  if (!isfinite(result)) return 0;
+  if (!isfinite(result) || (result == 0.0 && has_nonzero_digit(copy))) return 0;
   *value = result;
   return 1;
 }
@@ -97,7 +107,9 @@ size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value) {
     memcpy(buffer, word, strlen(word) + 1);
     return strlen(word);
   }
-  for (int digits = 15; digits <= 17; digits++) {
+  /* every text of up to 15 digits survives in a normal double, so that %.15g already
+     drops what is not needed; subnormal numbers carry fewer digits */
+  for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
     double back = 0.0;
     print_digits(buffer, digits, value);
     if (ambulo__parse_double(buffer, strlen(buffer), &back) && back == value) break;

@@ -4,10 +4,13 @@
 
 #include <stddef.h>
 
+/* Whether text[0..length) has the form [+-]digits[.digits][e[+-]digits]. */
+int ambulo__is_decimal(const char *text, size_t length);
+
 /* Reads a finite decimal number that fills the whole of text[0..length):
  * [+-]digits[.digits][e[+-]digits], at least one digit. Correctly rounded.
- * Returns 1 and sets *value, or 0 (not a number, not finite, underflow to
- * nonsense, trailing text; *value untouched). */
+ * Returns 1 and sets *value, or 0 (not a number, beyond the range of double,
+ * not zero but rounded to zero, trailing text; *value untouched). */
 int ambulo__parse_double(const char *text, size_t length, double *value);
 /* The same for a whole number in [min, max]. */
 int ambulo__parse_integer(const char *text, size_t length, long long min, long long max,
