@@ -1,0 +1,49 @@
+/* solver/options.c - the defaults of a solve, and the check of what a caller hands in. */
+#include "solver/options.h"
+
+#include <math.h>
+
+enum { OPTIONS_COOKIE = 0x616d6273, DEFAULT_EVALUATIONS = 20000 };
+
+ambulo_options ambulo_options_default(void) {
+  ambulo_options options = {
+      .cookie = OPTIONS_COOKIE,
+      .algorithm = AMBULO_AUTO,
+      .presolve = 1,
+      .maximum_evaluations = DEFAULT_EVALUATIONS,
+      .time_limit = 0.0,
+      .feasibility_tolerance = 1e-6,
+      .optimality_tolerance = 1e-3,
+      .continuation = 1,
+      .dense_samples = 10,
+  };
+  return options;
+}
+
+ambulo_status ambulo__options_check(const ambulo_options *options,
+                                    ambulo_diagnostics *diagnostics) {
+  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+  if (options->cookie != OPTIONS_COOKIE)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver options did not come from ambulo_options_default()");
+  if (options->algorithm < AMBULO_AUTO || options->algorithm > AMBULO_AUGLAG)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "unknown solver algorithm %d", (int)options->algorithm);
+  if (options->maximum_evaluations < 1)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver.maximum_evaluations is %d; expected at least 1",
+                         options->maximum_evaluations);
+  if (!(options->time_limit >= 0.0))
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver.time_limit is %g s; expected 0 (none) or more",
+                         options->time_limit);
+  if (!(options->feasibility_tolerance > 0.0) || !(options->optimality_tolerance > 0.0))
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver tolerances are %g and %g; expected positive numbers",
+                         options->feasibility_tolerance, options->optimality_tolerance);
+  if (options->dense_samples < 1 || options->dense_samples > 1000)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver.dense_samples is %d; expected 1 to 1000",
+                         options->dense_samples);
+  return AMBULO_OK;
+}

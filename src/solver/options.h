@@ -1,0 +1,12 @@
+/* solver/options.h - check of the options of a solve. */
+#ifndef AMBULO_SOLVER_OPTIONS_H
+#define AMBULO_SOLVER_OPTIONS_H
+
+#include "ambulo/solve.h"
+#include "base/diagnostics.h"
+
+/* E_ARGUMENT with the option's name and its range. */
+ambulo_status ambulo__options_check(const ambulo_options *options,
+                                    ambulo_diagnostics *diagnostics);
+
+#endif

@@ -1,0 +1,25 @@
+/* solver/pool.h - the memory of one solve: many blocks, one failure flag, one free.
+ *
+ * Everything a solve needs is taken here before its first iteration; the loops then
+ * allocate nothing. */
+#ifndef AMBULO_SOLVER_POOL_H
+#define AMBULO_SOLVER_POOL_H
+
+#include "base/alloc.h"
+
+#define AMBULO__POOL_CAPACITY 192
+
+typedef struct ambulo__pool {
+  ambulo_allocator allocator;
+  void *block[AMBULO__POOL_CAPACITY];
+  int count;
+  int failed;      /* sticky: some block could not be had */
+} ambulo__pool;
+
+void ambulo__pool_init(ambulo__pool *pool, const ambulo_allocator *allocator);
+/* Zero-filled, 64-byte aligned; NULL (and pool->failed) when memory is out. */
+double *ambulo__pool_doubles(ambulo__pool *pool, size_t count);
+int *ambulo__pool_ints(ambulo__pool *pool, size_t count);
+void ambulo__pool_clear(ambulo__pool *pool);
+
+#endif

@@ -1,0 +1,29 @@
+/* solver/result.h - what a solve leaves behind. */
+#ifndef AMBULO_SOLVER_RESULT_H
+#define AMBULO_SOLVER_RESULT_H
+
+#include "nlp/nlp.h"
+
+#define AMBULO__ENDING_SIZE 160
+
+struct ambulo_result {
+  ambulo_allocator allocator;
+  ambulo_verdict verdict;
+  int variables, rows, terms, families;
+  double objective;
+  double *x;                  /* [variables] */
+  double *term;               /* [terms], weighted */
+  double *row;                /* [rows], physical units */
+  double *multiplier;         /* [rows]: stationarity is grad J = sum multiplier grad c */
+  ambulo_violation *family;   /* [families], in the order in which they first appear */
+  ambulo_audit audit;
+  ambulo_timing timing;
+  int iterations, evaluations;
+  char ending[AMBULO__ENDING_SIZE];
+};
+
+/* Sized for `problem`, zero-filled. E_MEMORY. */
+ambulo_status ambulo__result_create(const ambulo_problem *problem,
+                                    const ambulo_allocator *allocator, ambulo_result **result);
+
+#endif
