@@ -1,0 +1,22 @@
+/* mechanics/kernel_source.h - one set of kernels.
+ *
+ * Compiled once for each instruction set by a kernels_*.c file of that name, which defines
+ * AMBULO__WIDTH (lanes at a time), AMBULO__KERNELS (symbol of the set) and AMBULO__KERNELS_NAME.
+ * A width below AMBULO__LANES goes over the block in parts; scratch and arrays are laid out the
+ * same for all widths.
+ */
+#ifndef AMBULO_MECHANICS_KERNEL_SOURCE_H
+#define AMBULO_MECHANICS_KERNEL_SOURCE_H
+
+#include "mechanics/kernel_forward.h"
+
+static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
+                    double *out, double *scratch) {
+  for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
+    forward_part(plan, q + lane, qd + lane, qdd + lane, out + lane, scratch + lane);
+  }
+}
+
+const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, forward, NULL, NULL};
+
+#endif

@@ -1,0 +1,147 @@
+/* mechanics/kernel_wide.h - the wide type, and vectors and matrices of it.
+ *
+ * AMBULO__WIDTH (8, 4, 2 or 1) lanes of double make a `wide`, by the vector extension of GCC and
+ * Clang: + - * act lane by lane, a scalar operand is spread over the lanes. Memory is always
+ * [entry][AMBULO__LANES]; a narrower type works on a part of each block.
+ *
+ * Included only by the kernels_*.c files, after AMBULO__WIDTH.
+ */
+#ifndef AMBULO_MECHANICS_KERNEL_WIDE_H
+#define AMBULO_MECHANICS_KERNEL_WIDE_H
+
+#include <stdint.h>
+
+#include "mechanics/plan_layout.h"
+
+#define AMBULO__INLINE static inline __attribute__((always_inline, unused))
+
+typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias));
+typedef int64_t wide_bits __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias));
+
+typedef struct wide3 {
+  wide x, y, z;
+} wide3;
+
+/* By rows. */
+typedef struct wide33 {
+  wide3 x, y, z;
+} wide33;
+
+/* Symmetric. */
+typedef struct wide6 {
+  wide xx, yy, zz, xy, xz, yz;
+} wide6;
+
+AMBULO__INLINE wide spread(double value) {
+  return value - (wide){0};
+}
+
+AMBULO__INLINE wide load(const double *at) {
+  return *(const wide *)at;
+}
+
+AMBULO__INLINE void store(double *at, wide value) {
+  *(wide *)at = value;
+}
+
+AMBULO__INLINE wide3 load3(const double *at) {
+  return (wide3){load(at), load(at + AMBULO__LANES), load(at + 2 * AMBULO__LANES)};
+}
+
+AMBULO__INLINE void store3(double *at, wide3 v) {
+  store(at, v.x);
+  store(at + AMBULO__LANES, v.y);
+  store(at + 2 * AMBULO__LANES, v.z);
+}
+
+AMBULO__INLINE wide33 load33(const double *at) {
+  return (wide33){load3(at), load3(at + 3 * AMBULO__LANES), load3(at + 6 * AMBULO__LANES)};
+}
+
+AMBULO__INLINE void store33(double *at, wide33 m) {
+  store3(at, m.x);
+  store3(at + 3 * AMBULO__LANES, m.y);
+  store3(at + 6 * AMBULO__LANES, m.z);
+}
+
+AMBULO__INLINE wide6 load6(const double *at) {
+  wide3 d = load3(at), o = load3(at + 3 * AMBULO__LANES);
+  return (wide6){d.x, d.y, d.z, o.x, o.y, o.z};
+}
+
+AMBULO__INLINE void store6(double *at, wide6 m) {
+  store3(at, (wide3){m.xx, m.yy, m.zz});
+  store3(at + 3 * AMBULO__LANES, (wide3){m.xy, m.xz, m.yz});
+}
+
+AMBULO__INLINE void add3_at(double *at, wide3 v) {
+  wide3 old = load3(at);
+  store3(at, (wide3){old.x + v.x, old.y + v.y, old.z + v.z});
+}
+
+AMBULO__INLINE wide3 add3(wide3 a, wide3 b) {
+  return (wide3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+AMBULO__INLINE wide3 sub3(wide3 a, wide3 b) {
+  return (wide3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+AMBULO__INLINE wide3 scale3(wide s, wide3 a) {
+  return (wide3){s * a.x, s * a.y, s * a.z};
+}
+
+/* a + s b */
+AMBULO__INLINE wide3 axpy3(wide3 a, wide s, wide3 b) {
+  return (wide3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+AMBULO__INLINE wide dot3(wide3 a, wide3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+AMBULO__INLINE wide3 cross3(wide3 a, wide3 b) {
+  return (wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* c + a x b */
+AMBULO__INLINE wide3 add_cross3(wide3 c, wide3 a, wide3 b) {
+  return (wide3){(c.x + a.y * b.z) - a.z * b.y, (c.y + a.z * b.x) - a.x * b.z,
+                 (c.z + a.x * b.y) - a.y * b.x};
+}
+
+AMBULO__INLINE wide3 multiply33(wide33 m, wide3 v) {
+  return (wide3){dot3(m.x, v), dot3(m.y, v), dot3(m.z, v)};
+}
+
+/* c + M v */
+AMBULO__INLINE wide3 add_multiply33(wide3 c, wide33 m, wide3 v) {
+  return (wide3){c.x + m.x.x * v.x + m.x.y * v.y + m.x.z * v.z,
+                 c.y + m.y.x * v.x + m.y.y * v.y + m.y.z * v.z,
+                 c.z + m.z.x * v.x + m.z.y * v.y + m.z.z * v.z};
+}
+
+/* c + M^T v */
+AMBULO__INLINE wide3 add_multiply33_transposed(wide3 c, wide33 m, wide3 v) {
+  return axpy3(axpy3(axpy3(c, v.x, m.x), v.y, m.y), v.z, m.z);
+}
+
+AMBULO__INLINE wide3 multiply6(wide6 m, wide3 v) {
+  return (wide3){m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+                 m.xz * v.x + m.yz * v.y + m.zz * v.z};
+}
+
+/* c + r, r a constant in the frame with these columns; most constants have zeros. */
+AMBULO__INLINE wide3 add_rotated(wide3 c, const double *base, const int columns[3],
+                                 const double r[3]) {
+  for (int i = 0; i < 3; i++) {
+    if (r[i] != 0) c = axpy3(c, spread(r[i]), load3(base + columns[i]));
+  }
+  return c;
+}
+
+AMBULO__INLINE wide33 add_outer(wide33 m, wide3 a, wide3 b) {
+  return (wide33){axpy3(m.x, a.x, b), axpy3(m.y, a.y, b), axpy3(m.z, a.z, b)};
+}
+
+#endif

@@ -1,0 +1,15 @@
+/* mechanics/kernels.h - the compiled kernel sets. Only those the compiler could build exist. */
+#ifndef AMBULO_MECHANICS_KERNELS_H
+#define AMBULO_MECHANICS_KERNELS_H
+
+#include "mechanics/plan.h"
+
+extern const ambulo__kernels ambulo__kernels_scalar;
+extern const ambulo__kernels ambulo__kernels_baseline;
+#if defined(__x86_64__)
+/* Without functions (all NULL) when the file was built without its instruction set. */
+extern const ambulo__kernels ambulo__kernels_avx2;
+extern const ambulo__kernels ambulo__kernels_avx512;
+#endif
+
+#endif

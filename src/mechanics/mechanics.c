@@ -1,0 +1,230 @@
+/* mechanics/mechanics.c - the public batches: node-major arrays through the lane kernels.
+ *
+ * Nodes are gathered into blocks of AMBULO__LANES, the last one padded with copies of the last
+ * node, and the results scattered back. Inputs are looked through before anything is written.
+ * Results can only overflow if an input is enormous; then a dry run comes first, so that outputs
+ * stay untouched on failure.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "ambulo/mechanics.h"
+#include "mechanics/plan.h"
+
+struct ambulo_mechanics {
+  ambulo_allocator allocator;
+  ambulo__plan *plan;
+  const ambulo__kernels *kernels;
+  double *q, *qd, *qdd;    /* [d][lanes] */
+  double *out, *weights;   /* [rows][lanes] */
+  double *gq, *gqd, *gqdd; /* [d][lanes] */
+  double *jq, *jqd, *jqdd; /* [count] and [dynamic_count][lanes] */
+  double *scratch;
+};
+
+typedef struct batch {
+  int nodes;
+  const double *q, *qd, *qdd; /* [nodes][d] */
+} batch;
+
+void ambulo_mechanics_free(ambulo_mechanics *mechanics) {
+  if (!mechanics) return;
+  ambulo_allocator memory = mechanics->allocator;
+  ambulo__plan_free(mechanics->plan);
+  ambulo__free_aligned(&memory, mechanics->q);
+  ambulo__free(&memory, mechanics);
+}
+
+/* One allocation, cut into the arrays. */
+static ambulo_status allocate_arrays(ambulo_mechanics *m) {
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(m->plan);
+  size_t d = (size_t)ambulo__plan_coordinates(m->plan) * AMBULO__LANES;
+  size_t rows = (size_t)ambulo__plan_rows(m->plan) * AMBULO__LANES;
+  size_t all = (size_t)pattern.count * AMBULO__LANES;
+  size_t dynamic = (size_t)pattern.dynamic_count * AMBULO__LANES;
+  size_t total = 6 * d + 2 * rows + all + 2 * dynamic + ambulo__plan_scratch(m->plan);
+  double *at = ambulo__alloc_aligned(&m->allocator, total, sizeof(double));
+  if (!at) return AMBULO_E_MEMORY;
+  double **const arrays[] = {&m->q,   &m->qd,      &m->qdd, &m->gq,  &m->gqd,  &m->gqdd,
+                             &m->out, &m->weights, &m->jq,  &m->jqd, &m->jqdd, &m->scratch};
+  const size_t sizes[] = {d, d, d, d, d, d, rows, rows, all, dynamic, dynamic, 0};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    *arrays[i] = at;
+    at += sizes[i];
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_mechanics_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo_mechanics **mechanics) {
+  if (!model || !mechanics) return AMBULO_E_ARGUMENT;
+  ambulo_allocator memory = ambulo__allocator_or_default(allocator);
+  ambulo_mechanics *m = ambulo__alloc(&memory, 1, sizeof *m);
+  if (!m) return AMBULO_E_MEMORY;
+  m->allocator = memory;
+  m->kernels = ambulo__kernels_select();
+  ambulo_status status = ambulo__plan_create(model, allocator, &m->plan);
+  if (status == AMBULO_OK) status = allocate_arrays(m);
+  if (status != AMBULO_OK) {
+    ambulo_mechanics_free(m);
+    return status;
+  }
+  *mechanics = m;
+  return AMBULO_OK;
+}
+
+/* The largest magnitude; infinite if anything is not finite. NULL counts as zeros. */
+static double largest(const double *values, size_t count) {
+  double most = 0;
+  for (size_t i = 0; values && i < count; i++) {
+    double size = fabs(values[i]);
+    if (!(size <= 1.7976931348623157e308)) return INFINITY;
+    if (size > most) most = size;
+  }
+  return most;
+}
+
+static double largest_input(const ambulo_mechanics *m, const batch *motion) {
+  size_t count = (size_t)motion->nodes * (size_t)ambulo__plan_coordinates(m->plan);
+  double most = fmax(largest(motion->q, count), largest(motion->qd, count));
+  return fmax(most, largest(motion->qdd, count));
+}
+
+static int is_legal(const ambulo_mechanics *m, const batch *motion) {
+  if (!m || motion->nodes < 0) return 0;
+  return (motion->q && motion->qd && motion->qdd) || motion->nodes == 0 ||
+         ambulo__plan_coordinates(m->plan) == 0;
+}
+
+/* Number of runs: 0 if an input is not finite, 2 if a dry run is called for. */
+static int run_count(double most) {
+  return isinf(most) ? 0 : (most > 1e30 ? 2 : 1);
+}
+
+/* lanes[entry][lane] = values[node][entry] for the block that starts at `first`. */
+static void gather(double *lanes, const double *values, int entries, int first, int nodes) {
+  for (int lane = 0; lane < AMBULO__LANES; lane++) {
+    int node = first + lane < nodes ? first + lane : nodes - 1;
+    const double *from = values ? values + (size_t)node * (size_t)entries : NULL;
+    for (int e = 0; e < entries; e++) lanes[e * AMBULO__LANES + lane] = from ? from[e] : 0;
+  }
+}
+
+static void scatter(double *values, const double *lanes, int entries, int first, int nodes) {
+  for (int lane = 0; values && lane < AMBULO__LANES && first + lane < nodes; lane++) {
+    double *to = values + (size_t)(first + lane) * (size_t)entries;
+    for (int e = 0; e < entries; e++) to[e] = lanes[e * AMBULO__LANES + lane];
+  }
+}
+
+static int all_finite(const double *values, size_t entries) {
+  return !isinf(largest(values, entries * AMBULO__LANES));
+}
+
+static void run_forward(ambulo_mechanics *m, const batch *motion, int first) {
+  int d = ambulo__plan_coordinates(m->plan);
+  gather(m->q, motion->q, d, first, motion->nodes);
+  gather(m->qd, motion->qd, d, first, motion->nodes);
+  gather(m->qdd, motion->qdd, d, first, motion->nodes);
+  m->kernels->forward(m->plan, m->q, m->qd, m->qdd, m->out, m->scratch);
+}
+
+ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, const double *q,
+                                                const double *qd, const double *qdd, double *tau,
+                                                double *wrench, double *points) {
+  batch motion = {nodes, q, qd, qdd};
+  if (!is_legal(m, &motion)) return AMBULO_E_ARGUMENT;
+  int d = ambulo__plan_coordinates(m->plan), p = 3 * ambulo__plan_points(m->plan);
+  size_t rows = (size_t)ambulo__plan_rows(m->plan);
+  int runs = run_count(largest_input(m, &motion));
+  if (runs == 0) return AMBULO_E_NUMERIC;
+  for (int run = runs; run > 0; run--) {
+    for (int first = 0; first < nodes; first += AMBULO__LANES) {
+      run_forward(m, &motion, first);
+      if (!all_finite(m->out, rows)) return AMBULO_E_NUMERIC;
+      if (run > 1) continue;
+      scatter(tau, m->out, d, first, nodes);
+      scatter(wrench, m->out + d * AMBULO__LANES, 6, first, nodes);
+      scatter(points, m->out + (d + 6) * AMBULO__LANES, p, first, nodes);
+    }
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const double *q,
+                                        const double *qd, const double *qdd,
+                                        const double *tau_weights, const double *wrench_weights,
+                                        const double *point_weights, double *q_gradient,
+                                        double *qd_gradient, double *qdd_gradient) {
+  batch motion = {nodes, q, qd, qdd};
+  if (!is_legal(m, &motion) || !q_gradient || !qd_gradient || !qdd_gradient) {
+    return AMBULO_E_ARGUMENT;
+  }
+  int d = ambulo__plan_coordinates(m->plan), p = 3 * ambulo__plan_points(m->plan);
+  size_t n = (size_t)nodes, columns = (size_t)d;
+  double most = fmax(largest_input(m, &motion), largest(tau_weights, n * columns));
+  most = fmax(most, fmax(largest(wrench_weights, n * 6), largest(point_weights, n * (size_t)p)));
+  int runs = run_count(most);
+  if (runs == 0) return AMBULO_E_NUMERIC;
+  for (int run = runs; run > 0; run--) {
+    for (int first = 0; first < nodes; first += AMBULO__LANES) {
+      run_forward(m, &motion, first);
+      gather(m->weights, tau_weights, d, first, nodes);
+      gather(m->weights + d * AMBULO__LANES, wrench_weights, 6, first, nodes);
+      gather(m->weights + (d + 6) * AMBULO__LANES, point_weights, p, first, nodes);
+      m->kernels->reverse(m->plan, m->qd, m->qdd, m->weights, m->gq, m->gqd, m->gqdd, m->scratch);
+      if (!all_finite(m->gq, 3 * columns)) return AMBULO_E_NUMERIC;
+      if (run > 1) continue;
+      scatter(q_gradient, m->gq, d, first, nodes);
+      scatter(qd_gradient, m->gqd, d, first, nodes);
+      scatter(qdd_gradient, m->gqdd, d, first, nodes);
+    }
+  }
+  return AMBULO_OK;
+}
+
+/* values[node][row - from][column] for rows from..to of the pattern; zeros elsewhere. */
+static void scatter_rows(const ambulo_mechanics *m, double *values, const double *entries, int from,
+                         int to, int first, int nodes) {
+  if (!values) return;
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(m->plan);
+  size_t d = (size_t)ambulo__plan_coordinates(m->plan), size = (size_t)(to - from) * d;
+  for (int lane = 0; lane < AMBULO__LANES && first + lane < nodes; lane++) {
+    double *matrix = values + (size_t)(first + lane) * size;
+    memset(matrix, 0, size * sizeof *matrix);
+    for (int row = from; row < to; row++) {
+      double *to_row = matrix + (size_t)(row - from) * d;
+      for (int e = pattern.start[row]; e < pattern.start[row + 1]; e++) {
+        to_row[pattern.column[e]] = entries[e * AMBULO__LANES + lane];
+      }
+    }
+  }
+}
+
+ambulo_status ambulo_mechanics_jacobians(ambulo_mechanics *m, int nodes, const double *q,
+                                         const double *qd, const double *qdd,
+                                         const ambulo_jacobians *jacobians) {
+  batch motion = {nodes, q, qd, qdd};
+  if (!jacobians || !is_legal(m, &motion)) return AMBULO_E_ARGUMENT;
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(m->plan);
+  int d = ambulo__plan_coordinates(m->plan), rows = ambulo__plan_rows(m->plan);
+  size_t count = (size_t)pattern.count + 2 * (size_t)pattern.dynamic_count;
+  int runs = run_count(largest_input(m, &motion));
+  if (runs == 0) return AMBULO_E_NUMERIC;
+  for (int run = runs; run > 0; run--) {
+    for (int first = 0; first < nodes; first += AMBULO__LANES) {
+      run_forward(m, &motion, first);
+      m->kernels->jacobian(m->plan, m->qd, m->qdd, m->jq, m->jqd, m->jqdd, m->scratch);
+      if (!all_finite(m->jq, count)) return AMBULO_E_NUMERIC;
+      if (run > 1) continue;
+      scatter_rows(m, jacobians->tau_q, m->jq, 0, d, first, nodes);
+      scatter_rows(m, jacobians->tau_qd, m->jqd, 0, d, first, nodes);
+      scatter_rows(m, jacobians->tau_qdd, m->jqdd, 0, d, first, nodes);
+      scatter_rows(m, jacobians->wrench_q, m->jq, d, d + 6, first, nodes);
+      scatter_rows(m, jacobians->wrench_qd, m->jqd, d, d + 6, first, nodes);
+      scatter_rows(m, jacobians->wrench_qdd, m->jqdd, d, d + 6, first, nodes);
+      scatter_rows(m, jacobians->points_q, m->jq, d + 6, rows, first, nodes);
+    }
+  }
+  return AMBULO_OK;
+}

@@ -1,0 +1,256 @@
+/* mechanics/plan.c - compiling a model: from DH links to frames that kernels can run.
+ *
+ * Only links with a coordinate become frames; every other link is a constant placing (R, p) in
+ * the frame it is fixed to. With (R, p) the placing of a link's parent, its transform
+ * T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) reads
+ *   fixed:      R <- R Rot_z Rot_x,  p <- p + R Rot_z (a, 0, 0) + R (0, 0, d)
+ *   revolute:   the axis is z = R e_z through p. If z = s e_c for a frame axis c, the new frame is
+ *               the parent frame turned about e_c by s (q + shift), its origin at p, and the link
+ *               is placed at R Rot_x, R (a, 0, d). An oblique axis first turns the frame by R.
+ *   prismatic:  the new frame slides along z by q; the link is placed as if it were fixed.
+ * theta is made part of the placing if it is a multiple of 90 degrees, else part of the shift, so
+ * that axes stay aligned along the chain. If the axis meets the parent's origin, the origins are
+ * the same (the constant rest goes into the placing). Numbers that stem from cos(pi/2) are
+ * rounded to zero.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "mechanics/plan_build.h"
+
+static const double snap = 1e-15;
+
+static double snapped(double x) {
+  if (fabs(x) < snap) return 0;
+  if (fabs(x - 1) < snap) return 1;
+  if (fabs(x + 1) < snap) return -1;
+  return x;
+}
+
+/* r <- r times a rotation by angle that mixes columns u and v. */
+static void rotate_columns(double r[3][3], int u, int v, double angle) {
+  double c = snapped(cos(angle)), s = snapped(sin(angle));
+  for (int i = 0; i < 3; i++) {
+    double x = r[i][u], y = r[i][v];
+    r[i][u] = snapped(c * x + s * y);
+    r[i][v] = snapped(c * y - s * x);
+  }
+}
+
+static void move(ambulo__placing *placing, double x, double z) {
+  for (int i = 0; i < 3; i++) {
+    placing->position[i] += placing->rotation[i][0] * x + placing->rotation[i][2] * z;
+    if (fabs(placing->position[i]) < snap) placing->position[i] = 0;
+  }
+}
+
+/* Places the link after its constant transform. */
+static void place_fixed(ambulo__placing *placing, const ambulo_link *link) {
+  rotate_columns(placing->rotation, 0, 1, link->theta);
+  move(placing, link->a, link->d);
+  rotate_columns(placing->rotation, 1, 2, link->alpha);
+}
+
+/* The frame axis c with z = +-e_c, or -1. */
+static int aligned_axis(const double rotation[3][3]) {
+  for (int i = 0; i < 3; i++) {
+    if (fabs(rotation[i][2]) == 1) return i;
+  }
+  return -1;
+}
+
+/* The placing's position becomes the joint's offset, or stays if the axis meets the origin. */
+static void set_origin(ambulo__joint *joint, ambulo__placing *placing) {
+  double along = 0, away[3], *p = placing->position;
+  for (int i = 0; i < 3; i++) along += placing->rotation[i][2] * p[i];
+  joint->has_offset = 0;
+  for (int i = 0; i < 3; i++) {
+    away[i] = p[i] - along * placing->rotation[i][2];
+    if (fabs(away[i]) >= snap) joint->has_offset = 1;
+  }
+  for (int i = 0; i < 3; i++) {
+    joint->offset[i] = joint->has_offset ? p[i] : 0;
+    p[i] = joint->has_offset ? 0 : p[i];
+  }
+}
+
+static void set_turn(ambulo__joint *joint, ambulo__placing *placing) {
+  double p[3];
+  joint->turned = 1;
+  for (int i = 0; i < 3; i++) {
+    p[i] = 0;
+    for (int k = 0; k < 3; k++) {
+      joint->turn[3 * i + k] = placing->rotation[i][k];
+      p[i] += placing->rotation[k][i] * placing->position[k];
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    placing->position[i] = p[i];
+    for (int k = 0; k < 3; k++) placing->rotation[i][k] = i == k;
+  }
+}
+
+static void compile_revolute(ambulo__joint *joint, ambulo__placing *placing,
+                             const ambulo_link *link) {
+  double turns = link->theta / (0.5 * acos(-1));
+  int constant = fabs(turns - round(turns)) < snap;
+  set_origin(joint, placing);
+  joint->axis = aligned_axis((const double(*)[3])placing->rotation);
+  if (joint->axis < 0) {
+    set_turn(joint, placing);
+    joint->axis = 2;
+  }
+  joint->sign = placing->rotation[joint->axis][2];
+  joint->shift = constant ? 0 : link->theta;
+  if (constant) rotate_columns(placing->rotation, 0, 1, link->theta);
+  move(placing, link->a, link->d);
+  rotate_columns(placing->rotation, 1, 2, link->alpha);
+}
+
+static void compile_prismatic(ambulo__joint *joint, ambulo__placing *placing,
+                              const ambulo_link *link) {
+  ambulo__placing axes = *placing;
+  joint->axis = aligned_axis((const double(*)[3])placing->rotation);
+  if (joint->axis < 0) {
+    set_turn(joint, &axes);
+    joint->axis = 2;
+    joint->sign = 1;
+  } else {
+    joint->sign = placing->rotation[joint->axis][2];
+  }
+  place_fixed(placing, link);
+}
+
+/* Compiles one link. Parents come first, so placings[link->parent] is known. */
+static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__placing *placing) {
+  if (link->type == AMBULO_FIXED) {
+    place_fixed(placing, link);
+    return;
+  }
+  ambulo__joint *joint = &plan->joints[link->coordinate];
+  joint->parent = placing->frame;
+  joint->revolute = link->type == AMBULO_REVOLUTE;
+  if (joint->revolute) {
+    compile_revolute(joint, placing, link);
+  } else {
+    compile_prismatic(joint, placing, link);
+  }
+  placing->frame = link->coordinate + 1;
+}
+
+static void set_fixed_load(ambulo__plan *plan, const ambulo__mass *fixed) {
+  for (int i = 0; i < 3; i++) plan->fixed_load[3 + i] = -fixed->mass * plan->gravity[i];
+  for (int i = 0; i < 3; i++) {
+    int u = (i + 1) % 3, v = (i + 2) % 3;
+    plan->fixed_load[i] =
+        fixed->com[u] * plan->fixed_load[3 + v] - fixed->com[v] * plan->fixed_load[3 + u];
+  }
+}
+
+/* Merges the bodies frame by frame; what is fixed to the world becomes a constant load. */
+static void collect_bodies(ambulo__plan *plan, const ambulo_model *model,
+                           const ambulo__placing *placings, ambulo__mass *masses) {
+  for (int i = 0; i < model->link_count; i++) {
+    if (!(model->links[i].mass > 0)) continue;
+    ambulo__mass mass = ambulo__mass_of_link(&model->links[i], &placings[i]);
+    ambulo__mass_add(&masses[placings[i].frame], &mass);
+  }
+  set_fixed_load(plan, &masses[0]);
+  plan->frames[0].body = -1;
+  for (int k = 1; k <= plan->coordinates; k++) {
+    plan->frames[k].body = -1;
+    if (!(masses[k].mass > 0)) continue;
+    ambulo__body *body = &plan->body[plan->bodies];
+    ambulo__mass_factor(&masses[k], body);
+    body->frame = k;
+    plan->frames[k].body = plan->bodies++;
+  }
+}
+
+static void collect_points(ambulo__plan *plan, const ambulo_model *model,
+                           const ambulo__placing *placings) {
+  for (int i = 0; i < plan->points; i++) {
+    const ambulo__placing *placing = &placings[model->points[i].link];
+    plan->point[i].frame = placing->frame;
+    for (int r = 0; r < 3; r++) {
+      double sum = placing->position[r];
+      for (int k = 0; k < 3; k++) sum += placing->rotation[r][k] * model->points[i].position[k];
+      plan->point[i].position[r] = sum;
+    }
+  }
+}
+
+static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model) {
+  const ambulo_allocator *allocator = &plan->allocator;
+  ambulo_status status = AMBULO_E_MEMORY;
+  size_t frames = (size_t)plan->coordinates + 1;
+  ambulo__placing *placings = ambulo__alloc(allocator, (size_t)model->link_count, sizeof *placings);
+  ambulo__mass *masses = ambulo__alloc(allocator, frames, sizeof *masses);
+  if (!placings || !masses) goto done;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    ambulo__placing world = {0, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    placings[i] = link->parent >= 0 ? placings[link->parent] : world;
+    compile_link(plan, link, &placings[i]);
+  }
+  collect_bodies(plan, model, placings, masses);
+  collect_points(plan, model, placings);
+  ambulo__plan_place(plan);
+  status = ambulo__plan_pattern_build(plan);
+done:
+  ambulo__free(allocator, placings);
+  ambulo__free(allocator, masses);
+  return status;
+}
+
+ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                  ambulo__plan **out) {
+  ambulo_status status = AMBULO_E_MEMORY;
+  ambulo_allocator memory = ambulo__allocator_or_default(allocator);
+  ambulo__plan *plan = ambulo__alloc(&memory, 1, sizeof *plan);
+  if (!plan) return AMBULO_E_MEMORY;
+  plan->allocator = memory;
+  plan->coordinates = model->coordinate_count;
+  plan->points = model->point_count;
+  memcpy(plan->gravity, model->gravity, sizeof plan->gravity);
+  size_t frames = (size_t)plan->coordinates + 1;
+  plan->frames = ambulo__alloc(&memory, frames, sizeof *plan->frames);
+  plan->joints = ambulo__alloc(&memory, frames, sizeof *plan->joints);
+  plan->body = ambulo__alloc(&memory, frames, sizeof *plan->body);
+  plan->point = ambulo__alloc(&memory, (size_t)plan->points, sizeof *plan->point);
+  if (!plan->frames || !plan->joints || !plan->body || !plan->point) goto failed;
+  status = compile(plan, model);
+  if (status != AMBULO_OK) goto failed;
+  *out = plan;
+  return AMBULO_OK;
+failed:
+  ambulo__plan_free(plan);
+  return status;
+}
+
+void ambulo__plan_free(ambulo__plan *plan) {
+  if (!plan) return;
+  ambulo_allocator memory = plan->allocator;
+  ambulo__free(&memory, plan->frames);
+  ambulo__free(&memory, plan->joints);
+  ambulo__free(&memory, plan->body);
+  ambulo__free(&memory, plan->point);
+  ambulo__free(&memory, plan->start);
+  ambulo__free(&memory, plan->column);
+  ambulo__free(&memory, plan->ancestor_start);
+  ambulo__free(&memory, plan->ancestor);
+  ambulo__free(&memory, plan->upper);
+  ambulo__free(&memory, plan);
+}
+
+int ambulo__plan_coordinates(const ambulo__plan *plan) {
+  return plan->coordinates;
+}
+
+int ambulo__plan_points(const ambulo__plan *plan) {
+  return plan->points;
+}
+
+size_t ambulo__plan_scratch(const ambulo__plan *plan) {
+  return plan->scratch;
+}

@@ -1,0 +1,30 @@
+/* mechanics/plan_build.h - the steps of compiling a plan, in order. Private to plan*.c. */
+#ifndef AMBULO_MECHANICS_PLAN_BUILD_H
+#define AMBULO_MECHANICS_PLAN_BUILD_H
+
+#include "mechanics/plan_layout.h"
+
+/* A mass distribution: mass, centre of mass, inertia about it. */
+typedef struct ambulo__mass {
+  double mass, com[3], inertia[3][3];
+} ambulo__mass;
+
+/* Where a link stands: x_frame = rotation x_link + position, constant. */
+typedef struct ambulo__placing {
+  int frame;
+  double rotation[3][3], position[3];
+} ambulo__placing;
+
+/* The same with the rotation and position applied: the link's body seen from its frame. */
+ambulo__mass ambulo__mass_of_link(const ambulo_link *link, const ambulo__placing *placing);
+/* Adds b to a as one rigid body. */
+void ambulo__mass_add(ambulo__mass *a, const ambulo__mass *b);
+/* Writes mass, com and the factors of the inertia. */
+void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
+
+/* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
+void ambulo__plan_place(ambulo__plan *plan);
+/* Jacobian pattern. Errors: E_MEMORY. */
+ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
+
+#endif

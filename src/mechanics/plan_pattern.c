@@ -1,0 +1,97 @@
+/* mechanics/plan_pattern.c - structural nonzeros of the Jacobians.
+ *
+ * Coordinates are numbered parents first, so that in the row of tau_i the ancestors of i come
+ * before i and its descendants after it. Moment and force depend on every coordinate, a point on
+ * the coordinates between it and the world.
+ */
+#include "mechanics/plan_build.h"
+
+/* Coordinate of the parent frame, -1 at the world. */
+static int parent_of(const ambulo__plan *plan, int coordinate) {
+  return plan->joints[coordinate].parent - 1;
+}
+
+static int is_ancestor(const ambulo__plan *plan, int ancestor, int coordinate) {
+  while (coordinate > ancestor) coordinate = parent_of(plan, coordinate);
+  return coordinate == ancestor;
+}
+
+static int depth_of(const ambulo__plan *plan, int coordinate) {
+  int depth = 0;
+  for (int k = coordinate; k >= 0; k = parent_of(plan, k)) depth++;
+  return depth;
+}
+
+/* Writes the chain from the world to `coordinate`, ascending, ending before out + depth. */
+static void write_chain(const ambulo__plan *plan, int coordinate, int *out) {
+  int place = depth_of(plan, coordinate);
+  for (int k = coordinate; k >= 0; k = parent_of(plan, k)) out[--place] = k;
+}
+
+static void count_entries(ambulo__plan *plan, size_t *pairs) {
+  int d = plan->coordinates, count = 0;
+  *pairs = 0;
+  for (int i = 0; i < d; i++) *pairs += (size_t)depth_of(plan, i) - 1;
+  count = 2 * (int)*pairs + d + 6 * d;
+  plan->dynamic_count = count;
+  for (int i = 0; i < plan->points; i++) count += 3 * depth_of(plan, plan->point[i].frame - 1);
+  plan->count = count;
+}
+
+static void fill_rows(ambulo__plan *plan) {
+  int d = plan->coordinates, row = 0, at = 0;
+  for (int i = 0; i < d; i++) {
+    plan->start[row++] = at;
+    for (int j = 0; j < d; j++) {
+      if (is_ancestor(plan, j, i) || is_ancestor(plan, i, j)) plan->column[at++] = j;
+    }
+  }
+  for (int i = 0; i < 6; i++) {
+    plan->start[row++] = at;
+    for (int j = 0; j < d; j++) plan->column[at++] = j;
+  }
+  for (int i = 0; i < 3 * plan->points; i++) {
+    int coordinate = plan->point[i / 3].frame - 1;
+    plan->start[row++] = at;
+    write_chain(plan, coordinate, plan->column + at);
+    at += depth_of(plan, coordinate);
+  }
+  plan->start[row] = at;
+}
+
+static void fill_ancestors(ambulo__plan *plan) {
+  int at = 0;
+  for (int i = 0; i < plan->coordinates; i++) {
+    int depth = depth_of(plan, i);
+    plan->ancestor_start[i] = at;
+    for (int t = 0; t < depth - 1; t++, at++) {
+      int j = plan->column[plan->start[i] + t], entry = plan->start[j];
+      while (plan->column[entry] != i) entry++;
+      plan->ancestor[at] = j;
+      plan->upper[at] = entry;
+    }
+  }
+  plan->ancestor_start[plan->coordinates] = at;
+}
+
+ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
+  const ambulo_allocator *allocator = &plan->allocator;
+  size_t pairs, rows = (size_t)ambulo__plan_rows(plan);
+  count_entries(plan, &pairs);
+  plan->start = ambulo__alloc(allocator, rows + 1, sizeof(int));
+  plan->column = ambulo__alloc(allocator, (size_t)plan->count, sizeof(int));
+  plan->ancestor_start = ambulo__alloc(allocator, (size_t)plan->coordinates + 1, sizeof(int));
+  plan->ancestor = ambulo__alloc(allocator, pairs, sizeof(int));
+  plan->upper = ambulo__alloc(allocator, pairs, sizeof(int));
+  if (!plan->start || !plan->column || !plan->ancestor_start || !plan->ancestor || !plan->upper) {
+    return AMBULO_E_MEMORY;
+  }
+  fill_rows(plan);
+  fill_ancestors(plan);
+  return AMBULO_OK;
+}
+
+ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan) {
+  ambulo__plan_pattern pattern = {plan->start, plan->column, plan->dynamic_count, plan->count};
+  return pattern;
+}

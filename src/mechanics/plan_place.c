@@ -1,0 +1,179 @@
+/* mechanics/plan_place.c - where everything stands in the scratch, and what frames can share.
+ *
+ * Sharing keeps the scratch small and saves additions:
+ *   - a joint keeps its axis column, a prismatic joint keeps the whole orientation;
+ *   - a revolute joint whose axis meets the parent's origin keeps the origin;
+ *   - a frame without a body and with one child carries the same load as that child, and its
+ *     adjoints (if no point hangs on it either) may be accumulated in place.
+ * The scratch of the reverse sweep and of the Jacobians start at the same place: each is written
+ * before it is read, after the part that the forward pass leaves behind.
+ */
+#include <stddef.h>
+
+#include "mechanics/plan_build.h"
+
+static int take(size_t *used, int entries) {
+  size_t at = *used;
+  *used += (size_t)entries * AMBULO__LANES;
+  return (int)at;
+}
+
+static int child_count(const ambulo__plan *plan, int frame, int *only) {
+  int count = 0;
+  for (int k = 0; k < plan->coordinates; k++) {
+    if (plan->joints[k].parent != frame) continue;
+    *only = k + 1;
+    count++;
+  }
+  return count;
+}
+
+static int has_point(const ambulo__plan *plan, int frame) {
+  for (int i = 0; i < plan->points; i++) {
+    if (plan->point[i].frame == frame) return 1;
+  }
+  return 0;
+}
+
+/* The frame whose orientation (or, with `place`, origin) this frame has. */
+static int owner(const ambulo__plan *plan, int frame, int place) {
+  while (frame > 0) {
+    const ambulo__joint *joint = &plan->joints[frame - 1];
+    if (place ? (!joint->revolute || joint->has_offset) : joint->revolute) break;
+    frame = joint->parent;
+  }
+  return frame;
+}
+
+static void place_columns(ambulo__plan *plan, int k, size_t *used) {
+  ambulo__joint *joint = &plan->joints[k];
+  ambulo__frame *frame = &plan->frames[k + 1];
+  const ambulo__frame *parent = &plan->frames[joint->parent];
+  int base[3], u = (joint->axis + 1) % 3, v = (joint->axis + 2) % 3;
+  for (int i = 0; i < 3; i++) {
+    base[i] = parent->column_at[i];
+    frame->column_at[i] = base[i];
+    if (!joint->turned) continue;
+    joint->turn_at[i] = joint->revolute || i == 2 ? take(used, 3) : 0;
+    base[i] = joint->turn_at[i];
+  }
+  joint->axis_at = base[joint->axis];
+  if (!joint->revolute) return;
+  joint->from_at[0] = base[u];
+  joint->from_at[1] = base[v];
+  joint->to_at[0] = take(used, 3);
+  joint->to_at[1] = take(used, 3);
+  frame->column_at[joint->axis] = joint->axis_at;
+  frame->column_at[u] = joint->to_at[0];
+  frame->column_at[v] = joint->to_at[1];
+}
+
+static void place_motion(ambulo__plan *plan, size_t *used) {
+  ambulo__frame *world = &plan->frames[0];
+  for (int i = 0; i < 3; i++) world->column_at[i] = take(used, 3);
+  world->rate_at = take(used, 6);
+  world->place_at = take(used, 6);
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__joint *joint = &plan->joints[k];
+    ambulo__frame *frame = &plan->frames[k + 1];
+    const ambulo__frame *parent = &plan->frames[joint->parent];
+    place_columns(plan, k, used);
+    joint->own_origin = !joint->revolute || joint->has_offset;
+    joint->still = owner(plan, joint->parent, 0) == 0;
+    frame->rate_at = joint->revolute ? take(used, 6) : parent->rate_at;
+    frame->place_at = joint->own_origin ? take(used, 6) : parent->place_at;
+  }
+}
+
+/* Omega where a body, or a joint whose origin moves, needs it. */
+static void place_spins(ambulo__plan *plan, size_t *used) {
+  for (int f = 0; f <= plan->coordinates; f++) plan->frames[f].spin_at = -1;
+  for (int f = 1; f <= plan->coordinates; f++) {
+    int needy = plan->joints[f - 1].own_origin && !plan->joints[f - 1].still;
+    ambulo__frame *bearer = &plan->frames[owner(plan, plan->joints[f - 1].parent, 0)];
+    if (needy && bearer->spin_at < 0) bearer->spin_at = take(used, 9);
+    bearer = &plan->frames[owner(plan, f, 0)];
+    if (plan->frames[f].body >= 0 && bearer->spin_at < 0) bearer->spin_at = take(used, 9);
+  }
+  for (int f = 1; f <= plan->coordinates; f++) {
+    int bearer = owner(plan, f, 0);
+    plan->frames[f].spin_at = plan->frames[bearer].spin_at;
+    plan->joints[f - 1].new_spin = bearer == f && plan->frames[f].spin_at >= 0;
+  }
+}
+
+/* Loads and moments, children first. */
+static void place_loads(ambulo__plan *plan, size_t *used) {
+  for (int f = plan->coordinates; f >= 1; f--) {
+    ambulo__frame *frame = &plan->frames[f];
+    ambulo__joint *joint = &plan->joints[f - 1];
+    int only = 0, children = child_count(plan, f, &only);
+    int shared = frame->body < 0 && children == 1;
+    frame->zero_load = frame->body < 0 && children != 1;
+    frame->load_at = shared ? plan->frames[only].load_at : take(used, 6);
+    const ambulo__frame *child = &plan->frames[only];
+    int same = shared && child->place_at == frame->place_at && child->moment_at >= 0;
+    joint->new_moment = joint->revolute && !same;
+    frame->moment_at = -1;
+    if (joint->revolute) frame->moment_at = same ? child->moment_at : take(used, 3);
+    if (shared) plan->joints[only - 1].own_load = 0;
+    joint->own_load = 1;
+  }
+  plan->frames[0].load_at = take(used, 6);
+}
+
+static void place_reverse(ambulo__plan *plan, size_t *used) {
+  for (int f = 0; f <= plan->coordinates; f++) {
+    ambulo__frame *frame = &plan->frames[f];
+    frame->virtual_at = owner(plan, f, 0) == f ? take(used, 3) : 0;
+    frame->slide_at = owner(plan, f, 1) == f ? take(used, 3) : 0;
+    frame->virtual_at = plan->frames[owner(plan, f, 0)].virtual_at;
+    frame->slide_at = plan->frames[owner(plan, f, 1)].slide_at;
+    frame->spin_adjoint_at = -1;
+    if (frame->spin_at < 0) continue;
+    if (owner(plan, f, 0) == f) frame->spin_adjoint_at = take(used, 9);
+    frame->spin_adjoint_at = plan->frames[owner(plan, f, 0)].spin_adjoint_at;
+  }
+  for (int f = plan->coordinates; f >= 1; f--) {
+    ambulo__frame *frame = &plan->frames[f];
+    int only = 0, children = child_count(plan, f, &only);
+    int shared = frame->body < 0 && children == 1 && !has_point(plan, f);
+    frame->adjoint_at = shared ? plan->frames[only].adjoint_at : take(used, 15);
+    frame->zero_adjoint = frame->body < 0 && !shared;
+    plan->joints[f - 1].own_adjoint = plan->joints[f - 1].parent != 0;
+    if (shared) plan->joints[only - 1].own_adjoint = 0;
+  }
+}
+
+/* Composite inertias by load; the mass is a constant. */
+static void place_jacobian(ambulo__plan *plan, size_t *used) {
+  for (int f = 0; f <= plan->coordinates; f++) {
+    ambulo__frame *frame = &plan->frames[f];
+    frame->velocity_at = owner(plan, f, 1) == f ? take(used, 3) : 0;
+    frame->velocity_at = plan->frames[owner(plan, f, 1)].velocity_at;
+    frame->subtree_mass = frame->body >= 0 ? plan->body[frame->body].mass : 0;
+  }
+  for (int f = plan->coordinates; f >= 1; f--) {
+    ambulo__joint *joint = &plan->joints[f - 1];
+    ambulo__frame *frame = &plan->frames[f];
+    int only = 0, children = child_count(plan, f, &only);
+    int shared = frame->body < 0 && children == 1;
+    frame->composite_at = shared ? plan->frames[only].composite_at : take(used, 21);
+    plan->frames[joint->parent].subtree_mass += frame->subtree_mass;
+    joint->motion_at = take(used, 18);
+  }
+}
+
+void ambulo__plan_place(ambulo__plan *plan) {
+  size_t used = 0;
+  place_motion(plan, &used);
+  place_spins(plan, &used);
+  for (int i = 0; i < plan->bodies; i++) plan->body[i].at = take(&used, 18);
+  place_loads(plan, &used);
+  size_t reverse = used, jacobian = used, angles = used;
+  plan->angle_at = take(&angles, 2 * plan->coordinates);
+  place_reverse(plan, &reverse);
+  place_jacobian(plan, &jacobian);
+  plan->scratch = angles > reverse ? angles : reverse;
+  if (jacobian > plan->scratch) plan->scratch = jacobian;
+}

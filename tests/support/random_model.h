@@ -1,0 +1,135 @@
+/* tests/support/random_model.h - random trees for the tests of the mechanics.
+ *
+ * Joints are revolute or prismatic, about aligned or oblique axes, with and without offsets;
+ * fixed and massless links, branches, bodies fixed to the world and points are mixed in. The
+ * same seed gives the same tree on every machine.
+ */
+#ifndef TESTS_SUPPORT_RANDOM_MODEL_H
+#define TESTS_SUPPORT_RANDOM_MODEL_H
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "ambulo/model.h"
+
+enum { random_max_links = 160, random_max_points = 6 };
+
+typedef struct random_source {
+  uint64_t state;
+} random_source;
+
+static inline double random_unit(random_source *source) {
+  uint64_t z = (source->state += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static inline double random_between(random_source *source, double low, double high) {
+  return low + (high - low) * random_unit(source);
+}
+
+static inline int random_below(random_source *source, int limit) {
+  return (int)(random_unit(source) * limit);
+}
+
+typedef struct random_tree {
+  ambulo_link links[random_max_links];
+  ambulo_coordinate coordinates[random_max_links];
+  ambulo_point points[random_max_points];
+  char names[2 * random_max_links + random_max_points][16];
+  ambulo_model_definition definition;
+} random_tree;
+
+/* A multiple of 90 degrees two times out of three, else anything. */
+static inline double random_angle(random_source *source) {
+  if (random_unit(source) < 0.67) return (random_below(source, 5) - 2) * 0.5 * acos(-1);
+  return random_between(source, -3, 3);
+}
+
+/* Zero half of the time. */
+static inline double random_length(random_source *source) {
+  return random_unit(source) < 0.5 ? 0 : random_between(source, -0.5, 0.5);
+}
+
+/* Mass, centre of mass and an inertia that three pairs of mass points could have. */
+static inline void random_body(random_source *source, ambulo_link *link) {
+  double trace = 0, s[3][3] = {{0}};
+  int diagonal = random_unit(source) < 0.5;
+  link->mass = random_between(source, 0.2, 20);
+  for (int i = 0; i < 3; i++) link->com[i] = random_length(source);
+  for (int i = 0; i < 3; i++) {
+    double p[3];
+    for (int u = 0; u < 3; u++) {
+      p[u] = random_between(source, -0.2, 0.2) * (diagonal && u != i ? 0 : 1);
+    }
+    for (int u = 0; u < 3; u++) {
+      for (int v = 0; v < 3; v++) s[u][v] += link->mass * p[u] * p[v];
+    }
+  }
+  for (int i = 0; i < 3; i++) trace += (s[i][i] += 1e-3 * link->mass);
+  for (int i = 0; i < 3; i++) link->inertia[i] = trace - s[i][i];
+  link->inertia[3] = -s[0][1];
+  link->inertia[4] = -s[0][2];
+  link->inertia[5] = -s[1][2];
+}
+
+static inline void random_link(random_source *source, random_tree *tree, int index, int moving) {
+  ambulo_link *link = &tree->links[index];
+  *link = ambulo_link_default();
+  snprintf(tree->names[index], sizeof tree->names[0], "link_%d", index);
+  link->name = tree->names[index];
+  link->parent = index - 1;
+  if (index > 0 && random_unit(source) < 0.3) link->parent = random_below(source, index + 1) - 1;
+  link->type = AMBULO_FIXED;
+  if (moving) link->type = random_unit(source) < 0.75 ? AMBULO_REVOLUTE : AMBULO_PRISMATIC;
+  link->theta = random_angle(source);
+  link->alpha = random_angle(source);
+  link->a = random_length(source);
+  link->d = random_length(source);
+  if (random_unit(source) < 0.5) random_body(source, link);
+}
+
+/* A tree with so many coordinates, and about a third of fixed links. */
+static inline void random_tree_make(random_tree *tree, uint64_t seed, int coordinates) {
+  random_source source = {seed};
+  int count = 0, moving = 0;
+  memset(tree, 0, sizeof *tree);
+  while (moving < coordinates) {
+    int moves = random_unit(&source) < 0.67;
+    random_link(&source, tree, count, moves);
+    if (moves) {
+      char *name = tree->names[random_max_links + moving];
+      snprintf(name, sizeof tree->names[0], "q_%d", moving);
+      tree->coordinates[moving] = ambulo_coordinate_default();
+      tree->coordinates[moving].name = name;
+      tree->coordinates[moving].type = tree->links[count].type;
+      tree->coordinates[moving].mirror = moving;
+      moving++;
+    }
+    count++;
+  }
+  if (tree->links[count - 1].mass == 0) random_body(&source, &tree->links[count - 1]);
+  int points = random_below(&source, random_max_points + 1);
+  for (int i = 0; i < points; i++) {
+    char *name = tree->names[2 * random_max_links + i];
+    snprintf(name, sizeof tree->names[0], "point_%d", i);
+    tree->points[i].name = name;
+    tree->points[i].link = random_below(&source, count);
+    for (int k = 0; k < 3; k++) tree->points[i].position[k] = random_length(&source);
+  }
+  tree->definition = ambulo_model_definition_default();
+  tree->definition.name = "random tree";
+  tree->definition.links = tree->links;
+  tree->definition.link_count = count;
+  tree->definition.coordinates = tree->coordinates;
+  tree->definition.coordinate_count = moving;
+  tree->definition.points = tree->points;
+  tree->definition.point_count = points;
+  tree->definition.gravity[0] = random_between(&source, -2, 2);
+  tree->definition.gravity[2] = random_between(&source, -2, 2);
+}
+
+#endif
