@@ -74,15 +74,16 @@ void ambulo__yaml_expect(const ambulo__yaml_node *mapping, const char *key) {
   (void)ambulo__yaml_get(mapping, key);
 }
 
-/* "links[2] ('shank')", "the top level": how a message names a mapping */
+/* "in links[2] ('shank')", "at the top level": how a message names a mapping */
 static const char *describe(const ambulo__yaml_node *mapping, char *buffer, size_t size) {
   ambulo__place place = ambulo__yaml_place(mapping);
   const ambulo__yaml_node *name = ambulo__yaml_find(mapping, "name");
-  const char *path = place.path ? place.path : "the top level";
+  const char *lead = place.path ? "in " : "at the top level";
+  const char *path = place.path ? place.path : "";
   if (name && name->kind == AMBULO__YAML_SCALAR) {
-    (void)snprintf(buffer, size, "%s ('%.60s')", path, name->text);
+    (void)snprintf(buffer, size, "%s%s ('%.60s')", lead, path, name->text);
   } else {
-    (void)snprintf(buffer, size, "%s", path);
+    (void)snprintf(buffer, size, "%s%s", lead, path);
   }
   return buffer;
 }
@@ -91,7 +92,7 @@ const ambulo__yaml_node *ambulo__yaml_require(const ambulo__yaml_node *mapping, 
   const ambulo__yaml_node *value = ambulo__yaml_get(mapping, key);
   if (!value && mapping && expect_mapping(mapping)) {
     char where[MAX_LIST];
-    ambulo__yaml_error(mapping, AMBULO_E_SCHEMA, NULL, "missing required key '%s' in %s", key,
+    ambulo__yaml_error(mapping, AMBULO_E_SCHEMA, NULL, "missing required key '%s' %s", key,
                        describe(mapping, where, sizeof where));
   }
   return value;
@@ -143,7 +144,7 @@ void ambulo__yaml_close(const ambulo__yaml_node *mapping) {
     ambulo__yaml_error(&at, AMBULO_E_SCHEMA,
                        suggest(value->key->text, mapping->marks->names, mapping->marks->count,
                                hint),
-                       "unknown key '%.60s' in %s", value->key->text,
+                       "unknown key '%.60s' %s", value->key->text,
                        describe(mapping, where, sizeof where));
   }
 }
@@ -161,8 +162,7 @@ static int is_plain(const ambulo__yaml_node *node) {
   return node->kind == AMBULO__YAML_SCALAR && !node->quoted;
 }
 
-/* .inf, nan and numbers beyond the range of double, which is all that is left when every
- * character could stand in a number */
+/* the words of YAML and of C for what is no finite number */
 static int is_not_finite(const char *text) {
   static const char *const words[] = {"nan", "inf", "infinity", "NaN", "NAN", "Inf", "INF"};
   if (*text == '+' || *text == '-') text++;
@@ -190,8 +190,12 @@ static int read_number(const ambulo__yaml_node *node, double *value) {
   if (is_plain(node)) {
     size_t length = strlen(node->text);
     if (ambulo__parse_double(node->text, length, value)) return 1;
-    if (is_not_finite(node->text) || ambulo__is_decimal(node->text, length)) {
+    if (is_not_finite(node->text)) {
       mismatch(node, NULL, "a finite number");
+      return 0;
+    }
+    if (ambulo__is_decimal(node->text, length)) {
+      mismatch(node, NULL, "a finite number in the range of double precision");
       return 0;
     }
   }
