@@ -1,0 +1,23 @@
+/* report/motion_csv.h - a motion as a table, and in OpenSim's form (docs/results.md). */
+#ifndef AMBULO_REPORT_MOTION_CSV_H
+#define AMBULO_REPORT_MOTION_CSV_H
+
+#include "base/text_buffer.h"
+#include "model/model.h"
+
+/* A motion to be written; arrays [samples][coordinates], zmp [samples][3]. */
+typedef struct ambulo__motion_table {
+  const ambulo_model *model;
+  const char *name;
+  int samples;
+  const double *times, *q, *qd, *qdd, *tau, *zmp;
+} ambulo__motion_table;
+
+/* "# ..." comment, header, one line a time: time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; a value
+ * that does not exist (the ZMP in flight) is "nan". */
+void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text);
+
+/* Coordinates only, inDegrees=no. */
+void ambulo__motion_sto(const ambulo__motion_table *table, ambulo__text_buffer *text);
+
+#endif

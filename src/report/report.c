@@ -1,0 +1,127 @@
+/* report/report.c - the result folder, all or nothing. */
+#include "ambulo/report.h"
+
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "report/gait_svg.h"
+#include "report/motion_csv.h"
+#include "report/solution_yaml.h"
+#include "report/stride.h"
+#include "report/summary_json.h"
+
+enum { OPTIONS_COOKIE = 0x616d6272 };
+
+/* only a folder that holds this file is taken for an earlier result and replaced */
+static const char marker[] = "summary.json";
+
+ambulo_report_options ambulo_report_options_default(void) {
+  ambulo_report_options options = {.cookie = OPTIONS_COOKIE};
+  return options;
+}
+
+static int options_valid(const ambulo_report_options *options) {
+  return options && options->cookie == OPTIONS_COOKIE && options->samples >= 0 &&
+         options->samples != 1;
+}
+
+static ambulo_status begin(const char *directory, const ambulo_report_options *options,
+                           const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                           ambulo__folder **folder) {
+  return ambulo__folder_begin(directory, options->overwrite ? marker : NULL, allocator,
+                              diagnostics, folder);
+}
+
+ambulo_status ambulo_report_check(const char *directory, const ambulo_report_options *options,
+                                  ambulo_diagnostics *diagnostics) {
+  if (!directory || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  ambulo__folder *folder = NULL;
+  ambulo_status status = begin(directory, options, NULL, diagnostics, &folder);
+  if (!status) ambulo__folder_abort(folder);
+  return status;
+}
+
+/* hands a finished text to the folder and empties the buffer for the next one */
+static ambulo_status write_text(ambulo__folder *folder, const char *name,
+                                ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
+  ambulo_status status = ambulo__text_status(text);
+  if (!status)
+    status = ambulo__folder_write(folder, name, ambulo__text_data(text), text->length, diagnostics);
+  ambulo__text_clear(text);
+  return status;
+}
+
+static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_result *result,
+                                  int samples, ambulo__folder *folder, ambulo__text_buffer *text,
+                                  ambulo_diagnostics *diagnostics) {
+  ambulo__stride stride = {.samples = 0};
+  ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result), samples,
+                                               &text->allocator, &stride);
+  if (status) return status;
+  ambulo__motion_table table = {
+      .model = stride.model, .name = ambulo_problem_name(problem), .samples = stride.samples,
+      .times = stride.times, .q = stride.q,   .qd = stride.qd,
+      .qdd = stride.qdd,     .tau = stride.tau, .zmp = stride.zmp,
+  };
+  ambulo__motion_csv(&table, text);
+  status = write_text(folder, "motion.csv", text, diagnostics);
+  if (!status) {
+    ambulo__motion_sto(&table, text);
+    status = write_text(folder, "motion.sto", text, diagnostics);
+  }
+  ambulo__stride_free(&stride);
+  return status;
+}
+
+static ambulo_status write_all(const ambulo_problem *problem, const ambulo_result *result,
+                               int samples, ambulo__folder *folder, ambulo__text_buffer *text,
+                               ambulo_diagnostics *diagnostics) {
+  ambulo__summary_json(problem, result, text);
+  ambulo_status status = write_text(folder, marker, text, diagnostics);
+  if (status) return status;
+  ambulo__solution_yaml(problem, result, text);
+  status = write_text(folder, "solution.yaml", text, diagnostics);
+  if (status) return status;
+  status = write_motion(problem, result, samples, folder, text, diagnostics);
+  if (status) return status;
+  status = ambulo__gait_svg(problem, result, text);
+  return status ? status : write_text(folder, "gait.svg", text, diagnostics);
+}
+
+ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_result *result,
+                                  const char *directory, const ambulo_report_options *options,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics) {
+  if (!problem || !result || !directory || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  ambulo__folder *folder = NULL;
+  ambulo_status status = begin(directory, options, allocator, diagnostics, &folder);
+  if (status) return status;
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, allocator);
+  status = write_all(problem, result, options->samples, folder, &text, diagnostics);
+  ambulo__text_free(&text);
+  if (status) {
+    ambulo__folder_abort(folder);
+    return status;
+  }
+  return ambulo__folder_commit(folder, diagnostics);
+}
+
+ambulo_status ambulo_report_summary(const ambulo_problem *problem, const ambulo_result *result,
+                                    const ambulo_allocator *allocator, char **text) {
+  if (!problem || !result || !text) return AMBULO_E_ARGUMENT;
+  ambulo__text_buffer buffer;
+  ambulo__text_init(&buffer, allocator);
+  ambulo__summary_json(problem, result, &buffer);
+  ambulo_status status = ambulo__text_status(&buffer);
+  char *copy = status ? NULL : ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
+  ambulo__text_free(&buffer);
+  if (!status && !copy) status = AMBULO_E_MEMORY;
+  if (!status) *text = copy;
+  return status;
+}
+
+void ambulo_text_free(char *text, const ambulo_allocator *allocator) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__free(&own, text);
+}

@@ -1,0 +1,185 @@
+/* report/skeleton.c - lines of a stick figure, and where they are at a pose (skeleton.h). */
+#include "report/skeleton.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double shortest_line = 0.01; /* m */
+static const double head_radius = 0.105;  /* m, of an adult */
+
+/* ---------------------------------------------------------------- kinematics */
+
+/* The 3 x 4 rows of T(q) = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha). */
+static void link_transform(const ambulo_link *link, double q, double t[12]) {
+  double theta = link->theta + (link->type == AMBULO_REVOLUTE ? q : 0.0);
+  double d = link->d + (link->type == AMBULO_PRISMATIC ? q : 0.0);
+  double c = cos(theta), s = sin(theta), ca = cos(link->alpha), sa = sin(link->alpha);
+  double rows[12] = {c,   -s * ca, s * sa, link->a * c,
+                     s,   c * ca,  -c * sa, link->a * s,
+                     0.0, sa,      ca,      d};
+  memcpy(t, rows, sizeof rows);
+}
+
+static void multiply(const double *a, const double *b, double *product) {
+  for (int r = 0; r < 3; r++) {
+    for (int c = 0; c < 4; c++) {
+      double sum = c == 3 ? a[4 * r + 3] : 0.0;
+      for (int k = 0; k < 3; k++) sum += a[4 * r + k] * b[4 * k + c];
+      product[4 * r + c] = sum;
+    }
+  }
+}
+
+void ambulo__skeleton_pose(ambulo__skeleton *skeleton, const double *q) {
+  for (int i = 0; i < skeleton->model->link_count; i++) {
+    const ambulo_link *link = &skeleton->model->links[i];
+    double t[12], *frame = skeleton->frames + 12 * (size_t)i;
+    link_transform(link, link->coordinate >= 0 ? q[link->coordinate] : 0.0, t);
+    if (link->parent >= 0) {
+      multiply(skeleton->frames + 12 * (size_t)link->parent, t, frame);
+    } else {
+      memcpy(frame, t, sizeof t);
+    }
+  }
+}
+
+void ambulo__skeleton_point(const ambulo__skeleton *skeleton, int link, const double local[3],
+                            double world[3]) {
+  if (link < 0) {
+    memcpy(world, local, 3 * sizeof *world);
+    return;
+  }
+  const double *f = skeleton->frames + 12 * (size_t)link;
+  for (int r = 0; r < 3; r++)
+    world[r] = f[4 * r] * local[0] + f[4 * r + 1] * local[1] + f[4 * r + 2] * local[2] + f[4 * r + 3];
+}
+
+/* --------------------------------------------------------------------- sides */
+
+static int ends_with(const char *text, const char *ending) {
+  size_t length = strlen(text), tail = strlen(ending);
+  return length >= tail && strcmp(text + length - tail, ending) == 0;
+}
+
+ambulo__side ambulo__coordinate_side(const ambulo_model *model, int coordinate) {
+  const ambulo_coordinate *c = &model->coordinates[coordinate];
+  if (c->mirror == coordinate) return AMBULO__MIDDLE;
+  if (ends_with(c->name, "_l") || strstr(c->name, "left")) return AMBULO__LEFT;
+  if (ends_with(c->name, "_r") || strstr(c->name, "right")) return AMBULO__RIGHT;
+  return c->mirror > coordinate ? AMBULO__RIGHT : AMBULO__LEFT;
+}
+
+static void fill_sides(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    ambulo__side own = AMBULO__MIDDLE;
+    if (link->coordinate >= 0) own = ambulo__coordinate_side(model, link->coordinate);
+    if (own == AMBULO__MIDDLE && link->parent >= 0) own = skeleton->side[link->parent];
+    skeleton->side[i] = own;
+  }
+}
+
+/* --------------------------------------------------------------------- lines */
+
+static void add_bone(ambulo__skeleton *skeleton, int from, const double *from_at, int to,
+                     const double *to_at, ambulo__side side, double head) {
+  if (skeleton->bone_count == skeleton->bone_capacity) return;
+  ambulo__bone *bone = &skeleton->bones[skeleton->bone_count++];
+  static const double origin[3] = {0.0, 0.0, 0.0};
+  bone->link[0] = from;
+  bone->link[1] = to;
+  memcpy(bone->at[0], from_at ? from_at : origin, sizeof origin);
+  memcpy(bone->at[1], to_at ? to_at : origin, sizeof origin);
+  bone->side = side;
+  bone->head = head;
+}
+
+/* 1 if nothing between the world and link i, itself included, has a mass */
+static int is_massless_root(const ambulo_model *model, int i) {
+  for (; i >= 0; i = model->links[i].parent) {
+    if (model->links[i].mass > 0.0) return 0;
+  }
+  return 1;
+}
+
+/* length of the line from the parent's joint to this link's */
+static int has_own_line(const ambulo_model *model, int i) {
+  const ambulo_link *link = &model->links[i];
+  if (is_massless_root(model, i)) return 0;
+  if (link->coordinate >= 0 && !model->coordinates[link->coordinate].actuated) return 0;
+  if (link->type == AMBULO_PRISMATIC) return 1;
+  return hypot(link->a, link->d) > shortest_line;
+}
+
+/* heel and toe centres of the feet; the line runs ankle - heel - toe - ankle */
+static void add_feet(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  for (int f = 0; f < model->foot_count; f++) {
+    const ambulo_point *heel = &model->points[model->feet[f].heel_center];
+    const ambulo_point *toe = &model->points[model->feet[f].toe_center];
+    ambulo__side side = skeleton->side[heel->link];
+    add_bone(skeleton, heel->link, NULL, heel->link, heel->position, side, 0.0);
+    add_bone(skeleton, heel->link, heel->position, toe->link, toe->position, side, 0.0);
+    add_bone(skeleton, toe->link, toe->position, heel->link, NULL, side, 0.0);
+  }
+}
+
+static int link_has_point(const ambulo_model *model, int link) {
+  for (int p = 0; p < model->point_count; p++) {
+    if (model->points[p].link == link) return 1;
+  }
+  return 0;
+}
+
+/* the line to the head stops below it: the bone's second end is the centre of the head */
+static void add_head(ambulo__skeleton *skeleton, const ambulo_point *top) {
+  double length = 0.0, center[3];
+  for (int k = 0; k < 3; k++) length += top->position[k] * top->position[k];
+  length = sqrt(length);
+  double radius = length > 3.0 * head_radius ? head_radius : length / 3.0;
+  double part = length > 0.0 ? (length - radius) / length : 0.0;
+  for (int k = 0; k < 3; k++) center[k] = part * top->position[k];
+  add_bone(skeleton, top->link, NULL, top->link, center, skeleton->side[top->link], radius);
+}
+
+static void add_lines(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    if (has_own_line(model, i)) {
+      add_bone(skeleton, link->parent, NULL, i, NULL, skeleton->side[i], 0.0);
+    } else if (link->mass > 0.0 && !link_has_point(model, i)) {
+      double length = hypot(hypot(link->com[0], link->com[1]), link->com[2]);
+      if (length > shortest_line)
+        add_bone(skeleton, i, NULL, i, link->com, skeleton->side[i], 0.0);
+    }
+  }
+  add_feet(skeleton);
+  int top = ambulo_model_find_point(model, "head_top");
+  if (top >= 0) add_head(skeleton, &model->points[top]);
+}
+
+ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo__skeleton *skeleton) {
+  ambulo__skeleton s = {.allocator = ambulo__allocator_or_default(allocator), .model = model};
+  size_t links = (size_t)model->link_count;
+  s.bone_capacity = model->link_count + 3 * model->foot_count + 1;
+  s.bones = ambulo__alloc(&s.allocator, (size_t)s.bone_capacity, sizeof *s.bones);
+  s.side = ambulo__alloc(&s.allocator, links, sizeof *s.side);
+  s.frames = ambulo__alloc(&s.allocator, 12 * links, sizeof *s.frames);
+  if (!s.bones || !s.side || !s.frames) {
+    ambulo__skeleton_free(&s);
+    return AMBULO_E_MEMORY;
+  }
+  fill_sides(&s);
+  add_lines(&s);
+  *skeleton = s;
+  return AMBULO_OK;
+}
+
+void ambulo__skeleton_free(ambulo__skeleton *skeleton) {
+  ambulo__free(&skeleton->allocator, skeleton->bones);
+  ambulo__free(&skeleton->allocator, skeleton->side);
+  ambulo__free(&skeleton->allocator, skeleton->frames);
+}

@@ -1,0 +1,45 @@
+/* report/skeleton.h - a stick figure made from any model.
+ *
+ * Lines: from each link's joint to the next (origins of parent and child frame, where they
+ * are more than 1 cm apart), ankle - heel - toe - ankle for feet, from the root body to a
+ * point named "head_top" with a head below it, or to the centre of mass of a body that has
+ * no other line. Virtual links that place the whole body in the world are not drawn.
+ * Forward kinematics is Eq. (4): A_i = A_parent T_i.
+ */
+#ifndef AMBULO_REPORT_SKELETON_H
+#define AMBULO_REPORT_SKELETON_H
+
+#include "model/model.h"
+
+typedef enum ambulo__side { AMBULO__MIDDLE, AMBULO__LEFT, AMBULO__RIGHT } ambulo__side;
+
+typedef struct ambulo__bone {
+  int link[2];          /* links its ends are fixed to; -1: the world */
+  double at[2][3];      /* ends in the links' frames, m */
+  ambulo__side side;
+  double head;          /* > 0: a head of this radius (m) sits at the second end */
+} ambulo__bone;
+
+typedef struct ambulo__skeleton {
+  ambulo_allocator allocator;
+  const ambulo_model *model;
+  ambulo__bone *bones;
+  int bone_count, bone_capacity;
+  ambulo__side *side;   /* [links] */
+  double *frames;       /* [links][12]: rows of the 3 x 4 transform, after ambulo__skeleton_pose */
+} ambulo__skeleton;
+
+/* Errors: E_MEMORY. */
+ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo__skeleton *skeleton);
+void ambulo__skeleton_free(ambulo__skeleton *skeleton);  /* accepts a zero-filled one */
+
+/* Frames at q [coordinates]. */
+void ambulo__skeleton_pose(ambulo__skeleton *skeleton, const double *q);
+/* World position of a point of a link (-1: the world) in the last pose. */
+void ambulo__skeleton_point(const ambulo__skeleton *skeleton, int link, const double local[3],
+                            double world[3]);
+/* Left, right or neither, by the names of a coordinate that has a mirror image. */
+ambulo__side ambulo__coordinate_side(const ambulo_model *model, int coordinate);
+
+#endif

@@ -1,0 +1,109 @@
+/* report/summary_json.c - verdict, objective, audit, sizes, effort and versions as JSON.
+ *
+ * Schema "ambulo-summary/1"; every quantity in SI units and radians. A row is named by
+ * family, subject and detail; violations are >= 0 in the unit given beside them. */
+#include "report/summary_json.h"
+
+#include "report/json_text.h"
+
+static void objective(ambulo__json *json, const ambulo_problem *problem,
+                      const ambulo_result *result) {
+  const double *terms = ambulo_result_terms(result);
+  ambulo__json_open(json, "objective", '{');
+  ambulo__json_number(json, "total", ambulo_result_objective(result));
+  ambulo__json_open(json, "terms", '{');
+  for (int i = 0; i < ambulo_problem_term_count(problem); i++)
+    ambulo__json_number(json, ambulo_problem_term_name(problem, i), terms[i]);
+  ambulo__json_close(json, '}');
+  ambulo__json_close(json, '}');
+}
+
+static void violation(ambulo__json *json, const char *key, const ambulo_violation *v) {
+  ambulo__json_open(json, key, '{');
+  ambulo__json_number(json, "worst", v->worst);
+  ambulo__json_text(json, "unit", v->unit);
+  ambulo__json_text(json, "family", v->family);
+  ambulo__json_text(json, "row", v->subject);
+  ambulo__json_text(json, "detail", v->detail);
+  ambulo__json_number(json, "time", v->time);
+  ambulo__json_close(json, '}');
+}
+
+static void audit(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_audit *a = ambulo_result_audit(result);
+  ambulo__json_open(json, "audit", '{');
+  violation(json, "violation", &a->violation);
+  violation(json, "dense_violation", &a->dense_violation);
+  ambulo__json_number(json, "kkt", a->kkt);
+  ambulo__json_number(json, "complementarity", a->complementarity);
+  ambulo__json_integer(json, "active_rows", a->active_rows);
+  ambulo__json_integer(json, "rank", a->rank);
+  ambulo__json_integer(json, "dropped_equalities", a->dropped_equalities);
+  ambulo__json_close(json, '}');
+  ambulo__json_open(json, "families", '[');
+  for (int i = 0; i < ambulo_result_family_count(result); i++)
+    violation(json, NULL, ambulo_result_family(result, i));
+  ambulo__json_close(json, ']');
+}
+
+static void sizes(ambulo__json *json, const ambulo_problem *problem) {
+  int rows = ambulo_problem_row_count(problem);
+  int equalities = ambulo_problem_equality_count(problem);
+  const ambulo_model *model = ambulo_problem_model(problem);
+  ambulo__json_open(json, "sizes", '{');
+  ambulo__json_integer(json, "coordinates", ambulo_model_coordinate_count(model));
+  ambulo__json_integer(json, "variables", ambulo_problem_variable_count(problem));
+  ambulo__json_integer(json, "equalities", equalities);
+  ambulo__json_integer(json, "inequalities", rows - equalities);
+  ambulo__json_integer(json, "nodes", ambulo_problem_node_count(problem));
+  ambulo__json_close(json, '}');
+}
+
+static void effort(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_timing *timing = ambulo_result_timing(result);
+  ambulo__json_integer(json, "iterations", ambulo_result_iterations(result));
+  ambulo__json_integer(json, "evaluations", ambulo_result_evaluations(result));
+  ambulo__json_open(json, "seconds", '{');
+  ambulo__json_number(json, "total", timing->total);
+  ambulo__json_number(json, "evaluate", timing->evaluate);
+  ambulo__json_number(json, "linear_algebra", timing->linear_algebra);
+  ambulo__json_number(json, "nlopt", timing->nlopt);
+  ambulo__json_close(json, '}');
+}
+
+static void versions(ambulo__json *json) {
+  ambulo_versions v;
+  ambulo_versions_get(&v);
+  ambulo__json_open(json, "versions", '{');
+  ambulo__json_text(json, "ambulo", v.ambulo);
+  ambulo__json_text(json, "nlopt", v.nlopt);
+  ambulo__json_text(json, "libyaml", v.libyaml);
+  ambulo__json_text(json, "blas", v.blas);
+  ambulo__json_text(json, "instruction_set", v.instruction_set);
+  ambulo__json_close(json, '}');
+}
+
+void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *result,
+                          ambulo__text_buffer *text) {
+  ambulo__json writer = {.text = text, .first = 1};
+  ambulo__json *json = &writer;
+  ambulo_verdict verdict = ambulo_result_verdict(result);
+  char hash[24];
+  unsigned long long value = ambulo_problem_hash(problem);
+  for (int i = 0; i < 16; i++) hash[i] = "0123456789abcdef"[(value >> (60 - 4 * i)) & 15];
+  hash[16] = '\0';
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_text(json, "schema", "ambulo-summary/1");
+  ambulo__json_text(json, "problem", ambulo_problem_name(problem));
+  ambulo__json_text(json, "model", ambulo_model_name(ambulo_problem_model(problem)));
+  ambulo__json_text(json, "verdict", ambulo_verdict_name(verdict));
+  ambulo__json_text(json, "ending", ambulo_result_ending(result));
+  ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
+  objective(json, problem, result);
+  audit(json, result);
+  sizes(json, problem);
+  effort(json, result);
+  versions(json);
+  ambulo__json_text(json, "input_hash", hash);
+  ambulo__json_close(json, '}');
+}
