@@ -1,0 +1,59 @@
+/* nlp/problem_yaml.h - reading a problem file, section by section (docs/problem-format.md).
+ *
+ * Every section function reads its keys into reader->definition or reader->options and
+ * records faults in the document; none stops at the first. Arrays of the definition are
+ * blocks of the reader and live until the problem has copied them. */
+#ifndef AMBULO_NLP_PROBLEM_YAML_H
+#define AMBULO_NLP_PROBLEM_YAML_H
+
+#include "ambulo/solve.h"
+#include "base/yaml_node.h"
+#include "model/model.h"
+
+typedef struct ambulo__reader_block ambulo__reader_block;
+
+typedef struct ambulo__problem_reader {
+  ambulo_allocator allocator;
+  ambulo_diagnostics *diagnostics;
+  const char *directory;            /* where relative names start; "" for the current one */
+  ambulo__reader_block *blocks;     /* freed with the reader */
+  ambulo_status failure;            /* E_MEMORY, or what a referenced file failed with */
+  double radians;                   /* per unit of angle in the file; 0: not stated */
+  int asked_for_unit;               /* the missing unit has been reported */
+  ambulo_model *model;              /* NULL if it could not be loaded */
+  const ambulo__yaml_node *gait;    /* the section, or NULL */
+  int has_duration;                 /* time.duration is in the file */
+  ambulo_problem_definition definition;
+  ambulo_options options;
+} ambulo__problem_reader;
+
+/* Zero-filled memory that lives as long as the reader; NULL sets reader->failure. */
+void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t size);
+/* `name` seen from the reader's directory. */
+const char *ambulo__reader_path(ambulo__problem_reader *reader, const char *name);
+/* Frees blocks and model. */
+void ambulo__reader_clear(ambulo__problem_reader *reader);
+
+/* The mapping under a key of the root; NULL (reported unless absent) for anything else. */
+const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key);
+
+/* A value of coordinate i or of its rates in SI units and radians; the file's unit of angle
+ * applies to revolute coordinates. */
+double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                     int i);
+
+/* Called with the model loaded: */
+void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `gait:` or `contacts:`; after the time, which it may complete. */
+void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
+void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* A tracking reference: the file's motion at the nodes, [intervals + 1][d], and the scale of
+ * the coordinates it lacks set to 0. NULL when something was wrong. */
+const double *ambulo__read_reference(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                     double *scale);
+
+#endif

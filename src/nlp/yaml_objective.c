@@ -1,0 +1,133 @@
+/* nlp/yaml_objective.c - `objective:` of a problem file: a list of terms, or `none`. */
+#include "nlp/problem_yaml.h"
+
+#include "gait/neutral_pose.h"
+#include "objective/term.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_TERMS = 64 };
+
+static double *coordinate_array(ambulo__problem_reader *reader, double value) {
+  int count = ambulo_model_coordinate_count(reader->model);
+  double *array = ambulo__reader_alloc(reader, (size_t)count, sizeof *array);
+  for (int i = 0; array && i < count; i++) array[i] = value;
+  return array;
+}
+
+/* a number for all coordinates, or a mapping with `default` for those it does not name */
+static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return coordinate_array(reader, 1.0);
+  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) {
+    return coordinate_array(reader, ambulo__yaml_number_in(node, 0.0, 1e12, 1.0));
+  }
+  double rest = ambulo__yaml_number_in(ambulo__yaml_get(node, "default"), 0.0, 1e12, 1.0);
+  double *scale = coordinate_array(reader, rest);
+  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
+  }
+  ambulo__yaml_close(node);
+  return scale;
+}
+
+/* mg with the sign that the coordinate's generalized force has when it carries the body */
+static double body_weight_on(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                             int i) {
+  const ambulo_model *model = reader->model;
+  double axis[3], vertical = 0.0, g = 0.0;
+  ambulo__neutral_axis(model, i, axis);
+  for (int k = 0; k < 3; k++) {
+    vertical += axis[k] * model->up[k];
+    g += model->gravity[k] * model->gravity[k];
+  }
+  if (!ambulo__is_root_translation(model, i) || fabs(vertical) < 0.999) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "body_weight on '%s'; expected a vertical translation of the root",
+                             model->coordinates[i].name);
+    return 0.0;
+  }
+  return (vertical > 0.0 ? 1.0 : -1.0) * model->mass * sqrt(g);
+}
+
+static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_SCHEMA, NULL,
+        "'offset' is not a mapping; expected coordinate: number or body_weight");
+    return NULL;
+  }
+  double *offset = coordinate_array(reader, 0.0);
+  for (int i = 0; offset && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    if (!value) continue;
+    const char *text = ambulo__yaml_text(value);
+    if (text && strcmp(text, "body_weight") == 0) {
+      offset[i] = body_weight_on(reader, value, i);
+    } else if (text) {
+      offset[i] = ambulo__yaml_number(value, 0.0);
+    }
+  }
+  ambulo__yaml_close(node);
+  return offset;
+}
+
+static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                      ambulo_term *term) {
+  static const char *const kinds[] = {"torque_squared", "torque_absolute", "acceleration",
+                                      "tracking"};
+  const ambulo__yaml_node *kind = ambulo__yaml_require(node, "term");
+  *term = ambulo_term_default((ambulo_term_kind)ambulo__yaml_choice(kind, kinds, 4, 0));
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  if (name) term->name = ambulo__yaml_name(name);
+  term->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e12, 1.0);
+  double *scale = read_scale(reader, ambulo__yaml_get(node, "scale"));
+  term->scale = scale;
+  if (term->kind == AMBULO_TORQUE_SQUARED || term->kind == AMBULO_TORQUE_ABSOLUTE) {
+    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+  }
+  if (term->kind == AMBULO_TORQUE_ABSOLUTE) {
+    term->smoothing =
+        ambulo__yaml_number_in(ambulo__yaml_get(node, "smoothing"), 1e-9, 1e9, term->smoothing);
+  }
+  if (term->kind == AMBULO_TRACKING && scale) {
+    const ambulo__yaml_node *reference = ambulo__yaml_require(node, "reference");
+    if (reference) term->reference = ambulo__read_reference(reader, reference, scale);
+  }
+  ambulo__yaml_close(node);
+}
+
+static int is_none(const ambulo__yaml_node *node) {
+  static const char *const words[] = {"none"};
+  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SCALAR) return 0;
+  (void)ambulo__yaml_choice(node, words, 1, 0);
+  return 1;
+}
+
+void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node || is_none(node)) return;
+  int count = ambulo__yaml_count(node);
+  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || count < 1 || count > MOST_TERMS) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_SCHEMA, NULL,
+        "'objective' is not a list of 1 to %d terms; expected terms, or 'none'", MOST_TERMS);
+    return;
+  }
+  ambulo_term *terms = ambulo__reader_alloc(reader, (size_t)count, sizeof *terms);
+  if (!terms) return;
+  for (int t = 0; t < count; t++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, t);
+    if (ambulo__yaml_kind_of(item) == AMBULO__YAML_MAPPING) {
+      read_term(reader, item, &terms[t]);
+    } else {
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "a term is not a mapping; expected term, weight, ...");
+    }
+  }
+  reader->definition.terms = terms;
+  reader->definition.term_count = count;
+}

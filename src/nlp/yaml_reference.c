@@ -1,0 +1,93 @@
+/* nlp/yaml_reference.c - the reference motion of a tracking term, at the time nodes.
+ *
+ * The file's first time counts as t = 0 and it must last as long as the problem. Between
+ * its rows the motion is interpolated linearly. Coordinates it does not have are not
+ * tracked (scale 0).
+ */
+#include "nlp/problem_yaml.h"
+
+#include "trajectory/motion_file.h"
+
+static void to_radians(ambulo__problem_reader *reader, ambulo__motion *motion) {
+  unsigned char *is_angle = ambulo__reader_alloc(reader, (size_t)motion->columns, 1);
+  if (!is_angle) return;
+  for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(reader->model, i);
+    int column = ambulo__motion_coordinate(motion, c->name);
+    if (column >= 0 && c->type == AMBULO_REVOLUTE) is_angle[column] = 1;
+  }
+  ambulo__motion_to_radians(motion, is_angle);
+}
+
+/* value of a column at `time` of the file */
+static double sample(const ambulo__motion *motion, int column, double time) {
+  int low = 0, high = motion->rows - 1;
+  if (high == 0) return motion->values[column];
+  while (high - low > 1) {
+    int middle = low + (high - low) / 2;
+    if (motion->time[middle] <= time) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double s = (time - motion->time[low]) / (motion->time[high] - motion->time[low]);
+  s = s < 0.0 ? 0.0 : s > 1.0 ? 1.0 : s;
+  const double *values = motion->values + column;
+  double a = values[(size_t)low * (size_t)motion->columns];
+  double b = values[(size_t)high * (size_t)motion->columns];
+  return a + s * (b - a);
+}
+
+static const double *resample(ambulo__problem_reader *reader, const ambulo__motion *motion,
+                              const ambulo__yaml_node *node, double *scale) {
+  const ambulo_problem_definition *d = &reader->definition;
+  int coordinates = ambulo_model_coordinate_count(reader->model), found = 0;
+  double *reference = ambulo__reader_alloc(reader, (size_t)(d->intervals + 1) * (size_t)coordinates,
+                                           sizeof *reference);
+  if (!reference) return NULL;
+  for (int i = 0; i < coordinates; i++) {
+    int column = ambulo__motion_coordinate(motion, ambulo_model_coordinate(reader->model, i)->name);
+    if (column < 0) {
+      scale[i] = 0.0;
+      continue;
+    }
+    found++;
+    for (int k = 0; k <= d->intervals; k++) {
+      double time = motion->time[0] + (double)k * d->duration / (double)d->intervals;
+      reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column, time);
+    }
+  }
+  if (found > 0) return reference;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                           "the reference has no column named after a coordinate of the model");
+  return NULL;
+}
+
+const double *ambulo__read_reference(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                     double *scale) {
+  const char *name = ambulo__yaml_text(node);
+  const char *path = name ? ambulo__reader_path(reader, name) : NULL;
+  if (!path) return NULL;
+  ambulo__motion *motion = NULL;
+  ambulo_status status =
+      ambulo__motion_read(path, &reader->allocator, reader->diagnostics, &motion);
+  if (status) {
+    reader->failure = status;
+    (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);
+    return NULL;
+  }
+  const double *reference = NULL;
+  double lasts = motion->rows > 0 ? motion->time[motion->rows - 1] - motion->time[0] : 0.0;
+  double duration = reader->definition.duration;
+  if (motion->rows < 1 || lasts < duration - 1e-6 * duration) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "the reference lasts %.6g s; expected at least the duration, %.6g s",
+                             lasts, duration);
+  } else {
+    to_radians(reader, motion);
+    reference = resample(reader, motion, node, scale);
+  }
+  ambulo__motion_free(motion);
+  return reference;
+}

@@ -1,0 +1,184 @@
+/* nlp/yaml_schedule.c - `gait:` or `contacts:` of a problem file.
+ *
+ * Duration, number of steps, step time and speed say the same thing twice:
+ *     step_time = step_length / speed,   duration = steps * step_time
+ * What is missing is computed; what is given must agree.
+ */
+#include "nlp/problem_yaml.h"
+
+#include "gait/neutral_pose.h"
+
+#include <math.h>
+
+enum { MOST_CONTACTS = 100000 };
+
+/* index of the foot a node names; -1 when there is none */
+static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  enum { MOST_FEET = 64 };
+  const char *names[MOST_FEET];
+  int feet = ambulo_model_foot_count(reader->model);
+  if (feet > MOST_FEET) feet = MOST_FEET;
+  if (feet == 0) {
+    if (node) (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL, "the model has no feet");
+    return -1;
+  }
+  for (int i = 0; i < feet; i++) names[i] = ambulo_model_foot(reader->model, i)->name;
+  return ambulo__yaml_choice(node, names, feet, -1);
+}
+
+/* ------------------------------------------------------------------- contacts */
+
+static void read_contact(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         ambulo_contact *contact) {
+  static const char *const modes[] = {"heel", "flat", "toe"};
+  contact->foot = read_foot(reader, ambulo__yaml_require(node, "foot"));
+  int mode = ambulo__yaml_choice(ambulo__yaml_require(node, "mode"), modes, 3, 1);
+  contact->mode = (ambulo_contact_mode)mode;
+  contact->from = ambulo__yaml_number(ambulo__yaml_require(node, "from"), 0.0);
+  contact->to = ambulo__yaml_number(ambulo__yaml_require(node, "to"), 0.0);
+  (void)ambulo__yaml_numbers(ambulo__yaml_require(node, "place"), 2, contact->place);
+  ambulo__yaml_close(node);
+}
+
+static void read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_node *list) {
+  int count = ambulo__yaml_count(list);
+  if (ambulo__yaml_kind_of(list) != AMBULO__YAML_SEQUENCE) {
+    (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
+                             "'contacts' is not a list; expected items with foot, mode, from, to, "
+                             "place");
+    return;
+  }
+  if (count > MOST_CONTACTS) {
+    (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL, "%d contacts; expected at most %d", count,
+                             MOST_CONTACTS);
+    return;
+  }
+  ambulo_contact *contacts = ambulo__reader_alloc(reader, (size_t)count, sizeof *contacts);
+  if (!contacts) return;
+  for (int i = 0; i < count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    if (ambulo__yaml_kind_of(item) == AMBULO__YAML_MAPPING) {
+      read_contact(reader, item, &contacts[i]);
+    } else {
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "a contact is not a mapping; expected foot, mode, from, to, place");
+    }
+  }
+  reader->definition.contacts = contacts;
+  reader->definition.contact_count = count;
+}
+
+/* ----------------------------------------------------------------------- gait */
+
+/* distance of the heel centres along left at q = 0, m */
+static double neutral_width(const ambulo_model *model) {
+  if (ambulo_model_foot_count(model) != 2) return 0.0;
+  double width = 0.0;
+  for (int foot = 0; foot < 2; foot++) {
+    double r[3];
+    ambulo__neutral_point(model, model->feet[foot].heel_center, r);
+    for (int axis = 0; axis < 3; axis++) {
+      width += (foot ? -1.0 : 1.0) * model->left[axis] * r[axis];
+    }
+  }
+  return fabs(width);
+}
+
+static void check_agreement(const ambulo__yaml_node *node, const char *what, double step_time,
+                            double other) {
+  if (!node || fabs(step_time - other) <= 1e-9 * fabs(other)) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, "leave one of them out",
+                           "'%s' makes a step last %.9g s; expected %.9g s, from the other keys",
+                           what, step_time, other);
+}
+
+static double read_step_time(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                             const ambulo_gait *gait) {
+  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
+  const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
+  double by_time = ambulo__yaml_number_in(time, 1e-3, 1e3, 1.0);
+  double by_speed = gait->step_length / ambulo__yaml_number_in(speed, 1e-3, 100.0, 1.0);
+  double by_duration = reader->definition.duration / (double)gait->steps;
+  if (reader->has_duration) {
+    check_agreement(time, "step_time", by_time, by_duration);
+    check_agreement(speed, "speed", by_speed, by_duration);
+    return by_duration;
+  }
+  if (!time && !speed) {
+    (void)ambulo__yaml_error(section, AMBULO_E_SCHEMA, NULL,
+                             "no step time; expected one of gait.step_time, gait.speed, "
+                             "time.duration");
+    return 1.0;
+  }
+  if (time) check_agreement(speed, "speed", by_speed, by_time);
+  return time ? by_time : by_speed;
+}
+
+/* Phases of a stride when the file says nothing: textbook timing of normal walking (foot
+ * flat at about 8 %, heel rise after 38 %, toe-off at 62 %; Perry, Gait Analysis, 1992). */
+static void read_phases(const ambulo__yaml_node *section, ambulo_gait *gait) {
+  const ambulo__yaml_node *phases = ambulo__reader_section(section, "phases");
+  gait->heel_strike =
+      ambulo__yaml_number_in(ambulo__yaml_get(phases, "heel_strike"), -0.49, 0.49, 0.0);
+  gait->foot_flat = ambulo__yaml_number_in(ambulo__yaml_get(phases, "foot_flat"), -0.49, 1.0, 0.08);
+  gait->heel_off = ambulo__yaml_number_in(ambulo__yaml_get(phases, "heel_off"), -0.49, 1.0, 0.38);
+  gait->toe_off = ambulo__yaml_number_in(ambulo__yaml_get(phases, "toe_off"), -0.49, 1.0, 0.62);
+  if (!phases) return;
+  ambulo__yaml_close(phases);
+  if (gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
+      gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0) {
+    return;
+  }
+  (void)ambulo__yaml_error(phases, AMBULO_E_PROBLEM, NULL,
+                           "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
+                           "foot_flat <= heel_off <= toe_off < heel_strike + 1",
+                           gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off);
+}
+
+static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                   const ambulo_gait *gait) {
+  int count = 0;
+  ambulo_status status = ambulo_gait_expand(reader->model, gait, NULL, 0, &count);
+  if (status == AMBULO_E_ARGUMENT) {
+    /* the keys have been checked one by one: what is left is the model, or an earlier error */
+    if (ambulo_model_foot_count(reader->model) == 2) return;
+    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, "write the schedule out under 'contacts'",
+                             "the model has %d feet; expected 2 for a regular gait",
+                             ambulo_model_foot_count(reader->model));
+    return;
+  }
+  ambulo_contact *contacts = ambulo__reader_alloc(reader, (size_t)count, sizeof *contacts);
+  if (!contacts) return;
+  status = ambulo_gait_expand(reader->model, gait, contacts, count, &count);
+  if (status) reader->failure = AMBULO_E_INTERNAL;
+  reader->definition.contacts = contacts;
+  reader->definition.contact_count = count;
+}
+
+static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  ambulo_gait gait = {.steps = 1};
+  gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 10000, 1);
+  gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
+  gait.step_length =
+      ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
+  gait.step_width = ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0,
+                                           neutral_width(reader->model));
+  gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
+  read_phases(section, &gait);
+  gait.step_time = read_step_time(reader, section, &gait);
+  ambulo__yaml_close(section);
+  if (!reader->has_duration) reader->definition.duration = (double)gait.steps * gait.step_time;
+  reader->definition.travel = (double)gait.steps * gait.step_length;
+  expand(reader, section, &gait);
+}
+
+void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  const ambulo__yaml_node *contacts = ambulo__yaml_get(root, "contacts");
+  if (contacts && reader->gait) {
+    (void)ambulo__yaml_error(contacts, AMBULO_E_SCHEMA, NULL,
+                             "both 'gait' and 'contacts' are given; expected one of them");
+    return;
+  }
+  if (contacts) read_contacts(reader, contacts);
+  if (reader->gait) read_gait(reader, reader->gait);
+}
