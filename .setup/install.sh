@@ -1,2 +1,118 @@
 #!/usr/bin/env bash
-exit 0
+# Installs what is missing on this machine: .setup/install.sh build|test|lint
+#
+# Nothing is guessed from package lists: each need is tried out (a header compiled, a library
+# linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
+# when nothing is missing; exit status 1 with the list of packages when it cannot help.
+set -u
+purpose=${1:-build}
+compiler=${CC:-cc}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+
+# tries to compile and link a program: source text, then compiler arguments
+links() {
+  local source=$1
+  shift
+  printf '%s\n' "$source" >"$scratch/try.c"
+  # shellcheck disable=SC2086
+  $compiler "$scratch/try.c" "$@" $search -o "$scratch/try" >/dev/null 2>&1
+}
+has_compiler() { links '#include <stdio.h>
+int main(void) { return puts("") < 0; }'; }
+has_nlopt() { links '#include <nlopt.h>
+int main(void) { return nlopt_create(NLOPT_LD_SLSQP, 1) == 0; }' -lnlopt -lm; }
+has_yaml() { links '#include <yaml.h>
+int main(void) { yaml_parser_t p; return !yaml_parser_initialize(&p); }' -lyaml; }
+has_lapack() {
+  local source='extern void dpbtrf_(void); int main(void) { dpbtrf_(); return 0; }'
+  links "$source" -lopenblas || links "$source" -llapack -lblas
+}
+has_cmocka() { links '#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+int main(void) { return cmocka_run_group_tests((const struct CMUnitTest[]){{0}}, 0, 0); }' -lcmocka; }
+has_program() { command -v "$1" >/dev/null 2>&1; }
+
+if has_program apt-get; then manager=apt-get
+elif has_program dnf; then manager=dnf
+elif has_program brew; then manager=brew
+else manager=none; fi
+
+# Homebrew keeps libraries out of the compiler's sight
+search=
+if [ "$manager" = brew ]; then
+  for name in nlopt libyaml openblas cmocka; do
+    folder=$(brew --prefix "$name" 2>/dev/null) && search="$search -I$folder/include -L$folder/lib"
+  done
+fi
+
+# the packages of a need, in the words of the package manager
+package() {
+  case $manager:$1 in
+  apt-get:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc libc6-dev ;; esac ;;
+  apt-get:nlopt) echo libnlopt-dev ;;
+  apt-get:yaml) echo libyaml-dev ;;
+  apt-get:lapack) echo libopenblas-dev ;;
+  apt-get:cmocka) echo libcmocka-dev ;;
+  dnf:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc glibc-devel ;; esac ;;
+  dnf:nlopt) echo NLopt-devel ;;
+  dnf:yaml) echo libyaml-devel ;;
+  dnf:lapack) echo openblas-devel ;;
+  dnf:cmocka) echo libcmocka-devel ;;
+  dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
+  brew:compiler) echo gcc ;;
+  brew:yaml) echo libyaml ;;
+  brew:lapack) echo openblas ;;
+  brew:clang-tidy) echo llvm ;;
+  none:compiler) echo 'a C11 compiler' ;;
+  *) echo "$1" ;;
+  esac
+}
+
+missing() {
+  # without a compiler the libraries cannot be tried, and are surely missing as well
+  has_compiler || package compiler
+  has_nlopt || package nlopt
+  has_yaml || package yaml
+  has_lapack || package lapack
+  [ "$purpose" = build ] || has_cmocka || package cmocka
+  if [ "$purpose" = lint ]; then
+    has_program clang-format || package clang-format
+    has_program clang-tidy || package clang-tidy
+  fi
+}
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"
+  elif has_program sudo; then sudo "$@"
+  else
+    echo "installing needs root: run 'make setup' as root, or install sudo" >&2
+    return 1
+  fi
+}
+apt_install() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=120 -y -q \
+    --no-install-recommends install "$@"
+}
+install() {
+  case $manager in
+  apt-get) apt_install "$@" || { as_root apt-get -q update && apt_install "$@"; } ;;
+  dnf) as_root dnf -y install "$@" ;;
+  brew) brew install "$@" ;;
+  *) return 1 ;;
+  esac
+}
+
+wanted=$(missing | tr '\n' ' ')
+[ -n "${wanted// /}" ] || exit 0
+echo "missing for 'make $purpose': $wanted"
+# shellcheck disable=SC2086
+install $wanted
+wanted=$(missing | tr '\n' ' ')
+[ -n "${wanted// /}" ] || exit 0
+echo "could not install: $wanted" >&2
+echo "install them by hand, then run make again" >&2
+exit 1
