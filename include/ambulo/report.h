@@ -53,9 +53,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_file(
     const ambulo_model *model, const char *motion, const char *output,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, char **text);
 
-/* What a YAML file is, by its keys: a model has `links`, a problem a `model`. */
+/* What a YAML file is, by its key `kind`. */
 typedef enum ambulo_file_kind { AMBULO_FILE_MODEL, AMBULO_FILE_PROBLEM } ambulo_file_kind;
-/* Errors: E_IO, E_PARSE, E_SCHEMA (neither), E_LIMIT, E_MEMORY. */
+/* Errors: E_IO, E_PARSE, E_SCHEMA (another kind, or none), E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(
     const char *path, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
     ambulo_file_kind *kind);

@@ -8,16 +8,11 @@ ambulo_status ambulo_file_kind_of(const char *path, const ambulo_allocator *allo
   ambulo__yaml *document = NULL;
   ambulo_status status = ambulo__yaml_load(path, allocator, diagnostics, &document);
   if (status) return status;
-  const ambulo__yaml_node *root = ambulo__yaml_root(document);
-  if (ambulo__yaml_get(root, "links")) {
-    *kind = AMBULO_FILE_MODEL;
-  } else if (ambulo__yaml_get(root, "model")) {
-    *kind = AMBULO_FILE_PROBLEM;
-  } else {
-    status = ambulo__yaml_error(root, AMBULO_E_SCHEMA, NULL,
-                                "neither 'links' nor 'model' at the top level; expected a model "
-                                "(with links) or a problem (with a model)");
-  }
+  static const char *const kinds[] = {"model", "problem"};
+  const ambulo__yaml_node *node = ambulo__yaml_require(ambulo__yaml_root(document), "kind");
+  int choice = ambulo__yaml_choice(node, kinds, 2, 0);
+  status = ambulo__yaml_finish(document);
+  if (!status) *kind = choice == 0 ? AMBULO_FILE_MODEL : AMBULO_FILE_PROBLEM;
   ambulo__yaml_free(document);
   return status;
 }

@@ -32,7 +32,7 @@ void ambulo__solution_yaml(const ambulo_problem *problem, const ambulo_result *r
   ambulo_verdict verdict = ambulo_result_verdict(result);
   ambulo__text_append_format(text, "# verdict: %s\n# SI units and radians\n",
                              ambulo_verdict_name(verdict));
-  ambulo__text_append(text, "schema: ambulo-solution/1\nduration: ");
+  ambulo__text_append(text, "ambulo: 1\nkind: solution\nduration: ");
   ambulo__text_append_number(text, ambulo_problem_duration(problem));
   ambulo__text_append_char(text, '\n');
   trajectory(problem->basis, text);

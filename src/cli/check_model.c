@@ -1,0 +1,148 @@
+/* cli/check_model.c - Jacobians of torques, root wrench and points against differences.
+ *
+ * At a few fixed poses each of q, qd, qdd is moved in one coordinate at a time; four-point
+ * central differences (error h^4) give
+ *
+ *     df/du = (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h)
+ *
+ * and the error of an entry is its disagreement over max(1, largest entry of the Jacobian). */
+#include "cli/check_model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POSES = 4, OUTPUTS = 3, INPUTS = 3 };
+
+typedef struct tables {
+  const ambulo_model *model;
+  ambulo_mechanics *mechanics;
+  int d, size[OUTPUTS];          /* numbers in tau, wrench, points */
+  double *state[INPUTS];         /* q, qd, qdd [d] */
+  double *value[4][OUTPUTS];     /* at the four moved states */
+  double *jacobian[OUTPUTS][INPUTS];
+  double error[OUTPUTS][INPUTS];
+  int worst_row[OUTPUTS][INPUTS], worst_column[OUTPUTS][INPUTS];
+} tables;
+
+static int allocate(tables *t) {
+  int failed = 0;
+  size_t d = (size_t)t->d + 1;
+  for (int i = 0; i < INPUTS; i++) failed |= !(t->state[i] = calloc(d, sizeof(double)));
+  for (int o = 0; o < OUTPUTS; o++) {
+    size_t size = (size_t)t->size[o] + 1;
+    for (int k = 0; k < 4; k++) failed |= !(t->value[k][o] = calloc(size, sizeof(double)));
+    for (int i = 0; i < INPUTS; i++)
+      failed |= !(t->jacobian[o][i] = calloc(size * d, sizeof(double)));
+  }
+  return failed;
+}
+
+static void release(tables *t) {
+  for (int i = 0; i < INPUTS; i++) free(t->state[i]);
+  for (int o = 0; o < OUTPUTS; o++) {
+    for (int k = 0; k < 4; k++) free(t->value[k][o]);
+    for (int i = 0; i < INPUTS; i++) free(t->jacobian[o][i]);
+  }
+  ambulo_mechanics_free(t->mechanics);
+}
+
+static void compare(tables *t, int o, int i, int column, double step) {
+  double scale = 1.0;
+  size_t entries = (size_t)t->size[o] * (size_t)t->d;
+  for (size_t e = 0; e < entries; e++) scale = fmax(scale, fabs(t->jacobian[o][i][e]));
+  for (int r = 0; r < t->size[o]; r++) {
+    double near = t->value[2][o][r] - t->value[1][o][r];
+    double far = t->value[3][o][r] - t->value[0][o][r];
+    double numeric = (8.0 * near - far) / (12.0 * step);
+    double analytic = t->jacobian[o][i][(size_t)r * (size_t)t->d + (size_t)column];
+    double error = fabs(analytic - numeric) / scale;
+    if (error <= t->error[o][i]) continue;
+    t->error[o][i] = error;
+    t->worst_row[o][i] = r;
+    t->worst_column[o][i] = column;
+  }
+}
+
+static ambulo_status check_pose(tables *t) {
+  const double step = 1e-3;
+  ambulo_jacobians all = {t->jacobian[0][0], t->jacobian[0][1], t->jacobian[0][2],
+                          t->jacobian[1][0], t->jacobian[1][1], t->jacobian[1][2],
+                          t->jacobian[2][0]};
+  ambulo_status status = ambulo_mechanics_jacobians(t->mechanics, 1, t->state[0], t->state[1],
+                                                    t->state[2], &all);
+  for (int i = 0; i < INPUTS && !status; i++) {
+    for (int c = 0; c < t->d && !status; c++) {
+      static const double moves[4] = {-2.0, -1.0, 1.0, 2.0};
+      double kept = t->state[i][c];
+      for (int k = 0; k < 4 && !status; k++) {
+        t->state[i][c] = kept + moves[k] * step;
+        status = ambulo_mechanics_inverse_dynamics(t->mechanics, 1, t->state[0], t->state[1],
+                                                   t->state[2], t->value[k][0], t->value[k][1],
+                                                   t->value[k][2]);
+      }
+      t->state[i][c] = kept;
+      for (int o = 0; o < OUTPUTS && !status; o++) {
+        if (o < 2 || i == 0) compare(t, o, i, c, step);
+      }
+    }
+  }
+  return status;
+}
+
+static int print_table(const tables *t, double tolerance) {
+  static const char *const outputs[] = {"torque", "root wrench", "points"};
+  static const char *const inputs[] = {"q", "qd", "qdd"};
+  int wrong = 0;
+  printf("  %-26s %-10s %s\n", "Jacobian", "error", "worst entry");
+  for (int o = 0; o < OUTPUTS; o++) {
+    for (int i = 0; i < (o < 2 ? INPUTS : 1); i++) {
+      int bad = !(t->error[o][i] <= tolerance), row = t->worst_row[o][i];
+      char label[64];
+      snprintf(label, sizeof label, "%s by %s", outputs[o], inputs[i]);
+      printf("  %-26s %-10.1e row %d", label, t->error[o][i], row);
+      if (o == 0) printf(" (%s)", ambulo_model_coordinate(t->model, row)->name);
+      if (o == 2 && t->size[2]) printf(" (%s)", ambulo_model_point(t->model, row / 3)->name);
+      printf(", %s%s\n", ambulo_model_coordinate(t->model, t->worst_column[o][i])->name,
+             bad ? "  WRONG" : "");
+      wrong += bad;
+    }
+  }
+  return wrong;
+}
+
+static ambulo_status check(tables *t) {
+  ambulo_status status = ambulo_mechanics_create(t->model, NULL, &t->mechanics);
+  for (int pose = 0; pose < POSES && !status; pose++) {
+    for (int c = 0; c < t->d; c++) {
+      double phase = 1.0 + 2.39996 * (double)(c + 31 * pose);
+      t->state[0][c] = 0.8 * sin(phase);
+      t->state[1][c] = 2.0 * sin(2.0 * phase);
+      t->state[2][c] = 10.0 * sin(3.0 * phase);
+    }
+    status = check_pose(t);
+  }
+  return status;
+}
+
+ambulo_status ambulo__cli_check_model(const char *file, ambulo_diagnostics *diagnostics,
+                                      double tolerance, int *wrong) {
+  ambulo_model *model = NULL;
+  ambulo_status status = ambulo_model_load(file, NULL, NULL, diagnostics, &model);
+  if (status) return status;
+  tables t;
+  memset(&t, 0, sizeof t);
+  t.model = model;
+  t.d = ambulo_model_coordinate_count(model);
+  t.size[0] = t.d;
+  t.size[1] = 6;
+  t.size[2] = 3 * ambulo_model_point_count(model);
+  printf("%s: model '%s', %d links, %d coordinates, %.3f kg\n", file, ambulo_model_name(model),
+         ambulo_model_link_count(model), t.d, ambulo_model_mass(model));
+  status = allocate(&t) ? AMBULO_E_MEMORY : check(&t);
+  if (!status) *wrong += print_table(&t, tolerance);
+  release(&t);
+  ambulo_model_free(model);
+  return status;
+}

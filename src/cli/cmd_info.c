@@ -1,0 +1,199 @@
+/* cli/cmd_info.c - ambulo info: what was understood of a model or a problem, as tables. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+
+static const double degrees = 57.295779513082321;
+
+/* --------------------------------------------------------------------- model */
+
+static void print_links(const ambulo_model *model) {
+  static const char *const types[] = {"fixed", "revolute", "prismatic"};
+  printf("\nlinks (m, degrees, kg)\n  %-3s %-22s %-22s %-9s %8s %8s %8s %8s %8s\n", "", "name",
+         "parent", "joint", "theta", "d", "a", "alpha", "mass");
+  for (int i = 0; i < ambulo_model_link_count(model); i++) {
+    const ambulo_link *link = ambulo_model_link(model, i);
+    const char *parent = link->parent >= 0 ? ambulo_model_link(model, link->parent)->name : "world";
+    printf("  %-3d %-22s %-22s %-9s %8.2f %8.4f %8.4f %8.2f ", i, link->name, parent,
+           types[link->type], degrees * link->theta, link->d, link->a, degrees * link->alpha);
+    if (link->mass > 0.0) {
+      printf("%8.4f\n", link->mass);
+    } else {
+      printf("%8s\n", "-");
+    }
+  }
+}
+
+static void print_range(const double *range, double factor) {
+  for (int i = 0; i < 2; i++) {
+    if (isfinite(range[i])) {
+      printf(" %8.2f", factor * range[i]);
+    } else {
+      printf(" %8s", "-");
+    }
+  }
+}
+
+static void print_coordinates(const ambulo_model *model) {
+  printf("\ncoordinates (degrees or m; N m or N)\n  %-3s %-22s %-6s %17s %17s %17s  %-9s %s\n", "",
+         "name", "unit", "range", "speed", "torque", "driven", "mirror image");
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
+    int angle = c->type == AMBULO_REVOLUTE;
+    printf("  %-3d %-22s %-6s", i, c->name, angle ? "deg" : "m");
+    print_range(c->range, angle ? degrees : 1.0);
+    print_range(c->speed, angle ? degrees : 1.0);
+    print_range(c->torque, 1.0);
+    printf("  %-9s %s%s\n", c->actuated ? "yes" : "no", c->mirror_sign < 0.0 ? "-" : "",
+           c->mirror == i && c->mirror_sign > 0.0
+               ? "itself"
+               : ambulo_model_coordinate(model, c->mirror)->name);
+  }
+}
+
+static const char *point_name(const ambulo_model *model, int index) {
+  const ambulo_point *point = ambulo_model_point(model, index);
+  return point ? point->name : "-";
+}
+
+static void print_points(const ambulo_model *model) {
+  int points = ambulo_model_point_count(model), feet = ambulo_model_foot_count(model);
+  if (points) printf("\npoints (m, link frame)\n");
+  for (int i = 0; i < points; i++) {
+    const ambulo_point *p = ambulo_model_point(model, i);
+    printf("  %-3d %-22s %-22s %9.4f %9.4f %9.4f\n", i, p->name,
+           ambulo_model_link(model, p->link)->name, p->position[0], p->position[1],
+           p->position[2]);
+  }
+  if (feet) printf("\nfeet\n");
+  for (int i = 0; i < feet; i++) {
+    const ambulo_foot *f = ambulo_model_foot(model, i);
+    printf("  %-3d %-10s heel %s %s, toe %s %s, centres %s %s, mirror image %s\n", i, f->name,
+           point_name(model, f->heel[0]), point_name(model, f->heel[1]),
+           point_name(model, f->toe[0]), point_name(model, f->toe[1]),
+           point_name(model, f->heel_center), point_name(model, f->toe_center),
+           ambulo_model_foot(model, f->mirror)->name);
+  }
+}
+
+static void print_model(const ambulo_model *model) {
+  const double *g = ambulo_model_gravity(model), *f = ambulo_model_forward(model);
+  printf("model        %s\n", ambulo_model_name(model));
+  printf("body         %.4f kg", ambulo_model_mass(model));
+  if (ambulo_model_stature(model) > 0.0) printf(", %.3f m tall", ambulo_model_stature(model));
+  printf("\ngravity      %g %g %g m/s^2\nforward      %g %g %g\n", g[0], g[1], g[2], f[0], f[1],
+         f[2]);
+  print_links(model);
+  print_coordinates(model);
+  print_points(model);
+}
+
+/* ------------------------------------------------------------------- problem */
+
+static void print_schedule(const ambulo_problem *problem) {
+  static const char *const modes[] = {"heel", "flat", "toe"};
+  int count = ambulo_problem_contact_count(problem);
+  if (count == 0) return;
+  printf("\ncontacts (s; foothold in m along forward and left)\n  %-3s %-10s %-5s %9s %9s %9s %9s\n",
+         "", "foot", "mode", "from", "to", "forward", "left");
+  for (int i = 0; i < count; i++) {
+    const ambulo_contact *c = ambulo_problem_contact(problem, i);
+    printf("  %-3d %-10s %-5s %9.4f %9.4f %9.4f %9.4f\n", i,
+           ambulo_model_foot(ambulo_problem_model(problem), c->foot)->name, modes[c->mode],
+           c->from, c->to, c->place[0], c->place[1]);
+  }
+}
+
+/* rows of one family stand together: a new line whenever the family changes */
+static void print_families(const ambulo_problem *problem) {
+  int rows = ambulo_problem_row_count(problem), count = 0;
+  ambulo_row first = {.family = NULL}, row;
+  printf("\nrows\n");
+  for (int r = 0; r <= rows; r++) {
+    int valid = r < rows && ambulo_problem_row(problem, r, &row) == AMBULO_OK;
+    if (valid && first.family && !strcmp(row.family, first.family) &&
+        row.relation == first.relation) {
+      count++;
+      continue;
+    }
+    if (first.family)
+      printf("  %-22s %6d  %-4s %s\n", first.family, count,
+             first.relation == AMBULO_EQUAL ? "= 0" : ">= 0", first.unit);
+    if (!valid) break;
+    first = row;
+    count = 1;
+  }
+  if (rows == 0) printf("  none\n");
+}
+
+static void print_problem(const ambulo_problem *problem) {
+  static const char *const ends[] = {"free", "periodic", "mirrored"};
+  int equalities = ambulo_problem_equality_count(problem);
+  const char *name = ambulo_problem_name(problem);
+  printf("problem      %s\n", name ? name : "");
+  printf("duration     %g s, %d nodes, %s ends\n", ambulo_problem_duration(problem),
+         ambulo_problem_node_count(problem), ends[ambulo_problem_ends(problem)]);
+  printf("unknowns     %d: %d control points of %d coordinates\n",
+         ambulo_problem_variable_count(problem), ambulo_problem_control_point_count(problem),
+         ambulo_model_coordinate_count(ambulo_problem_model(problem)));
+  printf("constraints  %d equalities, %d inequalities\n", equalities,
+         ambulo_problem_row_count(problem) - equalities);
+  printf("input hash   %016llx\n", ambulo_problem_hash(problem));
+  printf("\nobjective\n");
+  for (int i = 0; i < ambulo_problem_term_count(problem); i++)
+    printf("  %s\n", ambulo_problem_term_name(problem, i));
+  if (ambulo_problem_term_count(problem) == 0) printf("  none: a feasible motion\n");
+  print_families(problem);
+  print_schedule(problem);
+  printf("\n");
+  print_model(ambulo_problem_model(problem));
+}
+
+static int run(const ambulo__cli_input *input) {
+  const char *file = input->arguments[0];
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  const char **overrides = calloc((size_t)input->given_count + 1, sizeof *overrides);
+  ambulo_model *model = NULL;
+  ambulo_problem *problem = NULL;
+  ambulo_file_kind kind = AMBULO_FILE_MODEL;
+  ambulo_status status =
+      overrides ? ambulo_file_kind_of(file, NULL, diagnostics, &kind) : AMBULO_E_MEMORY;
+  if (!status && kind == AMBULO_FILE_MODEL) {
+    status = ambulo_model_load(file, NULL, NULL, diagnostics, &model);
+    if (!status) print_model(model);
+  } else if (!status) {
+    int count = ambulo__cli_values(input, "set", overrides);
+    status = ambulo_problem_load(file, overrides, count, NULL, diagnostics, &problem);
+    if (!status) print_problem(problem);
+  }
+  int code = ambulo__cli_diagnostics(diagnostics, status, file);
+  ambulo_model_free(model);
+  ambulo_problem_free(problem);
+  ambulo_diagnostics_free(diagnostics);
+  free(overrides);
+  return code;
+}
+
+static const ambulo__cli_option options[] = {
+    {"set", 0, "path=value", "replace a value of a problem file; may be repeated"},
+};
+
+const ambulo__cli_command ambulo__cli_info = {
+    .name = "info",
+    .arguments = "MODEL.yaml|PROBLEM.yaml",
+    .summary = "what was understood: links, masses, schedule, sizes",
+    .description =
+        "Prints links, masses, coordinates with their limits, points and feet of a model; for a\n"
+        "problem also the unknowns, rows by family, objective terms and the contact schedule with\n"
+        "its footholds.",
+    .example = "ambulo info models/yardstick_36.yaml",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum = 1,
+    .maximum = 1,
+    .run = run,
+};
