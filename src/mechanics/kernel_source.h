@@ -9,6 +9,7 @@
 #define AMBULO_MECHANICS_KERNEL_SOURCE_H
 
 #include "mechanics/kernel_forward.h"
+#include "mechanics/kernel_reverse.h"
 
 static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                     double *out, double *scratch) {
@@ -17,6 +18,14 @@ static void forward(const ambulo__plan *plan, const double *q, const double *qd,
   }
 }
 
-const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, forward, NULL, NULL};
+static void reverse(const ambulo__plan *plan, const double *qd, const double *qdd,
+                    const double *weights, double *gq, double *gqd, double *gqdd, double *scratch) {
+  for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
+    reverse_part(plan, qd + lane, qdd + lane, weights + lane, gq + lane, gqd + lane, gqdd + lane,
+                 scratch + lane);
+  }
+}
+
+const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, forward, reverse, NULL};
 
 #endif

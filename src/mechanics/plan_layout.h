@@ -27,6 +27,7 @@ typedef struct ambulo__frame {
   int body;            /* index, -1: none */
   int zero_load;       /* 1: the load starts at zero (no body, not exactly one child) */
   int zero_adjoint;    /* 1: the adjoints start at zero */
+  int starts_spin_adjoint; /* 1: this frame owns an Omega, and writes its adjoint first */
   int velocity_at;     /* Jacobian: velocity of the origin (3); by origin */
   int composite_at;    /* Jacobian: composite inertia of the load's subtree (21) */
   double subtree_mass;

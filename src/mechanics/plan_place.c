@@ -131,7 +131,8 @@ static void place_reverse(ambulo__plan *plan, size_t *used) {
     frame->slide_at = plan->frames[owner(plan, f, 1)].slide_at;
     frame->spin_adjoint_at = -1;
     if (frame->spin_at < 0) continue;
-    if (owner(plan, f, 0) == f) frame->spin_adjoint_at = take(used, 9);
+    frame->starts_spin_adjoint = owner(plan, f, 0) == f;
+    if (frame->starts_spin_adjoint) frame->spin_adjoint_at = take(used, 9);
     frame->spin_adjoint_at = plan->frames[owner(plan, f, 0)].spin_adjoint_at;
   }
   for (int f = plan->coordinates; f >= 1; f--) {
