@@ -74,16 +74,16 @@ static ambulo_status check_inertia(const char *what, const double inertia[6], am
 }
 
 ambulo_status ambulo__check_body(const char *what, double mass, const double com[3],
-                                 const double inertia[6], ambulo__place place,
+                                 const double inertia[6], ambulo__body_places places,
                                  ambulo_diagnostics *diagnostics) {
   if (!(mass >= LEAST_MASS && mass <= LARGEST_MASS)) {
-    return ambulo__error(diagnostics, AMBULO_E_MODEL, place, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_MODEL, places.mass, NULL,
                          "mass of '%s' is out of range (got %s kg); expected 1e-9 to 1e6 kg", what,
                          ambulo__number_text(mass).text);
   }
   if (!ambulo__finite3(com) || !ambulo__finite3(inertia) || !ambulo__finite3(inertia + 3)) {
-    return ambulo__error(diagnostics, AMBULO_E_MODEL, place, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_MODEL, places.inertia, NULL,
                          "centre of mass and inertia of '%s' must be finite numbers", what);
   }
-  return check_inertia(what, inertia, place, diagnostics);
+  return check_inertia(what, inertia, places.inertia, diagnostics);
 }

@@ -26,9 +26,13 @@ int ambulo__finite3(const double v[3]);
 
 /* A body that could exist: mass finite and in range, centre of mass finite, inertia
  * [xx yy zz xy xz yz] positive semidefinite with principal moments that obey the
- * triangle inequality. `what` names it in messages. Reports at most one error. */
+ * triangle inequality. `what` names it in messages; the places are those of the mass and of
+ * the inertia. Reports at most one error. */
+typedef struct ambulo__body_places {
+  ambulo__place mass, inertia;
+} ambulo__body_places;
 ambulo_status ambulo__check_body(const char *what, double mass, const double com[3],
-                                 const double inertia[6], ambulo__place place,
+                                 const double inertia[6], ambulo__body_places places,
                                  ambulo_diagnostics *diagnostics);
 
 /* Eigenvalues of a symmetric 3x3 matrix [xx yy zz xy xz yz], ascending. */
@@ -49,7 +53,7 @@ ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link);
 typedef const char *(*ambulo__name_of)(const ambulo_model_definition *definition, int index);
 void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo__name_of name,
                          const ambulo__place *places);
-/* Parents exist, no cycles, one root; DH constants; bodies. */
+/* Parents exist, no cycles; DH constants; bodies. */
 void ambulo__check_links(ambulo__checker *c);
 /* Ranges ordered, mirror pairs mutual. */
 void ambulo__check_coordinates(ambulo__checker *c);

@@ -1,4 +1,4 @@
-/* model/link_check.c - the tree of links: parents, cycles, roots, DH constants, bodies. */
+/* model/link_check.c - the tree of links: parents, cycles, DH constants, bodies. */
 #include <math.h>
 #include <string.h>
 
@@ -52,7 +52,7 @@ static void report_cycle(ambulo__checker *c, int first) {
 
 /* Climbing from a link ends at the world, or goes on for ever: then, after as many steps as
  * there are links, one stands on the cycle. */
-static int check_cycles(ambulo__checker *c) {
+static void check_cycles(ambulo__checker *c) {
   const ambulo_model_definition *d = c->definition;
   for (int i = 0; i < d->link_count; i++) {
     int at = i;
@@ -63,24 +63,8 @@ static int check_cycles(ambulo__checker *c) {
       if (k < first) first = k;
     }
     report_cycle(c, first);
-    return 0;
+    return;
   }
-  return 1;
-}
-
-static void check_roots(ambulo__checker *c) {
-  const ambulo_model_definition *d = c->definition;
-  char text[400] = "";
-  int roots = 0, second = 0;
-  for (int i = 0; i < d->link_count; i++) {
-    if (d->links[i].parent >= 0) continue;
-    if (++roots == 2) second = i;
-    append_name(text, sizeof text, name_of(c, i));
-  }
-  if (roots < 2) return;
-  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, ambulo__place_of_link(c, second),
-                            "hang both on one fixed link",
-                            "%d links hang on the world (%s); expected one root", roots, text);
 }
 
 static void check_link(ambulo__checker *c, int i) {
@@ -103,8 +87,10 @@ static void check_link(ambulo__checker *c, int i) {
   int has_inertia = 0;
   for (int k = 0; k < 6; k++) has_inertia |= link->inertia[k] != 0;
   if (link->mass == 0 && !has_inertia) return; /* no body */
-  ambulo_status status = ambulo__check_body(name_of(c, i), link->mass, link->com, link->inertia,
-                                            ambulo__place_of_link(c, i), c->diagnostics);
+  ambulo__place place = ambulo__place_of_link(c, i);
+  ambulo_status status =
+      ambulo__check_body(name_of(c, i), link->mass, link->com, link->inertia,
+                         (ambulo__body_places){place, place}, c->diagnostics);
   if (status != AMBULO_OK) c->status = status;
 }
 
@@ -118,5 +104,5 @@ void ambulo__check_links(ambulo__checker *c) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, ambulo__place_of_model(c), NULL,
                               "the model has no mass; expected at least one link with a body");
   }
-  if (check_parents(c) && check_cycles(c)) check_roots(c);
+  if (check_parents(c)) check_cycles(c);
 }

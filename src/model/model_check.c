@@ -86,6 +86,17 @@ static int is_name(const char *text) {
   return length > 0;
 }
 
+/* a model's name is a title: it may hold spaces, but no control characters */
+static int is_title(const char *text) {
+  size_t length = 0;
+  if (!text) return 0;
+  for (; text[length]; length++) {
+    unsigned char c = (unsigned char)text[length];
+    if (c < 0x20 || c == 0x7f || length == AMBULO__MAX_NAME) return 0;
+  }
+  return length > 0;
+}
+
 static void report_name(ambulo__checker *c, const char *kind, const char *name,
                         ambulo__place place) {
   c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
@@ -128,10 +139,6 @@ void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo
 static const char *link_name(const ambulo_model_definition *d, int i) { return d->links[i].name; }
 static const char *point_name(const ambulo_model_definition *d, int i) { return d->points[i].name; }
 static const char *foot_name(const ambulo_model_definition *d, int i) { return d->feet[i].name; }
-static const char *model_name(const ambulo_model_definition *d, int i) {
-  (void)i;
-  return d->name;
-}
 
 const char *ambulo__coordinate_name(const ambulo_model_definition *d, int index) {
   if (d->coordinates[index].name) return d->coordinates[index].name;
@@ -144,7 +151,12 @@ const char *ambulo__coordinate_name(const ambulo_model_definition *d, int index)
 static void check_all_names(ambulo__checker *c) {
   const ambulo_model_definition *d = c->definition;
   const ambulo__model_places none = {0}, *p = c->places ? c->places : &none;
-  ambulo__check_names(c, "model", 1, model_name, NULL);
+  if (!is_title(d->name)) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, ambulo__place_of_model(c), NULL,
+                              "model name is not allowed (got '%.80s'); expected 1 to %d printable "
+                              "characters",
+                              d->name ? d->name : "", (int)AMBULO__MAX_NAME);
+  }
   ambulo__check_names(c, "link", d->link_count, link_name, p->links);
   ambulo__check_names(c, "coordinate", d->coordinate_count, ambulo__coordinate_name,
                       p->coordinates);

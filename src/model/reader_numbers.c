@@ -1,0 +1,101 @@
+/* model/reader_numbers.c - numbers of a model file: by sex, in the file's units; references. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/reader.h"
+
+const ambulo__yaml_node *ambulo__by_sex(ambulo__reader *reader, const ambulo__yaml_node *node) {
+  if (!node || ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) return node;
+  const ambulo__yaml_node *female = ambulo__yaml_require(node, "female");
+  const ambulo__yaml_node *male = ambulo__yaml_require(node, "male");
+  ambulo__yaml_close(node);
+  if (reader->subject.sex == AMBULO_SEX_FILE) {
+    ambulo__yaml_error(node, AMBULO_E_SCHEMA, "add it to `subject`",
+                       "a value differs by sex, but the subject has none; expected subject.sex");
+    return NULL;
+  }
+  return reader->subject.sex == AMBULO_FEMALE ? female : male;
+}
+
+double ambulo__read_scaled(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
+                           double fallback) {
+  double value = ambulo__yaml_number(ambulo__by_sex(reader, node), NAN);
+  return isnan(value) ? fallback : value * factor;
+}
+
+static int is_sequence_of(const ambulo__yaml_node *node, int count) {
+  if (ambulo__yaml_kind_of(node) == AMBULO__YAML_SEQUENCE && ambulo__yaml_count(node) == count) {
+    return 1;
+  }
+  double unused[8];
+  (void)ambulo__yaml_numbers(node, count, unused); /* says what is wrong */
+  return 0;
+}
+
+int ambulo__read_vector(ambulo__reader *reader, const ambulo__yaml_node *node, int count,
+                        double factor, double *values) {
+  enum { MOST = 8 };
+  double read[MOST];
+  int good = 1;
+  const ambulo__yaml_node *list = ambulo__by_sex(reader, node);
+  if (!list || count > MOST || !is_sequence_of(list, count)) return 0;
+  for (int i = 0; i < count; i++) {
+    read[i] = ambulo__read_scaled(reader, ambulo__yaml_item(list, i), factor, NAN);
+    good &= !isnan(read[i]);
+  }
+  if (good) memcpy(values, read, (size_t)count * sizeof *values);
+  return good;
+}
+
+/* 6.2832 is a full turn; anatomical angles beyond it are degrees */
+static void warn_of_degrees(ambulo__reader *reader, const ambulo__yaml_node *node, double value) {
+  if (!reader->in_radians || reader->warned_of_degrees || fabs(value) <= 6.2832) return;
+  reader->warned_of_degrees = 1;
+  ambulo__yaml_warning(node, "degrees are declared by `units: {angle: degrees}`",
+                       "an angle of more than a full turn (got %s radians)",
+                       ambulo__number_text(value).text);
+}
+
+double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node) {
+  double value = ambulo__read_scaled(reader, node, 1, 0);
+  warn_of_degrees(reader, node, value);
+  return value * reader->angle;
+}
+
+static int is_none(const ambulo__yaml_node *node) {
+  return node && ambulo__yaml_kind_of(node) == AMBULO__YAML_SCALAR &&
+         strcmp(ambulo__yaml_text(node), "none") == 0;
+}
+
+void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
+                           int is_angle, double interval[2]) {
+  const ambulo__yaml_node *list = ambulo__by_sex(reader, node);
+  if (!list || !is_sequence_of(list, 2)) return;
+  for (int i = 0; i < 2; i++) {
+    const ambulo__yaml_node *item = ambulo__by_sex(reader, ambulo__yaml_item(list, i));
+    if (is_none(item)) {
+      interval[i] = i == 0 ? -INFINITY : INFINITY;
+      continue;
+    }
+    double value = ambulo__yaml_number(item, 0);
+    if (is_angle) warn_of_degrees(reader, node, value);
+    interval[i] = value * factor;
+  }
+}
+
+int ambulo__read_reference(const ambulo__yaml_node *node, const char *kind,
+                           const char *const *names, int count) {
+  const char *name = node ? ambulo__yaml_text(node) : NULL;
+  if (!name) return -1;
+  for (int i = 0; i < count; i++) {
+    if (strcmp(names[i], name) == 0) return i;
+  }
+  char hint[128];
+  const char *nearest = ambulo__nearest(name, names, (size_t)count);
+  if (nearest) (void)snprintf(hint, sizeof hint, "did you mean '%.80s'?", nearest);
+  (void)ambulo__yaml_error(node, AMBULO_E_MODEL, nearest ? hint : NULL,
+                           "unknown %s (got '%.80s'); expected the name of a %s of this model",
+                           kind, name, kind);
+  return -1;
+}
