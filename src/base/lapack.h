@@ -35,6 +35,10 @@ extern void dtbmv_(const char *uplo, const char *trans, const char *diag, const 
 /* x = T^-1 x or T'^-1 x, T triangular and banded */
 extern void dtbsv_(const char *uplo, const char *trans, const char *diag, const int *n,
                    const int *k, const double *a, const int *lda, double *x, const int *incx);
+/* y = alpha A x + beta y, A symmetric and banded */
+extern void dsbmv_(const char *uplo, const int *n, const int *k, const double *alpha,
+                   const double *a, const int *lda, const double *x, const int *incx,
+                   const double *beta, double *y, const int *incy);
 /* A = P L U in band storage with kl extra rows for the fill-in */
 extern void dgbtrf_(const int *m, const int *n, const int *kl, const int *ku, double *ab,
                     const int *ldab, int *ipiv, int *info);

@@ -1,0 +1,91 @@
+/* solver/band.c - see band.h. */
+#include "solver/band.h"
+#include "base/lapack.h"
+
+#include <string.h>
+
+ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
+  band->n = n;
+  band->kd = kd < n ? kd : n - 1;
+  band->ld = band->kd + 2;
+  band->a = ambulo__pool_doubles(pool, (size_t)n * (size_t)band->ld);
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static size_t size_of(const ambulo__band *band) {
+  return (size_t)band->n * (size_t)band->ld * sizeof *band->a;
+}
+
+void ambulo__band_clear(ambulo__band *band) {
+  memset(band->a, 0, size_of(band));
+}
+
+void ambulo__band_copy(const ambulo__band *from, ambulo__band *to) {
+  memcpy(to->a, from->a, size_of(to));
+}
+
+void ambulo__band_add_diagonal(ambulo__band *band, double value) {
+  for (int j = 0; j < band->n; j++) band->a[(size_t)j * (size_t)band->ld] += value;
+}
+
+void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, const double *g) {
+  if (count == 0) return;
+  double one = 1.0;
+  int ld = band->ld - 1;
+  /* g is [count][width] row-major, that is width x count column-major */
+  dsyrk_("L", "N", &width, &count, &one, g, &width, &one,
+         band->a + (size_t)first * (size_t)band->ld, &ld);
+}
+
+void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
+                             double weight) {
+  int from = rows->start[i], to = rows->start[i + 1];
+  /* columns ascend: (e, f) with f <= e is the lower triangle */
+  for (int f = from; f < to; f++) {
+    double factor = weight * rows->value[f];
+    if (factor == 0.0) continue;
+    double *diagonal = band->a + (size_t)rows->column[f] * (size_t)band->ld;
+    for (int e = f; e < to; e++)
+      diagonal[rows->column[e] - rows->column[f]] += factor * rows->value[e];
+  }
+}
+
+double ambulo__band_largest(const ambulo__band *band) {
+  double largest = 0.0;
+  for (int j = 0; j < band->n; j++) {
+    double value = band->a[(size_t)j * (size_t)band->ld];
+    if (value > largest) largest = value;
+  }
+  return largest;
+}
+
+void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y) {
+  double one = 1.0, zero = 0.0;
+  int step = 1;
+  dsbmv_("L", &band->n, &band->kd, &one, band->a, &band->ld, x, &step, &zero, y, &step);
+}
+
+int ambulo__band_factor(ambulo__band *band) {
+  int info = 0;
+  dpbtrf_("L", &band->n, &band->kd, band->a, &band->ld, &info);
+  return info != 0;
+}
+
+void ambulo__band_forward(const ambulo__band *l, double *x) {
+  int step = 1;
+  dtbsv_("L", "N", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+}
+
+void ambulo__band_backward(const ambulo__band *l, double *x) {
+  int step = 1;
+  dtbsv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+}
+
+void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
+  int step = 1;
+  dtbmv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+}
+
+void ambulo__band_forward_many(const ambulo__band *l, int count, double *x) {
+  for (int k = 0; k < count; k++) ambulo__band_forward(l, x + (size_t)k * (size_t)l->n);
+}

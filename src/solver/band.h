@@ -1,0 +1,41 @@
+/* solver/band.h - symmetric banded matrices, lower triangle in LAPACK's band storage.
+ *
+ *     element (i, j), j <= i <= j + kd, stands at a[j * ld + i - j],   ld = kd + 2
+ *
+ * Read with leading dimension ld - 1, a square diagonal block of at most kd + 1 unknowns
+ * is an ordinary column-major lower triangle: rank-k updates go straight into the band.
+ */
+#ifndef AMBULO_SOLVER_BAND_H
+#define AMBULO_SOLVER_BAND_H
+
+#include "solver/sparse_rows.h"
+
+typedef struct ambulo__band {
+  int n, kd, ld;
+  double *a;         /* [n][ld] */
+} ambulo__band;
+
+/* n unknowns, kd diagonals below the main one, zero. */
+ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band);
+void ambulo__band_clear(ambulo__band *band);
+void ambulo__band_copy(const ambulo__band *from, ambulo__band *to);
+void ambulo__band_add_diagonal(ambulo__band *band, double value);
+/* Adds G'G of rows G [count][width] (row-major) on the unknowns from `first` on. */
+void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, const double *g);
+/* Adds weight * g'g of row i of a set of hosted rows. */
+void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
+                             double weight);
+/* Largest diagonal element. */
+double ambulo__band_largest(const ambulo__band *band);
+/* y = A x */
+void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y);
+/* A = L L' in place. 0, or 1 when A is not positive definite. */
+int ambulo__band_factor(ambulo__band *band);
+/* With the factor: x = L^-1 x, L^-T x, L' x; and L^-1 of count right-hand sides [n]
+ * each, column-major. */
+void ambulo__band_forward(const ambulo__band *factor, double *x);
+void ambulo__band_backward(const ambulo__band *factor, double *x);
+void ambulo__band_upper_multiply(const ambulo__band *factor, double *x);
+void ambulo__band_forward_many(const ambulo__band *factor, int count, double *x);
+
+#endif

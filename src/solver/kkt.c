@@ -1,0 +1,140 @@
+/* solver/kkt.c - see kkt.h.
+ *
+ * With a diagonal S > 0, M = H + J'SJ and any l_0, the method of multipliers
+ *
+ *     M d_i + C' m_i = a + J' (S h - l_i),   C d_i = b,   l_{i+1} = l_i + S (J d_i - h)
+ *
+ * converges to the solution of (K): the error of the multipliers shrinks each pass by
+ * 1 / (1 + s) or more, s the smallest eigenvalue of S^1/2 J H^-1 J' S^1/2. With S large three
+ * passes reach rounding, and M stays banded and positive definite: a Cholesky factor of the
+ * band of H replaces the LU factor of the interleaved, indefinite and wider KKT matrix.
+ * Dependent rows do no harm: M does not notice them.
+ *
+ * Border rows by their Schur complement. M = L L', W = L^-1 C' (borders forward solves):
+ *
+ *     z = L^-1 right,   m = (W'W)^-1 (W'z - b),   d = L^-T (z - W m)
+ *
+ * Every pass moves d by M^-1 J'(...) only, that is within H^-1 range(J', C'): retractions
+ * built from single passes stay on the same curved surface as exact solves would
+ * (retraction.c).
+ */
+#include "solver/kkt.h"
+#include "base/lapack.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_PASSES = 8 };
+/* S_r |J_r|^2 relative to the largest diagonal element of H */
+static const double penalty_factor = 1e3;
+static const double pass_tolerance = 1e-11;
+
+ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
+                                 const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
+                                 ambulo__kkt *kkt) {
+  kkt->equality = equality;
+  kkt->border = border;
+  kkt->n = equality->problem->variables;
+  kkt->equalities = equality->count;
+  kkt->borders = border->count;
+  size_t n = (size_t)kkt->n, b = (size_t)kkt->borders, e = (size_t)kkt->equalities;
+  ambulo_status status = ambulo__band_create(pool, kkt->n, kd, &kkt->factor);
+  if (status) return status;
+  kkt->penalty = ambulo__pool_doubles(pool, e);
+  kkt->wing = ambulo__pool_doubles(pool, b * n);
+  kkt->schur = ambulo__pool_doubles(pool, b * b);
+  kkt->rest = ambulo__pool_doubles(pool, b);
+  kkt->residual = ambulo__pool_doubles(pool, e);
+  kkt->right = ambulo__pool_doubles(pool, n);
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static void set_penalties(ambulo__kkt *kkt, double size) {
+  for (int i = 0; i < kkt->equalities; i++) {
+    double norm = ambulo__sparse_rows_norm(kkt->equality, i);
+    kkt->penalty[i] = norm > 0.0 ? penalty_factor * size / (norm * norm) : 0.0;
+  }
+}
+
+static int factor_border(ambulo__kkt *kkt) {
+  int b = kkt->borders, n = kkt->n, info = 0;
+  if (b == 0) return 0;
+  double one = 1.0, zero = 0.0;
+  memset(kkt->wing, 0, (size_t)b * (size_t)n * sizeof *kkt->wing);
+  for (int i = 0; i < b; i++) {
+    double *column = kkt->wing + (size_t)i * (size_t)n;
+    for (int e = kkt->border->start[i]; e < kkt->border->start[i + 1]; e++)
+      column[kkt->border->column[e]] += kkt->border->value[e];
+  }
+  ambulo__band_forward_many(&kkt->factor, b, kkt->wing);
+  dsyrk_("L", "T", &b, &n, &one, kkt->wing, &n, &zero, kkt->schur, &b);
+  double largest = 0.0;
+  for (int i = 0; i < b; i++) largest = fmax(largest, kkt->schur[i * b + i]);
+  /* a border row that the local rows imply would make this singular */
+  for (int i = 0; i < b; i++) kkt->schur[i * b + i] += 1e-14 * largest;
+  dpotrf_("L", &b, kkt->schur, &b, &info);
+  return info != 0;
+}
+
+int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
+  ambulo__band_copy(h, &kkt->factor);
+  set_penalties(kkt, ambulo__band_largest(h));
+  for (int i = 0; i < kkt->equalities; i++)
+    ambulo__band_add_sparse(&kkt->factor, kkt->equality, i, kkt->penalty[i]);
+  if (ambulo__band_factor(&kkt->factor)) return 1;
+  return factor_border(kkt);
+}
+
+void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m) {
+  int borders = kkt->borders, n = kkt->n, step = 1, info = 0;
+  double one = 1.0, zero = 0.0, minus = -1.0;
+  ambulo__band_forward(&kkt->factor, right);
+  if (borders > 0) {
+    double *rest = kkt->rest;
+    dgemv_("T", &n, &borders, &one, kkt->wing, &n, right, &step, &zero, rest, &step);
+    for (int i = 0; b && i < borders; i++) rest[i] -= b[i];
+    dpotrs_("L", &borders, &step, kkt->schur, &borders, rest, &borders, &info);
+    dgemv_("N", &n, &borders, &minus, kkt->wing, &n, rest, &step, &one, right, &step);
+    if (m) memcpy(m, rest, (size_t)borders * sizeof *m);
+  }
+  ambulo__band_backward(&kkt->factor, right);
+}
+
+/* residual = J d - h; returns the size of what is left, relative to the size of the parts */
+static double equality_error(ambulo__kkt *kkt, const double *h, const double *d) {
+  const ambulo__sparse_rows *rows = kkt->equality;
+  double worst = 0.0, size = 0.0;
+  for (int i = 0; i < kkt->equalities; i++) {
+    double sum = h ? -h[i] : 0.0, parts = fabs(sum);
+    for (int e = rows->start[i]; e < rows->start[i + 1]; e++) {
+      double part = rows->value[e] * d[rows->column[e]];
+      sum += part;
+      parts += fabs(part);
+    }
+    kkt->residual[i] = sum;
+    worst = fmax(worst, fabs(sum));
+    size = fmax(size, parts);
+  }
+  return size > 0.0 ? worst / size : 0.0;
+}
+
+void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
+                       double *d, double *l, double *m) {
+  size_t n = (size_t)kkt->n;
+  double before = HUGE_VAL;
+  for (int pass = 0; pass < MAX_PASSES; pass++) {
+    for (int i = 0; i < kkt->equalities; i++)
+      kkt->residual[i] = (h ? kkt->penalty[i] * h[i] : 0.0) - l[i];
+    if (a) {
+      memcpy(d, a, n * sizeof *d);
+    } else {
+      memset(d, 0, n * sizeof *d);
+    }
+    ambulo__sparse_rows_add_transpose(kkt->equality, 1.0, kkt->residual, d);
+    ambulo__kkt_pass(kkt, d, b, m);
+    double error = equality_error(kkt, h, d);
+    for (int i = 0; i < kkt->equalities; i++) l[i] += kkt->penalty[i] * kkt->residual[i];
+    if (error <= pass_tolerance || error > 0.5 * before) break;
+    before = error;
+  }
+}

@@ -1,0 +1,42 @@
+/* solver/kkt.h - equality-constrained quadratic problems in a banded metric.
+ *
+ *     H d + J' l + C' m = a,    J d = h,    C d = b                                  (K)
+ *
+ * H [n][n] banded and positive definite, J the local equalities (banded J'J), C the few
+ * border rows that couple distant unknowns. Derivation in kkt.c.
+ */
+#ifndef AMBULO_SOLVER_KKT_H
+#define AMBULO_SOLVER_KKT_H
+
+#include "solver/band.h"
+
+typedef struct ambulo__kkt {
+  int n, borders, equalities;
+  const ambulo__sparse_rows *equality, *border;
+  ambulo__band factor;      /* L of M = H + J' S J */
+  double *penalty;          /* [equalities]: diagonal of S */
+  double *wing;             /* [borders][n]: L^-1 C' */
+  double *schur;            /* [borders][borders]: Cholesky factor of C M^-1 C' */
+  double *rest;             /* [borders] */
+  double *residual;         /* [equalities] */
+  double *right;            /* [n] */
+} ambulo__kkt;
+
+ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
+                                 const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
+                                 ambulo__kkt *kkt);
+
+/* Factors (K) for metric H and the gradients that the row sets hold; they must not change
+ * while the factor is in use. 0, or 1 when H is not positive definite. */
+int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h);
+
+/* One pass: d solves M d + C' m = right, C d = b exactly; J d is what it comes out as.
+ * b NULL: zero. right becomes d. m [borders] may be NULL. */
+void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m);
+
+/* Solves (K) to rounding: a, h, b NULL are zero; l [equalities] is the first guess of the
+ * multipliers on entry. m may be NULL. */
+void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
+                       double *d, double *l, double *m);
+
+#endif

@@ -1,0 +1,71 @@
+/* solver/rows_split.c - see rows_split.h. */
+#include "solver/rows_split.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double usual_speed = 10.0;   /* rad/s, m/s: what a speed row is measured against */
+
+/* size of an inequality's unit: see rows_split.h */
+static double size_of(const ambulo_problem *p, const ambulo__sparse_rows *s, int i) {
+  const ambulo__table_row *row = &p->table.rows[s->row[i]];
+  if (row->user >= 0) return fmax(ambulo__sparse_rows_norm(s, i), 1e-6);
+  if (strcmp(row->family, "torque_limit") == 0) return fmax(1.0, fabs(row->constant));
+  if (strcmp(row->family, "speed_limit") == 0) return fmax(usual_speed, fabs(row->constant));
+  return 1.0;
+}
+
+typedef struct lists {
+  int *equality, *border, *inequality;
+  int equalities, borders, inequalities;
+} lists;
+
+static void classify(const ambulo_problem *p, const int *rank, lists *l, ambulo__rows_split *out) {
+  out->regular = 1;
+  out->dropped = 0;
+  for (int r = 0; r < p->rows; r++) {
+    int host = ambulo__row_host(p, r);
+    if (p->table.rows[r].relation == AMBULO_NOT_NEGATIVE) {
+      l->inequality[l->inequalities++] = r;
+      if (host < 0) out->regular = 0;
+    } else if (rank[r] != AMBULO__ROW_INDEPENDENT) {
+      out->dropped++;
+    } else if (host >= 0) {
+      l->equality[l->equalities++] = r;
+    } else {
+      l->border[l->borders++] = r;
+    }
+  }
+}
+
+ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspace *workspace,
+                                        const double *start, ambulo__pool *pool,
+                                        ambulo_diagnostics *diagnostics, ambulo__rows_split *out) {
+  size_t rows = (size_t)p->rows;
+  out->rank = ambulo__pool_ints(pool, rows);
+  lists l = {.equality = ambulo__pool_ints(pool, rows),
+             .border = ambulo__pool_ints(pool, rows),
+             .inequality = ambulo__pool_ints(pool, rows)};
+  if (pool->failed) return AMBULO_E_MEMORY;
+  ambulo_status status =
+      ambulo__presolve_rank(p, workspace, start, pool, diagnostics, out->rank);
+  if (status) return status;
+  classify(p, out->rank, &l, out);
+  status = ambulo__sparse_rows_create(p, l.equality, l.equalities, pool, &out->equality);
+  if (!status) status = ambulo__sparse_rows_create(p, l.border, l.borders, pool, &out->border);
+  if (!status)
+    status = ambulo__sparse_rows_create(p, l.inequality, l.inequalities, pool, &out->inequality);
+  if (!status) status = ambulo__evaluate_jacobian(workspace, start);
+  if (status) return status;
+  ambulo__sparse_rows_fill(&out->equality, workspace, 1);
+  ambulo__sparse_rows_fill(&out->border, workspace, 1);
+  ambulo__sparse_rows_fill(&out->inequality, workspace, 1);
+  for (int i = 0; i < l.inequalities; i++) {
+    double size = size_of(p, &out->inequality, i);
+    ambulo__sparse_rows_set_scale(&out->inequality, i, -1.0 / size);
+  }
+  for (int i = 0; i < l.borders; i++) {
+    if (!out->border.constant[i]) out->regular = 0;
+  }
+  return AMBULO_OK;
+}
