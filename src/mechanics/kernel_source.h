@@ -9,6 +9,7 @@
 #define AMBULO_MECHANICS_KERNEL_SOURCE_H
 
 #include "mechanics/kernel_forward.h"
+#include "mechanics/kernel_jacobian.h"
 #include "mechanics/kernel_reverse.h"
 
 static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
@@ -26,6 +27,14 @@ static void reverse(const ambulo__plan *plan, const double *qd, const double *qd
   }
 }
 
-const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, forward, reverse, NULL};
+static void jacobian(const ambulo__plan *plan, const double *qd, const double *qdd, double *jq,
+                     double *jqd, double *jqdd, double *scratch) {
+  (void)qdd; /* the forward pass has left the accelerations in the scratch */
+  for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
+    jacobian_part(plan, qd + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+  }
+}
+
+const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, forward, reverse, jacobian};
 
 #endif
