@@ -38,14 +38,14 @@ static void rates_are_the_derivatives_of_the_motion(void **state) {
   fixture f = {.model = arm_create()};
   ambulo_problem_definition definition = arm_definition(f.model);
   fixture_open(&f, &definition);
-  double h = 1e-4, times[3] = {0.437 - h, 0.437, 0.437 + h};
+  double h = 1e-5, times[3] = {0.437 - h, 0.437, 0.437 + h};
   double q[6], qd[6], qdd[6];
   ambulo_motion motion = {.q = q, .qd = qd, .qdd = qdd};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 3, times, &motion),
                    AMBULO_OK);
   for (int i = 0; i < 2; i++) {
-    assert_close((q[4 + i] - q[i]) / (2 * h), qd[2 + i], 1e-6);
-    assert_close((qd[4 + i] - qd[i]) / (2 * h), qdd[2 + i], 1e-6);
+    assert_close((q[4 + i] - q[i]) / (2 * h), qd[2 + i], 1e-7);
+    assert_close((qd[4 + i] - qd[i]) / (2 * h), qdd[2 + i], 1e-7);
   }
   fixture_close(&f);
 }

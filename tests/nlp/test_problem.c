@@ -109,18 +109,18 @@ static void every_allocation_may_fail(void **state) {
   ambulo_model *model = arm_create();
   ambulo_problem_definition d = arm_definition(model);
   int completed = 0;
-  for (size_t k = 0; k < 400 && !completed; k++) {
-    fail_alloc counter;
-    ambulo_allocator allocator = fail_alloc_init(&counter, k);
+  for (long k = 0; k < 1000 && !completed; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo_problem *problem = NULL;
     ambulo_workspace *workspace = NULL;
     ambulo_status status = ambulo_problem_create(&d, &allocator, NULL, &problem);
     if (!status) status = ambulo_workspace_create(problem, &allocator, &workspace);
     if (status) assert_int_equal(status, AMBULO_E_MEMORY);
-    completed = !status;
     ambulo_workspace_free(workspace);
     ambulo_problem_free(problem);
-    assert_int_equal(fail_alloc_live(&counter), 0);
+    assert_int_equal(memory.live, 0);
+    completed = !memory.failed;
   }
   assert_true(completed);
   ambulo_model_free(model);
