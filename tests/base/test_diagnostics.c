@@ -1,0 +1,130 @@
+#include "base/diagnostics.h"
+#include "support/fail_alloc.h"
+#include "support/test.h"
+
+static const ambulo__place NOWHERE = {NULL, 0, 0, NULL};
+
+static void expect_text(const ambulo_diagnostics *list, size_t index, const char *want) {
+  char text[512];
+  size_t length = ambulo_diagnostics_format(list, index, text, sizeof text);
+  assert_string_equal(text, want);
+  assert_int_equal(length, strlen(want));
+}
+
+static void forms_of_a_message(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__place here = {"walk.yaml", 12, 7, "links[3].mass"};
+  ambulo__place line_only = {"walk.yaml", 12, 0, NULL};
+  ambulo__place file_only = {"walk.yaml", 0, 0, NULL};
+  assert_int_equal(ambulo__error(list, AMBULO_E_SCHEMA, here, "write 1.5", "got '%s'", "1,5"),
+                   AMBULO_E_SCHEMA);
+  ambulo__error(list, AMBULO_E_IO, file_only, NULL, "cannot open");
+  ambulo__error(list, AMBULO_E_MEMORY, NOWHERE, NULL, "out of memory");
+  ambulo__warning(list, line_only, "radians?", "angle %d is large", 90);
+  ambulo__note(list, NOWHERE, "reordered");
+  expect_text(list, 0, "walk.yaml:12:7: error[E_SCHEMA]: got '1,5'\n  hint: write 1.5");
+  expect_text(list, 1, "walk.yaml: error[E_IO]: cannot open");
+  expect_text(list, 2, "ambulo: error[E_MEMORY]: out of memory");
+  expect_text(list, 3, "walk.yaml:12:1: warning: angle 90 is large\n  hint: radians?");
+  expect_text(list, 4, "ambulo: note: reordered");
+  expect_text(list, 5, "");
+  assert_string_equal(ambulo_diagnostics_get(list, 0)->path, "links[3].mass");
+  assert_int_equal(ambulo_diagnostics_get(list, 3)->status, AMBULO_OK);
+  assert_null(ambulo_diagnostics_get(list, 5));
+  assert_int_equal(ambulo_diagnostics_error_count(list), 3);
+  ambulo_diagnostics_free(list);
+}
+
+/* a terminal must not obey an input file */
+static void control_characters_are_escaped(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__error(list, AMBULO_E_SCHEMA, NOWHERE, "\a", "got '\x1b[31m\n\x7f'; \xc3\xa9");
+  expect_text(list, 0, "ambulo: error[E_SCHEMA]: got '\\x1b[31m\\x0a\\x7f'; \xc3\xa9\n  hint: \\x07");
+  ambulo_diagnostics_free(list);
+}
+
+static void short_buffers_are_terminated(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__error(list, AMBULO_E_IO, NOWHERE, NULL, "cannot open");
+  size_t need = strlen("ambulo: error[E_IO]: cannot open");
+  for (size_t size = 0; size <= need + 2; size++) {
+    char text[64];
+    memset(text, '#', sizeof text);
+    assert_int_equal(ambulo_diagnostics_format(list, 0, text, size), need);
+    if (size > 0) assert_int_equal(strlen(text), size - 1 < need ? size - 1 : need);
+    assert_int_equal(text[size], '#');
+  }
+  ambulo_diagnostics_free(list);
+}
+
+static void twenty_errors_are_kept_and_all_counted(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  for (int i = 0; i < 100; i++) ambulo__warning(list, NOWHERE, NULL, "warning %d", i);
+  size_t warnings = ambulo_diagnostics_count(list);
+  for (int i = 0; i < 30; i++) ambulo__error(list, AMBULO_E_MODEL, NOWHERE, NULL, "error %d", i);
+  assert_int_equal(ambulo_diagnostics_error_count(list), 30);
+  assert_int_equal(ambulo_diagnostics_count(list), warnings + 20);
+  expect_text(list, warnings + 19, "ambulo: error[E_MODEL]: error 19");
+  ambulo_diagnostics_clear(list);
+  assert_int_equal(ambulo_diagnostics_count(list), 0);
+  assert_int_equal(ambulo_diagnostics_error_count(list), 0);
+  ambulo_diagnostics_free(list);
+}
+
+static void no_list_and_no_memory_keep_the_status(void **state) {
+  (void)state;
+  assert_int_equal(ambulo__error(NULL, AMBULO_E_IO, NOWHERE, NULL, "x"), AMBULO_E_IO);
+  assert_int_equal(ambulo_diagnostics_count(NULL), 0);
+  ambulo_diagnostics_clear(NULL);
+  ambulo_diagnostics_free(NULL);
+  ambulo__place here = {"file", 1, 1, "path"};
+  for (long k = 0;; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo_diagnostics *list = ambulo_diagnostics_create(&hook);
+    assert_int_equal(ambulo__error(list, AMBULO_E_IO, here, "hint", "text"), AMBULO_E_IO);
+    ambulo_diagnostics_free(list);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+    assert_true(k < 20);
+  }
+}
+
+static void nearest_names(void **state) {
+  (void)state;
+  static const char *const words[] = {"mass", "name", "inertia", "center_of_mass", "d", "q"};
+  static const struct {
+    const char *word, *want;
+  } cases[] = {{"mas", "mass"},      {"Mass", "mass"},    {"msas", "mass"},
+               {"inertai", "inertia"}, {"interia", "inertia"}, {"centre_of_mass", "center_of_mass"},
+               {"xyz", NULL},        {"", NULL},          {"w", NULL},
+               {"Q", "q"},           {"mesh", NULL}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    const char *got = ambulo__nearest(cases[i].word, words, 6);
+    if (!got || !cases[i].want) {
+      if (got != cases[i].want) print_error("nearest to '%s'\n", cases[i].word);
+      assert_ptr_equal(got, cases[i].want);
+    } else {
+      assert_string_equal(got, cases[i].want);
+    }
+  }
+  char longest[3000];
+  memset(longest, 'a', sizeof longest - 1);
+  longest[sizeof longest - 1] = '\0';
+  assert_null(ambulo__nearest(longest, words, 6));
+  assert_null(ambulo__nearest("mass", words, 0));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(forms_of_a_message),
+                                     cmocka_unit_test(control_characters_are_escaped),
+                                     cmocka_unit_test(short_buffers_are_terminated),
+                                     cmocka_unit_test(twenty_errors_are_kept_and_all_counted),
+                                     cmocka_unit_test(no_list_and_no_memory_keep_the_status),
+                                     cmocka_unit_test(nearest_names)};
+  return cmocka_run_group_tests_name("base/diagnostics", tests, NULL, NULL);
+}

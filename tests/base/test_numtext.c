@@ -1,0 +1,166 @@
+#include "base/numtext.h"
+#include "support/test.h"
+
+#include <locale.h>
+
+static uint64_t next_random(uint64_t *seed) {
+  *seed ^= *seed << 13;
+  *seed ^= *seed >> 7;
+  *seed ^= *seed << 17;
+  return *seed;
+}
+
+static void expect_round_trip(double value) {
+  char text[AMBULO__NUMTEXT_SIZE];
+  double back = 0.0;
+  size_t length = ambulo__print_double(text, value);
+  assert_true(length < sizeof text && length == strlen(text));
+  if (!ambulo__parse_double(text, length, &back) || memcmp(&back, &value, sizeof back) != 0) {
+    print_error("%a prints as '%s', which reads as %a\n", value, text, back);
+    fail();
+  }
+}
+
+static void any_double_survives(void **state) {
+  (void)state;
+  uint64_t seed = 88172645463325252ULL;
+  for (int i = 0; i < 20000; i++) {
+    uint64_t bits = next_random(&seed);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    if (isfinite(value)) expect_round_trip(value);
+    bits &= 0x800fffffffffffffULL; /* subnormal */
+    memcpy(&value, &bits, sizeof value);
+    expect_round_trip(value);
+    expect_round_trip((double)(int64_t)(next_random(&seed) >> 40) / 1000.0);
+  }
+  static const double special[] = {0.0, -0.0, 5e-324, DBL_MIN, DBL_MAX, -DBL_MAX, DBL_EPSILON,
+                                   0.1, 1.0 / 3.0, 2.442, 9007199254740993.0};
+  for (size_t i = 0; i < sizeof special / sizeof special[0]; i++) expect_round_trip(special[i]);
+}
+
+static void shortest_text(void **state) {
+  (void)state;
+  static const struct {
+    double value;
+    const char *want;
+  } cases[] = {{0.1, "0.1"},       {1e-5, "1e-05"},   {-2.0, "-2"},      {100.0, "100"},
+               {5e-324, "5e-324"}, {1e22, "1e+22"},   {0.3, "0.3"},      {0.1 + 0.2, "0.30000000000000004"},
+               {(double)NAN, "nan"}, {(double)INFINITY, "inf"}, {-(double)INFINITY, "-inf"}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    char text[AMBULO__NUMTEXT_SIZE];
+    ambulo__print_double(text, cases[i].value);
+    assert_string_equal(text, cases[i].want);
+  }
+}
+
+static void what_is_a_number(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    double want;
+  } good[] = {{"0", 0.0},     {"-0.0", -0.0}, {"+1.5", 1.5},  {".5", 0.5},
+              {"5.", 5.0},    {"1e3", 1000.0}, {"1E-2", 0.01}, {"0e999", 0.0},
+              {"000012", 12.0}, {"2.2250738585072014e-308", DBL_MIN}, {"4.9e-324", 5e-324}};
+  for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+    double value = 7.0;
+    if (!ambulo__parse_double(good[i].text, strlen(good[i].text), &value))
+      print_error("'%s' was refused\n", good[i].text);
+    assert_memory_equal(&value, &good[i].want, sizeof value);
+  }
+  static const char *const bad[] = {"",     "1,5",  "1_000", "7x5",    "1e",    "1e+",  ".",
+                                    "-",    "+-1",  "1.2.3", " 1",     "1 ",    "0x10", "nan",
+                                    ".nan", "inf",  "1e999", "-1e999", "1e-400", "1d3",  "--1",
+                                    "e5",   "1e5.0", "\xd9\xa1"};
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    double value = 7.0;
+    if (ambulo__parse_double(bad[i], strlen(bad[i]), &value))
+      print_error("'%s' was read as %g\n", bad[i], value);
+    assert_true(value == 7.0);
+  }
+}
+
+/* ties and 17 digits: what a hand-written scaling loop gets wrong */
+static void correctly_rounded(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    double want;
+  } cases[] = {{"9007199254740993", 9007199254740992.0},
+               {"9007199254740993.00000000000000000000000001", 9007199254740994.0},
+               {"1.7976931348623157e308", DBL_MAX},
+               {"2.4703282292062328e-324", 5e-324},
+               {"8.41e21", 8.41e21},
+               {"0.500000000000000166533453693773481063544750213623046875", 0x1.0000000000002p-1}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    double value = 0.0;
+    assert_true(ambulo__parse_double(cases[i].text, strlen(cases[i].text), &value));
+    if (value != cases[i].want) print_error("%s read as %a\n", cases[i].text, value);
+    assert_true(value == cases[i].want);
+  }
+}
+
+static void the_length_is_respected(void **state) {
+  (void)state;
+  double value = 0.0;
+  long long whole = 0;
+  assert_true(ambulo__parse_double("1.25e1x", 4, &value));
+  assert_true(value == 1.25);
+  assert_true(ambulo__parse_integer("1234", 2, 0, 100, &whole));
+  assert_int_equal(whole, 12);
+  char longest[1000];
+  memset(longest, '1', sizeof longest);
+  assert_false(ambulo__parse_double(longest, sizeof longest, &value));
+}
+
+static void whole_numbers(void **state) {
+  (void)state;
+  static const char *const bad[] = {"",    "3.5", "-1", "1e30", "9223372036854775808", "101", "+",
+                                    "1_0", "0x1", " 1", "1e1",  "99999999999999999999"};
+  long long value = 7;
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    if (ambulo__parse_integer(bad[i], strlen(bad[i]), 0, 100, &value))
+      print_error("'%s' was read as %lld\n", bad[i], value);
+    assert_int_equal(value, 7);
+  }
+  assert_true(ambulo__parse_integer("-12", 3, -12, 100, &value));
+  assert_int_equal(value, -12);
+  assert_true(ambulo__parse_integer("+100", 4, 0, 100, &value));
+  assert_int_equal(value, 100);
+  assert_true(ambulo__parse_integer("000", 3, 0, 100, &value));
+  assert_int_equal(value, 0);
+}
+
+/* needs a locale with a comma; LOCPATH may name a folder that holds a compiled one */
+static void a_comma_locale_changes_nothing(void **state) {
+  (void)state;
+  static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8"};
+  const char *chosen = NULL;
+  for (size_t i = 0; !chosen && i < sizeof names / sizeof names[0]; i++)
+    chosen = setlocale(LC_ALL, names[i]);
+  if (!chosen) {
+    print_message("no locale with a decimal comma is installed\n");
+    skip();
+  }
+  char process[32], text[AMBULO__NUMTEXT_SIZE];
+  (void)snprintf(process, sizeof process, "%g", 0.5);
+  double value = 0.0;
+  int read = ambulo__parse_double("2.5", 3, &value);
+  int comma = ambulo__parse_double("2,5", 3, &value);
+  ambulo__print_double(text, 1234567.25);
+  (void)setlocale(LC_ALL, "C");
+  assert_string_equal(process, "0,5");
+  assert_true(read && !comma && value == 2.5);
+  assert_string_equal(text, "1234567.25");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(any_double_survives),
+                                     cmocka_unit_test(shortest_text),
+                                     cmocka_unit_test(what_is_a_number),
+                                     cmocka_unit_test(correctly_rounded),
+                                     cmocka_unit_test(the_length_is_respected),
+                                     cmocka_unit_test(whole_numbers),
+                                     cmocka_unit_test(a_comma_locale_changes_nothing)};
+  return cmocka_run_group_tests_name("base/numtext", tests, NULL, NULL);
+}
