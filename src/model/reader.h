@@ -17,8 +17,8 @@ typedef struct ambulo__reader {
 
   ambulo_subject subject; /* the caller's, completed by the file's */
   /* factors from the units of the file to SI */
-  double angle, length, mass, moment, force;
-  int in_radians, warned_of_degrees;
+  double angle, dh_angle, length, mass, moment, force;
+  int warned_of_degrees;
 
   ambulo_model_definition definition;
   ambulo_link *links;             /* [link_count] */
@@ -47,7 +47,7 @@ double ambulo__read_scaled(ambulo__reader *reader, const ambulo__yaml_node *node
 int ambulo__read_vector(ambulo__reader *reader, const ambulo__yaml_node *node, int count,
                         double factor, double *values);
 /* An angle in radians; warns once when the file says radians and means degrees. */
-double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node);
+double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node, double unit);
 /* [lower, upper], either of them `none`: without limit. NULL leaves the interval as it is. */
 void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
                            int is_angle, double interval[2]);

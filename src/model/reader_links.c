@@ -53,10 +53,10 @@ static void read_dh(ambulo__reader *reader, const ambulo__yaml_node *item, ambul
     (void)ambulo__yaml_numbers(list, 4, unused); /* says what is wrong */
     return;
   }
-  link->theta = ambulo__read_angle(reader, ambulo__yaml_item(list, 0));
+  link->theta = ambulo__read_angle(reader, ambulo__yaml_item(list, 0), reader->dh_angle);
   link->d = ambulo__read_scaled(reader, ambulo__yaml_item(list, 1), reader->length, 0);
   link->a = ambulo__read_scaled(reader, ambulo__yaml_item(list, 2), reader->length, 0);
-  link->alpha = ambulo__read_angle(reader, ambulo__yaml_item(list, 3));
+  link->alpha = ambulo__read_angle(reader, ambulo__yaml_item(list, 3), reader->dh_angle);
 }
 
 static double sign_at(const ambulo__yaml_node *node) {

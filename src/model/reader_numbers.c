@@ -49,18 +49,19 @@ int ambulo__read_vector(ambulo__reader *reader, const ambulo__yaml_node *node, i
 }
 
 /* 6.2832 is a full turn; anatomical angles beyond it are degrees */
-static void warn_of_degrees(ambulo__reader *reader, const ambulo__yaml_node *node, double value) {
-  if (!reader->in_radians || reader->warned_of_degrees || fabs(value) <= 6.2832) return;
+static void warn_of_degrees(ambulo__reader *reader, const ambulo__yaml_node *node, double value,
+                            double unit) {
+  if (unit != 1 || reader->warned_of_degrees || fabs(value) <= 6.2832) return;
   reader->warned_of_degrees = 1;
   ambulo__yaml_warning(node, "degrees are declared by `units: {angle: degrees}`",
                        "an angle of more than a full turn (got %s radians)",
                        ambulo__number_text(value).text);
 }
 
-double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node) {
+double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node, double unit) {
   double value = ambulo__read_scaled(reader, node, 1, 0);
-  warn_of_degrees(reader, node, value);
-  return value * reader->angle;
+  warn_of_degrees(reader, node, value, unit);
+  return value * unit;
 }
 
 static int is_none(const ambulo__yaml_node *node) {
@@ -79,7 +80,7 @@ void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node
       continue;
     }
     double value = ambulo__yaml_number(item, 0);
-    if (is_angle) warn_of_degrees(reader, node, value);
+    if (is_angle) warn_of_degrees(reader, node, value, factor);
     interval[i] = value * factor;
   }
 }

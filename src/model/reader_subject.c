@@ -1,5 +1,6 @@
 /* model/reader_subject.c - `subject` and `units`: who the model is scaled to, and how.
  *
+ *   angle    degrees or radians; dh_angle: the same for the DH constants alone
  *   length   metres, or fractions of the stature H
  *   mass     kilograms, or fractions of the body mass M
  *   torque   N m, or fractions of M g H; forces of prismatic joints: N, or fractions of M g
@@ -55,10 +56,12 @@ void ambulo__read_units(ambulo__reader *reader, const ambulo__yaml_node *root,
   static const char *const torques[] = {"newton_metres", "weight_stature"};
   const ambulo__yaml_node *node = ambulo__yaml_require(root, "units");
   const ambulo__yaml_node *angle = ambulo__yaml_require(node, "angle");
+  const ambulo__yaml_node *dh_angle = ambulo__yaml_get(node, "dh_angle");
   const ambulo__yaml_node *length = ambulo__yaml_get(node, "length");
   const ambulo__yaml_node *mass = ambulo__yaml_get(node, "mass");
   const ambulo__yaml_node *torque = ambulo__yaml_get(node, "torque");
   int degrees = ambulo__yaml_choice(angle, angles, 2, 0);
+  int dh_degrees = ambulo__yaml_choice(dh_angle, angles, 2, degrees);
   int by_stature = ambulo__yaml_choice(length, lengths, 2, 0);
   int by_mass = ambulo__yaml_choice(mass, masses, 2, 0);
   int by_weight = ambulo__yaml_choice(torque, torques, 2, 0);
@@ -70,8 +73,8 @@ void ambulo__read_units(ambulo__reader *reader, const ambulo__yaml_node *root,
   if (by_mass) need(mass, s->mass, "mass");
   if (by_weight) need(torque, s->mass, "mass");
   if (by_weight) need(torque, s->stature, "stature");
-  reader->in_radians = !degrees;
   reader->angle = degrees ? acos(-1) / 180 : 1;
+  reader->dh_angle = dh_degrees ? acos(-1) / 180 : 1;
   reader->length = by_stature ? s->stature : 1;
   reader->mass = by_mass ? s->mass : 1;
   reader->force = by_weight ? weight : 1;
