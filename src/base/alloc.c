@@ -50,8 +50,7 @@ void *ambulo__alloc_aligned(const ambulo_allocator *allocator, size_t count, siz
   return aligned;
 }
 
-void *ambulo__realloc(const ambulo_allocator *allocator, void *pointer, size_t count,
-                      size_t size) {
+void *ambulo__realloc(const ambulo_allocator *allocator, void *pointer, size_t count, size_t size) {
   size_t total = total_size(count, size);
   return total ? allocator->resize(allocator->user, pointer, total) : NULL;
 }

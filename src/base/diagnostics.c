@@ -52,7 +52,9 @@ void ambulo_diagnostics_free(ambulo_diagnostics *list) {
   ambulo__free(&a, list);
 }
 
-size_t ambulo_diagnostics_count(const ambulo_diagnostics *list) { return list ? list->count : 0; }
+size_t ambulo_diagnostics_count(const ambulo_diagnostics *list) {
+  return list ? list->count : 0;
+}
 
 size_t ambulo_diagnostics_error_count(const ambulo_diagnostics *list) {
   return list ? list->error_count : 0;
@@ -189,7 +191,9 @@ size_t ambulo_diagnostics_format(const ambulo_diagnostics *list, size_t index, c
 
 /* ---------------------------------------------------------- nearest names */
 
-static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
+static size_t smaller(size_t a, size_t b) {
+  return a < b ? a : b;
+}
 
 static int same_letter(char a, char b) {
   return tolower((unsigned char)a) == tolower((unsigned char)b);

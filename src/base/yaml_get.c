@@ -27,8 +27,7 @@ static const char *got(const ambulo__yaml_node *node, char buffer[MAX_GOT]) {
 
 static void mismatch(const ambulo__yaml_node *node, const char *hint, const char *expected) {
   char text[MAX_GOT];
-  ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint, "got %s; expected %s", got(node, text),
-                     expected);
+  ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint, "got %s; expected %s", got(node, text), expected);
 }
 
 static int is_mapping(const ambulo__yaml_node *node) {
@@ -141,11 +140,10 @@ void ambulo__yaml_close(const ambulo__yaml_node *mapping) {
     ambulo__yaml_node at = *value;
     at.line = value->key->line;
     at.column = value->key->column;
-    ambulo__yaml_error(&at, AMBULO_E_SCHEMA,
-                       suggest(value->key->text, mapping->marks->names, mapping->marks->count,
-                               hint),
-                       "unknown key '%.60s' %s", value->key->text,
-                       describe(mapping, where, sizeof where));
+    ambulo__yaml_error(
+        &at, AMBULO_E_SCHEMA,
+        suggest(value->key->text, mapping->marks->names, mapping->marks->count, hint),
+        "unknown key '%.60s' %s", value->key->text, describe(mapping, where, sizeof where));
   }
 }
 

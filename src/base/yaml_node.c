@@ -116,8 +116,8 @@ ambulo_status ambulo__yaml_load(const char *path, const ambulo_allocator *alloca
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   char *text = NULL;
   size_t length = 0;
-  ambulo_status status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, &own, diagnostics, &text,
-                                           &length);
+  ambulo_status status =
+      ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, &own, diagnostics, &text, &length);
   if (status != AMBULO_OK) return status;
   status = ambulo__yaml_load_text(text, length, path, &own, diagnostics, document);
   ambulo__free(&own, text);
@@ -126,15 +126,25 @@ ambulo_status ambulo__yaml_load(const char *path, const ambulo_allocator *alloca
 
 /* --------------------------------------------------------------------- walking */
 
-const ambulo__yaml_node *ambulo__yaml_root(const ambulo__yaml *document) { return document->root; }
+const ambulo__yaml_node *ambulo__yaml_root(const ambulo__yaml *document) {
+  return document->root;
+}
 
-const char *ambulo__yaml_file(const ambulo__yaml *document) { return document->file; }
+const char *ambulo__yaml_file(const ambulo__yaml *document) {
+  return document->file;
+}
 
-ambulo_status ambulo__yaml_finish(const ambulo__yaml *document) { return document->status; }
+ambulo_status ambulo__yaml_finish(const ambulo__yaml *document) {
+  return document->status;
+}
 
-ambulo__yaml_kind ambulo__yaml_kind_of(const ambulo__yaml_node *node) { return node->kind; }
+ambulo__yaml_kind ambulo__yaml_kind_of(const ambulo__yaml_node *node) {
+  return node->kind;
+}
 
-int ambulo__yaml_count(const ambulo__yaml_node *node) { return node ? node->count : 0; }
+int ambulo__yaml_count(const ambulo__yaml_node *node) {
+  return node ? node->count : 0;
+}
 
 static const ambulo__yaml_node *child(const ambulo__yaml_node *node, ambulo__yaml_kind kind,
                                       int index) {

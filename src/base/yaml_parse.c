@@ -16,8 +16,8 @@ typedef struct builder {
   const char *file;
   int depth, base_depth;
   ambulo__yaml_node *root;
-  ambulo__yaml_node *open;      /* innermost open collection */
-  ambulo__yaml_key_text *key;   /* read, its value not yet */
+  ambulo__yaml_node *open;    /* innermost open collection */
+  ambulo__yaml_key_text *key; /* read, its value not yet */
   int documents;
 } builder;
 
@@ -189,13 +189,13 @@ static ambulo_status take_event(builder *b, const yaml_event_t *event) {
     status = refuse_extras(b, event, event->data.scalar.anchor, event->data.scalar.tag);
     return status == AMBULO_OK ? add_scalar(b, event) : status;
   case YAML_SEQUENCE_START_EVENT:
-    status = refuse_extras(b, event, event->data.sequence_start.anchor,
-                           event->data.sequence_start.tag);
+    status =
+        refuse_extras(b, event, event->data.sequence_start.anchor, event->data.sequence_start.tag);
     if (status != AMBULO_OK) return status;
     return open_collection(b, AMBULO__YAML_SEQUENCE, event->start_mark);
   case YAML_MAPPING_START_EVENT:
-    status = refuse_extras(b, event, event->data.mapping_start.anchor,
-                           event->data.mapping_start.tag);
+    status =
+        refuse_extras(b, event, event->data.mapping_start.anchor, event->data.mapping_start.tag);
     if (status != AMBULO_OK) return status;
     return open_collection(b, AMBULO__YAML_MAPPING, event->start_mark);
   case YAML_SEQUENCE_END_EVENT:
@@ -217,8 +217,7 @@ static ambulo_status parser_error(const builder *b, const yaml_parser_t *parser)
                    (int)parser->context_mark.column + 1);
   }
   int tab = ambulo__yaml_tab_indent(b->text, b->length, (int)parser->problem_mark.line + 1);
-  return ambulo__error(b->document->diagnostics, AMBULO_E_PARSE,
-                       place_at(b, parser->problem_mark),
+  return ambulo__error(b->document->diagnostics, AMBULO_E_PARSE, place_at(b, parser->problem_mark),
                        tab ? "indent with spaces; YAML does not allow tabs there" : NULL, "%s%s",
                        problem, context);
 }

@@ -19,6 +19,17 @@ static ambulo_status bad_path(const ambulo__yaml *document, const char *file, co
                        "paths look like 'time.intervals' or 'objective[0].weight'", "%s", message);
 }
 
+static ambulo_status no_item(const ambulo__yaml *document, const char *file,
+                             const ambulo__yaml_node *parent, int index) {
+  ambulo__place place = {file, 0, 0, NULL};
+  if (parent->kind != AMBULO__YAML_SEQUENCE) {
+    return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                         "no item [%d]; the value is no sequence", index);
+  }
+  return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                       "no item [%d]; expected an index below %d", index, parent->count);
+}
+
 static ambulo_status no_memory(const ambulo__yaml *document, const char *file) {
   ambulo__place place = {file, 0, 0, NULL};
   return ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL,
@@ -50,13 +61,8 @@ static ambulo_status follow(ambulo__yaml *document, const char *file, ambulo__ya
   *child = NULL;
   *key_copy = NULL;
   if (where.key_length == 0) {
-    if (parent->kind != AMBULO__YAML_SEQUENCE || where.index >= parent->count) {
-      ambulo__place place = {file, 0, 0, NULL};
-      return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place, NULL,
-                           "no item [%d] (got a %s with %d)", where.index,
-                           parent->kind == AMBULO__YAML_SEQUENCE ? "sequence" : "value that is none",
-                           parent->count);
-    }
+    if (parent->kind != AMBULO__YAML_SEQUENCE || where.index >= parent->count)
+      return no_item(document, file, parent, where.index);
     *child = parent->items[where.index];
     return AMBULO_OK;
   }

@@ -35,15 +35,15 @@ struct ambulo__yaml_node {
   ambulo__yaml *document;
   ambulo__yaml_node *parent; /* NULL: root */
   ambulo__yaml_kind kind;
-  int quoted;               /* scalar in quotes or a block scalar: never a number */
-  int line, column;         /* 1-based; 0: set by ambulo__yaml_set() */
-  int index;                /* among the children of the parent */
-  int count;                /* children */
-  const char *file;         /* where it was read from */
-  const char *text;         /* scalars */
-  ambulo__yaml_node **items; /* children, in file order */
-  ambulo__yaml_key_text *key;    /* values of a mapping */
-  ambulo__yaml_marks *marks;     /* mappings */
+  int quoted;                             /* scalar in quotes or a block scalar: never a number */
+  int line, column;                       /* 1-based; 0: set by ambulo__yaml_set() */
+  int index;                              /* among the children of the parent */
+  int count;                              /* children */
+  const char *file;                       /* where it was read from */
+  const char *text;                       /* scalars */
+  ambulo__yaml_node **items;              /* children, in file order */
+  ambulo__yaml_key_text *key;             /* values of a mapping */
+  ambulo__yaml_marks *marks;              /* mappings */
   ambulo__yaml_node *first, *last, *next; /* children while the tree grows */
 };
 

@@ -41,7 +41,8 @@ static void control_characters_are_escaped(void **state) {
   (void)state;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo__error(list, AMBULO_E_SCHEMA, NOWHERE, "\a", "got '\x1b[31m\n\x7f'; \xc3\xa9");
-  expect_text(list, 0, "ambulo: error[E_SCHEMA]: got '\\x1b[31m\\x0a\\x7f'; \xc3\xa9\n  hint: \\x07");
+  expect_text(list, 0,
+              "ambulo: error[E_SCHEMA]: got '\\x1b[31m\\x0a\\x7f'; \xc3\xa9\n  hint: \\x07");
   ambulo_diagnostics_free(list);
 }
 
@@ -99,10 +100,17 @@ static void nearest_names(void **state) {
   static const char *const words[] = {"mass", "name", "inertia", "center_of_mass", "d", "q"};
   static const struct {
     const char *word, *want;
-  } cases[] = {{"mas", "mass"},      {"Mass", "mass"},    {"msas", "mass"},
-               {"inertai", "inertia"}, {"interia", "inertia"}, {"centre_of_mass", "center_of_mass"},
-               {"xyz", NULL},        {"", NULL},          {"w", NULL},
-               {"Q", "q"},           {"mesh", NULL}};
+  } cases[] = {{"mas", "mass"},
+               {"Mass", "mass"},
+               {"msas", "mass"},
+               {"inertai", "inertia"},
+               {"interia", "inertia"},
+               {"centre_of_mass", "center_of_mass"},
+               {"xyz", NULL},
+               {"", NULL},
+               {"w", NULL},
+               {"Q", "q"},
+               {"mesh", NULL}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     const char *got = ambulo__nearest(cases[i].word, words, 6);
     if (!got || !cases[i].want) {

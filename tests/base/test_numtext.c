@@ -34,8 +34,9 @@ static void any_double_survives(void **state) {
     expect_round_trip(value);
     expect_round_trip((double)(int64_t)(next_random(&seed) >> 40) / 1000.0);
   }
-  static const double special[] = {0.0, -0.0, 5e-324, DBL_MIN, DBL_MAX, -DBL_MAX, DBL_EPSILON,
-                                   0.1, 1.0 / 3.0, 2.442, 9007199254740993.0};
+  static const double special[] = {
+      0.0,         -0.0, 5e-324,    DBL_MIN, DBL_MAX,           -DBL_MAX,
+      DBL_EPSILON, 0.1,  1.0 / 3.0, 2.442,   9007199254740993.0};
   for (size_t i = 0; i < sizeof special / sizeof special[0]; i++) expect_round_trip(special[i]);
 }
 
@@ -44,9 +45,17 @@ static void shortest_text(void **state) {
   static const struct {
     double value;
     const char *want;
-  } cases[] = {{0.1, "0.1"},       {1e-5, "1e-05"},   {-2.0, "-2"},      {100.0, "100"},
-               {5e-324, "5e-324"}, {1e22, "1e+22"},   {0.3, "0.3"},      {0.1 + 0.2, "0.30000000000000004"},
-               {(double)NAN, "nan"}, {(double)INFINITY, "inf"}, {-(double)INFINITY, "-inf"}};
+  } cases[] = {{0.1, "0.1"},
+               {1e-5, "1e-05"},
+               {-2.0, "-2"},
+               {100.0, "100"},
+               {5e-324, "5e-324"},
+               {1e22, "1e+22"},
+               {0.3, "0.3"},
+               {0.1 + 0.2, "0.30000000000000004"},
+               {(double)NAN, "nan"},
+               {(double)INFINITY, "inf"},
+               {-(double)INFINITY, "-inf"}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     char text[AMBULO__NUMTEXT_SIZE];
     ambulo__print_double(text, cases[i].value);
@@ -59,19 +68,22 @@ static void what_is_a_number(void **state) {
   static const struct {
     const char *text;
     double want;
-  } good[] = {{"0", 0.0},     {"-0.0", -0.0}, {"+1.5", 1.5},  {".5", 0.5},
-              {"5.", 5.0},    {"1e3", 1000.0}, {"1E-2", 0.01}, {"0e999", 0.0},
-              {"000012", 12.0}, {"2.2250738585072014e-308", DBL_MIN}, {"4.9e-324", 5e-324}};
+  } good[] = {{"0", 0.0},          {"-0.0", -0.0},
+              {"+1.5", 1.5},       {".5", 0.5},
+              {"5.", 5.0},         {"1e3", 1000.0},
+              {"1E-2", 0.01},      {"0e999", 0.0},
+              {"000012", 12.0},    {"2.2250738585072014e-308", DBL_MIN},
+              {"4.9e-324", 5e-324}};
   for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
     double value = 7.0;
     if (!ambulo__parse_double(good[i].text, strlen(good[i].text), &value))
       print_error("'%s' was refused\n", good[i].text);
     assert_memory_equal(&value, &good[i].want, sizeof value);
   }
-  static const char *const bad[] = {"",     "1,5",  "1_000", "7x5",    "1e",    "1e+",  ".",
-                                    "-",    "+-1",  "1.2.3", " 1",     "1 ",    "0x10", "nan",
-                                    ".nan", "inf",  "1e999", "-1e999", "1e-400", "1d3",  "--1",
-                                    "e5",   "1e5.0", "\xd9\xa1"};
+  static const char *const bad[] = {"",       "1,5", "1_000", "7x5",   "1e",    "1e+",
+                                    ".",      "-",   "+-1",   "1.2.3", " 1",    "1 ",
+                                    "0x10",   "nan", ".nan",  "inf",   "1e999", "-1e999",
+                                    "1e-400", "1d3", "--1",   "e5",    "1e5.0", "\xd9\xa1"};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     double value = 7.0;
     if (ambulo__parse_double(bad[i], strlen(bad[i]), &value))

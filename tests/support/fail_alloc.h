@@ -17,11 +17,11 @@
 #include <stdlib.h>
 
 typedef struct fail_alloc {
-  long fail_at;    /* this request (from 0) and all later ones fail; < 0: none does */
-  int only_once;   /* 1: later ones succeed again */
-  long requests;   /* allocations and growths asked for */
-  long live;       /* blocks not freed yet */
-  int failed;      /* whether a request was refused */
+  long fail_at;  /* this request (from 0) and all later ones fail; < 0: none does */
+  int only_once; /* 1: later ones succeed again */
+  long requests; /* allocations and growths asked for */
+  long live;     /* blocks not freed yet */
+  int failed;    /* whether a request was refused */
 } fail_alloc;
 
 static inline void *fail_alloc_resize(void *user, void *pointer, size_t size) {

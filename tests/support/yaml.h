@@ -20,7 +20,9 @@ static inline yaml_case yaml_open_bytes(const char *text, size_t length) {
   return c;
 }
 
-static inline yaml_case yaml_open(const char *text) { return yaml_open_bytes(text, strlen(text)); }
+static inline yaml_case yaml_open(const char *text) {
+  return yaml_open_bytes(text, strlen(text));
+}
 
 static inline void yaml_shut(yaml_case *c) {
   ambulo__yaml_free(c->document);
