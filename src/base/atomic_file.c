@@ -60,24 +60,31 @@ static int move_into_place(const char *temporary, const char *path, int replace)
   return unsupported ? rename(temporary, path) : -1;
 }
 
+/* Everything that may fail for want of memory comes before the rename: afterwards the new
+ * file is there and must not be reported missing. */
 static ambulo_status write_through_temporary(const char *path, const char *data, size_t length,
                                              int replace, const ambulo_allocator *allocator,
                                              ambulo_diagnostics *diagnostics) {
-  char *temporary = NULL;
-  int file = open_temporary(path, allocator, &temporary);
-  if (!temporary) return ambulo__io_memory_error(diagnostics, path);
-  if (file < 0) {
-    ambulo_status status = ambulo__io_error(diagnostics, path, "create");
-    ambulo__free(allocator, temporary);
-    return status;
-  }
-  ambulo_status status = fill(file, path, data, length, diagnostics);
-  if (status == AMBULO_OK && move_into_place(temporary, path, replace) != 0) {
+  char *temporary = NULL, *parent = ambulo__parent_path(allocator, path);
+  int file = parent ? open_temporary(path, allocator, &temporary) : -1;
+  ambulo_status status = AMBULO_OK;
+  if (!parent || !temporary) {
+    status = ambulo__io_memory_error(diagnostics, path);
+  } else if (file < 0) {
     status = ambulo__io_error(diagnostics, path, "create");
+  } else {
+    status = fill(file, path, data, length, diagnostics);
+    if (status == AMBULO_OK && move_into_place(temporary, path, replace) != 0) {
+      status = ambulo__io_error(diagnostics, path, "create");
+    }
+    if (status != AMBULO_OK || !replace) unlink(temporary);
   }
-  if (status != AMBULO_OK || !replace) unlink(temporary);
+  if (status == AMBULO_OK && ambulo__sync_folder(parent) != 0) {
+    status = ambulo__io_error(diagnostics, path, "flush the folder of");
+  }
   ambulo__free(allocator, temporary);
-  return status == AMBULO_OK ? ambulo__sync_parent(path, allocator, diagnostics) : status;
+  ambulo__free(allocator, parent);
+  return status;
 }
 
 ambulo_status ambulo__write_file(const char *path, const char *data, size_t length, int replace,

@@ -20,7 +20,7 @@
 
 struct ambulo__folder {
   ambulo_allocator allocator;
-  char *path, *temporary, *marker; /* marker may be NULL */
+  char *path, *parent, *temporary, *marker; /* marker may be NULL */
   int created;
 };
 
@@ -93,6 +93,7 @@ static ambulo_status inspect_target(const ambulo__folder *folder, ambulo_diagnos
 static void folder_free(ambulo__folder *folder) {
   ambulo_allocator allocator = folder->allocator;
   ambulo__free(&allocator, folder->path);
+  ambulo__free(&allocator, folder->parent);
   ambulo__free(&allocator, folder->temporary);
   ambulo__free(&allocator, folder->marker);
   ambulo__free(&allocator, folder);
@@ -135,7 +136,11 @@ ambulo_status ambulo__folder_begin(const char *path, const char *marker,
     int occupied;
     status = inspect_target(f, diagnostics, &occupied);
   }
-  if (status == AMBULO_OK) status = create_temporary(f, diagnostics);
+  if (status == AMBULO_OK) {
+    f->parent = ambulo__parent_path(&own, f->path);
+    status =
+        f->parent ? create_temporary(f, diagnostics) : ambulo__io_memory_error(diagnostics, path);
+  }
   if (status != AMBULO_OK) {
     ambulo__folder_abort(f);
     return status;
@@ -188,7 +193,9 @@ static ambulo_status move_into_place(ambulo__folder *folder, ambulo_diagnostics 
   } else {
     folder->created = 0;
     if (aside) remove_tree(AT_FDCWD, aside, 0);
-    status = ambulo__sync_parent(folder->path, &folder->allocator, diagnostics);
+    if (ambulo__sync_folder(folder->parent) != 0) {
+      status = ambulo__io_error(diagnostics, folder->path, "flush the folder of");
+    }
   }
   ambulo__free(&folder->allocator, aside);
   return status;

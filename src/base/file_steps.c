@@ -34,6 +34,14 @@ char *ambulo__join_path(const ambulo_allocator *allocator, const char *folder, c
   return path;
 }
 
+char *ambulo__parent_path(const ambulo_allocator *allocator, const char *path) {
+  const char *slash = strrchr(path, '/');
+  if (!slash) return ambulo__strdup(allocator, ".");
+  char *parent = ambulo__strdup(allocator, path);
+  if (parent) parent[slash == path ? 1 : slash - path] = '\0';
+  return parent;
+}
+
 int ambulo__write_all(int file, const char *data, size_t length) {
   while (length > 0) {
     ssize_t count = write(file, data, length);
@@ -54,24 +62,4 @@ int ambulo__sync_folder(const char *path) {
   if (result != 0 && (reason == EINVAL || reason == ENOTSUP || reason == EROFS)) return 0;
   errno = reason;
   return result;
-}
-
-ambulo_status ambulo__sync_parent(const char *path, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics) {
-  const char *slash = strrchr(path, '/');
-  int result;
-  if (!slash) {
-    result = ambulo__sync_folder(".");
-  } else if (slash == path) {
-    result = ambulo__sync_folder("/");
-  } else {
-    char *parent = ambulo__strdup(allocator, path);
-    if (!parent) return ambulo__io_memory_error(diagnostics, path);
-    parent[slash - path] = '\0';
-    result = ambulo__sync_folder(parent);
-    int reason = errno;
-    ambulo__free(allocator, parent);
-    errno = reason;
-  }
-  return result == 0 ? AMBULO_OK : ambulo__io_error(diagnostics, path, "flush the folder of");
 }

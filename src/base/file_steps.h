@@ -17,12 +17,13 @@ char *ambulo__sibling_name(const ambulo_allocator *allocator, const char *path, 
 /* "<folder>/<name>" */
 char *ambulo__join_path(const ambulo_allocator *allocator, const char *folder, const char *name);
 
+/* Path of the folder that holds `path` ("." without a '/'). */
+char *ambulo__parent_path(const ambulo_allocator *allocator, const char *path);
+
 /* write(2) until all is out; 0, or -1 with errno */
 int ambulo__write_all(int file, const char *data, size_t length);
-/* fsync of a folder; of the folder that holds `path`. 0, or -1 with errno. File systems
- * that cannot flush folders count as success. */
+/* fsync of a folder; 0, or -1 with errno. File systems that cannot flush folders count as
+ * success. */
 int ambulo__sync_folder(const char *path);
-ambulo_status ambulo__sync_parent(const char *path, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics);
 
 #endif

@@ -118,7 +118,7 @@ static ambulo_status read_sto_header(table_reader *reader) {
     if (is_end_of_header(&reader->line)) return reader->status;
     read_key(reader, 0);
   }
-  fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 0), NULL,
+  fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
                               "no 'endheader' line; expected an OpenSim header"));
   return reader->status;
 }
@@ -177,7 +177,7 @@ static ambulo_status read_names(table_reader *reader) {
   if (reader->is_sto && memchr(line->start, '\t', line->length)) cells = AMBULO__CELLS_TAB;
   int count = ambulo__table_count_cells(line, cells);
   if (count > AMBULO__MOTION_MAX_COLUMNS) {
-    return ambulo__error(reader->diagnostics, AMBULO_E_LIMIT, here(reader, 0), NULL,
+    return ambulo__error(reader->diagnostics, AMBULO_E_LIMIT, here(reader, 1), NULL,
                          "%d columns; expected at most %d", count, AMBULO__MOTION_MAX_COLUMNS);
   }
   reader->names = ambulo__alloc(reader->allocator, (size_t)count, sizeof *reader->names);
@@ -195,7 +195,7 @@ static ambulo_status read_names(table_reader *reader) {
   }
   if (reader->declared_columns >= 0 && reader->declared_columns != count) {
     fault(reader,
-          ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 0), NULL,
+          ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
                         "%d columns; expected %lld (nColumns)", count, reader->declared_columns));
   }
   return AMBULO_OK;
@@ -231,7 +231,7 @@ static void read_row(table_reader *reader, int row) {
   ambulo__motion *motion = reader->motion;
   int count = ambulo__table_count_cells(&reader->line, reader->cells);
   if (count != motion->columns + 1) {
-    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 0), NULL,
+    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
                                 "row with %d cells; expected %d", count, motion->columns + 1));
     reader->has_previous_time = 0;
     return;

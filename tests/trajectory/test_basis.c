@@ -1,4 +1,5 @@
 /* What every basis promises: refusals, clamped times, trimming, one map per node. */
+#include "support/fail_alloc.h"
 #include "trajectory/basis_fixture.h"
 
 static void impossible_arguments_are_refused(void **state) {
@@ -127,6 +128,24 @@ static void a_start_linear_in_time_is_linear(void **state) {
   }
 }
 
+static void every_failed_allocation_is_survived(void **state) {
+  (void)state;
+  for (int kind = AMBULO__BSPLINE; kind <= AMBULO__HERMITE; kind++) {
+    for (long k = 0;; k++) {
+      assert_in_range(k, 0, 100);
+      fail_alloc memory = fail_alloc_at(k);
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      ambulo__basis *basis = NULL;
+      ambulo_status status =
+          ambulo__basis_create((ambulo__basis_kind)kind, 3, 5, 1.0, NULL, &hook, &basis);
+      assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+      ambulo__basis_free(basis);
+      assert_int_equal(memory.live, 0);
+      if (!memory.failed) break;
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(impossible_arguments_are_refused),
@@ -135,6 +154,7 @@ int main(void) {
       cmocka_unit_test(times_outside_are_clamped),
       cmocka_unit_test(windows_carry_weight_at_both_ends_and_none_beyond),
       cmocka_unit_test(a_start_linear_in_time_is_linear),
+      cmocka_unit_test(every_failed_allocation_is_survived),
   };
   return cmocka_run_group_tests_name("trajectory/basis", tests, NULL, NULL);
 }

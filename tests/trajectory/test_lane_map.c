@@ -1,4 +1,5 @@
 /* The lane-blocked map against the basis itself, and its transpose against the map. */
+#include "support/fail_alloc.h"
 #include "trajectory/basis_fixture.h"
 #include "trajectory/lane_map.h"
 
@@ -42,11 +43,16 @@ static void close_setup(setup *s) {
 static const struct {
   ambulo__basis_kind kind;
   int degree, intervals, nodes;
-} cases[] = {{AMBULO__BSPLINE, 3, 12, 37},           {AMBULO__BSPLINE, 3, 36, 37},
-             {AMBULO__BSPLINE, 3, 1, 9},             {AMBULO__BSPLINE, 4, 7, 16},
-             {AMBULO__BSPLINE, 7, 11, 40},           {AMBULO__CENTRAL_DIFFERENCE, 0, 12, 13},
-             {AMBULO__CENTRAL_DIFFERENCE, 0, 9, 25}, {AMBULO__HERMITE, 0, 12, 13},
-             {AMBULO__HERMITE, 0, 9, 25},            {AMBULO__BSPLINE, 3, 5, 1}};
+} cases[] = {{AMBULO__BSPLINE, 3, 12, 37},
+             {AMBULO__BSPLINE, 3, 36, 37},
+             {AMBULO__BSPLINE, 3, 1, 9},
+             {AMBULO__BSPLINE, 4, 7, 16},
+             {AMBULO__BSPLINE, 7, 11, 40},
+             {AMBULO__CENTRAL_DIFFERENCE, 0, 12, 13},
+             {AMBULO__CENTRAL_DIFFERENCE, 0, 9, 25},
+             {AMBULO__HERMITE, 0, 12, 13},
+             {AMBULO__HERMITE, 0, 9, 25},
+             {AMBULO__BSPLINE, 3, 5, 1}};
 enum { CASES = sizeof cases / sizeof *cases };
 
 static void open_case(setup *s, int c) {
@@ -153,6 +159,24 @@ static void impossible_arguments_are_refused(void **state) {
   ambulo__basis_free(basis);
 }
 
+static void every_failed_allocation_is_survived(void **state) {
+  (void)state;
+  ambulo__basis *basis = make_basis(AMBULO__BSPLINE, 3, 4, 1.0, NULL);
+  const double times[2] = {0.0, 1.0};
+  for (long k = 0;; k++) {
+    assert_in_range(k, 0, 100);
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo__lane_map *map = NULL;
+    ambulo_status status = ambulo__lane_map_create(basis, times, 2, 1, &hook, &map);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    ambulo__lane_map_free(map);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  ambulo__basis_free(basis);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(forward_equals_the_basis),
@@ -160,6 +184,7 @@ int main(void) {
       cmocka_unit_test(transpose_adds_and_ignores_padding),
       cmocka_unit_test(points_are_those_of_the_basis),
       cmocka_unit_test(impossible_arguments_are_refused),
+      cmocka_unit_test(every_failed_allocation_is_survived),
   };
   return cmocka_run_group_tests_name("trajectory/lane_map", tests, NULL, NULL);
 }

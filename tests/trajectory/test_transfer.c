@@ -1,4 +1,5 @@
 /* Unknowns carried from one basis to another: what is contained is kept exactly. */
+#include "support/fail_alloc.h"
 #include "trajectory/basis_fixture.h"
 
 enum { D = 3 };
@@ -162,6 +163,24 @@ static void misuse_is_refused_and_leaves_the_target(void **state) {
   ambulo__basis_free(other);
 }
 
+static void every_failed_allocation_is_survived(void **state) {
+  (void)state;
+  ambulo__basis *from = make_basis(AMBULO__CENTRAL_DIFFERENCE, 0, 4, 1.0, NULL);
+  ambulo__basis *to = make_basis(AMBULO__BSPLINE, 3, 4, 1.0, NULL);
+  double x[7] = {1, 2, 3, 4, 5, 6, 7}, y[7];
+  for (long k = 0;; k++) {
+    assert_in_range(k, 0, 100);
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo_status status = ambulo__basis_transfer(from, x, to, y, 1, &hook);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  ambulo__basis_free(from);
+  ambulo__basis_free(to);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(knot_insertion_is_exact),
@@ -172,6 +191,7 @@ int main(void) {
       cmocka_unit_test(least_squares_to_a_coarser_basis_are_a_projection),
       cmocka_unit_test(central_differences_take_and_give_node_values),
       cmocka_unit_test(misuse_is_refused_and_leaves_the_target),
+      cmocka_unit_test(every_failed_allocation_is_survived),
   };
   return cmocka_run_group_tests_name("trajectory/transfer", tests, NULL, NULL);
 }
