@@ -44,35 +44,29 @@ static int is_knot_insertion(const ambulo__basis *from, const ambulo__basis *to)
   return 1;
 }
 
-/* the source's knot index s with u_s <= t < u_s+1; *t is set to the knot that it misses by
- * rounding only */
-static int source_span(const ambulo__basis *from, double *t) {
-  int p = from->degree, low = 0, high = from->intervals;
-  double slack = 1e-12 * from->duration;
+/* the source's knot index s with u_s <= t < u_s+1; a knot missed by rounding counts as hit */
+static int source_span(const ambulo__basis *from, double t) {
+  int low = 0, high = from->intervals;
   while (high - low > 1) {
     int middle = (low + high) / 2;
-    if (*t + slack < from->breakpoints[middle]) {
+    if (t + 1e-12 * from->duration < from->breakpoints[middle]) {
       high = middle;
     } else {
       low = middle;
     }
   }
-  if (fabs(*t - from->breakpoints[low]) <= slack) *t = from->breakpoints[low];
-  if (fabs(*t - from->breakpoints[high]) <= slack) *t = from->breakpoints[high];
-  return p + low;
+  return from->degree + low;
 }
 
 /* weights of the source's control points s-p .. s in control point j of the target */
 static void oslo_weights(const ambulo__basis *from, const ambulo__basis *to, int j, int *first,
                          double *weight) {
   int p = from->degree;
-  double start = to->knots[j];
-  int s = source_span(from, &start);
+  int s = source_span(from, to->knots[j]);
   double point[AMBULO__MAX_SPAN][AMBULO__MAX_SPAN] = {{0.0}}; /* [i - (s - p)][source point] */
   for (int i = 0; i <= p; i++) point[i][i] = 1.0;
   for (int k = 1; k <= p; k++) {
     double tau = to->knots[j + k];
-    (void)source_span(from, &tau);
     for (int i = p; i >= k; i--) {
       double left = from->knots[s - p + i], right = from->knots[s + i + 1 - k];
       double share = (tau - left) / (right - left);

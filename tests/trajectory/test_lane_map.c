@@ -33,6 +33,7 @@ static void open_setup(setup *s, ambulo__basis_kind kind, int degree, int interv
   assert_int_equal(ambulo__lane_map_create(s->basis, s->times, nodes, D, NULL, &s->map), AMBULO_OK);
   s->count = ambulo__basis_control_points(s->basis) * D;
   fill_pseudo_random(s->x, s->count, 21);
+  for (int j = s->count; j < 64 * D; j++) s->x[j] = NAN; /* a read past the end shows */
 }
 
 static void close_setup(setup *s) {
