@@ -1,0 +1,94 @@
+/* Expansion of a regular gait: the whole table, cutting at the ends, refusals. */
+#include "gait/gait.h"
+#include "support/walker_fixture.h"
+
+static ambulo_gait two_steps(void) {
+  ambulo_gait gait = {.steps = 2,
+                      .first_foot = WALKER_LEFT,
+                      .step_length = 0.6,
+                      .step_time = 0.7,
+                      .step_width = 0.18,
+                      .start = 0.05,
+                      .heel_strike = -1.0 / 14.0,
+                      .foot_flat = 1.0 / 14.0,
+                      .heel_off = 6.0 / 14.0,
+                      .toe_off = 8.0 / 14.0};
+  return gait;
+}
+
+/* stride 1.4 s: a fourteenth of it is 0.1 s */
+static void the_table_is_as_written_by_hand(void **state) {
+  (void)state;
+  static const ambulo_contact expected[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.1, {-0.55, -0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.1, {0.05, 0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.1, 0.6, {0.05, 0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.6, 0.8, {0.05, 0.09}},
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.6, 0.8, {0.65, -0.09}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.8, 1.3, {0.65, -0.09}},
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 1.3, 1.4, {0.65, -0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 1.3, 1.4, {1.25, 0.09}}};
+  ambulo_model *model = walker_create(0);
+  ambulo_gait gait = two_steps();
+  ambulo_contact contacts[8];
+  int count = 0;
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 8, &count), AMBULO_OK);
+  assert_int_equal(count, 8);
+  for (int i = 0; i < 8; i++) {
+    assert_int_equal(contacts[i].foot, expected[i].foot);
+    assert_int_equal(contacts[i].mode, expected[i].mode);
+    assert_close(contacts[i].from, expected[i].from, 1e-14);
+    assert_close(contacts[i].to, expected[i].to, 1e-14);
+    assert_close(contacts[i].place[0], expected[i].place[0], 1e-14);
+    assert_close(contacts[i].place[1], expected[i].place[1], 1e-14);
+  }
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 3, &count), AMBULO_E_LIMIT);
+  assert_int_equal(count, 8);
+  ambulo_model_free(model);
+}
+
+/* A foot that strikes exactly at the end is in contact at that instant; phases of no
+ * length do not appear. */
+static void the_last_instant_counts(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create(0);
+  ambulo_gait gait = two_steps();
+  gait.heel_strike = 0.0;
+  gait.foot_flat = 0.0;
+  gait.toe_off = gait.heel_off = 0.5;
+  ambulo_contact contacts[16];
+  int count = 0;
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 16, &count), AMBULO_OK);
+  assert_int_equal(count, 3);
+  for (int i = 0; i < count; i++) assert_int_equal(contacts[i].mode, AMBULO_CONTACT_FLAT);
+  assert_int_equal(contacts[2].foot, WALKER_LEFT);
+  assert_close(contacts[2].from, 1.4, 1e-14);
+  assert_close(contacts[2].to, 1.4, 1e-14);
+  ambulo_model_free(model);
+}
+
+static void impossible_gaits_are_refused(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create(0);
+  const ambulo_gait good = two_steps();
+  ambulo_gait bad[] = {good, good, good, good, good, good};
+  bad[0].steps = 0;
+  bad[1].first_foot = 2;
+  bad[2].step_time = 0.0;
+  bad[3].foot_flat = 0.7;
+  bad[4].toe_off = 1.0;
+  bad[5].step_length = NAN;
+  int count = -7;
+  for (int i = 0; i < 6; i++) {
+    assert_int_equal(ambulo_gait_expand(model, &bad[i], NULL, 0, &count), AMBULO_E_ARGUMENT);
+    assert_int_equal(count, -7);
+  }
+  ambulo_model_free(model);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_table_is_as_written_by_hand),
+                                     cmocka_unit_test(the_last_instant_counts),
+                                     cmocka_unit_test(impossible_gaits_are_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

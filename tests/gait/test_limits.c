@@ -1,0 +1,92 @@
+/* Limit rows: finite ones only, both signs, units, fixed coordinates, control points. */
+#include "support/row_fixture.h"
+
+static void limits_at_nodes(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.definition.speed_limits = 1;
+  f.definition.torque_limits = 1;
+  ambulo__limit_rows(&f.frame, &f.table);
+  assert_int_equal(f.table.row_count, 5 * ROW_NODES);
+  *row_channel(&f, 2, ambulo__channel_q(&f.frame.channels, 4)) = -0.5;
+  *row_channel(&f, 2, ambulo__channel_q(&f.frame.channels, 3)) = 1.6;
+  *row_channel(&f, 2, ambulo__channel_qd(&f.frame.channels, 3)) = -3.0;
+  *row_channel(&f, 2, ambulo__channel_tau(&f.frame.channels, 3)) = 20.0;
+  static const struct {
+    const char *family, *subject, *detail, *unit;
+    double value;
+  } expected[] = {{"joint_limit", "knee_r", "lower", "rad", 1.5},
+                  {"joint_limit", "knee_r", "upper", "rad", 0.6},
+                  {"joint_limit", "hip_r", "upper", "rad", -0.1},
+                  {"speed_limit", "hip_r", "lower", "rad/s", 5.0},
+                  {"torque_limit", "hip_r", "upper", "N m", 100.0}};
+  for (int i = 0; i < 5; i++) {
+    int row = row_find(&f, expected[i].family, expected[i].subject, expected[i].detail, 0.5);
+    assert_string_equal(f.table.rows[row].unit, expected[i].unit);
+    assert_int_equal(f.table.rows[row].relation, AMBULO_NOT_NEGATIVE);
+    assert_close(row_value(&f, row), expected[i].value, 1e-14);
+  }
+  row_fixture_close(&f);
+}
+
+static void a_range_of_no_width_is_one_equation(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.model->coordinates[1].range[0] = f.model->coordinates[1].range[1] = 0.2;
+  ambulo__limit_rows(&f.frame, &f.table);
+  int row = row_find(&f, "joint_limit", "pelvis_ty", "fixed", 0.0);
+  assert_int_equal(f.table.rows[row].relation, AMBULO_EQUAL);
+  assert_string_equal(f.table.rows[row].unit, "m");
+  *row_channel(&f, 0, ambulo__channel_q(&f.frame.channels, 1)) = 0.5;
+  assert_close(row_value(&f, row), 0.3, 1e-15);
+  row_fixture_close(&f);
+}
+
+static void limits_on_control_points(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.joint_limits = AMBULO_LIMIT_CONTROL_POINTS;
+  ambulo__limit_rows(&f.frame, &f.table);
+  int points = ambulo__basis_control_points(f.basis);
+  assert_int_equal(f.table.row_count, 3 * points);
+  const ambulo__table_row *last = &f.table.rows[3 * points - 1];
+  const ambulo__row_term *term = &f.table.terms[last->first_term];
+  assert_string_equal(last->subject, "knee_r");
+  assert_string_equal(last->detail, "upper");
+  assert_int_equal(last->node, -1);
+  assert_close(last->time, 1.0, 1e-14);
+  assert_int_equal(term->node, -1);
+  assert_int_equal(term->channel, (points - 1) * 7 + 4);
+  assert_close(term->coefficient, -1.0, 0.0);
+  assert_close(last->constant, 0.1, 0.0);
+  row_fixture_close(&f);
+}
+
+/* Hermite unknowns alternate between values and rates: only the values are bounded */
+static void rates_are_not_bounded(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  ambulo__basis_free(f.basis);
+  f.basis = NULL;
+  assert_int_equal(ambulo__basis_create(AMBULO__HERMITE, 3, 4, 1.0, NULL, NULL, &f.basis),
+                   AMBULO_OK);
+  f.frame.basis = f.basis;
+  f.definition.joint_limits = AMBULO_LIMIT_CONTROL_POINTS;
+  ambulo__limit_rows(&f.frame, &f.table);
+  assert_int_equal(ambulo__basis_control_points(f.basis), 10);
+  assert_int_equal(f.table.row_count, 3 * 5);
+  row_fixture_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(limits_at_nodes), cmocka_unit_test(a_range_of_no_width_is_one_equation),
+      cmocka_unit_test(limits_on_control_points), cmocka_unit_test(rates_are_not_bounded)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

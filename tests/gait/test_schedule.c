@@ -1,0 +1,83 @@
+/* The schedule: membership of nodes, and every contradiction with its message. */
+#include "support/row_fixture.h"
+
+static const double times[] = {0.0, 0.25, 0.5, 0.75, 1.0};
+
+static void nodes_belong_to_half_open_spans(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.0, 0.25, {0, 0}},
+                                     {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.25, 0.5 - 5e-10, {0, 0}},
+                                     {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.5, 1.0, {0, 0}}};
+  f.definition.contacts = contacts;
+  f.definition.contact_count = 3;
+  f.definition.ground_penetration = 1;
+  int active[10];
+  assert_int_equal(ambulo__schedule_fill(&f.definition, times, 5, active, NULL), AMBULO_OK);
+  static const int expected[10] = {0, -1, 1, -1, -1, 2, -1, 2, -1, 2};
+  for (int i = 0; i < 10; i++) assert_int_equal(active[i], expected[i]);
+  assert_int_equal(ambulo__contact_holds(&contacts[0], 1.0, 0.25 - 1e-8), 1);
+  assert_int_equal(ambulo__contact_holds(&contacts[0], 1.0, 0.25 - 1e-10), 0);
+  assert_int_equal(ambulo__contact_holds(&contacts[1], 1.0, 0.25 - 1e-10), 1);
+  row_fixture_close(&f);
+}
+
+static void expect_refusal(const ambulo_contact *contacts, int count, const char *text) {
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.contacts = contacts;
+  f.definition.contact_count = count;
+  f.definition.foot_strike = 1;
+  int active[10];
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo__schedule_fill(&f.definition, times, 5, active, list), AMBULO_E_PROBLEM);
+  expect_message(list, text);
+  ambulo_diagnostics_free(list);
+  row_fixture_close(&f);
+}
+
+static void contradictions_are_named(void **state) {
+  (void)state;
+  ambulo_contact good = {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0, 0}};
+  ambulo_contact bad = good;
+  bad.foot = 5;
+  expect_refusal(&bad, 1, "contacts[0]: no foot 5; the model 'walker' has 2");
+  bad = good;
+  bad.mode = (ambulo_contact_mode)3;
+  expect_refusal(&bad, 1, "contacts[0]: foot 'left' in unknown mode 3");
+  bad = good;
+  bad.place[1] = NAN;
+  expect_refusal(&bad, 1, "expected finite lengths");
+  bad = good;
+  bad.to = 1.5;
+  expect_refusal(&bad, 1, "foot 'left' from 0 s to 1.5 s; expected times in 0 to 1 s");
+  bad.from = 0.6;
+  bad.to = 0.4;
+  expect_refusal(&bad, 1, "foot 'left' from 0.6 s to 0.4 s; expected from < to");
+  const ambulo_contact overlap[] = {good, {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.7, 0.9, {0, 0}}};
+  expect_refusal(
+      overlap, 2,
+      "contacts[0] and contacts[1] overlap on foot 'left': 0 s to 1 s and 0.7 s to 0.9 s");
+  const ambulo_contact gap[] = {{WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0, 0}},
+                                {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.45, 1.0, {0, 0}}};
+  expect_refusal(gap, 2, "no foot touches the ground from 0.3 s to 0.45 s");
+  expect_refusal(NULL, 0, "no foot touches the ground from 0 s to 1 s");
+}
+
+static void rows_without_contact_need_no_support(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  int active[10];
+  assert_int_equal(ambulo__schedule_fill(&f.definition, times, 5, active, NULL), AMBULO_OK);
+  for (int i = 0; i < 10; i++) assert_int_equal(active[i], -1);
+  row_fixture_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_belong_to_half_open_spans),
+                                     cmocka_unit_test(contradictions_are_named),
+                                     cmocka_unit_test(rows_without_contact_need_no_support)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
