@@ -1,0 +1,159 @@
+/* tests/mechanics/kernel_fixture.h - random trees, states and the reference's derivatives.
+ *
+ * A case is a tree, its plan, and one block of states in one of the pose regimes; the reference
+ * gives the outputs of any lane, and their Jacobians by complex steps of 1e-40, which are as
+ * accurate as the values themselves. Differences are relative to the largest entry of a group
+ * (tau and wrench; points). */
+#ifndef TESTS_MECHANICS_KERNEL_FIXTURE_H
+#define TESTS_MECHANICS_KERNEL_FIXTURE_H
+
+#include "ambulo/mechanics.h"
+#include "mechanics/plan.h"
+#include "support/random_model.h"
+#include "support/test.h"
+
+enum { case_count = 240, max_d = 64, max_rows = max_d + 6 + 3 * random_max_points };
+
+static const char *const isa_names[] = {"scalar", "baseline", "avx2", "avx512"};
+enum { isa_count = 4 };
+
+typedef struct kernel_case {
+  random_tree tree;
+  ambulo_model *model;
+  ambulo__plan *plan;
+  int number, d, rows;
+  double *q, *qd, *qdd, *weights, *out, *scratch; /* lanes */
+  void *reference_scratch;
+} kernel_case;
+
+/* Zero, small, moderate, large, near-singular: multiples of 90 degrees but for a little. */
+static inline double pose_value(random_source *source, int regime) {
+  double quarter = 0.5 * acos(-1);
+  switch (regime) {
+  case 0:
+    return 0;
+  case 1:
+    return random_between(source, -1, 1) * pow(10, random_between(source, -9, -2));
+  case 2:
+    return random_between(source, -3, 3);
+  case 3:
+    return random_between(source, -200, 200);
+  default:
+    return (random_below(source, 5) - 2) * quarter + random_between(source, -1e-9, 1e-9);
+  }
+}
+
+static inline double *lane_array(size_t count) {
+  double *at = aligned_alloc(64, (count + 1) * 64);
+  assert_non_null(at);
+  memset(at, 0xff, (count + 1) * 64);
+  return at;
+}
+
+static inline void case_open(kernel_case *c, int number) {
+  random_source source = {1000 + (uint64_t)number};
+  c->number = number;
+  random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 60);
+  c->model = NULL;
+  c->plan = NULL;
+  assert_int_equal(ambulo_model_create(&c->tree.definition, NULL, NULL, &c->model), AMBULO_OK);
+  assert_int_equal(ambulo__plan_create(c->model, NULL, &c->plan), AMBULO_OK);
+  c->d = ambulo__plan_coordinates(c->plan);
+  c->rows = ambulo__plan_rows(c->plan);
+  size_t d = (size_t)c->d;
+  c->q = lane_array(d);
+  c->qd = lane_array(d);
+  c->qdd = lane_array(d);
+  c->weights = lane_array((size_t)c->rows);
+  c->out = lane_array((size_t)c->rows);
+  c->scratch = lane_array(ambulo__plan_scratch(c->plan) / AMBULO__LANES);
+  c->reference_scratch = malloc(ambulo_lagrangian_scratch_size(c->model));
+  assert_non_null(c->reference_scratch);
+  for (int i = 0; i < c->d * AMBULO__LANES; i++) {
+    c->q[i] = pose_value(&source, number % 5);
+    c->qd[i] = random_between(&source, -3, 3);
+    c->qdd[i] = random_between(&source, -9, 9);
+  }
+  for (int i = 0; i < c->rows * AMBULO__LANES; i++) c->weights[i] = random_between(&source, -1, 1);
+}
+
+static inline void case_close(kernel_case *c) {
+  double *const arrays[] = {c->q, c->qd, c->qdd, c->weights, c->out, c->scratch};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
+  free(c->reference_scratch);
+  ambulo__plan_free(c->plan);
+  ambulo_model_free(c->model);
+}
+
+/* State [3 d] of a lane: q, qd, qdd. */
+static inline void case_state(const kernel_case *c, int lane, double *state) {
+  for (int i = 0; i < c->d; i++) {
+    state[i] = c->q[i * AMBULO__LANES + lane];
+    state[c->d + i] = c->qd[i * AMBULO__LANES + lane];
+    state[2 * c->d + i] = c->qdd[i * AMBULO__LANES + lane];
+  }
+}
+
+static inline void case_reference(const kernel_case *c, const double *state, double *rows) {
+  assert_int_equal(ambulo_lagrangian_inverse_dynamics(c->model, state, state + c->d,
+                                                      state + 2 * c->d, rows, rows + c->d,
+                                                      rows + c->d + 6, c->reference_scratch),
+                   AMBULO_OK);
+}
+
+/* jacobian[group][row][column] of the reference; group 0: q, 1: qd, 2: qdd. */
+static inline void case_jacobian(const kernel_case *c, const double *state, double *jacobian) {
+  const double step = 1e-40;
+  double z[2 * 3 * max_d], out[2 * max_rows];
+  for (int i = 0; i < 3 * c->d; i++) {
+    z[2 * i] = state[i];
+    z[2 * i + 1] = 0;
+  }
+  for (int k = 0; k < 3 * c->d; k++) {
+    z[2 * k + 1] = step;
+    assert_int_equal(ambulo_lagrangian_inverse_dynamics_complex(
+                         c->model, z, z + 2 * c->d, z + 4 * c->d, out, out + 2 * c->d,
+                         out + 2 * (c->d + 6), c->reference_scratch),
+                     AMBULO_OK);
+    z[2 * k + 1] = 0;
+    for (int row = 0; row < c->rows; row++) {
+      jacobian[(k / c->d * c->rows + row) * c->d + k % c->d] = out[2 * row + 1] / step;
+    }
+  }
+}
+
+static inline void case_forward(kernel_case *c, const ambulo__kernels *kernels) {
+  kernels->forward(c->plan, c->q, c->qd, c->qdd, c->out, c->scratch);
+}
+
+/* The gradient of the weighted rows, [3][d][lanes]. */
+static inline void case_reverse(kernel_case *c, const ambulo__kernels *kernels, double *gradient) {
+  int n = c->d * AMBULO__LANES;
+  case_forward(c, kernels);
+  kernels->reverse(c->plan, c->qd, c->qdd, c->weights, gradient, gradient + n, gradient + 2 * n,
+                   c->scratch);
+}
+
+/* Largest |a - b| over n entries `stride` apart in a and adjacent in b, relative to the largest
+ * |b|; NaN counts as infinite. */
+static inline double difference(const double *a, int stride, const double *b, int n, int *where) {
+  double scale = 1e-3, worst = 0;
+  for (int i = 0; i < n; i++) scale = fmax(scale, fabs(b[i]));
+  for (int i = 0; i < n; i++) {
+    double e = fabs(a[i * stride] - b[i]) / scale;
+    if (e <= worst) continue;
+    worst = isnan(e) ? INFINITY : e;
+    *where = i;
+  }
+  return worst;
+}
+
+static inline void report_difference(const kernel_case *c, const char *isa, const char *what,
+                                     int where, double error, double allowed) {
+  if (error <= allowed) return;
+  print_error("tree %d (%d coordinates), %s: %s, entry %d: relative error %.3g, allowed %.3g\n",
+              c->number, c->d, isa, what, where, error, allowed);
+  fail();
+}
+
+#endif
