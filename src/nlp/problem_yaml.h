@@ -53,7 +53,7 @@ void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_n
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* A tracking reference: the file's motion at the nodes, [intervals + 1][d], and the scale of
  * the coordinates it lacks set to 0. NULL when something was wrong. */
-const double *ambulo__read_reference(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                                      double *scale);
 
 #endif

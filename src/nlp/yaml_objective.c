@@ -96,7 +96,7 @@ static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *n
   }
   if (term->kind == AMBULO_TRACKING && scale) {
     const ambulo__yaml_node *reference = ambulo__yaml_require(node, "reference");
-    if (reference) term->reference = ambulo__read_reference(reader, reference, scale);
+    if (reference) term->reference = ambulo__read_tracked_motion(reader, reference, scale);
   }
   ambulo__yaml_close(node);
 }
