@@ -9,6 +9,11 @@
 #include <stdlib.h>
 #include <time.h>
 
+/* where models/ is: benches are run from the top folder unless built for another */
+#ifndef AMBULO_SOURCE_DIR
+#define AMBULO_SOURCE_DIR "."
+#endif
+
 static inline double bench_seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
