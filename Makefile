@@ -68,7 +68,7 @@ endif
 DEPENDENCIES := nlopt yaml-0.1
 DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflags))
 LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(LAPACK_LIBS)) -lm -lpthread
-CMOCKA = $(call libs_of,cmocka,-lcmocka)
+CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
 # ----------------------------------------------------------------- sources
@@ -90,7 +90,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench sanitize valgrind coverage \
-  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-leftovers format \
   install uninstall clean force
 
 # A second make with as many jobs as there are processors, unless -j was given. It also reads
@@ -105,11 +105,12 @@ help:
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
 	@echo 'make lint         format, static analysis, folder order, sizes, symbols, test mirror'
+	@echo 'make format       clang-format everything'
 	@echo 'make bench        build and run the programs of bench/'
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
 	@echo 'make clean        remove build/'
-	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS='
+	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS=  V=1'
 
 # ------------------------------------------------------------------- build
 
@@ -120,13 +121,15 @@ all: $(OUT)/libambulo.a $(OUT)/libambulo.so $(if $(CLI_SOURCES),$(OUT)/ambulo)
 define RECORD
 @mkdir -p $(@D); echo '$(1)' | cmp -s - $@ || echo '$(1)' > $@
 endef
-$(OUT)/obj/flags: force
+$(OUT)/obj/flags: force | build/.found
 	$(call RECORD,$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(KERNEL) $(CFLAGS))
 $(OUT)/obj/sources: force
 	$(call RECORD,$(SOURCES) $(LDFLAGS) $(LIBS))
 
+# commands are shown with V=1
+quiet = $(if $(V),,@echo '  $(1)'; )
 kernel_flags = $(KERNEL) $(KERNEL_$(patsubst kernels_%,%,$(basename $(notdir $<))))
-compile = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
+compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
 
 $(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
@@ -138,36 +141,40 @@ $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 
 $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
-	$(AR) rcs $@ $(LIB_OBJECTS)
+	$(call quiet,AR $@)$(AR) rcs $@ $(LIB_OBJECTS)
 
 $(OUT)/libambulo.so: $(LIB_OBJECTS) $(OUT)/obj/sources
-	$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
 $(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a
-	$(CC) $(MODE) $(CLI_OBJECTS) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $(CLI_OBJECTS) $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
 
 # the parts of the program are linked into its tests, its main() is not
 CLI_PARTS := $(filter-out %/main.o,$(CLI_OBJECTS))
 $(OUT)/tests/cli/test_%: $(OUT)/obj/tests/cli/test_%.o $(CLI_PARTS) $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(CC) $(MODE) $< $(CLI_PARTS) $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $< $(CLI_PARTS) $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
 $(OUT)/tests/%: $(OUT)/obj/tests/%.o $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(CMOCKA) $(LIBS) -o $@
 
 $(OUT)/bench/%: $(OUT)/obj/bench/%.o $(OUT)/libambulo.a
 	@mkdir -p $(@D)
-	$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
+	$(call quiet,LD $@)$(CC) $(MODE) $< $(OUT)/libambulo.a $(LDFLAGS) $(LIBS) -o $@
 
 .SECONDARY:
 -include $(wildcard $(OUT)/obj/*/*.d $(OUT)/obj/*/*/*.d)
 
 # --------------------------------------------------- set-up, demo and tests
 
-# installs only what a build, a test run or lint lacks; the stamp makes it instant afterwards
+# installs only what is missing for a purpose; the stamp makes it instant afterwards
 build/.ready-%: .setup/install.sh
-	@.setup/install.sh $*
+	@CC='$(CC)' .setup/install.sh $*
+	@mkdir -p build && touch $@ build/.found
+# a plain make only says what is missing
+build/.found:
+	@CC='$(CC)' .setup/install.sh build --list
 	@mkdir -p build && touch $@
 setup: build/.ready-test
 
@@ -191,6 +198,82 @@ sanitize: build/.ready-test
 bench: build/.ready-build
 	$(submake) $(BENCHES)
 	@for program in $(BENCHES); do echo "# $$program"; $$program || exit 1; done
+
+# the emulated processor has no AVX-512, so this also covers the narrower kernels
+VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/trajectory/%,$(TESTS))
+valgrind: build/.ready-valgrind
+	$(submake) $(VALGRIND_TESTS)
+	@TEST_WRAPPER='valgrind -q --leak-check=full --error-exitcode=99' JOBS=$(JOBS) \
+	  OUT=build/valgrind tests/support/run_tests.sh $(VALGRIND_TESTS)
+
+coverage: build/.ready-test
+	+@$(MAKE) --no-print-directory VARIANT=cov run-tests
+	@.setup/coverage.sh build/cov
+
+# -------------------------------------------------------------------- lint
+
+LINT := format static order size symbols mirror leftovers
+FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch])
+# the kernels are one text compiled per instruction set: the baseline stands for all
+TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
+
+lint: build/.ready-lint
+	+@failed=; for part in $(LINT); do echo "lint-$$part"; \
+	  $(MAKE) --no-print-directory lint-$$part || failed="$$failed $$part"; done; \
+	  if [ -n "$$failed" ]; then echo "lint failed:$$failed"; exit 1; fi; echo 'lint passed'
+
+format: build/.ready-lint
+	@clang-format -i $(FORMATTED)
+lint-format: build/.ready-lint
+	@clang-format --dry-run -Werror $(FORMATTED)
+lint-static: build/.ready-lint
+	@.setup/lint_static.sh $(JOBS) $(TIDY_SOURCES) -- -std=c11 $(ALL_CPPFLAGS)
+lint-order:
+	@.setup/lint_order.sh
+lint-size:
+	@.setup/lint_size.sh
+lint-symbols: build/.ready-build
+	$(submake) $(OUT)/libambulo.so $(OUT)/libambulo.a
+	@.setup/lint_symbols.sh $(OUT)/libambulo.so $(OUT)/libambulo.a
+lint-mirror:
+	@.setup/lint_mirror.sh
+lint-leftovers:
+	@! grep -nE '\b(TODO|FIXME|XXX)\b' -r src include tests models bench docs README* CHANGELOG*
+
+# ----------------------------------------------------------------- install
+
+MODELS = $(shell find models -type f -name '*.yaml' 2>/dev/null)
+TARGET = $(DESTDIR)$(PREFIX)
+
+define PKG_CONFIG_FILE
+prefix=$(PREFIX)
+libdir=$${prefix}/lib
+includedir=$${prefix}/include
+
+Name: ambulo
+Description: prediction of human motion by optimization
+Version: $(VERSION)
+Libs: -L$${libdir} -lambulo
+Libs.private: $(LIBS)
+Cflags: -I$${includedir}
+endef
+export PKG_CONFIG_FILE
+
+install: all
+	install -d $(TARGET)/bin $(TARGET)/lib/pkgconfig $(TARGET)/include/ambulo
+	install -m 755 $(OUT)/ambulo $(TARGET)/bin/ambulo
+	install -m 644 $(OUT)/libambulo.a $(TARGET)/lib/libambulo.a
+	install -m 755 $(OUT)/libambulo.so $(TARGET)/lib/libambulo.so.$(VERSION)
+	ln -sf libambulo.so.$(VERSION) $(TARGET)/lib/libambulo.so.$(SOVERSION)
+	ln -sf libambulo.so.$(SOVERSION) $(TARGET)/lib/libambulo.so
+	install -m 644 $(HEADERS) $(TARGET)/include/ambulo
+	@printf '%s\n' "$$PKG_CONFIG_FILE" > $(TARGET)/lib/pkgconfig/ambulo.pc
+	@for file in $(MODELS); do install -D -m 644 $$file $(TARGET)/share/ambulo/$$file || exit 1; done
+
+uninstall:
+	rm -f $(TARGET)/bin/ambulo $(TARGET)/lib/libambulo.a $(TARGET)/lib/libambulo.so* \
+	  $(TARGET)/lib/pkgconfig/ambulo.pc
+	rm -rf $(TARGET)/include/ambulo $(TARGET)/share/ambulo
 
 clean:
 	rm -rf build

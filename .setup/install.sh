@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Installs what is missing on this machine: .setup/install.sh build|test|lint
+# Installs what is missing on this machine: .setup/install.sh build|test|lint|valgrind [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
-# when nothing is missing; exit status 1 with the list of packages when it cannot help.
+# when nothing is missing; exit status 1 with the list of packages when it cannot help,
+# or when --list only asks.
 set -u
 purpose=${1:-build}
 compiler=${CC:-cc}
@@ -83,6 +84,7 @@ missing() {
     has_program clang-format || package clang-format
     has_program clang-tidy || package clang-tidy
   fi
+  [ "$purpose" != valgrind ] || has_program valgrind || package valgrind
 }
 
 as_root() {
@@ -108,7 +110,12 @@ install() {
 
 wanted=$(missing | tr '\n' ' ')
 [ -n "${wanted// /}" ] || exit 0
-echo "missing for 'make $purpose': $wanted"
+if [ "${2:-}" = --list ]; then
+  echo "missing: $wanted"
+  echo "'make setup' installs what is missing"
+  exit 1
+fi >&2
+echo "installing: $wanted"
 # shellcheck disable=SC2086
 install $wanted
 wanted=$(missing | tr '\n' ' ')

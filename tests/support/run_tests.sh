@@ -11,6 +11,15 @@ mkdir -p "$logs"
 export logs TEST_WRAPPER=${TEST_WRAPPER:-} TEST_TIMEOUT=${TEST_TIMEOUT:-900}
 export OPENBLAS_NUM_THREADS=1 AMBULO=$PWD/$out/ambulo
 
+# a locale with a decimal comma, for the tests that numbers do not follow it
+if command -v localedef >/dev/null 2>&1; then
+  if [ ! -d build/locale/de_DE.UTF-8 ]; then
+    mkdir -p build/locale
+    localedef -i de_DE -f UTF-8 build/locale/de_DE.UTF-8 >/dev/null 2>&1
+  fi
+  [ ! -d build/locale/de_DE.UTF-8 ] || export LOCPATH=$PWD/build/locale
+fi
+
 run_one() {
   local name=${1//\//_} begin=$SECONDS status=0
   # shellcheck disable=SC2086
