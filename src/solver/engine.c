@@ -1,0 +1,138 @@
+/* solver/engine.c - setting up a solve on one grid; shared small steps. */
+#include "solver/engine.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double usual_cap = 1.0;     /* rad, m: unit of ambulo__engine_step_limit */
+
+/* A coordinate whose range is wide (the way a walker travels) may move further at once. */
+static double cap_of(const ambulo_coordinate *c) {
+  if (c->type == AMBULO_REVOLUTE) return usual_cap;
+  double width = c->range[1] - c->range[0];
+  return isfinite(width) ? fmax(usual_cap, 2.0 * width) : HUGE_VAL;
+}
+
+static ambulo_status create_trial(ambulo__engine *e, ambulo__trial *trial) {
+  trial->value = HUGE_VAL;
+  trial->x = ambulo__pool_doubles(&e->pool, (size_t)e->n);
+  trial->excess = ambulo__pool_doubles(&e->pool, (size_t)e->inequalities);
+  trial->multiplier = ambulo__pool_doubles(&e->pool, (size_t)e->inequalities);
+  trial->equality_multiplier = ambulo__pool_doubles(&e->pool, (size_t)e->equalities);
+  return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static void create_vectors(ambulo__engine *e) {
+  ambulo__pool *pool = &e->pool;
+  size_t n = (size_t)e->n, m = (size_t)e->inequalities, q = (size_t)e->equalities;
+  double **long_vectors[] = {&e->center,       &e->gradient, &e->step,           &e->total,
+                             &e->curved,       &e->previous, &e->previous_right, &e->w,
+                             &e->curved_total, &e->w_gradient, &e->iterate};
+  for (size_t i = 0; i < sizeof long_vectors / sizeof *long_vectors; i++)
+    *long_vectors[i] = ambulo__pool_doubles(pool, n);
+  e->lambda = ambulo__pool_doubles(pool, m);
+  e->along = ambulo__pool_doubles(pool, m);
+  e->linear = ambulo__pool_doubles(pool, m);
+  e->active = ambulo__pool_ints(pool, m);
+  e->active_next = ambulo__pool_ints(pool, m);
+  e->equality_multiplier = ambulo__pool_doubles(pool, q);
+  e->h = ambulo__pool_doubles(pool, q);
+  e->dual = ambulo__pool_doubles(pool, q);
+  e->balanced = ambulo__pool_doubles(pool, q);
+  e->b = ambulo__pool_doubles(pool, (size_t)e->borders);
+  e->row_weight = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
+  e->cap = ambulo__pool_doubles(pool, (size_t)e->problem->coordinates);
+}
+
+static ambulo_status create_parts(ambulo__engine *e, const double *start,
+                                  ambulo_diagnostics *diagnostics) {
+  const ambulo_problem *p = e->problem;
+  ambulo__pool *pool = &e->pool;
+  ambulo_status status =
+      ambulo__rows_split_create(p, e->workspace, start, pool, diagnostics, &e->rows);
+  if (status) return status;
+  e->n = p->variables;
+  e->equalities = e->rows.equality.count;
+  e->inequalities = e->rows.inequality.count;
+  e->borders = e->rows.border.count;
+  int kd = ambulo__metric_diagonals(p);
+  status = ambulo__metric_create(p, pool, &e->metric);
+  if (!status) status = ambulo__band_create(pool, e->n, kd, &e->base);
+  if (!status) status = ambulo__band_create(pool, e->n, kd, &e->whitener);
+  if (!status)
+    status = ambulo__kkt_create(&e->rows.equality, &e->rows.border, kd, pool, &e->kkt);
+  if (!status) status = ambulo__mixing_create(pool, e->n, e->equalities, &e->retraction);
+  if (!status) status = ambulo__mixing_create(pool, e->equalities, e->equalities, &e->adjoint);
+  if (status) return status;
+  create_vectors(e);
+  status = create_trial(e, &e->held);
+  if (!status) status = create_trial(e, &e->best);
+  if (status) return status;
+  for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(&p->model->coordinates[i]);
+  e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double *start,
+                                    const ambulo_allocator *allocator, ambulo__run *run,
+                                    ambulo_diagnostics *diagnostics, ambulo__engine **engine) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__engine *e = ambulo__alloc(&own, 1, sizeof *e);
+  if (!e) return AMBULO_E_MEMORY;
+  ambulo__pool_init(&e->pool, &own);
+  e->problem = problem;
+  e->run = run;
+  ambulo_status status = ambulo_workspace_create(problem, &own, &e->workspace);
+  if (!status) status = create_parts(e, start, diagnostics);
+  if (status) {
+    ambulo__engine_free(e);
+    return status;
+  }
+  *engine = e;
+  return AMBULO_OK;
+}
+
+void ambulo__engine_free(ambulo__engine *e) {
+  if (!e) return;
+  ambulo_allocator a = e->pool.allocator;
+  if (e->workspace && e->run) e->run->seconds_evaluate += e->workspace->seconds_evaluate;
+  ambulo_workspace_free(e->workspace);
+  ambulo__pool_clear(&e->pool);
+  ambulo__free(&a, e);
+}
+
+double ambulo__engine_equality_error(ambulo__engine *e) {
+  double worst = 0.0;
+  ambulo__sparse_rows_values(&e->rows.equality, e->workspace, e->h);
+  ambulo__sparse_rows_values(&e->rows.border, e->workspace, e->b);
+  for (int i = 0; i < e->equalities; i++) worst = fmax(worst, fabs(e->h[i]));
+  for (int i = 0; i < e->borders; i++) worst = fmax(worst, fabs(e->b[i]));
+  return worst;
+}
+
+double ambulo__engine_excess(const ambulo__engine *e, double *excess) {
+  const ambulo__sparse_rows *rows = &e->rows.inequality;
+  double worst = 0.0;
+  ambulo__sparse_rows_values(rows, e->workspace, excess);
+  for (int i = 0; i < e->inequalities; i++) {
+    if (excess[i] > 0.0) worst = fmax(worst, excess[i] / -rows->scale[i]);
+  }
+  return worst;
+}
+
+void ambulo__engine_gradient(ambulo__engine *e, const double *p, const double *l,
+                             double *gradient) {
+  memset(e->row_weight, 0, (size_t)e->problem->rows * sizeof *e->row_weight);
+  for (int i = 0; p && i < e->inequalities; i++)
+    e->row_weight[e->rows.inequality.row[i]] = e->rows.inequality.scale[i] * p[i];
+  for (int i = 0; l && i < e->equalities; i++)
+    e->row_weight[e->rows.equality.row[i]] = e->rows.equality.scale[i] * l[i];
+  ambulo__gradient(e->workspace, e->objective_scale, e->row_weight, gradient);
+}
+
+double ambulo__engine_step_limit(const ambulo__engine *e, const double *step, double share) {
+  int d = e->problem->coordinates;
+  double largest = 0.0;
+  for (int j = 0; j < e->n; j++) largest = fmax(largest, fabs(step[j]) / e->cap[j % d]);
+  return largest > share ? share / largest : 1.0;
+}

@@ -1,0 +1,106 @@
+/* solver/engine.h - everything that one solve on one grid works with.
+ *
+ * Inside the engine the objective is multiplied by objective_scale and inequality rows are
+ * excesses v = -s c <= 0 (rows_split.h):
+ *
+ *     minimize f(x)   subject to h(x) = 0 (equality), C x = b (border), v(x) <= 0
+ *
+ * All memory is taken by ambulo__engine_create; nothing below allocates.
+ */
+#ifndef AMBULO_SOLVER_ENGINE_H
+#define AMBULO_SOLVER_ENGINE_H
+
+#include "solver/kkt.h"
+#include "solver/metric.h"
+#include "solver/mixing.h"
+#include "solver/rows_split.h"
+#include "solver/run.h"
+
+/* A point of the augmented Lagrangian and what belongs to it. */
+typedef struct ambulo__trial {
+  double value;         /* augmented Lagrangian; HUGE_VAL: none */
+  double objective;     /* f, scaled */
+  double violation;     /* worst inequality, row's own unit */
+  double gradient_norm; /* of the reduced, whitened gradient; < 0: not computed */
+  double *x;            /* [n] */
+  double *excess;       /* [inequalities] */
+  double *multiplier;   /* [inequalities]: max(0, lambda + rho v) */
+  double *equality_multiplier; /* [equalities] */
+} ambulo__trial;
+
+typedef struct ambulo__engine {
+  const ambulo_problem *problem;
+  ambulo_workspace *workspace;
+  ambulo__run *run;
+  ambulo__pool pool;
+  int n, equalities, inequalities, borders;
+  ambulo__rows_split rows;
+  ambulo__metric metric;
+  ambulo__band base;           /* H0 + mu I at the centre */
+  ambulo__band whitener;       /* L of H0 + mu I + rho J_A' J_A */
+  ambulo__kkt kkt;             /* the same H with the equalities' gradients at the centre */
+  ambulo__mixing retraction, adjoint;
+  double objective_scale, mu, rho;
+  double *cap;                 /* [coordinates]: largest change in one step, rad or m */
+  double *center;              /* [n] */
+  double *lambda;              /* [inequalities] */
+  double *equality_multiplier; /* [equalities]: G + J' l + C' m = 0 at a solution */
+  double *h, *b, *dual, *balanced;      /* [equalities], [borders], [equalities] twice */
+  double *row_weight;          /* [rows of the problem] */
+  int *active, *active_next;   /* [inequalities] */
+  double *along, *linear;      /* [inequalities] */
+  double *gradient, *step, *total, *curved, *curved_total, *previous, *previous_right; /* [n] */
+  double *iterate;             /* [n]: whitened point that NLopt works on */
+  double *w, *w_gradient;      /* [n]: whitened point held in `held`, gradient there */
+  int has_held, has_held_gradient;
+  ambulo__trial held, best;
+} ambulo__engine;
+
+/* Classifies rows, finds the objective's scale, allocates. `start` must be finite.
+ * Errors: E_MEMORY, E_NUMERIC (no finite value at the start). */
+ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double *start,
+                                    const ambulo_allocator *allocator, ambulo__run *run,
+                                    ambulo_diagnostics *diagnostics, ambulo__engine **engine);
+void ambulo__engine_free(ambulo__engine *engine); /* accepts NULL */
+
+/* Worst |h| and |C x - b| at the point that the workspace holds; fills engine->h, b. */
+double ambulo__engine_equality_error(ambulo__engine *engine);
+/* Excesses at the point held; returns the worst in the row's own unit (>= 0). */
+double ambulo__engine_excess(const ambulo__engine *engine, double *excess);
+/* Gradient of f + sum p v + sum l h at the point held (p, l may be NULL). */
+void ambulo__engine_gradient(ambulo__engine *engine, const double *p, const double *l,
+                             double *gradient);
+/* Factor <= 1 that keeps a step below `share` of every coordinate's cap. */
+double ambulo__engine_step_limit(const ambulo__engine *engine, const double *step, double share);
+
+/* restore.c: damped Newton steps of least length to h = 0, C x = b. Returns the error
+ * left; x moves. E_NUMERIC when no finite point was found. */
+ambulo_status ambulo__restore(ambulo__engine *engine, double *x, double *error);
+
+/* retraction.c: moves y along the metric's normal directions until |h| <= 1e-8; the
+ * workspace then holds it. 0 when that fails. */
+int ambulo__retract(ambulo__engine *engine, double *y);
+/* retraction.c: z, the gradient's tangent representative: see there. p as in
+ * ambulo__engine_gradient. Uses and updates engine->equality_multiplier. */
+void ambulo__reduced_gradient(ambulo__engine *engine, const double *p, double *z);
+
+/* model_step.c: minimizes the piecewise quadratic model at the centre, sets whitener and
+ * kkt; step in engine->total. Returns 0, or 1 when a factorization failed. */
+int ambulo__model_step(ambulo__engine *engine, double *predicted);
+
+/* augmented.c: augmented Lagrangian at retract(center + L^-T w); the result in
+ * engine->held (and engine->best). gradient [n] may be NULL. A failed retraction gives a
+ * large finite value. */
+double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradient);
+
+/* inner.c: NLopt from engine->w: at most `evaluations` of ambulo__augmented. */
+typedef enum ambulo__inner_kind { AMBULO__INNER_AUGLAG, AMBULO__INNER_LBFGS } ambulo__inner_kind;
+int ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,
+                           int evaluations);
+
+/* pipeline.c: the whole method from x (in and out); multipliers of all rows of the problem
+ * in `multiplier` [rows] (of the unscaled objective, sign as in result.h). */
+ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, int warm,
+                               double *x);
+
+#endif

@@ -1,0 +1,127 @@
+/* solver/pipeline.c - the method on one grid: restore, then refresh and minimize in turn.
+ *
+ *     mu = 0.3 T/K (cold) or 1 T/K (after knot insertion), rho = 10, lambda = 0
+ *     restore
+ *     repeat
+ *         model step d, metric L L'                            (model_step.c)
+ *         t = min(1, 0.5 rad / largest change); F(t L'd) until it descends, t <- 0.4 t
+ *         NLopt from there, a few evaluations of F             (inner.c, augmented.c)
+ *         lambda <- max(0, lambda + rho v)
+ *         rho <- min(3000, 2 rho) when max |max(v, -lambda/rho)| did not halve
+ *     until v <= tolerance, f has settled, and the reduced gradient is small
+ *
+ * Equalities hold all along: every point is a retracted one.
+ */
+#include "solver/engine.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 8, MAX_BACKTRACKS = 6, STALL = 25 };
+static const double mu_cold = 0.3, mu_warm = 1.0;   /* times T/K */
+static const double rho_start = 10.0, rho_largest = 3000.0, rho_factor = 2.0;
+static const double step_cap = 0.5;                 /* rad, m */
+static const double restored = 1e-6;
+static const double value_change = 1e-5;            /* relative */
+static const double gradient_small = 1e-4;
+
+typedef struct progress {
+  double objective, measure, least_violation;
+  int settled, since_better;
+} progress;
+
+/* largest |max(v, -lambda / rho)|: infeasibility and complementarity in one */
+static double measure(const ambulo__engine *e, const double *excess) {
+  double worst = 0.0;
+  for (int i = 0; i < e->inequalities; i++)
+    worst = fmax(worst, fabs(fmax(excess[i], -e->lambda[i] / e->rho)));
+  return worst;
+}
+
+/* the model step, mu raised until it can be factored */
+static int model(ambulo__engine *e, double *predicted) {
+  for (int trial = 0; trial < 6; trial++) {
+    if (!ambulo__model_step(e, predicted)) return 0;
+    e->mu *= 10.0;
+  }
+  return 1;
+}
+
+/* w = t L'd with the first t that descends; zero when none does */
+static void line_search(ambulo__engine *e, double predicted, double *w) {
+  size_t n = (size_t)e->n;
+  double t = ambulo__engine_step_limit(e, e->total, step_cap);
+  e->has_held = 0;
+  memset(w, 0, n * sizeof *w);
+  double f0 = ambulo__augmented(e, w, NULL);
+  ambulo__band_upper_multiply(&e->whitener, e->total);
+  for (int trial = 0; trial < MAX_BACKTRACKS; trial++) {
+    for (size_t j = 0; j < n; j++) w[j] = t * e->total[j];
+    double f = ambulo__augmented(e, w, NULL);
+    if (f <= f0 + 1e-4 * t * predicted + 1e-12 * fabs(f0)) return;
+    t *= 0.4;
+  }
+  memset(w, 0, n * sizeof *w);
+}
+
+static void update_multipliers(ambulo__engine *e, progress *p) {
+  double now = measure(e, e->best.excess);
+  memcpy(e->lambda, e->best.multiplier, (size_t)e->inequalities * sizeof *e->lambda);
+  memcpy(e->equality_multiplier, e->best.equality_multiplier,
+         (size_t)e->equalities * sizeof *e->equality_multiplier);
+  if (now > 0.5 * p->measure && now > 1e-7 && e->rho < rho_largest)
+    e->rho = fmin(rho_largest, rho_factor * e->rho);
+  p->measure = now;
+}
+
+static int finished(const ambulo__engine *e, progress *p) {
+  const ambulo__trial *best = &e->best;
+  double change = fabs(best->objective - p->objective);
+  int feasible = best->violation <= e->run->options->feasibility_tolerance;
+  int steady = change <= value_change * fabs(best->objective) || best->objective == 0.0;
+  p->settled = feasible && steady ? p->settled + 1 : 0;
+  p->objective = best->objective;
+  p->since_better++;
+  if (best->violation < 0.9 * p->least_violation) {
+    p->least_violation = best->violation;
+    p->since_better = 0;
+  }
+  if (!feasible && e->rho >= rho_largest && p->since_better > STALL) return 1;
+  int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
+  return (p->settled >= 1 && small) || p->settled >= 3;
+}
+
+/* one refresh; 1 when there is nothing more to do */
+static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, double *w, double *x) {
+  double predicted;
+  memcpy(e->center, x, (size_t)e->n * sizeof *x);
+  if (model(e, &predicted)) return 1;
+  e->best.value = HUGE_VAL;
+  line_search(e, predicted, w);
+  ambulo__inner_minimize(e, kind, w, INNER_EVALUATIONS);
+  if (!(e->best.value < HUGE_VAL)) return 1;
+  memcpy(x, e->best.x, (size_t)e->n * sizeof *x);
+  update_multipliers(e, p);
+  e->run->iterations++;
+  int stop = ambulo__run_progress(e->run, e->best.objective / e->objective_scale,
+                                  e->best.violation);
+  return finished(e, p) || stop;
+}
+
+ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int warm, double *x) {
+  const ambulo_problem *p = e->problem;
+  double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
+  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0};
+  double error;
+  e->mu = (warm ? mu_warm : mu_cold) * interval;
+  e->rho = rho_start;
+  memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
+  memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
+  ambulo_status status = ambulo__restore(e, x, &error);
+  if (status) return status;
+  if (error > restored) return AMBULO_OK;
+  for (int k = 0; k < MAX_REFRESHES && !ambulo__run_over(e->run); k++) {
+    if (refresh(e, kind, &state, e->iterate, x)) break;
+  }
+  return AMBULO_OK;
+}
