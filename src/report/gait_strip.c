@@ -91,7 +91,7 @@ static void find_extent(strip *s, const ambulo__stride *stride) {
 /* as many figures as stand apart, as large as fits */
 static void choose_scale(strip *s) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
-  const double overlap = 0.66; /* part of a figure's width that its neighbour leaves it */
+  const double overlap = 0.56; /* part of a figure's width that its neighbour leaves it */
   s->scale = (s->panel->height - 14.0) / height;
   double spacing = overlap * width * s->scale;
   s->figures = (int)(s->panel->width / spacing) + 1;
@@ -170,9 +170,9 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
 
 static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_buffer *text) {
   if (s->model->foot_count) {
-    ambulo__svg_rectangle(text, "soil", s->panel->x - 30.0, s->base, s->panel->width + 60.0, 15.0);
-    ambulo__svg_line(text, "ground", s->panel->x - 30.0, s->base, s->panel->x + s->panel->width + 30.0,
-                     s->base);
+    double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
+    ambulo__svg_rectangle(text, "soil", left, s->base, width, 15.0);
+    ambulo__svg_line(text, "ground", left, s->base, left + width, s->base);
   }
   for (int k = 0; k < stride->samples; k++) {
     double t = stride->times[k];
@@ -185,6 +185,23 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
     draw_contacts(s, stride, t, text);
     ambulo__svg_group_end(text);
   }
+}
+
+/* how far the drawing departs from the truth */
+static void caption(const strip *s, ambulo__text_buffer *text) {
+  double true_width = s->scale * fabs(s->speed) * s->panel->duration;
+  ambulo__text_buffer label;
+  ambulo__text_init(&label, &text->allocator);
+  if (true_width > 0.05 * s->panel->width) {
+    ambulo__text_append(&label, "side view; walking direction stretched ");
+    ambulo__label_number(&label, s->panel->width / true_width, 1);
+    ambulo__text_append(&label, " times");
+  } else {
+    ambulo__text_append(&label, "side view; one figure beside the other in time");
+  }
+  ambulo__svg_label(text, "end", s->panel->x + s->panel->width + 80.0, s->panel->y - 23.0,
+                    ambulo__text_data(&label));
+  ambulo__text_free(&label);
 }
 
 ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
@@ -202,6 +219,7 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
     status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
   }
   if (!status) draw_figures(&s, &shown, text);
+  if (!status) caption(&s, text);
   ambulo__stride_free(&dense);
   ambulo__stride_free(&shown);
   ambulo__skeleton_free(&s.skeleton);

@@ -36,6 +36,8 @@ static void subtitle(const ambulo_problem *problem, const ambulo_result *result,
   double travel = problem->definition.travel, duration = ambulo_problem_duration(problem);
   ambulo__text_append(out, ambulo_verdict_name(ambulo_result_verdict(result)));
   ambulo__text_append(out, "   \xc2\xb7   ");
+  if (ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED)
+    ambulo__text_append(out, "one step, mirrored: ");
   append_rounded(out, duration);
   ambulo__text_append(out, " s");
   if (travel != 0.0) {
@@ -86,7 +88,7 @@ typedef struct layout {
 
 static layout arrange(const ambulo__stride *stride) {
   int feet = ambulo_problem_contact_count(stride->problem) ? stride->model->foot_count : 0;
-  double left = margin + 70.0, width = page_width - 2.0 * margin - 120.0;
+  double left = margin + 70.0, width = page_width - 2.0 * margin - 150.0;
   layout page;
   ambulo__panel strip = {left, 92.0, width, 270.0, stride->duration};
   page.strip = strip;

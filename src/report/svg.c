@@ -164,7 +164,8 @@ void ambulo__svg_path_end(ambulo__text_buffer *text) {
 void ambulo__label_number(ambulo__text_buffer *text, double value, int decimals) {
   double scale = pow(10.0, (double)decimals);
   double rounded = round(value * scale) / scale;
-  ambulo__text_append_number(text, rounded == 0.0 ? 0.0 : rounded);
+  if (rounded < 0.0) ambulo__text_append(text, "\xe2\x88\x92"); /* a minus sign, not a hyphen */
+  ambulo__text_append_number(text, fabs(rounded));
 }
 
 double ambulo__nice_step(double range, int parts, int *decimals) {

@@ -1,0 +1,124 @@
+/* The result folder: complete, replaced only on request, never half. */
+#include "support/messages.h"
+#include "support/scratch.h"
+#include "support/walker_result.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+
+static const char *const files[] = {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
+                                    "gait.svg"};
+
+static const char *inside(const char *folder, const char *name) {
+  static char path[SCRATCH_PATH + 512];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  return path;
+}
+
+static void test_complete(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  const char *folder = scratch_path(state, "result");
+  ambulo_report_options options = ambulo_report_options_default();
+  assert_int_equal(ambulo_report_check(folder, &options, NULL), AMBULO_OK);
+  assert_int_equal(entries_in(*state), 0);
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL),
+                   AMBULO_OK);
+  for (int i = 0; i < 5; i++) {
+    char *text = read_text(inside(folder, files[i]));
+    if (strlen(text) < 200) print_error("%s is only\n%s\n", files[i], text);
+    assert_true(strlen(text) >= 200);
+    free(text);
+  }
+  assert_int_equal(entries_in(folder), 5);
+  assert_int_equal(entries_in(*state), 1);
+  walk_close(&w);
+}
+
+static void test_replaced_only_on_request(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  const char *folder = scratch_path(state, "result");
+  ambulo_report_options options = ambulo_report_options_default();
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL), 0);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo_report_check(folder, &options, list), AMBULO_E_IO);
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL),
+                   AMBULO_E_IO);
+  assert_message(list, 0, "result");
+  ambulo_diagnostics_free(list);
+  options.overwrite = 1;
+  options.samples = 7;
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL), 0);
+  char *csv = read_text(inside(folder, "motion.csv"));
+  int lines = 0;
+  for (const char *c = csv; *c; c++) lines += *c == '\n';
+  assert_int_equal(lines, 2 + 7);
+  free(csv);
+  assert_int_equal(entries_in(*state), 1);
+  walk_close(&w);
+}
+
+static void test_a_folder_of_others_is_kept(void **state) {
+  const char *folder = scratch_path(state, "mine");
+  assert_int_equal(mkdir(folder, 0700), 0);
+  scratch_write(inside(folder, "thesis.tex"), "years of work\n");
+  ambulo_report_options options = ambulo_report_options_default();
+  options.overwrite = 1;
+  assert_int_equal(ambulo_report_check(folder, &options, NULL), AMBULO_E_IO);
+  assert_file_equal(inside(folder, "thesis.tex"), "years of work\n");
+}
+
+static void test_bad_places(void **state) {
+  ambulo_report_options options = ambulo_report_options_default();
+  assert_int_equal(ambulo_report_check(scratch_path(state, "no/such/parent"), &options, NULL),
+                   AMBULO_E_IO);
+  scratch_write(scratch_path(state, "file"), "x");
+  assert_int_equal(ambulo_report_check(scratch_path(state, "file"), &options, NULL), AMBULO_E_IO);
+  assert_int_equal(ambulo_report_check(scratch_path(state, "file/below"), &options, NULL),
+                   AMBULO_E_IO);
+  assert_int_equal(ambulo_report_check("/proc/result", &options, NULL), AMBULO_E_IO);
+  options.cookie = 0;
+  assert_int_equal(ambulo_report_check(scratch_path(state, "r"), &options, NULL),
+                   AMBULO_E_ARGUMENT);
+}
+
+/* a disk that is full after 8 kB: the old result stays, nothing half is left */
+static void test_full_disk(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  const char *folder = scratch_path(state, "result");
+  ambulo_report_options options = ambulo_report_options_default();
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL), 0);
+  char *before = read_text(inside(folder, "motion.csv"));
+  struct rlimit old, small;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+  small = old;
+  small.rlim_cur = 8192;
+  signal(SIGXFSZ, SIG_IGN);
+  options.overwrite = 1;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  ambulo_status status = ambulo_report_write(w.problem, w.result, folder, &options, NULL, list);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+  assert_int_equal(status, AMBULO_E_IO);
+  assert_message(list, 0, "File too large");
+  ambulo_diagnostics_free(list);
+  char *after = read_text(inside(folder, "motion.csv"));
+  assert_string_equal(before, after);
+  assert_int_equal(entries_in(folder), 5);
+  assert_int_equal(entries_in(*state), 1);
+  free(before);
+  free(after);
+  walk_close(&w);
+}
+
+#define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      SCRATCH_TEST(test_complete), SCRATCH_TEST(test_replaced_only_on_request),
+      SCRATCH_TEST(test_a_folder_of_others_is_kept), SCRATCH_TEST(test_bad_places),
+      SCRATCH_TEST(test_full_disk)};
+  return cmocka_run_group_tests_name("report/report", tests, NULL, NULL);
+}

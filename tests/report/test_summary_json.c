@@ -1,0 +1,49 @@
+/* summary.json: well-formed, complete, and the same through both doors. */
+#include "report/summary_json.h"
+#include "support/walker_result.h"
+#include "support/wellformed.h"
+
+static void test_content(void **state) {
+  (void)state;
+  walk w;
+  walk_open(&w, 12);
+  char *text = NULL;
+  assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
+  assert_true(is_json(text));
+  static const char *const parts[] = {
+      "\"verdict\": \"feasible\"", "\"total\": 0.30000000000000004", "\"torque_squared\": ",
+      "\"worst\": 3e-07", "\"family\": \"foot_strike\"", "\"row\": \"left_heel\"",
+      "\"time\": 0.25", "\"dense_violation\": {", "\"kkt\": 0", "\"coordinates\": 9",
+      "\"variables\": 135", "\"nodes\": 13", "\"linear_algebra\": 0", "\"nlopt\": \"",
+      "\"libyaml\": \"0.", "\"instruction_set\": \"", "\"ending\": \"made by \\\"hand\\\"\\u000a\""};
+  for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+    if (!strstr(text, parts[i])) print_error("%s is missing from\n%s\n", parts[i], text);
+    assert_non_null(strstr(text, parts[i]));
+  }
+  char hash[64];
+  snprintf(hash, sizeof hash, "\"input_hash\": \"%016llx\"", ambulo_problem_hash(w.problem));
+  assert_non_null(strstr(text, hash));
+  ambulo_text_free(text, NULL);
+  walk_close(&w);
+}
+
+/* a result that blew up is still JSON */
+static void test_not_finite(void **state) {
+  (void)state;
+  walk w;
+  walk_open(&w, 12);
+  w.result->objective = (double)NAN;
+  w.result->audit.violation.worst = INFINITY;
+  char *text = NULL;
+  assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
+  assert_true(is_json(text));
+  assert_non_null(strstr(text, "\"total\": null"));
+  ambulo_text_free(text, NULL);
+  walk_close(&w);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_content),
+                                     cmocka_unit_test(test_not_finite)};
+  return cmocka_run_group_tests_name("report/summary_json", tests, NULL, NULL);
+}
