@@ -52,8 +52,14 @@ const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, c
   return NULL;
 }
 
-static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+/* 0 when the file is something else: its other keys would only produce noise */
+static int is_problem(const ambulo__yaml_node *root) {
   static const char *const kinds[] = {"problem"};
+  const ambulo__yaml_node *kind = ambulo__yaml_require(root, "kind");
+  return !kind || ambulo__yaml_choice(kind, kinds, 1, -1) == 0;
+}
+
+static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   static const char *const units[] = {"degrees", "radians"};
   const ambulo__yaml_node *version = ambulo__yaml_require(root, "ambulo");
   int number = ambulo__yaml_integer(version, 0, 1000000, FORMAT_VERSION);
@@ -62,7 +68,6 @@ static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node 
                              "format version %d is not supported; expected %d", number,
                              FORMAT_VERSION);
   }
-  (void)ambulo__yaml_choice(ambulo__yaml_require(root, "kind"), kinds, 1, 0);
   const ambulo__yaml_node *name = ambulo__yaml_get(root, "name");
   reader->definition.name = name ? ambulo__yaml_name(name) : "problem";
   const ambulo__yaml_node *angles = ambulo__yaml_get(root, "angles");
@@ -100,6 +105,7 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
 }
 
 static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  if (!is_problem(root)) return;
   read_header(reader, root);
   read_model(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
