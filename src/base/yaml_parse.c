@@ -28,13 +28,15 @@ static ambulo__place place_at(const builder *b, yaml_mark_t mark) {
 
 static ambulo_status refuse(const builder *b, ambulo_status status, yaml_mark_t mark,
                             const char *message) {
-  return ambulo__error(b->document->diagnostics, status, place_at(b, mark), NULL, "%s", message);
+  ambulo__error(b->document->diagnostics, status, place_at(b, mark), NULL, "%s", message);
+  return status;
 }
 
 static ambulo_status out_of_memory(const builder *b) {
   ambulo__place place = {b->file, 0, 0, NULL};
-  return ambulo__error(b->document->diagnostics, AMBULO_E_MEMORY, place, NULL,
-                       "cannot allocate memory for the document");
+  ambulo__error(b->document->diagnostics, AMBULO_E_MEMORY, place, NULL,
+                "cannot allocate memory for the document");
+  return AMBULO_E_MEMORY;
 }
 
 /* ---------------------------------------------------------------- tree growth */
@@ -48,6 +50,7 @@ static void to_array(ambulo__yaml_node *collection) {
 /* the linked children become an array, so that items are found by index in one step */
 static ambulo_status close_collection(builder *b) {
   ambulo__yaml_node *node = b->open;
+  if (!node) return AMBULO_E_INTERNAL; /* an end without a start: libyaml sends none */
   if (node->count > 0) {
     node->items = ambulo__yaml_allocate(b->document, (size_t)node->count, sizeof *node->items);
     if (!node->items) return out_of_memory(b);

@@ -15,8 +15,9 @@ typedef struct step {
 
 static ambulo_status bad_path(const ambulo__yaml *document, const char *file, const char *message) {
   ambulo__place place = {file, 0, 0, NULL};
-  return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place,
-                       "paths look like 'time.intervals' or 'objective[0].weight'", "%s", message);
+  ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place,
+                "paths look like 'time.intervals' or 'objective[0].weight'", "%s", message);
+  return AMBULO_E_SCHEMA;
 }
 
 static ambulo_status no_item(const ambulo__yaml *document, const char *file,
