@@ -1,8 +1,9 @@
 /* mechanics/kernel_sincos.h - sine and cosine, lane by lane.
  *
  * x = n pi/2 + r with n the nearest whole number, |r| <= pi/4 (Cody & Waite 1980): pi/2 is split
- * into 33 + 33 + 53 bits, so that n times the first two parts is exact for |n| < 2^20. On the
- * reduced range, with z = r^2,
+ * into 33 + 33 + 53 bits, so that n times the first two parts is exact for |n| < 2^20, and the
+ * rounding of the second subtraction is carried into the third. On the reduced range, with
+ * z = r^2,
  *   sin r = r + r z P(z),   cos r = 1 - z (1/2 - z Q(z))
  * P and Q of degree 5 interpolate at Chebyshev nodes; the error of the approximation is below
  * 2^-56. With the rounding of the sums the results are within 2 units in the last place for
@@ -32,7 +33,9 @@ AMBULO__INLINE void sincos_wide(wide x, wide *sine, wide *cosine) {
   wide sum = x * 0.6366197723675814 + shift;
   wide n = sum - shift;
   wide_bits quadrant = (wide_bits)sum;
-  wide r = ((x - n * 1.5707963267341256) - n * 6.077100506303966e-11) - n * 2.0222662487959506e-21;
+  wide a = x - n * 1.5707963267341256;
+  wide b = a - n * 6.077100506303966e-11;
+  wide r = b + (((a - b) - n * 6.077100506303966e-11) - n * 2.0222662487959506e-21);
   wide z = r * r;
   wide p = z * 1.591810123027412e-10 - 2.5051131455427946e-08;
   p = p * z + 2.755731610068303e-06;

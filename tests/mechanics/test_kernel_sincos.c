@@ -1,0 +1,70 @@
+/* Sine and cosine of the kernels against libm in extended precision, in units in the last place.
+ * The width is fixed here; the other widths run the same source, and are compared elsewhere. */
+#define AMBULO__WIDTH 2
+#include "mechanics/kernel_sincos.h"
+#include "support/random_model.h"
+#include "support/test.h"
+
+static double units(double got, long double want) {
+  if (got == (double)want) return 0;
+  double unit = nextafter(fabs((double)want), INFINITY) - fabs((double)want);
+  return (double)(fabsl(got - want) / unit);
+}
+
+static void check_angle(double x) {
+  wide sine, cosine;
+  sincos_wide((wide){x, -x}, &sine, &cosine);
+  double worst = fmax(units(sine[0], sinl(x)), units(cosine[0], cosl(x)));
+  worst = fmax(worst, fmax(units(sine[1], -sinl(x)), units(cosine[1], cosl(x))));
+  if (worst <= 2) return;
+  print_error("x = %.17g: sine %.17g and cosine %.17g are off by %.2f units\n", x, sine[0],
+              cosine[0], worst);
+  fail();
+}
+
+static void accurate_everywhere(void **state) {
+  (void)state;
+  static const double sizes[] = {1e-300, 1e-12, 1e-3, 0.8, 1, 3.2, 10, 1e3, 1e5};
+  random_source source = {3};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    for (int k = 0; k < 20000; k++) check_angle(random_between(&source, -sizes[i], sizes[i]));
+  }
+}
+
+/* Where the reduction cancels most: the numbers next to multiples of 45 degrees. */
+static void accurate_near_multiples_of_the_quarter(void **state) {
+  (void)state;
+  for (int k = 0; k < 120000; k++) {
+    double x = (double)(k * (acosl(-1) / 4));
+    if (x > AMBULO__SINCOS_LIMIT) break;
+    check_angle(x);
+    check_angle(nextafter(x, 0));
+    check_angle(nextafter(x, 1e9));
+  }
+}
+
+static void exact_at_zero(void **state) {
+  (void)state;
+  wide sine, cosine;
+  sincos_wide((wide){0.0, -0.0}, &sine, &cosine);
+  assert_true(sine[0] == 0 && sine[1] == 0);
+  assert_true(cosine[0] == 1 && cosine[1] == 1);
+}
+
+static void range_is_told(void **state) {
+  (void)state;
+  wide_bits inside = out_of_range((wide){1e5, -1e5});
+  wide_bits outside = out_of_range((wide){1.00001e5, NAN});
+  wide_bits far = out_of_range((wide){-INFINITY, 0});
+  assert_true(inside[0] == 0 && inside[1] == 0);
+  assert_true(outside[0] == -1 && outside[1] == -1);
+  assert_true(far[0] == -1 && far[1] == 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(accurate_everywhere),
+                                     cmocka_unit_test(accurate_near_multiples_of_the_quarter),
+                                     cmocka_unit_test(exact_at_zero),
+                                     cmocka_unit_test(range_is_told)};
+  return cmocka_run_group_tests_name("mechanics/kernel_sincos", tests, NULL, NULL);
+}

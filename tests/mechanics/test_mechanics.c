@@ -1,0 +1,220 @@
+/* The public batches: node-major arrays of any length, NULL outputs, and failures that leave
+ * everything as it was. Accuracy of the kernels themselves is tested in test_kernels_*.c. */
+#include "ambulo/mechanics.h"
+#include "mechanics/kernel_fixture.h"
+#include "support/fail_alloc.h"
+
+enum { most_nodes = 20 };
+
+typedef struct batch {
+  kernel_case c;
+  ambulo_mechanics *mechanics;
+  double *q, *qd, *qdd; /* [most_nodes][d] */
+} batch;
+
+static void batch_open(batch *b, int number) {
+  random_source source = {9};
+  case_open(&b->c, number);
+  assert_int_equal(ambulo_mechanics_create(b->c.model, NULL, &b->mechanics), AMBULO_OK);
+  size_t n = (size_t)(most_nodes * b->c.d);
+  b->q = lane_array(n);
+  b->qd = lane_array(n);
+  b->qdd = lane_array(n);
+  for (size_t i = 0; i < n; i++) {
+    b->q[i] = random_between(&source, -2, 2);
+    b->qd[i] = random_between(&source, -2, 2);
+    b->qdd[i] = random_between(&source, -5, 5);
+  }
+}
+
+static void batch_close(batch *b) {
+  ambulo_mechanics_free(b->mechanics);
+  free(b->q);
+  free(b->qd);
+  free(b->qdd);
+  case_close(&b->c);
+}
+
+static void node_state(const batch *b, int node, double *state) {
+  size_t d = (size_t)b->c.d, at = (size_t)node * d;
+  memcpy(state, b->q + at, d * sizeof *state);
+  memcpy(state + d, b->qd + at, d * sizeof *state);
+  memcpy(state + 2 * d, b->qdd + at, d * sizeof *state);
+}
+
+static void outputs_at_every_length(void **state) {
+  (void)state;
+  static const int lengths[] = {0, 1, 7, 8, 9, most_nodes};
+  static batch b;
+  batch_open(&b, 44);
+  int d = b.c.d, p = b.c.rows - d - 6, where = 0;
+  assert_true(p > 0);
+  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+    int nodes = lengths[i];
+    double *tau = lane_array((size_t)((nodes + 1) * d)),
+           *points = lane_array((size_t)((nodes + 1) * p));
+    double wrench[6 * (most_nodes + 1)];
+    tau[nodes * d] = wrench[6 * nodes] = points[nodes * p] = 7;
+    assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, nodes, b.q, b.qd, b.qdd, tau,
+                                                       wrench, points),
+                     AMBULO_OK);
+    for (int node = 0; node < nodes; node++) {
+      double x[3 * max_d], want[max_rows];
+      node_state(&b, node, x);
+      case_reference(&b.c, x, want);
+      assert_true(difference(tau + node * d, 1, want, d, &where) < 1e-10);
+      assert_true(difference(wrench + 6 * node, 1, want + d, 6, &where) < 1e-10);
+      assert_true(difference(points + node * p, 1, want + d + 6, p, &where) < 1e-10);
+    }
+    assert_true(tau[nodes * d] == 7 && wrench[6 * nodes] == 7 && points[nodes * p] == 7);
+    assert_int_equal(
+        ambulo_mechanics_inverse_dynamics(b.mechanics, nodes, b.q, b.qd, b.qdd, NULL, NULL, NULL),
+        AMBULO_OK);
+    free(tau);
+    free(points);
+  }
+  batch_close(&b);
+}
+
+static void jacobians_and_gradient_belong_together(void **state) {
+  (void)state;
+  static batch b;
+  batch_open(&b, 44);
+  int d = b.c.d, p = b.c.rows - d - 6, nodes = 11, where = 0;
+  size_t block = (size_t)(nodes * d * d), w = (size_t)(nodes * 6 * d), n = (size_t)(nodes * d);
+  ambulo_jacobians j = {lane_array(block),
+                        lane_array(block),
+                        lane_array(block),
+                        lane_array(w),
+                        lane_array(w),
+                        lane_array(w),
+                        lane_array((size_t)(nodes * p * d))};
+  double *y = lane_array((size_t)(nodes * b.c.rows)), *g = lane_array(3 * n);
+  random_source source = {1};
+  for (int i = 0; i < nodes * b.c.rows; i++) y[i] = random_between(&source, -1, 1);
+  const double *yw = y + n, *yp = yw + 6 * nodes;
+  assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, nodes, b.q, b.qd, b.qdd, &j), AMBULO_OK);
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd, y, yw, yp, g,
+                                             g + n, g + 2 * n),
+                   AMBULO_OK);
+  const double *const tau[] = {j.tau_q, j.tau_qd, j.tau_qdd};
+  const double *const wrench[] = {j.wrench_q, j.wrench_qd, j.wrench_qdd};
+  for (int k = 0; k < 3 * nodes; k++) {
+    int node = k / 3, group = k % 3;
+    double want[max_d];
+    for (int i = 0; i < d; i++) {
+      want[i] = 0;
+      for (int r = 0; r < d; r++) want[i] += y[node * d + r] * tau[group][(node * d + r) * d + i];
+      for (int r = 0; r < 6; r++)
+        want[i] += yw[node * 6 + r] * wrench[group][(node * 6 + r) * d + i];
+      for (int r = 0; r < p && group == 0; r++) {
+        want[i] += yp[node * p + r] * j.points_q[(node * p + r) * d + i];
+      }
+    }
+    assert_true(difference(g + group * (int)n + node * d, 1, want, d, &where) < 1e-10);
+  }
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd, NULL, NULL, NULL,
+                                             g, g + n, g + 2 * n),
+                   AMBULO_OK);
+  for (size_t i = 0; i < 3 * n; i++) assert_true(g[i] == 0);
+  double *const owned[] = {j.tau_q,      j.tau_qd,   j.tau_qdd, j.wrench_q, j.wrench_qd,
+                           j.wrench_qdd, j.points_q, y,         g};
+  for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
+  batch_close(&b);
+}
+
+/* A bad value in the second block: the first one must not be written either. */
+static void failures_leave_outputs_untouched(void **state) {
+  (void)state;
+  static batch b;
+  static const double bad[] = {NAN, INFINITY, -INFINITY, 1e200};
+  batch_open(&b, 44);
+  int d = b.c.d;
+  double *tau = lane_array((size_t)(most_nodes * d)), *g = lane_array((size_t)(3 * most_nodes * d));
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    ambulo_jacobians j = {.tau_q = tau};
+    b.qd[12 * d + 1] = bad[i];
+    tau[0] = g[0] = 7;
+    assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, most_nodes, b.q, b.qd, b.qdd,
+                                                       tau, NULL, NULL),
+                     AMBULO_E_NUMERIC);
+    assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, most_nodes, b.q, b.qd, b.qdd, &j),
+                     AMBULO_E_NUMERIC);
+    assert_int_equal(ambulo_mechanics_gradient(b.mechanics, most_nodes, b.q, b.qd, b.qdd, b.qdd,
+                                               NULL, NULL, g, g + most_nodes * d,
+                                               g + 2 * most_nodes * d),
+                     AMBULO_E_NUMERIC);
+    assert_true(tau[0] == 7 && g[0] == 7);
+  }
+  free(tau);
+  free(g);
+  batch_close(&b);
+}
+
+static void large_angles_use_libm(void **state) {
+  (void)state;
+  static batch b;
+  batch_open(&b, 22);
+  double tau[max_d], x[3 * max_d], want[max_rows];
+  int where = 0;
+  for (int i = 0; i < b.c.d; i++) {
+    if (ambulo_model_coordinate(b.c.model, i)->type == AMBULO_REVOLUTE) b.q[i] = 1e5 + 1234.5 * i;
+  }
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(b.mechanics, 1, b.q, b.qd, b.qdd, tau, NULL, NULL),
+      AMBULO_OK);
+  node_state(&b, 0, x);
+  case_reference(&b.c, x, want);
+  assert_true(difference(tau, 1, want, b.c.d, &where) < 1e-9);
+  batch_close(&b);
+}
+
+static void arguments_are_checked(void **state) {
+  (void)state;
+  static batch b;
+  batch_open(&b, 3);
+  double x[max_d] = {0};
+  ambulo_mechanics *none = NULL;
+  assert_int_equal(ambulo_mechanics_create(NULL, NULL, &none), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_create(b.c.model, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(NULL, 1, x, x, x, x, NULL, NULL),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, -1, x, x, x, x, NULL, NULL),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, 1, x, NULL, x, x, NULL, NULL),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, x, NULL, NULL, x, NULL, x),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, 1, x, x, x, NULL), AMBULO_E_ARGUMENT);
+  ambulo_mechanics_free(NULL);
+  batch_close(&b);
+}
+
+static void failed_allocations_unwind(void **state) {
+  (void)state;
+  static kernel_case c;
+  case_open(&c, 12);
+  for (long k = 0; k < 1000; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_mechanics *mechanics = NULL;
+    ambulo_status status = ambulo_mechanics_create(c.model, &allocator, &mechanics);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    assert_true((mechanics == NULL) == (status != AMBULO_OK));
+    ambulo_mechanics_free(mechanics);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+    assert_true(k < 999);
+  }
+  case_close(&c);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(outputs_at_every_length),
+                                     cmocka_unit_test(jacobians_and_gradient_belong_together),
+                                     cmocka_unit_test(failures_leave_outputs_untouched),
+                                     cmocka_unit_test(large_angles_use_libm),
+                                     cmocka_unit_test(arguments_are_checked),
+                                     cmocka_unit_test(failed_allocations_unwind)};
+  return cmocka_run_group_tests_name("mechanics/mechanics", tests, NULL, NULL);
+}

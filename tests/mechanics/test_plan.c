@@ -1,0 +1,185 @@
+/* What compiling a model saves: merged links, shared origins and axes, and the pattern. */
+#include "mechanics/plan_layout.h"
+#include "mechanics/kernel_fixture.h"
+#include "support/fail_alloc.h"
+
+static const double quarter = 1.5707963267948966;
+
+static ambulo_link named_link(const char *name, int parent, ambulo_joint_type type, double theta,
+                              double d, double a, double alpha) {
+  ambulo_link link = ambulo_link_default();
+  link.name = name;
+  link.parent = parent;
+  link.type = type;
+  link.theta = theta;
+  link.d = d;
+  link.a = a;
+  link.alpha = alpha;
+  return link;
+}
+
+static ambulo__plan *plan_of(ambulo_link *links, int count) {
+  ambulo_coordinate coordinates[16];
+  ambulo_model_definition definition = ambulo_model_definition_default();
+  ambulo_model *model = NULL;
+  ambulo__plan *plan = NULL;
+  int moving = 0;
+  for (int i = 0; i < count; i++) {
+    if (links[i].type == AMBULO_FIXED) continue;
+    coordinates[moving] = ambulo_coordinate_default();
+    coordinates[moving].name = links[i].name;
+    coordinates[moving].type = links[i].type;
+    coordinates[moving].mirror = moving;
+    moving++;
+  }
+  definition.links = links;
+  definition.link_count = count;
+  definition.coordinates = coordinates;
+  definition.coordinate_count = moving;
+  assert_int_equal(ambulo_model_create(&definition, NULL, NULL, &model), AMBULO_OK);
+  assert_int_equal(ambulo__plan_create(model, NULL, &plan), AMBULO_OK);
+  ambulo_model_free(model);
+  return plan;
+}
+
+static void give_body(ambulo_link *link, double mass, double x) {
+  link->mass = mass;
+  link->com[0] = x;
+  for (int i = 0; i < 3; i++) link->inertia[i] = 0.1;
+}
+
+/* Three axes through one point, then one more along the limb: the DH form of hip and knee. */
+static void a_hip_shares_its_origin_and_load(void **state) {
+  (void)state;
+  ambulo_link links[] = {named_link("place", -1, AMBULO_FIXED, 0, 0.9, 0.1, quarter),
+                         named_link("flexion", 0, AMBULO_REVOLUTE, quarter, 0, 0, quarter),
+                         named_link("abduction", 1, AMBULO_REVOLUTE, quarter, 0, 0, quarter),
+                         named_link("rotation", 2, AMBULO_REVOLUTE, quarter, 0, 0, 0),
+                         named_link("thigh", 3, AMBULO_FIXED, 0, -0.4, 0, -quarter),
+                         named_link("knee", 4, AMBULO_REVOLUTE, 0, 0, 0, 0)};
+  give_body(&links[3], 7, 0.01);
+  give_body(&links[4], 1, 0);
+  give_body(&links[5], 3, 0.2);
+  ambulo__plan *plan = plan_of(links, 6);
+  const ambulo__frame *frames = plan->frames;
+  assert_int_equal(plan->coordinates, 4);
+  assert_int_equal(plan->bodies, 2);
+  assert_close(plan->body[0].mass, 8, 1e-15);
+  for (int k = 0; k < 4; k++) {
+    assert_false(plan->joints[k].turned);
+    assert_true(fabs(plan->joints[k].sign) == 1 && plan->joints[k].shift == 0);
+  }
+  assert_true(plan->joints[0].has_offset && plan->joints[3].has_offset);
+  assert_int_equal(frames[1].place_at, frames[2].place_at);
+  assert_int_equal(frames[1].place_at, frames[3].place_at);
+  assert_int_not_equal(frames[3].place_at, frames[4].place_at);
+  assert_int_equal(frames[1].load_at, frames[3].load_at);
+  assert_int_equal(frames[1].moment_at, frames[3].moment_at);
+  assert_int_not_equal(frames[3].load_at, frames[4].load_at);
+  ambulo__plan_free(plan);
+}
+
+static void an_oblique_axis_is_turned(void **state) {
+  (void)state;
+  ambulo_link links[] = {named_link("tilt", -1, AMBULO_FIXED, 0.3, 0, 0, 0.4),
+                         named_link("hinge", 0, AMBULO_REVOLUTE, 0.2, 0, 0, 0),
+                         named_link("next", 1, AMBULO_REVOLUTE, 0, 0, 0.1, 0)};
+  give_body(&links[2], 1, 0.1);
+  ambulo__plan *plan = plan_of(links, 3);
+  assert_true(plan->joints[0].turned);
+  assert_false(plan->joints[1].turned);
+  assert_close(plan->joints[0].shift, 0.2, 0);
+  ambulo__plan_free(plan);
+}
+
+static void bodies_fixed_to_the_world_are_a_constant(void **state) {
+  (void)state;
+  ambulo_link links[] = {named_link("post", -1, AMBULO_FIXED, 0, 0, 0.5, 0),
+                         named_link("arm", 0, AMBULO_REVOLUTE, 0, 0, 0, 0)};
+  give_body(&links[0], 2, 0);
+  give_body(&links[1], 1, 0.1);
+  ambulo__plan *plan = plan_of(links, 2);
+  assert_int_equal(plan->bodies, 1);
+  assert_close(plan->fixed_load[4], 2 * 9.81, 1e-15);
+  assert_close(plan->fixed_load[2], 0.5 * 2 * 9.81, 1e-15);
+  ambulo__plan_free(plan);
+}
+
+/* The factors give the inertia back, for any inertia. */
+static void inertia_factors_multiply_out(void **state) {
+  (void)state;
+  random_source source = {4};
+  for (int number = 0; number < 500; number++) {
+    ambulo_link links[1] = {named_link("only", -1, AMBULO_REVOLUTE, 0, 0, 0, 0)};
+    random_body(&source, &links[0]);
+    if (number % 5 == 0) links[0].inertia[0] = links[0].inertia[1] = links[0].inertia[2];
+    if (number % 5 == 0) links[0].inertia[3] = links[0].inertia[4] = links[0].inertia[5] = 0;
+    ambulo__plan *plan = plan_of(links, 1);
+    const ambulo__body *body = &plan->body[0];
+    const double *in = links[0].inertia, *l = body->lower;
+    const double want[3][3] = {{in[0], in[3], in[4]}, {in[3], in[1], in[5]}, {in[4], in[5], in[2]}};
+    const double u[3] = {1, l[0], l[1]}, w[3] = {0, 1, l[2]};
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) {
+        double got = (i == j) * body->base + body->first * u[i] * u[j] + body->second * w[i] * w[j];
+        assert_close(got / in[0], want[body->order[i]][body->order[j]] / in[0], 1e-13);
+      }
+    }
+    ambulo__plan_free(plan);
+  }
+}
+
+/* Rows ascend, tau's own column is in its row, and the pattern is symmetric in tau. */
+static void pattern_is_well_formed(void **state) {
+  (void)state;
+  static kernel_case c;
+  for (int number = 0; number < 60; number++) {
+    case_open(&c, number);
+    ambulo__plan_pattern p = ambulo__plan_get_pattern(c.plan);
+    static char dense[max_rows][max_d];
+    memset(dense, 0, sizeof dense);
+    assert_int_equal(p.start[0], 0);
+    assert_int_equal(p.start[c.rows], p.count);
+    assert_int_equal(p.start[c.d + 6], p.dynamic_count);
+    for (int row = 0; row < c.rows; row++) {
+      for (int e = p.start[row]; e < p.start[row + 1]; e++) {
+        assert_in_range(p.column[e], 0, c.d - 1);
+        assert_true(e == p.start[row] || p.column[e] > p.column[e - 1]);
+        dense[row][p.column[e]] = 1;
+      }
+    }
+    for (int i = 0; i < c.d; i++) {
+      assert_true(dense[i][i]);
+      for (int j = 0; j < c.d; j++) assert_int_equal(dense[i][j], dense[j][i]);
+    }
+    case_close(&c);
+  }
+}
+
+static void failed_allocations_unwind(void **state) {
+  (void)state;
+  static kernel_case c;
+  case_open(&c, 12);
+  for (long k = 0;; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo__plan *plan = NULL;
+    ambulo_status status = ambulo__plan_create(c.model, &allocator, &plan);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    ambulo__plan_free(plan);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+    assert_true(k < 100);
+  }
+  case_close(&c);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_hip_shares_its_origin_and_load),
+                                     cmocka_unit_test(an_oblique_axis_is_turned),
+                                     cmocka_unit_test(bodies_fixed_to_the_world_are_a_constant),
+                                     cmocka_unit_test(inertia_factors_multiply_out),
+                                     cmocka_unit_test(pattern_is_well_formed),
+                                     cmocka_unit_test(failed_allocations_unwind)};
+  return cmocka_run_group_tests_name("mechanics/plan", tests, NULL, NULL);
+}
