@@ -90,7 +90,8 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench sanitize valgrind coverage \
-  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-leftovers format \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-headers \
+  lint-equations lint-leftovers format \
   install uninstall clean force
 
 # A second make with as many jobs as there are processors, unless -j was given. It also reads
@@ -190,7 +191,8 @@ tests: $(TESTS)
 # every program that was built runs, whatever became of the others; a failed build is a failure
 run-tests:
 	+@status=0; $(MAKE) --no-print-directory -k all tests || status=$$?; \
-	  BUILD_STATUS=$$status JOBS=$(JOBS) OUT=$(OUT) tests/support/run_tests.sh $(TESTS)
+	  BUILD_STATUS=$$status JOBS=$(JOBS) OUT=$(OUT) CC='$(CC)' CFLAGS='$(CFLAGS)' \
+	  CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' MODE='$(MODE)' tests/support/run_tests.sh $(TESTS)
 
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests
@@ -212,7 +214,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols mirror leftovers
+LINT := format static order size symbols mirror headers equations leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch])
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
@@ -237,6 +239,10 @@ lint-symbols: build/.ready-build
 	@.setup/lint_symbols.sh $(OUT)/libambulo.so $(OUT)/libambulo.a
 lint-mirror:
 	@.setup/lint_mirror.sh
+lint-headers:
+	@CC='$(CC)' .setup/lint_headers.sh
+lint-equations:
+	@.setup/lint_equations.sh
 lint-leftovers:
 	@! grep -nE '\b(TODO|FIXME|XXX)\b' -r src include tests models bench docs README* CHANGELOG*
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Each public header compiles alone, as C11 and as C++17, without a warning.
 set -u
-cc=${CC:-cc} cxx=${CXX:-c++} bad=0
+cc=${CC:-cc} bad=0
+case $cc in *clang*) cxx=${cc/clang/clang++} ;; *gcc*) cxx=${cc/gcc/g++} ;; *) cxx=c++ ;; esac
 warnings='-Wall -Wextra -Wpedantic -Wshadow -Werror'
 for header in include/ambulo/*.h; do
   name=ambulo/${header##*/}

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs test programs (arguments) and tests/cli/run.sh, JOBS at a time, and sums up.
+# Runs test programs (arguments) and the scripts tests/*/run.sh, JOBS at a time, and sums up.
 # The last line is "N passed, N failed"; the exit status is 0 only when nothing failed.
 # Environment: OUT (build folder), JOBS, BUILD_STATUS (non-zero: something did not build),
 # TEST_WRAPPER (a command put before each program), TEST_TIMEOUT in seconds.
@@ -32,7 +32,7 @@ run_one() {
 export -f run_one
 
 programs=("$@")
-[ -x tests/cli/run.sh ] && [ -x "$out/ambulo" ] && programs+=(tests/cli/run.sh)
+[ -x "$out/ambulo" ] && programs+=(tests/*/run.sh)
 present=() missing=()
 for program in "${programs[@]}"; do
   if [ -x "$program" ]; then present+=("$program"); else missing+=("$program"); fi
