@@ -86,6 +86,19 @@ check 'C program runs, static' run_example "$work/static"
 check 'use from C++' build_cpp
 check 'C++ program runs' "$work/cpp"
 
+# the programs of the guide
+# shellcheck disable=SC2016
+awk -v dir="$work" '/^```c$/ { file = dir "/guide" ++n ".c"; next } /^```$/ { file = "" }
+  file { print > file }' docs/guide-c-api.md
+# shellcheck disable=SC2046,SC2086,SC2317
+guide_program() {
+  $cc -std=c11 -Wall -Wextra -Werror $mode "$1" -o "${1%.c}" $(package --cflags --libs) && "${1%.c}"
+}
+check 'the guide has programs' test -s "$work/guide3.c"
+for program in "$work"/guide*.c; do
+  check "docs/guide-c-api.md: ${program##*/}" guide_program "$program"
+done
+
 mkdir "$work/shell"
 ln -s "$PWD/models" "$work/shell/models"
 while IFS= read -r line; do
