@@ -53,11 +53,12 @@ int main(void) {
   printf("%6s %8s %8s %12s %12s %12s %14s\n", "N", "unknowns", "rows", "values us", "gradient us",
          "jacobian us", "all us / node");
   for (size_t i = 0; i < sizeof grids / sizeof *grids; i++) {
-    char set[64];
-    (void)snprintf(set, sizeof set, "time.intervals=%d", grids[i]);
-    const char *overrides[] = {set};
+    char time[64], spline[64];
+    (void)snprintf(time, sizeof time, "time.intervals=%d", grids[i]);
+    (void)snprintf(spline, sizeof spline, "trajectory.intervals=%d", grids[i]);
+    const char *overrides[] = {time, spline};
     ambulo_problem *problem = NULL;
-    if (ambulo_problem_load(AMBULO_SOURCE_DIR "/models/yardstick_12.yaml", overrides, 1, NULL, NULL,
+    if (ambulo_problem_load(AMBULO_SOURCE_DIR "/models/yardstick_12.yaml", overrides, 2, NULL, NULL,
                             &problem)) {
       printf("N = %d could not be built\n", grids[i]);
       return 1;

@@ -78,18 +78,26 @@ static double user_term_value(ambulo_workspace *workspace, const ambulo_term *te
   return sum;
 }
 
-static double residual_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
+/* one coordinate of a term, block by block; the padding has weight zero */
+static double residual_sum(const ambulo_workspace *workspace, const ambulo_term *term, int i) {
   const ambulo_problem *p = workspace->problem;
-  double sum = 0.0;
-  for (int i = 0; i < p->coordinates; i++) {
-    double scale = ambulo__term_scale(term, i);
-    if (scale == 0.0) continue;
-    int channel = ambulo__term_channel(term, &p->channels, i);
-    for (int k = 0; k < p->nodes; k++) {
-      double offset = ambulo__term_offset(term, p->coordinates, k, i);
-      double u = scale * (channel_at(workspace, k, channel) - offset);
-      sum += p->quadrature[k] * ambulo__term_residual(term, u).value;
+  double scale = ambulo__term_scale(term, i), sum = 0.0;
+  int channel = ambulo__term_channel(term, &p->channels, i);
+  for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
+    const double *y = workspace->channel + ambulo__lane_index(k, workspace->channel_count, channel);
+    for (int lane = 0; lane < AMBULO__LANES && k + lane < p->nodes; lane++) {
+      double offset = ambulo__term_offset(term, p->coordinates, k + lane, i);
+      double u = scale * (y[lane] - offset);
+      sum += p->quadrature[k + lane] * ambulo__term_residual(term, u).value;
     }
+  }
+  return sum;
+}
+
+static double residual_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
+  double sum = 0.0;
+  for (int i = 0; i < workspace->problem->coordinates; i++) {
+    if (ambulo__term_scale(term, i) != 0.0) sum += residual_sum(workspace, term, i);
   }
   return sum;
 }
@@ -121,12 +129,13 @@ static double user_row_value(ambulo_workspace *workspace, int row) {
 }
 
 static double linear_row_value(const ambulo_workspace *workspace, const ambulo__table_row *row) {
-  const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  const size_t *at = p->term_at + row->first_term;
   double value = row->constant;
   for (int t = 0; t < row->term_count; t++) {
-    double y = term[t].node < 0 ? workspace->x[term[t].channel]
-                                : channel_at(workspace, term[t].node, term[t].channel);
-    value += term[t].coefficient * y;
+    const double *y = term[t].node < 0 ? workspace->x : workspace->channel;
+    value += term[t].coefficient * y[at[t]];
   }
   return value;
 }

@@ -77,13 +77,10 @@ static void add_rows(ambulo_workspace *workspace, const double *row_weights, dou
       continue;
     }
     const ambulo__row_term *term = p->table.terms + row->first_term;
+    const size_t *at = p->term_at + row->first_term;
     for (int t = 0; t < row->term_count; t++) {
-      double value = lambda * term[t].coefficient;
-      if (term[t].node < 0) {
-        gradient[term[t].channel] += value;
-      } else {
-        *weight_at(workspace, term[t].node, term[t].channel) += value;
-      }
+      double *adjoint = term[t].node < 0 ? gradient : workspace->weight;
+      adjoint[at[t]] += lambda * term[t].coefficient;
     }
   }
 }
