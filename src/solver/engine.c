@@ -40,6 +40,7 @@ static void create_vectors(ambulo__engine *e) {
   e->dual = ambulo__pool_doubles(pool, q);
   e->balanced = ambulo__pool_doubles(pool, q);
   e->b = ambulo__pool_doubles(pool, (size_t)e->borders);
+  e->border_multiplier = ambulo__pool_doubles(pool, (size_t)e->borders);
   e->row_weight = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
   e->cap = ambulo__pool_doubles(pool, (size_t)e->problem->coordinates);
 }

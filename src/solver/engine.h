@@ -45,6 +45,7 @@ typedef struct ambulo__engine {
   double *center;              /* [n] */
   double *lambda;              /* [inequalities] */
   double *equality_multiplier; /* [equalities]: G + J' l + C' m = 0 at a solution */
+  double *border_multiplier;   /* [borders]: m, after a model step */
   double *h, *b, *dual, *balanced;      /* [equalities], [borders], [equalities] twice */
   double *row_weight;          /* [rows of the problem] */
   int *active, *active_next;   /* [inequalities] */
@@ -87,6 +88,11 @@ void ambulo__reduced_gradient(ambulo__engine *engine, const double *p, double *z
 /* model_step.c: minimizes the piecewise quadratic model at the centre, sets whitener and
  * kkt; step in engine->total. Returns 0, or 1 when a factorization failed. */
 int ambulo__model_step(ambulo__engine *engine, double *predicted);
+/* model_step.c: its inner part: minimizes phi for the base, gradient, linear (excesses at
+ * d = 0), lambda and rho that the engine holds; step in engine->total, forces of the rows in
+ * engine->held.multiplier. Returns 1 when settled with the factor of the final active set,
+ * 2 when done otherwise, -1 when a factorization failed. *phi: decrease (<= 0). */
+int ambulo__model_minimize(ambulo__engine *engine, double *phi);
 
 /* augmented.c: augmented Lagrangian at retract(center + L^-T w); the result in
  * engine->held (and engine->best). gradient [n] may be NULL. A failed retraction gives a
@@ -98,9 +104,10 @@ typedef enum ambulo__inner_kind { AMBULO__INNER_AUGLAG, AMBULO__INNER_LBFGS } am
 int ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,
                            int evaluations);
 
-/* pipeline.c: the whole method from x (in and out); multipliers of all rows of the problem
- * in `multiplier` [rows] (of the unscaled objective, sign as in result.h). */
-ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, int warm,
+/* pipeline.c: the whole method from x (in and out). The last multipliers stay in
+ * engine->lambda and engine->equality_multiplier. `loose`: a coarse grid whose solution
+ * only starts the next one. */
+ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, int warm, int loose,
                                double *x);
 
 #endif

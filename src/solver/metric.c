@@ -14,7 +14,7 @@
 
 static const double acceleration_weight = 1e-3;
 /* mean curvature of an objective along qdd, per second, for which mu and rho were tuned */
-static const double reference_curvature = 1.0;
+static const double reference_curvature = 0.5;
 
 int ambulo__metric_diagonals(const ambulo_problem *p) {
   int widest = 1;

@@ -82,7 +82,8 @@ static int newton(ambulo__engine *e, double start, double *phi) {
   assemble(e);
   if (ambulo__kkt_factor(&e->kkt, &e->whitener)) return -1;
   slope(e);
-  ambulo__kkt_solve(&e->kkt, e->previous, NULL, NULL, e->step, e->equality_multiplier, NULL);
+  ambulo__kkt_solve(&e->kkt, e->previous, NULL, NULL, e->step, e->equality_multiplier,
+                    e->border_multiplier);
   ambulo__band_multiply(&e->base, e->step, e->curved);
   ambulo__sparse_rows_multiply(&e->rows.inequality, e->step, e->along);
   double decrease = dot(e->previous, e->step, e->n), t = 1.0, value = *phi;
@@ -111,8 +112,20 @@ static int finish(ambulo__engine *e, int settled) {
   return ambulo__band_factor(&e->whitener);
 }
 
-int ambulo__model_step(ambulo__engine *e, double *predicted) {
+int ambulo__model_minimize(ambulo__engine *e, double *phi) {
   int settled = 0;
+  memset(e->total, 0, (size_t)e->n * sizeof *e->total);
+  memset(e->curved_total, 0, (size_t)e->n * sizeof *e->curved_total);
+  mark_active(e, e->active_next);
+  memcpy(e->active, e->active_next, (size_t)e->inequalities * sizeof *e->active);
+  memset(e->along, 0, (size_t)e->inequalities * sizeof *e->along);
+  double start = penalty(e, 0.0), value = start;
+  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) settled = newton(e, start, &value);
+  *phi = value - start;
+  return settled == 0 ? 2 : settled;
+}
+
+int ambulo__model_step(ambulo__engine *e, double *predicted) {
   if (ambulo__evaluate_jacobian(e->workspace, e->center)) return 1;
   ambulo__engine_gradient(e, NULL, NULL, e->gradient);
   double begin = ambulo__seconds_now();
@@ -121,15 +134,8 @@ int ambulo__model_step(ambulo__engine *e, double *predicted) {
   ambulo__engine_excess(e, e->linear);
   ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
   ambulo__band_add_diagonal(&e->base, e->mu);
-  memset(e->total, 0, (size_t)e->n * sizeof *e->total);
-  memset(e->curved_total, 0, (size_t)e->n * sizeof *e->curved_total);
-  mark_active(e, e->active_next);
-  memcpy(e->active, e->active_next, (size_t)e->inequalities * sizeof *e->active);
-  memset(e->along, 0, (size_t)e->inequalities * sizeof *e->along);
-  double start = penalty(e, 0.0), phi = start;
-  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) settled = newton(e, start, &phi);
+  int settled = ambulo__model_minimize(e, predicted);
   int failed = settled < 0 || finish(e, settled == 1);
-  *predicted = phi - start;
   e->run->seconds_linear += ambulo__seconds_now() - begin;
   return failed;
 }

@@ -24,10 +24,11 @@ static const double step_cap = 0.5;                 /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5;            /* relative */
 static const double gradient_small = 1e-4;
+static const double loose_violation = 1e-3, loose_change = 1e-3;   /* on coarse grids */
 
 typedef struct progress {
   double objective, measure, least_violation;
-  int settled, since_better;
+  int settled, since_better, loose;
 } progress;
 
 /* largest |max(v, -lambda / rho)|: infeasibility and complementarity in one */
@@ -77,8 +78,10 @@ static void update_multipliers(ambulo__engine *e, progress *p) {
 static int finished(const ambulo__engine *e, progress *p) {
   const ambulo__trial *best = &e->best;
   double change = fabs(best->objective - p->objective);
-  int feasible = best->violation <= e->run->options->feasibility_tolerance;
-  int steady = change <= value_change * fabs(best->objective) || best->objective == 0.0;
+  double tolerance = p->loose ? loose_violation : e->run->options->feasibility_tolerance;
+  double relative = p->loose ? loose_change : value_change;
+  int feasible = best->violation <= tolerance;
+  int steady = change <= relative * fabs(best->objective) || best->objective == 0.0;
   p->settled = feasible && steady ? p->settled + 1 : 0;
   p->objective = best->objective;
   p->since_better++;
@@ -88,7 +91,7 @@ static int finished(const ambulo__engine *e, progress *p) {
   }
   if (!feasible && e->rho >= rho_largest && p->since_better > STALL) return 1;
   int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
-  return (p->settled >= 1 && small) || p->settled >= 3;
+  return (p->settled >= 1 && (small || p->loose)) || p->settled >= 3;
 }
 
 /* one refresh; 1 when there is nothing more to do */
@@ -108,10 +111,11 @@ static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, doub
   return finished(e, p) || stop;
 }
 
-ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int warm, double *x) {
+ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int warm, int loose,
+                               double *x) {
   const ambulo_problem *p = e->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
-  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0};
+  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose};
   double error;
   e->mu = (warm ? mu_warm : mu_cold) * interval;
   e->rho = rho_start;

@@ -207,6 +207,30 @@ static void report(const ambulo_problem *p, const int *rank, ambulo_diagnostics 
                dropped, row->family, row->subject, row->detail, row->time);
 }
 
+ambulo_status ambulo__rank_sort(const ambulo__sparse_rows *rows, const double *value,
+                                ambulo__pool *pool, int *rank) {
+  int width = widest_group(rows), capacity = width < rows->count ? width : rows->count;
+  group g = {.rows = rows, .value = value};
+  g.member = ambulo__pool_ints(pool, (size_t)rows->count);
+  g.position = ambulo__pool_ints(pool, (size_t)rows->problem->variables);
+  g.vector = ambulo__pool_doubles(pool, (size_t)capacity * (size_t)width);
+  g.level = ambulo__pool_doubles(pool, (size_t)capacity);
+  g.candidate = ambulo__pool_doubles(pool, (size_t)width);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < rows->count; i++) rank[rows->row[i]] = AMBULO__ROW_INDEPENDENT;
+  sort_all(&g, rank);
+  return AMBULO_OK;
+}
+
+/* gradients and values of the rows at x; 0 when they are finite */
+static int take(ambulo__sparse_rows *s, ambulo_workspace *workspace, const double *x,
+                double *value) {
+  if (ambulo__evaluate_jacobian(workspace, x)) return 1;
+  ambulo__sparse_rows_fill(s, workspace, 1);
+  ambulo__sparse_rows_values(s, workspace, value);
+  return 0;
+}
+
 ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *workspace,
                                     const double *start, ambulo__pool *pool,
                                     ambulo_diagnostics *diagnostics, int *rank) {
@@ -225,24 +249,10 @@ ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *w
   double *x0 = x + p->variables;
   generic_point(p, start, x0);
   memcpy(x, x0, (size_t)p->variables * sizeof *x);
-  status = ambulo__evaluate_jacobian(workspace, x0);
-  if (status) return AMBULO_OK; /* no finite generic point: keep every row */
-  ambulo__sparse_rows_fill(&s, workspace, 1);
-  ambulo__sparse_rows_values(&s, workspace, value);
+  if (take(&s, workspace, x0, value)) return AMBULO_OK; /* no finite point: keep every row */
   satisfy_border(&s, value, x0, x);
-  status = ambulo__evaluate_jacobian(workspace, x);
-  if (status) return AMBULO_OK;
-  ambulo__sparse_rows_fill(&s, workspace, 1);
-  ambulo__sparse_rows_values(&s, workspace, value);
-  group g = {.rows = &s, .value = value};
-  g.member = ambulo__pool_ints(pool, (size_t)count);
-  g.position = ambulo__pool_ints(pool, (size_t)p->variables);
-  int width = widest_group(&s), capacity = width < count ? width : count;
-  g.vector = ambulo__pool_doubles(pool, (size_t)capacity * (size_t)width);
-  g.level = ambulo__pool_doubles(pool, (size_t)capacity);
-  g.candidate = ambulo__pool_doubles(pool, (size_t)width);
-  if (pool->failed) return AMBULO_E_MEMORY;
-  sort_all(&g, rank);
-  report(p, rank, diagnostics);
-  return AMBULO_OK;
+  if (take(&s, workspace, x, value)) return AMBULO_OK;
+  status = ambulo__rank_sort(&s, value, pool, rank);
+  if (!status) report(p, rank, diagnostics);
+  return status;
 }

@@ -3,7 +3,7 @@
 #define AMBULO_SOLVER_PRESOLVE_RANK_H
 
 #include "nlp/nlp.h"
-#include "solver/pool.h"
+#include "solver/sparse_rows.h"
 
 typedef enum ambulo__row_rank {
   AMBULO__ROW_INDEPENDENT,
@@ -17,5 +17,10 @@ typedef enum ambulo__row_rank {
 ambulo_status ambulo__presolve_rank(const ambulo_problem *problem, ambulo_workspace *workspace,
                                     const double *start, ambulo__pool *pool,
                                     ambulo_diagnostics *diagnostics, int *rank);
+
+/* The same for any set of rows whose gradients are filled, with their values. rank is
+ * indexed by row number of the problem; only rows of the set are touched. */
+ambulo_status ambulo__rank_sort(const ambulo__sparse_rows *rows, const double *value,
+                                ambulo__pool *pool, int *rank);
 
 #endif
