@@ -135,6 +135,7 @@ static void whole_numbers(void **state) {
       print_error("'%s' was read as %lld\n", bad[i], value);
     assert_int_equal(value, 7);
   }
+  assert_false(ambulo__parse_integer("9999999999999999999", 19, INT64_MIN, INT64_MAX, &value));
   assert_true(ambulo__parse_integer("-12", 3, -12, 100, &value));
   assert_int_equal(value, -12);
   assert_true(ambulo__parse_integer("+100", 4, 0, 100, &value));

@@ -119,6 +119,20 @@ static void words(void **state) {
   }
 }
 
+static void names_have_at_most_64_letters(void **state) {
+  (void)state;
+  char text[80];
+  for (int length = 63; length <= 66; length++) {
+    memcpy(text, "v: ", 3);
+    memset(text + 3, 'a', (size_t)length);
+    text[3 + length] = '\0';
+    yaml_case c = yaml_open(text);
+    assert_int_equal(ambulo__yaml_name(ambulo__yaml_get(c.root, "v")) != NULL, length <= 64);
+    expect_messages(&c, length <= 64 ? 0 : 1);
+    yaml_shut(&c);
+  }
+}
+
 static void lists(void **state) {
   (void)state;
   expect_value_error("[1, 2, 3]", 's', "got a sequence of 3; expected a sequence of 2 numbers");
@@ -260,6 +274,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(numbers),
                                      cmocka_unit_test(whole_numbers),
                                      cmocka_unit_test(words),
+                                     cmocka_unit_test(names_have_at_most_64_letters),
                                      cmocka_unit_test(lists),
                                      cmocka_unit_test(good_values),
                                      cmocka_unit_test(absent_values_are_fallbacks),

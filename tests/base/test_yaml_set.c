@@ -38,6 +38,9 @@ static void values_are_replaced_and_added(void **state) {
   assert_string_equal(ambulo__yaml_text(at(solver, "presolve")), "on");
   assert_int_equal(ambulo__yaml_count(solver), 2);
   assert_string_equal(ambulo__yaml_place(at(solver, "presolve")).path, "solver.presolve");
+  assert_int_equal(ambulo__yaml_set(c.document, "matrix[1]", "[0, 0]"), AMBULO_OK);
+  assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(at(c.root, "matrix"), 1)).path,
+                      "matrix[1]");
   expect_messages(&c, 0);
   yaml_shut(&c);
 }
