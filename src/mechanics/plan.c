@@ -51,10 +51,12 @@ static void place_fixed(ambulo__placing *placing, const ambulo_link *link) {
   rotate_columns(placing->rotation, 1, 2, link->alpha);
 }
 
-/* The frame axis c with z = +-e_c, or -1. */
+/* The frame axis c with z = +-e_c, or -1. An angle of 1.5707963 is not a right one: its sine is 1
+ * in double precision, its cosine is 2.7e-8. */
 static int aligned_axis(const double rotation[3][3]) {
   for (int i = 0; i < 3; i++) {
-    if (fabs(rotation[i][2]) == 1) return i;
+    int others_vanish = rotation[(i + 1) % 3][2] == 0 && rotation[(i + 2) % 3][2] == 0;
+    if (fabs(rotation[i][2]) == 1 && others_vanish) return i;
   }
   return -1;
 }
@@ -216,9 +218,10 @@ ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_alloca
   size_t frames = (size_t)plan->coordinates + 1;
   plan->frames = ambulo__alloc(&memory, frames, sizeof *plan->frames);
   plan->joints = ambulo__alloc(&memory, frames, sizeof *plan->joints);
+  plan->order = ambulo__alloc(&memory, frames, sizeof *plan->order);
   plan->body = ambulo__alloc(&memory, frames, sizeof *plan->body);
   plan->point = ambulo__alloc(&memory, (size_t)plan->points, sizeof *plan->point);
-  if (!plan->frames || !plan->joints || !plan->body || !plan->point) goto failed;
+  if (!plan->frames || !plan->joints || !plan->order || !plan->body || !plan->point) goto failed;
   status = compile(plan, model);
   if (status != AMBULO_OK) goto failed;
   *out = plan;
@@ -233,6 +236,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo_allocator memory = plan->allocator;
   ambulo__free(&memory, plan->frames);
   ambulo__free(&memory, plan->joints);
+  ambulo__free(&memory, plan->order);
   ambulo__free(&memory, plan->body);
   ambulo__free(&memory, plan->point);
   ambulo__free(&memory, plan->start);
