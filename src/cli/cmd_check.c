@@ -74,9 +74,10 @@ static ambulo_status check_problem(const char *file, ambulo_diagnostics *diagnos
   ambulo_problem *problem = NULL;
   ambulo_status status = ambulo_problem_load(file, NULL, 0, NULL, diagnostics, &problem);
   if (status) return status;
-  printf("%s: problem '%s', %d unknowns, %d rows; schedule and footholds within reach\n", file,
+  printf("%s: problem '%s', %d unknowns, %d rows%s\n", file,
          ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "",
-         ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem));
+         ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem),
+         ambulo_problem_contact_count(problem) ? "; every foothold is within reach" : "");
   status = check_gradients(problem, wrong);
   if (!status) status = check_rank(problem, diagnostics);
   ambulo_problem_free(problem);

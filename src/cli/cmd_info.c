@@ -108,26 +108,28 @@ static void print_schedule(const ambulo_problem *problem) {
   }
 }
 
-/* rows of one family stand together: a new line whenever the family changes */
+enum { MOST_KINDS = 64 };
+
+/* one line for the rows that agree in family, relation and unit */
 static void print_families(const ambulo_problem *problem) {
-  int rows = ambulo_problem_row_count(problem), count = 0;
-  ambulo_row first = {.family = NULL}, row;
+  ambulo_row kinds[MOST_KINDS], row;
+  int counts[MOST_KINDS] = {0}, kind_count = 0;
   printf("\nrows\n");
-  for (int r = 0; r <= rows; r++) {
-    int valid = r < rows && ambulo_problem_row(problem, r, &row) == AMBULO_OK;
-    if (valid && first.family && !strcmp(row.family, first.family) &&
-        row.relation == first.relation) {
-      count++;
-      continue;
-    }
-    if (first.family)
-      printf("  %-22s %6d  %-4s %s\n", first.family, count,
-             first.relation == AMBULO_EQUAL ? "= 0" : ">= 0", first.unit);
-    if (!valid) break;
-    first = row;
-    count = 1;
+  for (int r = 0; r < ambulo_problem_row_count(problem); r++) {
+    if (ambulo_problem_row(problem, r, &row)) continue;
+    int k = 0;
+    while (k < kind_count && (strcmp(kinds[k].family, row.family) != 0 ||
+                              strcmp(kinds[k].unit, row.unit) != 0 ||
+                              kinds[k].relation != row.relation))
+      k++;
+    if (k == MOST_KINDS) continue;
+    if (k == kind_count) kinds[kind_count++] = row;
+    counts[k]++;
   }
-  if (rows == 0) printf("  none\n");
+  for (int k = 0; k < kind_count; k++)
+    printf("  %-22s %6d  %-4s %s\n", kinds[k].family, counts[k],
+           kinds[k].relation == AMBULO_EQUAL ? "= 0" : ">= 0", kinds[k].unit);
+  if (kind_count == 0) printf("  none\n");
 }
 
 static void print_problem(const ambulo_problem *problem) {

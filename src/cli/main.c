@@ -73,7 +73,8 @@ static int dispatch(int argc, char **argv) {
 int main(int argc, char **argv) {
   ambulo__cli_guard_streams();
   single_threaded_blas(argv);
-  /* a reader that closes the pipe shows up as a failed write, exit code 4 */
+  /* a closed pipe and a file size limit show up as failed writes, exit code 4 */
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
   return ambulo__cli_finish(dispatch(argc, argv));
 }

@@ -91,8 +91,12 @@ static void find_extent(strip *s, const ambulo__stride *stride) {
 /* as many figures as stand apart, as large as fits */
 static void choose_scale(strip *s) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
+  const double side_room = 108.0;
   const double overlap = 0.56; /* part of a figure's width that its neighbour leaves it */
   s->scale = (s->panel->height - 14.0) / height;
+  /* the first and the last figure stay on the page */
+  if (s->right * s->scale > side_room) s->scale = side_room / s->right;
+  if (-s->left * s->scale > side_room) s->scale = side_room / -s->left;
   double spacing = overlap * width * s->scale;
   s->figures = (int)(s->panel->width / spacing) + 1;
   if (s->figures > MOST_FIGURES) s->figures = MOST_FIGURES;

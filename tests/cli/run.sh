@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# Tests of the program as a user meets it: each case of tests/cli/*.txt is a command with what
+# it must print, write and return. AMBULO is the program (build/ambulo).
+#
+# A case is a block of lines "key: value"; blank lines separate blocks, '#' begins a comment.
+#   name     what is tested
+#   setup    shell commands before it (not judged)
+#   run      the command; $AMBULO the program, $MODELS the shipped models
+#   exit     expected exit code (0 if left out)
+#   out err  a text that stdout / stderr contains (may be repeated)
+#   not      a text that neither contains
+#   silent   out or err: that stream stays empty
+#   there    a path that exists afterwards (may be repeated)
+#   writes   a shell pattern for entries that may appear; without it the folder stays as it was
+#   cpu      seconds of processor time that must not be exceeded
+# Each case runs in an empty folder of its own.
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+AMBULO=${AMBULO:-build/ambulo}
+AMBULO=$(cd "$(dirname "$AMBULO")" && pwd)/$(basename "$AMBULO")
+MODELS=$(cd "$here/../../models" && pwd)
+export AMBULO MODELS LC_ALL=C
+export OPENBLAS_NUM_THREADS=1
+[ -x "$AMBULO" ] || { echo "no program at $AMBULO"; echo "0 passed, 1 failed"; exit 1; }
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-cli-XXXXXX")
+trap 'chmod -R u+rwx "$scratch" 2>/dev/null; rm -rf "$scratch"' EXIT
+passed=0 failed=0
+filter=${1:-}
+shopt -s extglob
+
+reset() {
+  name='' setup='' run='' code=0 silent='' writes='' cpu=''
+  out=() err=() not=() there=()
+}
+
+fault() {
+  [ "$bad" = 0 ] && printf 'FAILED   %s: %s\n         %s\n' "$file" "$name" "$run"
+  bad=1
+  printf '         %s\n' "$1"
+}
+
+contains() { grep -qF -e "$2" "$1"; }
+
+judge() {
+  local text status=$1 entry
+  [ "$status" = "$code" ] || fault "exit code $status, expected $code"
+  for text in "${out[@]}"; do contains "$box.out" "$text" || fault "stdout lacks: $text"; done
+  for text in "${err[@]}"; do contains "$box.err" "$text" || fault "stderr lacks: $text"; done
+  for text in "${not[@]}"; do
+    if contains "$box.out" "$text" || contains "$box.err" "$text"; then fault "printed: $text"; fi
+  done
+  case $silent in *out*) [ ! -s "$box.out" ] || fault 'stdout is not empty' ;; esac
+  case $silent in *err*) [ ! -s "$box.err" ] || fault 'stderr is not empty' ;; esac
+  for entry in "${there[@]}"; do [ -e "$box/$entry" ] || fault "not written: $entry"; done
+  while read -r entry; do
+    # shellcheck disable=SC2254
+    case ${entry#./} in $writes) ;; *) fault "left behind: $entry" ;; esac
+  done < <(comm -13 "$box.before" <(cd "$box" && find . -mindepth 1 -maxdepth 1 | sort))
+  if [ -n "$cpu" ]; then
+    local used
+    used=$(awk '{ s += $1 + $2 } END { print s }' "$box.time")
+    awk -v u="$used" -v l="$cpu" 'BEGIN { exit !(u > l) }' && fault "took $used s, expected $cpu s"
+  fi
+  [ "$bad" = 0 ] || { head -n 5 "$box.out" "$box.err" | sed 's/^/         | /'; }
+}
+
+finish() {
+  [ -n "$run" ] || { reset; return; }
+  case "$file $name" in *"$filter"*) ;; *) reset; return ;; esac
+  box=$scratch/box
+  bad=0
+  chmod -R u+rwx "$box" 2>/dev/null
+  rm -rf "$box"* && mkdir "$box"
+  [ -z "$setup" ] || (cd "$box" && eval "$setup") >/dev/null 2>&1
+  (cd "$box" && find . -mindepth 1 -maxdepth 1 | sort) >"$box.before"
+  local status=0 TIMEFORMAT='%U %S'
+  # shellcheck disable=SC2016
+  { time bash -c 'exec >"$1.out" 2>"$1.err" </dev/null; cd "$1" && eval "$2"' case "$box" "$run"; } \
+    2>"$box.time" || status=$?
+  judge "$status"
+  if [ "$bad" = 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+  reset
+}
+
+for path in "$here"/*.txt; do
+  file=$(basename "$path")
+  reset
+  while IFS= read -r line || [ -n "$line" ]; do
+    key=${line%%:*} value=${line#*: }
+    case $line in
+      '') finish ;;
+      '#'*) ;;
+      name:* | setup:* | run:* | silent:* | writes:* | cpu:*) printf -v "$key" '%s' "$value" ;;
+      exit:*) code=$value ;;
+      out:*) out+=("$value") ;;
+      err:*) err+=("$value") ;;
+      not:*) not+=("$value") ;;
+      there:*) there+=("$value") ;;
+      *) echo "$file: not understood: $line"; failed=$((failed + 1)) ;;
+    esac
+  done <"$path"
+  finish
+done
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
