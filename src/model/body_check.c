@@ -51,6 +51,14 @@ void ambulo__principal_moments(const double in[6], double moments[3]) {
   order(&moments[0], &moments[1]);
 }
 
+/* a computed number as text, six digits */
+static ambulo__number rounded(double value) {
+  if (value == 0 || !isfinite(value)) return ambulo__number_text(value);
+  double shift = pow(10, 5 - floor(log10(fabs(value))));
+  double digits = round(value * shift);
+  return ambulo__number_text(shift >= 1 && isfinite(shift) ? digits / shift : value);
+}
+
 static ambulo_status check_inertia(const char *what, const double inertia[6], ambulo__place place,
                                    ambulo_diagnostics *diagnostics) {
   double m[3];
@@ -60,15 +68,14 @@ static ambulo_status check_inertia(const char *what, const double inertia[6], am
     return ambulo__error(diagnostics, AMBULO_E_MODEL, place, NULL,
                          "inertia of '%s' is not positive semidefinite (smallest eigenvalue %s "
                          "kg m^2); expected no negative eigenvalue",
-                         what, ambulo__number_text(m[0]).text);
+                         what, rounded(m[0]).text);
   }
   if (m[2] > m[0] + m[1] + slack) {
     return ambulo__error(diagnostics, AMBULO_E_MODEL, place,
                          "no distribution of mass has such an inertia",
                          "inertia of '%s' breaks the triangle inequality (principal moments %s, "
                          "%s, %s kg m^2); expected the largest at most the sum of the others",
-                         what, ambulo__number_text(m[0]).text, ambulo__number_text(m[1]).text,
-                         ambulo__number_text(m[2]).text);
+                         what, rounded(m[0]).text, rounded(m[1]).text, rounded(m[2]).text);
   }
   return AMBULO_OK;
 }

@@ -49,10 +49,6 @@ typedef struct ambulo__checker {
 ambulo__place ambulo__place_of_model(const ambulo__checker *c);
 ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link);
 
-/* Names: allowed characters, no two alike. `kind` is "link", "point" ... */
-typedef const char *(*ambulo__name_of)(const ambulo_model_definition *definition, int index);
-void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo__name_of name,
-                         const ambulo__place *places);
 /* Parents exist, no cycles; DH constants; bodies. */
 void ambulo__check_links(ambulo__checker *c);
 /* Ranges ordered, mirror pairs mutual. */

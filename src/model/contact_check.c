@@ -98,8 +98,8 @@ static void check_foot(ambulo__checker *c, int index) {
   const char *name = foot->name ? foot->name : "";
   int good = is_point(d, foot->heel[0]) && is_point(d, foot->toe[0]) &&
              (foot->heel[1] == -1 || is_point(d, foot->heel[1])) &&
-             (foot->toe[1] == -1 || is_point(d, foot->toe[1])) &&
-             is_point(d, foot->heel_center) && is_point(d, foot->toe_center);
+             (foot->toe[1] == -1 || is_point(d, foot->toe[1])) && is_point(d, foot->heel_center) &&
+             is_point(d, foot->toe_center);
   if (!good) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
                               "foot '%s' refers to points that do not exist; expected point "
@@ -119,9 +119,9 @@ static void check_foot(ambulo__checker *c, int index) {
   }
   int mirror = foot->mirror < 0 ? index : foot->mirror;
   if (mirror >= d->foot_count) {
-    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
-                              "mirror image of foot '%s' does not exist (got index %d)", name,
-                              mirror);
+    c->status =
+        ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                      "mirror image of foot '%s' does not exist (got index %d)", name, mirror);
   } else if ((d->feet[mirror].mirror < 0 ? mirror : d->feet[mirror].mirror) != index) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
                               "mirror image of foot '%s' has another mirror image itself; "

@@ -88,9 +88,8 @@ static void check_link(ambulo__checker *c, int i) {
   for (int k = 0; k < 6; k++) has_inertia |= link->inertia[k] != 0;
   if (link->mass == 0 && !has_inertia) return; /* no body */
   ambulo__place place = ambulo__place_of_link(c, i);
-  ambulo_status status =
-      ambulo__check_body(name_of(c, i), link->mass, link->com, link->inertia,
-                         (ambulo__body_places){place, place}, c->diagnostics);
+  ambulo_status status = ambulo__check_body(name_of(c, i), link->mass, link->com, link->inertia,
+                                            (ambulo__body_places){place, place}, c->diagnostics);
   if (status != AMBULO_OK) c->status = status;
 }
 

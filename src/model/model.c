@@ -7,10 +7,8 @@
 enum { DEFINITION_COOKIE = 0x616d626d };
 
 ambulo_model_definition ambulo_model_definition_default(void) {
-  return (ambulo_model_definition){.cookie = DEFINITION_COOKIE,
-                                   .name = "model",
-                                   .gravity = {0, -9.81, 0},
-                                   .forward = {1, 0, 0}};
+  return (ambulo_model_definition){
+      .cookie = DEFINITION_COOKIE, .name = "model", .gravity = {0, -9.81, 0}, .forward = {1, 0, 0}};
 }
 
 ambulo_link ambulo_link_default(void) {
@@ -31,10 +29,10 @@ ambulo_coordinate ambulo_coordinate_default(void) {
 
 /* Numbers before and after sorting. */
 typedef struct numbering {
-  int *order;            /* [links] new -> old */
-  int *place;            /* [links] old -> new; -1: not placed yet */
-  int *old_coordinate;   /* [links] old link -> old coordinate; -1: fixed */
-  int *new_coordinate;   /* [coordinates] old -> new */
+  int *order;          /* [links] new -> old */
+  int *place;          /* [links] old -> new; -1: not placed yet */
+  int *old_coordinate; /* [links] old link -> old coordinate; -1: fixed */
+  int *new_coordinate; /* [coordinates] old -> new */
 } numbering;
 
 static void split(numbering *n, int *block, int links) {

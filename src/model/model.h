@@ -9,19 +9,19 @@
  * before its children (a definition in another order is sorted, names kept). */
 struct ambulo_model {
   ambulo_allocator allocator;
-  char *text;                  /* every name, one after the other, each with its NUL */
+  char *text; /* every name, one after the other, each with its NUL */
   const char *name;
-  double gravity[3];           /* world, m/s^2 */
+  double gravity[3]; /* world, m/s^2 */
   double up[3], forward[3], left[3];
   double mass, stature;
-  ambulo_link *links;          /* [link_count] */
+  ambulo_link *links; /* [link_count] */
   int link_count;
-  ambulo_coordinate *coordinates;  /* [coordinate_count]; ancestors before descendants */
-  int *coordinate_link;        /* [coordinate_count]: the link that carries coordinate i */
+  ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */
+  int *coordinate_link;           /* [coordinate_count]: the link that carries coordinate i */
   int coordinate_count;
-  ambulo_point *points;        /* [point_count] */
+  ambulo_point *points; /* [point_count] */
   int point_count;
-  ambulo_foot *feet;           /* [foot_count] */
+  ambulo_foot *feet; /* [foot_count] */
   int foot_count;
 };
 
@@ -30,7 +30,7 @@ struct ambulo_model {
  * link i stands in a file. */
 #include "base/diagnostics.h"
 typedef struct ambulo__model_places {
-  const ambulo__place *links, *coordinates, *points, *feet;  /* each may be NULL */
+  const ambulo__place *links, *coordinates, *points, *feet; /* each may be NULL */
   ambulo__place model;
 } ambulo__model_places;
 ambulo_status ambulo__model_check(const ambulo_model_definition *definition,

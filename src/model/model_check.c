@@ -72,6 +72,8 @@ static ambulo_status check_sizes(ambulo__checker *c) {
 
 /* ------------------------------------------------------------------- names */
 
+typedef const char *(*name_getter)(const ambulo_model_definition *definition, int index);
+
 static int is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
          c == '-' || c == '.';
@@ -105,21 +107,21 @@ static void report_name(ambulo__checker *c, const char *kind, const char *name,
                             kind, name ? name : "", (int)AMBULO__MAX_NAME);
 }
 
-static void report_duplicate(ambulo__checker *c, const char *kind, const char *name,
+static void report_duplicate(ambulo__checker *c, const char *kinds, const char *name,
                              ambulo__place first, ambulo__place second) {
   if (first.line > 0) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, second, NULL,
-                              "two %ss are named '%s' (the first one at line %d); expected "
+                              "two %s are named '%s' (the first one at line %d); expected "
                               "different names",
-                              kind, name, first.line);
+                              kinds, name, first.line);
   } else {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, second, NULL,
-                              "two %ss are named '%s'; expected different names", kind, name);
+                              "two %s are named '%s'; expected different names", kinds, name);
   }
 }
 
-void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo__name_of name_of,
-                         const ambulo__place *places) {
+static void check_names(ambulo__checker *c, const char *kind, const char *kinds, int count,
+                        name_getter name_of, const ambulo__place *places) {
   for (int i = 0; i < count; i++) {
     const char *name = name_of(c->definition, i);
     ambulo__place place = place_in(c, places, i);
@@ -130,15 +132,21 @@ void ambulo__check_names(ambulo__checker *c, const char *kind, int count, ambulo
     for (int k = 0; k < i; k++) {
       const char *other = name_of(c->definition, k);
       if (!other || strcmp(name, other) != 0) continue;
-      report_duplicate(c, kind, name, place_in(c, places, k), place);
+      report_duplicate(c, kinds, name, place_in(c, places, k), place);
       break;
     }
   }
 }
 
-static const char *link_name(const ambulo_model_definition *d, int i) { return d->links[i].name; }
-static const char *point_name(const ambulo_model_definition *d, int i) { return d->points[i].name; }
-static const char *foot_name(const ambulo_model_definition *d, int i) { return d->feet[i].name; }
+static const char *link_name(const ambulo_model_definition *d, int i) {
+  return d->links[i].name;
+}
+static const char *point_name(const ambulo_model_definition *d, int i) {
+  return d->points[i].name;
+}
+static const char *foot_name(const ambulo_model_definition *d, int i) {
+  return d->feet[i].name;
+}
 
 const char *ambulo__coordinate_name(const ambulo_model_definition *d, int index) {
   if (d->coordinates[index].name) return d->coordinates[index].name;
@@ -157,11 +165,11 @@ static void check_all_names(ambulo__checker *c) {
                               "characters",
                               d->name ? d->name : "", (int)AMBULO__MAX_NAME);
   }
-  ambulo__check_names(c, "link", d->link_count, link_name, p->links);
-  ambulo__check_names(c, "coordinate", d->coordinate_count, ambulo__coordinate_name,
-                      p->coordinates);
-  ambulo__check_names(c, "point", d->point_count, point_name, p->points);
-  ambulo__check_names(c, "foot", d->foot_count, foot_name, p->feet);
+  check_names(c, "link", "links", d->link_count, link_name, p->links);
+  check_names(c, "coordinate", "coordinates", d->coordinate_count, ambulo__coordinate_name,
+              p->coordinates);
+  check_names(c, "point", "points", d->point_count, point_name, p->points);
+  check_names(c, "foot", "feet", d->foot_count, foot_name, p->feet);
 }
 
 /* --------------------------------------------------------------- the world */

@@ -40,8 +40,7 @@ static int allocate(ambulo__reader *r) {
   r->feet = ambulo__alloc(a, feet, sizeof *r->feet);
   r->link_places = ambulo__alloc(a, all, sizeof *r->link_places);
   r->link_names = ambulo__alloc(a, all, sizeof *r->link_names);
-  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->link_places ||
-      !r->link_names) {
+  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->link_places || !r->link_names) {
     return 0;
   }
   r->coordinate_places = r->link_places + links;
@@ -122,8 +121,7 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
 
 /* ------------------------------------------------------------------- loading */
 
-static ambulo_status check_subject(const ambulo_subject *subject,
-                                   ambulo_diagnostics *diagnostics) {
+static ambulo_status check_subject(const ambulo_subject *subject, ambulo_diagnostics *diagnostics) {
   ambulo__place nowhere = {0};
   if (!subject) return AMBULO_OK;
   int good = subject->sex >= AMBULO_SEX_FILE && subject->sex <= AMBULO_MALE;
@@ -148,16 +146,16 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
   read_document(&reader, subject);
   ambulo_status status = ambulo__reader_status(&reader);
   if (status == AMBULO_OK) {
-    status = ambulo__model_build(&reader.definition, &reader.places, &reader.allocator,
-                                 diagnostics, model);
+    status = ambulo__model_build(&reader.definition, &reader.places, &reader.allocator, diagnostics,
+                                 model);
   }
   release(&reader);
   return status;
 }
 
 ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
-                                const ambulo_allocator *allocator,
-                                ambulo_diagnostics *diagnostics, ambulo_model **model) {
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_model **model) {
   ambulo__yaml *document = NULL;
   if (!path || !model) return AMBULO_E_ARGUMENT;
   ambulo_status status = check_subject(subject, diagnostics);

@@ -3,25 +3,32 @@
 
 #include "model/model.h"
 
-const char *ambulo_model_name(const ambulo_model *model) { return model ? model->name : NULL; }
+const char *ambulo_model_name(const ambulo_model *model) {
+  return model ? model->name : NULL;
+}
 
-int ambulo_model_link_count(const ambulo_model *model) { return model ? model->link_count : 0; }
+int ambulo_model_link_count(const ambulo_model *model) {
+  return model ? model->link_count : 0;
+}
 
 int ambulo_model_coordinate_count(const ambulo_model *model) {
   return model ? model->coordinate_count : 0;
 }
 
-int ambulo_model_point_count(const ambulo_model *model) { return model ? model->point_count : 0; }
+int ambulo_model_point_count(const ambulo_model *model) {
+  return model ? model->point_count : 0;
+}
 
-int ambulo_model_foot_count(const ambulo_model *model) { return model ? model->foot_count : 0; }
+int ambulo_model_foot_count(const ambulo_model *model) {
+  return model ? model->foot_count : 0;
+}
 
 const ambulo_link *ambulo_model_link(const ambulo_model *model, int index) {
   return model && index >= 0 && index < model->link_count ? &model->links[index] : NULL;
 }
 
 const ambulo_coordinate *ambulo_model_coordinate(const ambulo_model *model, int index) {
-  return model && index >= 0 && index < model->coordinate_count ? &model->coordinates[index]
-                                                                : NULL;
+  return model && index >= 0 && index < model->coordinate_count ? &model->coordinates[index] : NULL;
 }
 
 const ambulo_point *ambulo_model_point(const ambulo_model *model, int index) {
@@ -60,18 +67,26 @@ int ambulo_model_find_foot(const ambulo_model *model, const char *name) {
   return -1;
 }
 
-double ambulo_model_mass(const ambulo_model *model) { return model ? model->mass : 0; }
+double ambulo_model_mass(const ambulo_model *model) {
+  return model ? model->mass : 0;
+}
 
-double ambulo_model_stature(const ambulo_model *model) { return model ? model->stature : 0; }
+double ambulo_model_stature(const ambulo_model *model) {
+  return model ? model->stature : 0;
+}
 
 const double *ambulo_model_gravity(const ambulo_model *model) {
   return model ? model->gravity : NULL;
 }
 
-const double *ambulo_model_up(const ambulo_model *model) { return model ? model->up : NULL; }
+const double *ambulo_model_up(const ambulo_model *model) {
+  return model ? model->up : NULL;
+}
 
 const double *ambulo_model_forward(const ambulo_model *model) {
   return model ? model->forward : NULL;
 }
 
-const double *ambulo_model_left(const ambulo_model *model) { return model ? model->left : NULL; }
+const double *ambulo_model_left(const ambulo_model *model) {
+  return model ? model->left : NULL;
+}

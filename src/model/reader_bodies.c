@@ -1,5 +1,5 @@
 /* model/reader_bodies.c - `body` and `bodies` of a link. */
-#include <stdio.h>
+#include <math.h>
 
 #include "model/reader.h"
 
@@ -35,10 +35,10 @@ static void read_part(ambulo__reader *reader, const ambulo__yaml_node *node, con
   const char *what = name ? ambulo__yaml_name(name) : owner;
   ambulo__yaml_close(node);
   if (!mass || !com) return;
-  part.mass = ambulo__read_scaled(reader, mass, reader->mass, 0);
+  part.mass = ambulo__read_scaled(reader, mass, reader->mass, NAN);
   int good = ambulo__read_vector(reader, com, 3, reader->length, part.com);
   good &= read_inertia(reader, node, inertia, gyration, &part);
-  if (!good || ambulo__yaml_finish(reader->document) == AMBULO_E_SCHEMA) return;
+  if (!good || isnan(part.mass)) return; /* reported already */
   ambulo__body_places places = {ambulo__yaml_place(mass),
                                 ambulo__yaml_place(inertia ? inertia : gyration)};
   ambulo_status status = ambulo__check_body(what ? what : owner, part.mass, part.com, part.inertia,
@@ -58,8 +58,7 @@ void ambulo__read_body(ambulo__reader *reader, const ambulo__yaml_node *link_nod
   int count = 0;
   if (body && bodies) {
     (void)ambulo__yaml_error(bodies, AMBULO_E_SCHEMA, NULL,
-                             "link '%s' has `body` and `bodies`; expected one of them",
-                             link->name);
+                             "link '%s' has `body` and `bodies`; expected one of them", link->name);
     return;
   }
   if (body) read_part(reader, body, link->name, &whole);

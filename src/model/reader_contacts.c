@@ -17,8 +17,7 @@ void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list) 
 }
 
 static int point_at(const ambulo__reader *reader, const ambulo__yaml_node *node) {
-  return ambulo__read_reference(node, "point", reader->point_names,
-                                reader->definition.point_count);
+  return ambulo__read_reference(node, "point", reader->point_names, reader->definition.point_count);
 }
 
 /* One or two corners. */
@@ -36,8 +35,8 @@ static void read_corners(const ambulo__reader *reader, const ambulo__yaml_node *
 }
 
 /* The centre may be left out where there is one corner only. */
-static int read_center(const ambulo__reader *reader, const ambulo__yaml_node *item,
-                       const char *key, const int corners[2]) {
+static int read_center(const ambulo__reader *reader, const ambulo__yaml_node *item, const char *key,
+                       const int corners[2]) {
   const ambulo__yaml_node *node =
       corners[1] < 0 ? ambulo__yaml_get(item, key) : ambulo__yaml_require(item, key);
   return node ? point_at(reader, node) : corners[0];

@@ -79,8 +79,7 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   if (name) coordinate->name = ambulo__yaml_name(name);
   if (!coordinate->name) coordinate->name = "";
   reader->coordinate_names[index] = coordinate->name;
-  ambulo__read_interval(reader, ambulo__yaml_get(node, "range"), unit, is_angle,
-                        coordinate->range);
+  ambulo__read_interval(reader, ambulo__yaml_get(node, "range"), unit, is_angle, coordinate->range);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "torque"),
                         is_angle ? reader->moment : reader->force, 0, coordinate->torque);
@@ -90,14 +89,11 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   ambulo__yaml_close(node);
 }
 
-static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int index,
-                      int *root) {
+static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int index, int *root) {
   static const char *const types[] = {"fixed", "revolute", "prismatic"};
   ambulo_link *link = &reader->links[index];
   int choice = ambulo__yaml_choice(ambulo__yaml_require(item, "joint"), types, 3, 0);
-  link->type = choice == 1   ? AMBULO_REVOLUTE
-               : choice == 2 ? AMBULO_PRISMATIC
-                             : AMBULO_FIXED;
+  link->type = choice == 1 ? AMBULO_REVOLUTE : choice == 2 ? AMBULO_PRISMATIC : AMBULO_FIXED;
   read_parent(reader, item, index, root);
   read_dh(reader, item, link);
   ambulo__read_body(reader, item, link);

@@ -10,7 +10,7 @@
 
 #include "model/reader.h"
 
-static const double LEAST_MASS = 0.5, LARGEST_MASS = 1000; /* kg */
+static const double LEAST_MASS = 0.5, LARGEST_MASS = 1000;    /* kg */
 static const double LEAST_STATURE = 0.2, LARGEST_STATURE = 3; /* m */
 
 void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root) {
@@ -31,8 +31,7 @@ void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root)
 static void need(const ambulo__yaml_node *node, double value, const char *what) {
   if (value > 0) return;
   (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "give it under `subject`",
-                           "the unit needs the %s of the subject; expected subject.%s", what,
-                           what);
+                           "the unit needs the %s of the subject; expected subject.%s", what, what);
 }
 
 /* The subject asked for by the caller changes nothing when the file is in absolute units. */

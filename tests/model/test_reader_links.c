@@ -1,0 +1,129 @@
+#include "support/model_text.h"
+
+#define ROOT                                                                                       \
+  "links:\n"                                                                                       \
+  "  - {name: base, parent: none, joint: fixed, dh: [90, 1, 2, -90]}\n"
+#define LINK(name, parent, more)                                                                   \
+  "  - {name: " name ", parent: " parent ", joint: revolute, dh: [0, 0, 0, 0], " MODEL_BODY more   \
+  "}\n"
+
+static void what_is_read(void **state) {
+  (void)state;
+  model_case c = model_good(MODEL_HEAD ROOT LINK("hip", "base",
+                                                 ",\n     coordinate: {name: q, range: [-30, none],"
+                                                 " speed: [-90, 180], torque: [none, 20],"
+                                                 " actuated: false, mirror_sign: -1}")
+                                LINK("knee", "hip", ""));
+  const ambulo_link *base = ambulo_model_link(c.model, 0);
+  const ambulo_coordinate *q = ambulo_model_coordinate(c.model, 0);
+  double pi = acos(-1);
+  assert_close(base->theta, pi / 2, 1e-15);
+  assert_close(base->d, 1, 0);
+  assert_close(base->a, 2, 0);
+  assert_close(base->alpha, -pi / 2, 1e-15);
+  assert_int_equal(base->parent, -1);
+  assert_int_equal(base->coordinate, -1);
+  assert_int_equal(ambulo_model_link(c.model, 2)->parent, 1);
+  assert_string_equal(q->name, "q");
+  assert_close(q->range[0], -pi / 6, 1e-15);
+  assert_true(isinf(q->range[1]) && q->range[1] > 0);
+  assert_close(q->speed[1], pi, 1e-15);
+  assert_true(isinf(q->torque[0]) && q->torque[0] < 0);
+  assert_close(q->torque[1], 20, 0);
+  assert_int_equal(q->actuated, 0);
+  assert_close(q->mirror_sign, -1, 0);
+  assert_string_equal(ambulo_model_coordinate(c.model, 1)->name, "knee");
+  assert_int_equal(ambulo_model_coordinate(c.model, 1)->actuated, 1);
+  model_shut(&c);
+}
+
+static void pairs(void **state) {
+  (void)state;
+  model_case c = model_good(MODEL_HEAD ROOT LINK("l", "base", ", coordinate: {mirror: r}")
+                                LINK("r", "base", ", coordinate: {mirror: l}"));
+  assert_int_equal(ambulo_model_coordinate(c.model, 0)->mirror, 1);
+  assert_int_equal(ambulo_model_coordinate(c.model, 1)->mirror, 0);
+  model_shut(&c);
+}
+
+/* children may come first in the file */
+static void any_order(void **state) {
+  (void)state;
+  model_case c = model_good(MODEL_HEAD "links:\n" LINK("knee", "hip", "") LINK("hip", "world", ""));
+  assert_string_equal(ambulo_model_link(c.model, 0)->name, "hip");
+  assert_string_equal(ambulo_model_coordinate(c.model, 1)->name, "knee");
+  model_shut(&c);
+}
+
+static void broken_trees(void **state) {
+  (void)state;
+  model_bad(MODEL_HEAD ROOT LINK("thigh", "base", "") LINK("shank", "tigh", ""), AMBULO_E_MODEL,
+            "t.yaml:7:27: error[E_MODEL]: unknown link (got 'tigh'); expected the name of a link "
+            "of this model\n  hint: did you mean 'thigh'?");
+  model_bad(MODEL_HEAD ROOT LINK("a", "b", "") LINK("b", "a", ""), AMBULO_E_MODEL,
+            "t.yaml:6:5: error[E_MODEL]: the links form a cycle (a-b-a,");
+  model_bad(MODEL_HEAD ROOT LINK("a", "a", ""), AMBULO_E_MODEL,
+            "t.yaml:6:5: error[E_MODEL]: the links form a cycle (a-a,");
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", "") LINK("a", "base", ", coordinate: {name: b}"),
+            AMBULO_E_MODEL,
+            "t.yaml:7:5: error[E_MODEL]: two links are named 'a' (the first one at line 6)");
+  model_bad(
+      MODEL_HEAD ROOT LINK("a", "base", ", coordinate: {name: q}")
+          LINK("b", "base", ", coordinate: {name: q}"),
+      AMBULO_E_MODEL,
+      "t.yaml:7:136: error[E_MODEL]: two coordinates are named 'q' (the first one at line 6)");
+  model_bad(MODEL_HEAD ROOT LINK("a", "none", ""), AMBULO_E_MODEL,
+            "t.yaml:6:23: error[E_MODEL]: two roots: 'base' (line 5) and 'a' hang on the world");
+  model_bad(MODEL_HEAD ROOT LINK("none", "base", ""), AMBULO_E_MODEL,
+            "t.yaml:6:12: error[E_MODEL]: no link can be named 'none'");
+  model_bad(MODEL_HEAD ROOT, AMBULO_E_MODEL, "t.yaml:1:1: error[E_MODEL]: the model cannot move");
+  model_bad(MODEL_HEAD "links: []\n", AMBULO_E_MODEL,
+            "t.yaml:1:1: error[E_MODEL]: the model cannot move");
+}
+
+static void broken_links(void **state) {
+  (void)state;
+  model_bad(MODEL_HEAD ROOT LINK("'a/b'", "base", ""), AMBULO_E_SCHEMA,
+            "t.yaml:6:12: error[E_SCHEMA]: got the quoted text 'a/b'; expected a name");
+  model_bad(MODEL_HEAD ROOT "  - {name: a, parent: base, joint: hinge, dh: [0, 0, 0, 0]}\n",
+            AMBULO_E_SCHEMA,
+            "t.yaml:6:36: error[E_SCHEMA]: got 'hinge'; expected one of: fixed, revolute, "
+            "prismatic");
+  model_bad(MODEL_HEAD ROOT "  - {name: a, parent: base, joint: revolute, dh: [0, 0, 0]}\n",
+            AMBULO_E_SCHEMA,
+            "t.yaml:6:50: error[E_SCHEMA]: got a sequence of 3; expected a sequence of 4 numbers");
+  model_bad(MODEL_HEAD ROOT "  - {name: a, parent: base, joint: revolute, dh: [0, .nan, 0, 0]}\n",
+            AMBULO_E_SCHEMA, "t.yaml:6:54: error[E_SCHEMA]: got '.nan'; expected a finite number");
+  model_bad(MODEL_HEAD ROOT "  - {name: a, joint: revolute, dh: [0, 0, 0, 0]}\n", AMBULO_E_SCHEMA,
+            "t.yaml:6:5: error[E_SCHEMA]: missing required key 'parent' in links[1] ('a')");
+  model_bad(MODEL_HEAD ROOT "  - {name: a, parent: base, joint: fixed, dh: [0, 0, 0, 0],"
+                            " coordinate: {name: q}}\n",
+            AMBULO_E_SCHEMA,
+            "t.yaml:6:73: error[E_SCHEMA]: link 'a' is fixed; expected no coordinate");
+  model_bad(MODEL_HEAD ROOT "  - 3\n", AMBULO_E_SCHEMA, "t.yaml:6:5: error[E_SCHEMA]: got '3'");
+}
+
+static void broken_coordinates(void **state) {
+  (void)state;
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", ",\n     coordinate: {range: [2, 1]}"),
+            AMBULO_E_MODEL,
+            "t.yaml:7:18: error[E_MODEL]: range limits of coordinate 'a' contradict each other");
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", ",\n     coordinate: {mirror: b}"), AMBULO_E_MODEL,
+            "t.yaml:7:27: error[E_MODEL]: unknown coordinate (got 'b')");
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", ",\n     coordinate: {mirror_sign: 2}"),
+            AMBULO_E_SCHEMA, "t.yaml:7:32: error[E_SCHEMA]: got '2'; expected one of: 1, -1");
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", ",\n     coordinate: {range: [2]}"), AMBULO_E_SCHEMA,
+            "t.yaml:7:26: error[E_SCHEMA]: got a sequence of 1; expected a sequence of 2");
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", ",\n     coordinate: {actuated: yes}"),
+            AMBULO_E_SCHEMA, "t.yaml:7:29: error[E_SCHEMA]: got 'yes'; expected true or false");
+  model_bad(MODEL_HEAD ROOT LINK("a", "base", ",\n     coordinate: {rnge: [1, 2]}"),
+            AMBULO_E_SCHEMA, "t.yaml:7:19: error[E_SCHEMA]: unknown key 'rnge'");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_read), cmocka_unit_test(pairs),
+      cmocka_unit_test(any_order),    cmocka_unit_test(broken_trees),
+      cmocka_unit_test(broken_links), cmocka_unit_test(broken_coordinates)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
