@@ -63,7 +63,7 @@ ifeq ($(shell uname -s),Darwin)
   export PKG_CONFIG_PATH := $(PKG_CONFIG_PATH):$(shell brew --prefix openblas 2>/dev/null)/lib/pkgconfig
   SHARED := -dynamiclib -install_name @rpath/libambulo.so.$(SOVERSION)
 else
-  SHARED := -shared -Wl,-soname,libambulo.so.$(SOVERSION)
+  SHARED := -shared -Wl,-soname,libambulo.so.$(SOVERSION) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
 endif
 DEPENDENCIES := nlopt yaml-0.1
 DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflags))
@@ -244,7 +244,7 @@ lint-headers:
 lint-equations:
 	@.setup/lint_equations.sh
 lint-leftovers:
-	@! grep -nE '\b(TODO|FIXME|XXX)\b' -r src include tests models bench docs README* CHANGELOG*
+	@! grep -nE '\b(TODO|FIXME|XXX)\b' -r $(wildcard src include tests models bench docs README* CHANGELOG*)
 
 # ----------------------------------------------------------------- install
 
