@@ -21,6 +21,7 @@ static inline double masses_of_end(int k) {
 }
 
 static inline ambulo_link masses_link(int i) {
+  /* the second angle is nearly a right one, which must not be taken for one */
   static const double theta[] = {0.3, -0.7, 1.1, 0.0, 0.5},
                       alpha[] = {1.2, -1.5707963, 0.4, 2.0, 0.0};
   static const double a[] = {0.2, 0.3, 0.0, 0.25, 0.1}, d[] = {0.1, 0.0, -0.15, 0.05, 0.0};
