@@ -1,4 +1,4 @@
-/* What a YAML file says it is; versions of what is running. */
+/* What a YAML file says it is. */
 #include "support/messages.h"
 #include "support/scratch.h"
 
@@ -34,22 +34,9 @@ static void test_neither(void **state) {
   ambulo_diagnostics_free(list);
 }
 
-static void test_versions(void **state) {
-  (void)state;
-  ambulo_versions v;
-  int major, minor, patch;
-  ambulo_versions_get(&v);
-  assert_string_equal(v.ambulo, AMBULO_VERSION_STRING);
-  assert_int_equal(sscanf(v.nlopt, "%d.%d.%d", &major, &minor, &patch), 3);
-  assert_int_equal(sscanf(v.libyaml, "%d.%d.%d", &major, &minor, &patch), 3);
-  assert_string_equal(v.instruction_set, ambulo_instruction_set());
-  assert_true(strlen(v.blas) > 3);
-}
-
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {SCRATCH_TEST(test_kinds), SCRATCH_TEST(test_neither),
-                                     cmocka_unit_test(test_versions)};
+  const struct CMUnitTest tests[] = {SCRATCH_TEST(test_kinds), SCRATCH_TEST(test_neither)};
   return cmocka_run_group_tests_name("report/file_kind", tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
 /* gait.svg: well-formed, one group a figure, survives motions that are not finite. */
 #include "report/gait_svg.h"
-#include "report/svg.h"
 #include "support/arm.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"
@@ -73,27 +72,8 @@ static void test_arm(void **state) {
   ambulo_model_free(model);
 }
 
-static void test_nice_steps(void **state) {
-  (void)state;
-  static const struct {
-    double range;
-    int parts;
-    double step;
-    int decimals;
-  } cases[] = {{1.1, 9, 0.2, 1}, {10.0, 4, 2.5, 1}, {60.0, 4, 20.0, 0}, {0.9, 9, 0.1, 1},
-               {2000.0, 4, 500.0, 0}, {0.0, 4, 1.0, 0}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    int decimals = -1;
-    double step = ambulo__nice_step(cases[i].range, cases[i].parts, &decimals);
-    if (decimals != cases[i].decimals)
-      print_error("range %g: step %g with %d decimals\n", cases[i].range, step, decimals);
-    assert_close(step, cases[i].step, 1e-12);
-    assert_int_equal(decimals, cases[i].decimals);
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_walk), cmocka_unit_test(test_not_finite),
-                                     cmocka_unit_test(test_arm), cmocka_unit_test(test_nice_steps)};
+                                     cmocka_unit_test(test_arm)};
   return cmocka_run_group_tests_name("report/gait_svg", tests, NULL, NULL);
 }
