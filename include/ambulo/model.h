@@ -13,7 +13,8 @@
  * (docs/model-format.md), checked, and never changes afterwards: it may be shared
  * between threads without locks.
  *
- * Coordinates are numbered in the order in which links with a coordinate appear.
+ * Coordinates are numbered in the order in which links with a coordinate appear, once
+ * every parent stands before its children (a definition in another order is sorted).
  */
 #ifndef AMBULO_MODEL_H
 #define AMBULO_MODEL_H
@@ -40,7 +41,8 @@ typedef struct ambulo_coordinate {
   double speed[2];         /* [min, max], rad/s or m/s */
   double torque[2];        /* [min, max] generalized force, N m or N */
   int actuated;            /* 0: a global (root) coordinate that no muscle drives */
-  int mirror;              /* coordinate that takes its place in the mirror image; itself if unpaired */
+  int mirror;              /* coordinate that takes its place in the mirror image; itself if
+                              unpaired (in a definition also -1) */
   double mirror_sign;      /* +1 or -1: q_mirror = mirror_sign * q */
 } ambulo_coordinate;
 
@@ -71,7 +73,8 @@ typedef struct ambulo_foot {
   int toe[2];              /* corner points at the toe; [1] = -1 if there is only one */
   int heel_center;         /* point placed on the foothold */
   int toe_center;          /* point that fixes the heading, and the place in toe contact */
-  int mirror;              /* foot that takes its place in the mirror image */
+  int mirror;              /* foot that takes its place in the mirror image (in a definition
+                              -1: itself) */
 } ambulo_foot;
 
 /* ------------------------------------------------------------ build in code */

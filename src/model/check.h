@@ -56,7 +56,4 @@ void ambulo__check_coordinates(ambulo__checker *c);
 /* Points on links, feet on points. */
 void ambulo__check_contacts(ambulo__checker *c);
 
-/* Name of the coordinate of a definition: its own or, when NULL, its link's. */
-const char *ambulo__coordinate_name(const ambulo_model_definition *definition, int index);
-
 #endif

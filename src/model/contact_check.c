@@ -16,7 +16,7 @@ static ambulo__place place_of_coordinate(const ambulo__checker *c, int index) {
 /* An interval may be unbounded, or one point; never empty or undefined. */
 static void check_interval(ambulo__checker *c, int index, const char *what,
                            const double interval[2]) {
-  const char *name = ambulo__coordinate_name(c->definition, index);
+  const char *name = c->definition->coordinates[index].name;
   if (interval[0] <= interval[1] && interval[0] < INFINITY && interval[1] > -INFINITY) return;
   c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
                             "%s limits of coordinate '%s' contradict each other (got [%s, %s]); "
@@ -33,7 +33,7 @@ static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, in
 }
 
 static void report_mirror(ambulo__checker *c, int index, const char *why) {
-  const char *name = ambulo__coordinate_name(c->definition, index);
+  const char *name = c->definition->coordinates[index].name;
   c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
                             "mirror image of coordinate '%s' %s", name ? name : "", why);
 }

@@ -70,7 +70,7 @@ static void sort_links(const ambulo_model_definition *d, numbering *n) {
 static size_t text_size(const ambulo_model_definition *d) {
   size_t size = strlen(d->name) + 1;
   for (int i = 0; i < d->link_count; i++) size += strlen(d->links[i].name) + 1;
-  for (int i = 0; i < d->coordinate_count; i++) size += strlen(ambulo__coordinate_name(d, i)) + 1;
+  for (int i = 0; i < d->coordinate_count; i++) size += strlen(d->coordinates[i].name) + 1;
   for (int i = 0; i < d->point_count; i++) size += strlen(d->points[i].name) + 1;
   for (int i = 0; i < d->foot_count; i++) size += strlen(d->feet[i].name) + 1;
   return size;
@@ -97,7 +97,7 @@ static void copy_links(ambulo_model *m, const ambulo_model_definition *d, const 
     if (old < 0) continue;
     ambulo_coordinate *coordinate = &m->coordinates[link->coordinate];
     *coordinate = d->coordinates[old];
-    coordinate->name = keep(text, ambulo__coordinate_name(d, old));
+    coordinate->name = keep(text, coordinate->name);
     coordinate->type = link->type;
     coordinate->mirror = n->new_coordinate[coordinate->mirror < 0 ? old : coordinate->mirror];
     m->coordinate_link[link->coordinate] = i;

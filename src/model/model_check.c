@@ -148,12 +148,8 @@ static const char *foot_name(const ambulo_model_definition *d, int i) {
   return d->feet[i].name;
 }
 
-const char *ambulo__coordinate_name(const ambulo_model_definition *d, int index) {
-  if (d->coordinates[index].name) return d->coordinates[index].name;
-  for (int i = 0, seen = 0; i < d->link_count; i++) {
-    if (d->links[i].type != AMBULO_FIXED && seen++ == index) return d->links[i].name;
-  }
-  return NULL;
+static const char *coordinate_name(const ambulo_model_definition *d, int i) {
+  return d->coordinates[i].name;
 }
 
 static void check_all_names(ambulo__checker *c) {
@@ -166,8 +162,7 @@ static void check_all_names(ambulo__checker *c) {
                               d->name ? d->name : "", (int)AMBULO__MAX_NAME);
   }
   check_names(c, "link", "links", d->link_count, link_name, p->links);
-  check_names(c, "coordinate", "coordinates", d->coordinate_count, ambulo__coordinate_name,
-              p->coordinates);
+  check_names(c, "coordinate", "coordinates", d->coordinate_count, coordinate_name, p->coordinates);
   check_names(c, "point", "points", d->point_count, point_name, p->points);
   check_names(c, "foot", "feet", d->foot_count, foot_name, p->feet);
 }

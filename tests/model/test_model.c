@@ -17,7 +17,7 @@ static void copies(void **state) {
   chain_make(&c);
   char name[] = "b";
   c.links[1].name = name;
-  c.coordinates[1].name = NULL; /* takes the name of its link */
+  c.coordinates[1].name = name; /* a link and a coordinate may share a name */
   ambulo_model *model = chain_good(&c);
   memset(c.links, 0, sizeof c.links);
   memset(c.points, 0, sizeof c.points);

@@ -49,6 +49,9 @@ static void names(void **state) {
     c.links[1].name = bad[i];
     chain_bad(&c, AMBULO_E_MODEL, "link name is not allowed");
   }
+  chain_make(&c);
+  c.coordinates[0].name = NULL;
+  chain_bad(&c, AMBULO_E_MODEL, "coordinate name is not allowed");
   char text[80] = "";
   memset(text, 'x', 65);
   chain_make(&c);
