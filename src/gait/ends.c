@@ -75,8 +75,9 @@ void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table)
   }
   if (definition->ends == AMBULO_ENDS_FREE) return;
   int mirrored = definition->ends == AMBULO_ENDS_MIRRORED;
+  int highest = definition->ends_order < 2 ? definition->ends_order : 2;
   for (int i = 0; i < frame->model->coordinate_count; i++) {
-    for (int order = 0; order <= definition->ends_order; order++) {
+    for (int order = 0; order <= highest; order++) {
       matching_row(frame, i, order, mirrored, table);
     }
   }

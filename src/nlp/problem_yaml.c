@@ -9,7 +9,6 @@
 
 #include "nlp/nlp.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { FORMAT_VERSION = 1 };
@@ -125,30 +124,41 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
 
 /* ------------------------------------------- positions for what create() says */
 
+/* Reads "[12]" at *at and steps over it; -1 when something else stands there. */
+static int read_index(const char **at) {
+  size_t digits = **at == '[' ? strspn(*at + 1, "0123456789") : 0;
+  if (digits == 0 || digits > 6 || (*at)[1 + digits] != ']') return -1;
+  int index = 0;
+  for (size_t i = 0; i < digits; i++) index = 10 * index + ((*at)[1 + i] - '0');
+  *at += digits + 2;
+  return index;
+}
+
+/* The value of the key at *at, which is stepped over; NULL when there is no such key. */
+static const ambulo__yaml_node *read_key(const ambulo__yaml_node *mapping, const char **at) {
+  char key[32];
+  size_t length = strspn(*at, "abcdefghijklmnopqrstuvwxyz_");
+  if (length == 0 || length >= sizeof key) return NULL;
+  if (ambulo__yaml_kind_of(mapping) != AMBULO__YAML_MAPPING) return NULL;
+  memcpy(key, *at, length);
+  key[length] = '\0';
+  *at += length;
+  return ambulo__yaml_get(mapping, key);
+}
+
 /* the node that a message such as "time.duration is ..." or "contacts[2]: ..." begins with */
 static const ambulo__yaml_node *node_of_message(const ambulo__yaml_node *root,
                                                 const char *message) {
   const ambulo__yaml_node *node = root;
   const char *at = message;
   for (;;) {
-    char key[32];
-    size_t length = strspn(at, "abcdefghijklmnopqrstuvwxyz_");
-    if (length == 0 || length >= sizeof key || ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) {
-      return node;
-    }
-    memcpy(key, at, length);
-    key[length] = '\0';
-    const ambulo__yaml_node *child = ambulo__yaml_get(node, key);
+    const ambulo__yaml_node *child = read_key(node, &at);
     if (!child) return node;
     node = child;
-    at += length;
-    int index = 0, used = 0;
-    if (sscanf(at, "[%5d]%n", &index, &used) == 1 && used > 0) {
-      if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE) return node;
-      const ambulo__yaml_node *item = ambulo__yaml_item(node, index);
-      if (!item) return node;
-      node = item;
-      at += used;
+    int index = read_index(&at);
+    int is_list = ambulo__yaml_kind_of(node) == AMBULO__YAML_SEQUENCE;
+    if (index >= 0 && is_list && index < ambulo__yaml_count(node)) {
+      node = ambulo__yaml_item(node, index);
     }
     if (*at != '.') return node;
     at++;
