@@ -32,6 +32,7 @@ static void long_cycle(void **state) {
   enum { N = 4096 };
   ambulo_link *links = calloc(N, sizeof *links);
   ambulo_coordinate one = ambulo_coordinate_default();
+  one.name = "q";
   char(*names)[16] = calloc(N, sizeof *names);
   chain c;
   chain_make(&c);

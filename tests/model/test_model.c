@@ -87,6 +87,7 @@ static void reversed_long_chain(void **state) {
   chain_make(&c);
   ambulo_link *links = calloc(N, sizeof *links);
   ambulo_coordinate one = ambulo_coordinate_default();
+  one.name = "q";
   char(*names)[16] = calloc(N, sizeof *names);
   for (int i = 0; i < N; i++) {
     links[i] = ambulo_link_default();
