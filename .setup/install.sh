@@ -35,6 +35,12 @@ has_cmocka() { links '#include <stdarg.h>
 #include <setjmp.h>
 #include <cmocka.h>
 int main(void) { return cmocka_run_group_tests((const struct CMUnitTest[]){{0}}, 0, 0); }' -lcmocka; }
+has_cxx() {
+  local cxx=c++
+  case $compiler in *clang*) cxx=${compiler/clang/clang++} ;; *gcc*) cxx=${compiler/gcc/g++} ;; esac
+  printf '%s\n' '#include <cstdio>' 'int main() { return std::puts("") < 0; }' >"$scratch/try.cc"
+  $cxx "$scratch/try.cc" -o "$scratch/try" >/dev/null 2>&1
+}
 has_program() { command -v "$1" >/dev/null 2>&1; }
 
 if has_program apt-get; then manager=apt-get
@@ -53,22 +59,26 @@ fi
 # the packages of a need, in the words of the package manager
 package() {
   case $manager:$1 in
-  apt-get:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc libc6-dev ;; esac ;;
+  apt-get:compiler) case $compiler in *clang*) echo clang libc6-dev ;; *) echo gcc libc6-dev ;; esac ;;
+  apt-get:cxx) case $compiler in *clang*) echo clang g++ ;; *) echo g++ ;; esac ;;
   apt-get:nlopt) echo libnlopt-dev ;;
   apt-get:yaml) echo libyaml-dev ;;
   apt-get:lapack) echo libopenblas-dev ;;
   apt-get:cmocka) echo libcmocka-dev ;;
   dnf:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc glibc-devel ;; esac ;;
+  dnf:cxx) case $compiler in *clang*) echo clang libstdc++-devel ;; *) echo gcc-c++ ;; esac ;;
+  dnf:pkg-config) echo pkgconf-pkg-config ;;
   dnf:nlopt) echo NLopt-devel ;;
   dnf:yaml) echo libyaml-devel ;;
   dnf:lapack) echo openblas-devel ;;
   dnf:cmocka) echo libcmocka-devel ;;
   dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
-  brew:compiler) echo gcc ;;
+  brew:compiler | brew:cxx) echo gcc ;;
   brew:yaml) echo libyaml ;;
   brew:lapack) echo openblas ;;
   brew:clang-tidy) echo llvm ;;
   none:compiler) echo 'a C11 compiler' ;;
+  none:cxx) echo 'a C++ compiler' ;;
   *) echo "$1" ;;
   esac
 }
@@ -79,7 +89,11 @@ missing() {
   has_nlopt || package nlopt
   has_yaml || package yaml
   has_lapack || package lapack
-  [ "$purpose" = build ] || has_cmocka || package cmocka
+  [ "$purpose" != build ] || return 0
+  has_cmocka || package cmocka
+  # the installed library is used through pkg-config, and from C++
+  has_program pkg-config || package pkg-config
+  has_cxx || package cxx
   if [ "$purpose" = lint ]; then
     has_program clang-format || package clang-format
     has_program clang-tidy || package clang-tidy
