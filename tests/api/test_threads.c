@@ -5,7 +5,7 @@
 #include "support/arm.h"
 #include "support/test.h"
 
-enum { threads = 2, points = 40, most_variables = 64, most_rows = 256 };
+enum { threads = 2, points = 40, most_variables = 64, most_rows = 512 };
 
 typedef struct outcome {
   double objective, gradient[most_variables], rows[most_rows], x[most_variables];
