@@ -174,7 +174,8 @@ AMBULO__INLINE void forward_body(const ambulo__body *body, const ambulo__frame *
 static void forward_loads(const ambulo__plan *plan, double *out, double *scratch) {
   double *root = scratch + plan->frames[0].load_at;
   for (int i = 0; i < 6; i++) store(root + i * AMBULO__LANES, spread(plan->fixed_load[i]));
-  for (int k = plan->coordinates - 1; k >= 0; k--) {
+  for (int i = plan->coordinates - 1; i >= 0; i--) {
+    const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1];
     const double *total = scratch + frame->load_at;
@@ -203,7 +204,8 @@ static void forward_part(const ambulo__plan *plan, const double *q, const double
   const wide3 zero = {{0}, {0}, {0}};
   forward_angles(plan, q, scratch);
   forward_world(plan, scratch);
-  for (int k = 0; k < plan->coordinates; k++) {
+  for (int i = 0; i < plan->coordinates; i++) {
+    const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1];
     if (joint->turned) forward_turn(joint, plan->frames[joint->parent].column_at, scratch);

@@ -112,7 +112,8 @@ AMBULO__INLINE void jacobian_joint(const ambulo__plan *plan, int k, double *scra
 static void jacobian_motion(const ambulo__plan *plan, const double *qd, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   store3(scratch + plan->frames[0].velocity_at, zero);
-  for (int k = 0; k < plan->coordinates; k++) {
+  for (int i = 0; i < plan->coordinates; i++) {
+    const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
     if (joint->own_origin) {
@@ -125,8 +126,8 @@ static void jacobian_motion(const ambulo__plan *plan, const double *qd, double *
     }
     jacobian_joint(plan, k, scratch);
     if (frame->body >= 0) jacobian_body(plan, frame, scratch);
-    for (int i = 0; frame->zero_load && i < 7; i++) {
-      store3(scratch + frame->composite_at + i * three, zero);
+    for (int n = 0; frame->zero_load && n < 7; n++) {
+      store3(scratch + frame->composite_at + n * three, zero);
     }
   }
 }
@@ -220,7 +221,8 @@ static void jacobian_points(const ambulo__plan *plan, double *jq, const double *
 static void jacobian_part(const ambulo__plan *plan, const double *qd, double *jq, double *jqd,
                           double *jqdd, double *scratch) {
   jacobian_motion(plan, qd, scratch);
-  for (int k = plan->coordinates - 1; k >= 0; k--) {
+  for (int i = plan->coordinates - 1; i >= 0; i--) {
+    const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1];
     subtree_changes t = jacobian_changes(plan, k, scratch);
@@ -230,8 +232,8 @@ static void jacobian_part(const ambulo__plan *plan, const double *qd, double *jq
     jacobian_wrench(plan, k, t.qdd, jqdd);
     if (!joint->own_load || joint->parent == 0) continue;
     double *above = scratch + plan->frames[joint->parent].composite_at;
-    for (int i = 0; i < 7; i++) {
-      add3_at(above + i * three, load3(scratch + frame->composite_at + i * three));
+    for (int n = 0; n < 7; n++) {
+      add3_at(above + n * three, load3(scratch + frame->composite_at + n * three));
     }
   }
   jacobian_points(plan, jq, scratch);

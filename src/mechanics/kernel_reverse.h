@@ -78,7 +78,8 @@ static void reverse_virtual(const ambulo__plan *plan, const double *weights, dou
   store3(scratch + world->virtual_at, load3(root));
   store3(scratch + world->slide_at, load3(root + three));
   if (world->spin_at >= 0) store33(scratch + world->spin_adjoint_at, (wide33){zero, zero, zero});
-  for (int k = 0; k < plan->coordinates; k++) {
+  for (int i = 0; i < plan->coordinates; i++) {
+    const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
     wide y = joint->sign * load(weights + k * AMBULO__LANES);
@@ -95,8 +96,8 @@ static void reverse_virtual(const ambulo__plan *plan, const double *weights, dou
     } else if (frame->starts_spin_adjoint) {
       store33(scratch + frame->spin_adjoint_at, (wide33){zero, zero, zero});
     }
-    for (int i = 0; frame->zero_adjoint && i < 5; i++) {
-      store3(scratch + frame->adjoint_at + i * three, zero);
+    for (int n = 0; frame->zero_adjoint && n < 5; n++) {
+      store3(scratch + frame->adjoint_at + n * three, zero);
     }
   }
 }
@@ -196,7 +197,8 @@ static void reverse_part(const ambulo__plan *plan, const double *qd, const doubl
                          double *scratch) {
   reverse_virtual(plan, weights, scratch);
   reverse_points(plan, weights, scratch);
-  for (int k = plan->coordinates - 1; k >= 0; k--) {
+  for (int i = plan->coordinates - 1; i >= 0; i--) {
+    const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1];
     double *adjoint = scratch + frame->adjoint_at;
@@ -217,7 +219,7 @@ static void reverse_part(const ambulo__plan *plan, const double *qd, const doubl
     if (joint->own_adjoint) {
       double *above = scratch + plan->frames[joint->parent].adjoint_at;
       add3_at(above + adjoint_rho, rho);
-      for (int i = 1; i < 5; i++) add3_at(above + i * three, load3(adjoint + i * three));
+      for (int n = 1; n < 5; n++) add3_at(above + n * three, load3(adjoint + n * three));
     } else {
       store3(adjoint + adjoint_rho, rho);
     }

@@ -21,7 +21,7 @@ typedef struct ambulo__plan ambulo__plan;
 /* Errors: E_MEMORY. The plan keeps no pointer to the model. */
 ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                   ambulo__plan **plan);
-void ambulo__plan_free(ambulo__plan *plan);  /* accepts NULL */
+void ambulo__plan_free(ambulo__plan *plan); /* accepts NULL */
 
 int ambulo__plan_coordinates(const ambulo__plan *plan);
 int ambulo__plan_points(const ambulo__plan *plan);
@@ -40,16 +40,16 @@ static inline int ambulo__plan_rows(const ambulo__plan *plan) {
  * and force depend on q, qd and qdd through the same columns; point rows on q
  * only. dynamic_count = start[d + 6]. */
 typedef struct ambulo__plan_pattern {
-  const int *start;        /* [rows + 1] */
-  const int *column;       /* [start[rows]] */
-  int dynamic_count;       /* entries of the rows that also depend on qd and qdd */
-  int count;               /* start[rows] */
+  const int *start;  /* [rows + 1] */
+  const int *column; /* [start[rows]] */
+  int dynamic_count; /* entries of the rows that also depend on qd and qdd */
+  int count;         /* start[rows] */
 } ambulo__plan_pattern;
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan);
 
 /* Kernels, one set per instruction set. q, qd, qdd: [d]. */
 typedef struct ambulo__kernels {
-  const char *name;        /* "avx512", "avx2", "baseline", "scalar" */
+  const char *name; /* "avx512", "avx2", "baseline", "scalar" */
 
   /* out: [rows], see above. Fills scratch for the two below. */
   void (*forward)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,

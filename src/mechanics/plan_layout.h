@@ -19,17 +19,17 @@ typedef struct ambulo__frame {
   int place_at;     /* origin, and acceleration of the origin less gravity (6) */
   int spin_at; /* Omega, the matrix of r -> acceleration relative to the origin (9); -1: unused */
   int load_at; /* wrench of the subtree about the world origin: moment, force (6) */
-  int virtual_at;      /* reverse: virtual angular velocity (3); by orientation */
-  int slide_at;        /* reverse: virtual velocity of the origin (3); by origin */
-  int adjoint_at;      /* reverse: adjoints of the chain (15), see kernel_reverse.h */
-  int spin_adjoint_at; /* reverse: adjoint of Omega (9); -1 where spin_at is */
-  int moment_at;       /* moment of the load about the frame's origin (3) */
-  int body;            /* index, -1: none */
-  int zero_load;       /* 1: the load starts at zero (no body, not exactly one child) */
-  int zero_adjoint;    /* 1: the adjoints start at zero */
+  int virtual_at;          /* reverse: virtual angular velocity (3); by orientation */
+  int slide_at;            /* reverse: virtual velocity of the origin (3); by origin */
+  int adjoint_at;          /* reverse: adjoints of the chain (15), see kernel_reverse.h */
+  int spin_adjoint_at;     /* reverse: adjoint of Omega (9); -1 where spin_at is */
+  int moment_at;           /* moment of the load about the frame's origin (3) */
+  int body;                /* index, -1: none */
+  int zero_load;           /* 1: the load starts at zero (no body, not exactly one child) */
+  int zero_adjoint;        /* 1: the adjoints start at zero */
   int starts_spin_adjoint; /* 1: this frame owns an Omega, and writes its adjoint first */
-  int velocity_at;     /* Jacobian: velocity of the origin (3); by origin */
-  int composite_at;    /* Jacobian: composite inertia of the load's subtree (21) */
+  int velocity_at;         /* Jacobian: velocity of the origin (3); by origin */
+  int composite_at;        /* Jacobian: composite inertia of the load's subtree (21) */
   double subtree_mass;
 } ambulo__frame;
 
@@ -79,6 +79,7 @@ struct ambulo__plan {
   int coordinates, points, bodies;
   ambulo__frame *frames; /* [coordinates + 1] */
   ambulo__joint *joints; /* [coordinates] */
+  int *order;            /* [coordinates]: by depth, so that neighbours do not wait for another */
   ambulo__body *body;    /* [bodies] */
   ambulo__plan_point *point;
   double gravity[3];

@@ -165,8 +165,25 @@ static void place_jacobian(ambulo__plan *plan, size_t *used) {
   }
 }
 
+static int depth_of(const ambulo__plan *plan, int frame) {
+  int depth = 0;
+  for (; frame > 0; frame = plan->joints[frame - 1].parent) depth++;
+  return depth;
+}
+
+/* Limbs side by side: what one joint waits for is computed while another limb's joint runs. */
+static void place_order(ambulo__plan *plan) {
+  int placed = 0;
+  for (int depth = 1; placed < plan->coordinates; depth++) {
+    for (int k = 0; k < plan->coordinates; k++) {
+      if (depth_of(plan, k + 1) == depth) plan->order[placed++] = k;
+    }
+  }
+}
+
 void ambulo__plan_place(ambulo__plan *plan) {
   size_t used = 0;
+  place_order(plan);
   place_motion(plan, &used);
   place_spins(plan, &used);
   for (int i = 0; i < plan->bodies; i++) plan->body[i].at = take(&used, 18);
