@@ -115,7 +115,11 @@ apt_install() {
 }
 install() {
   case $manager in
-  apt-get) apt_install "$@" || { as_root apt-get -q update && apt_install "$@"; } ;;
+  apt-get)
+    # package lists are fetched when there are none, or when the ones there are out of date
+    compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null || as_root apt-get -q update
+    apt_install "$@" || { as_root apt-get -q update && apt_install "$@"; }
+    ;;
   dnf) as_root dnf -y install "$@" ;;
   brew) brew install "$@" ;;
   *) return 1 ;;
