@@ -47,7 +47,21 @@ static int comes_before(const ambulo__stride *s, int a, int b) {
   return peak(s, s->tau, a) > peak(s, s->tau, b);
 }
 
-/* coordinates (the first of each pair), best first; returns their number */
+/* among equals the model's order, from the trunk outwards, reads best */
+static void restore_order(const ambulo__stride *s, int *chosen, int count) {
+  for (int i = 1; i < count; i++) {
+    for (int j = i; j > 0; j--) {
+      int rank = rank_of(s->model->coordinates[chosen[j]].name);
+      int before = rank_of(s->model->coordinates[chosen[j - 1]].name);
+      if (rank != before || chosen[j] > chosen[j - 1]) break;
+      int kept = chosen[j];
+      chosen[j] = chosen[j - 1];
+      chosen[j - 1] = kept;
+    }
+  }
+}
+
+/* coordinates (the first of each pair) worth showing; returns their number */
 static int choose(const ambulo__stride *s, int chosen[MOST_COLUMNS]) {
   int count = 0, any_driven = 0;
   for (int i = 0; i < s->coordinates; i++) any_driven |= s->model->coordinates[i].actuated;
@@ -60,6 +74,7 @@ static int choose(const ambulo__stride *s, int chosen[MOST_COLUMNS]) {
     }
     if (at < MOST_COLUMNS) chosen[at] = i;
   }
+  restore_order(s, chosen, count);
   return count;
 }
 

@@ -16,6 +16,8 @@
 
 enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, EXTENT_SAMPLES = 61 };
 
+static const double head_room = 14.0; /* px above the figures */
+
 typedef struct strip {
   const ambulo__panel *panel;
   const ambulo_model *model;
@@ -93,7 +95,7 @@ static void choose_scale(strip *s) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
   const double side_room = 108.0;
   const double overlap = 0.56; /* part of a figure's width that its neighbour leaves it */
-  s->scale = (s->panel->height - 14.0) / height;
+  s->scale = (s->panel->height - head_room) / height;
   /* the first and the last figure stay on the page */
   if (s->right * s->scale > side_room) s->scale = side_room / s->right;
   if (-s->left * s->scale > side_room) s->scale = side_room / -s->left;
@@ -197,34 +199,54 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
   ambulo__text_buffer label;
   ambulo__text_init(&label, &text->allocator);
   if (true_width > 0.05 * s->panel->width) {
-    ambulo__text_append(&label, "side view; walking direction stretched ");
+    ambulo__text_append(&label, "side view, walking direction stretched ");
     ambulo__label_number(&label, s->panel->width / true_width, 1);
-    ambulo__text_append(&label, " times");
+    ambulo__text_append(&label, "\xc3\x97");
   } else {
-    ambulo__text_append(&label, "side view; one figure beside the other in time");
+    ambulo__text_append(&label, "side view, one figure beside the other in time");
   }
   ambulo__svg_label(text, "end", s->panel->x + s->panel->width + 80.0, s->panel->y - 23.0,
                     ambulo__text_data(&label));
   ambulo__text_free(&label);
 }
 
+static ambulo_status measure(const ambulo_problem *problem, const double *x,
+                             const ambulo__panel *panel, const ambulo_allocator *allocator,
+                             strip *s) {
+  ambulo__stride dense = {.samples = 0};
+  s->panel = panel;
+  s->model = ambulo_problem_model(problem);
+  s->ground = problem->definition.ground_height;
+  ambulo_status status = ambulo__skeleton_create(s->model, allocator, &s->skeleton);
+  if (!status) status = ambulo__stride_create(problem, x, EXTENT_SAMPLES, allocator, &dense);
+  if (status) return status;
+  find_reference(s, &dense);
+  find_extent(s, &dense);
+  choose_scale(s);
+  ambulo__stride_free(&dense);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
+                                        const ambulo_allocator *allocator, ambulo__panel *panel) {
+  strip s = {.panel = NULL};
+  ambulo_status status = measure(problem, x, panel, allocator, &s);
+  if (!status) panel->height = s.scale * fmax(s.high - s.low, 0.1) + head_room;
+  ambulo__skeleton_free(&s.skeleton);
+  return status;
+}
+
 ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
                                  const ambulo__panel *panel, ambulo__text_buffer *text) {
-  strip s = {.panel = panel, .model = ambulo_problem_model(problem)};
-  s.ground = problem->definition.ground_height;
-  ambulo__stride dense = {.samples = 0}, shown = {.samples = 0};
-  ambulo_status status = ambulo__skeleton_create(s.model, &text->allocator, &s.skeleton);
+  strip s = {.panel = NULL};
+  ambulo__stride shown = {.samples = 0};
+  ambulo_status status = measure(problem, x, panel, &text->allocator, &s);
   if (!status)
-    status = ambulo__stride_create(problem, x, EXTENT_SAMPLES, &text->allocator, &dense);
-  if (!status) {
-    find_reference(&s, &dense);
-    find_extent(&s, &dense);
-    choose_scale(&s);
     status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
+  if (!status) {
+    draw_figures(&s, &shown, text);
+    caption(&s, text);
   }
-  if (!status) draw_figures(&s, &shown, text);
-  if (!status) caption(&s, text);
-  ambulo__stride_free(&dense);
   ambulo__stride_free(&shown);
   ambulo__skeleton_free(&s.skeleton);
   return status;

@@ -59,9 +59,12 @@ static void subtitle(const ambulo_problem *problem, const ambulo_result *result,
 static void heading(const ambulo_problem *problem, const ambulo_result *result, int sides,
                     ambulo__text_buffer *text) {
   const char *name = ambulo_problem_name(problem);
-  ambulo__svg_label(text, "title", margin, 46.0, name ? name : "motion");
   ambulo__text_buffer line;
   ambulo__text_init(&line, &text->allocator);
+  for (const char *c = name ? name : "motion"; *c; c++)
+    ambulo__text_append_char(&line, *c == '_' ? ' ' : *c);
+  ambulo__svg_label(text, "title", margin, 46.0, ambulo__text_data(&line));
+  ambulo__text_clear(&line);
   subtitle(problem, result, &line);
   ambulo__svg_label(text, "subtitle", margin, 69.0, ambulo__text_data(&line));
   ambulo__text_free(&line);
@@ -86,39 +89,48 @@ typedef struct layout {
   double height;
 } layout;
 
-static layout arrange(const ambulo__stride *stride) {
+static ambulo_status arrange(const ambulo__stride *stride, const double *x, layout *page) {
   int feet = ambulo_problem_contact_count(stride->problem) ? stride->model->foot_count : 0;
   double left = margin + 70.0, width = page_width - 2.0 * margin - 150.0;
-  layout page;
   ambulo__panel strip = {left, 92.0, width, 270.0, stride->duration};
-  page.strip = strip;
-  page.bars = strip;
-  page.bars.y = strip.y + strip.height + 30.0;
-  page.axis = page.bars;
-  page.axis.y = page.bars.y + 19.0 * (double)feet + (feet ? 3.0 : -12.0);
-  ambulo__panel curves = {margin, page.axis.y + 78.0, page_width - 2.0 * margin, 430.0,
+  ambulo_status status =
+      ambulo__gait_strip_height(stride->problem, x, &stride->allocator, &strip);
+  page->strip = strip;
+  page->bars = strip;
+  page->bars.y = strip.y + strip.height + 30.0;
+  page->axis = page->bars;
+  page->axis.y = page->bars.y + 19.0 * (double)feet + (feet ? 3.0 : -12.0);
+  ambulo__panel curves = {margin, page->axis.y + 78.0, page_width - 2.0 * margin, 430.0,
                           stride->duration};
-  page.curves = curves;
-  page.height = curves.y + curves.height + 46.0;
-  return page;
+  page->curves = curves;
+  page->height = curves.y + curves.height + 46.0;
+  return status;
+}
+
+static ambulo_status draw_page(const ambulo_problem *problem, const ambulo_result *result,
+                               const ambulo__stride *stride, ambulo__text_buffer *text) {
+  layout page;
+  const double *x = ambulo_result_x(result);
+  ambulo_status status = arrange(stride, x, &page);
+  if (status) return status;
+  const char *name = ambulo_problem_name(problem);
+  ambulo__svg_begin(text, page_width, page.height, name ? name : "motion");
+  heading(problem, result, has_sides(stride->model), text);
+  status = ambulo__gait_strip(problem, x, &page.strip, text);
+  ambulo__gait_bars(stride, &page.bars, text);
+  ambulo__time_axis(&page.axis, 9, "s", text);
+  ambulo__gait_curves(stride, &page.curves, text);
+  ambulo__svg_end(text);
+  return status ? status : ambulo__text_status(text);
 }
 
 ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
                                ambulo__text_buffer *text) {
-  const double *x = ambulo_result_x(result);
   ambulo__stride stride = {.samples = 0};
-  ambulo_status status =
-      ambulo__stride_create(problem, x, CURVE_SAMPLES, &text->allocator, &stride);
+  ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result), CURVE_SAMPLES,
+                                               &text->allocator, &stride);
   if (status) return status;
-  layout page = arrange(&stride);
-  const char *name = ambulo_problem_name(problem);
-  ambulo__svg_begin(text, page_width, page.height, name ? name : "motion");
-  heading(problem, result, has_sides(stride.model), text);
-  status = ambulo__gait_strip(problem, x, &page.strip, text);
-  ambulo__gait_bars(&stride, &page.bars, text);
-  ambulo__time_axis(&page.axis, 9, "s", text);
-  ambulo__gait_curves(&stride, &page.curves, text);
-  ambulo__svg_end(text);
+  status = draw_page(problem, result, &stride, text);
   ambulo__stride_free(&stride);
-  return status ? status : ambulo__text_status(text);
+  return status;
 }

@@ -30,6 +30,10 @@ static inline double ambulo__panel_time(const ambulo__panel *panel, double t) {
 ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
                                  const ambulo__panel *panel, ambulo__text_buffer *text);
 
+/* Sets panel->height, which is the most there is room for, to what the figures need. */
+ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
+                                        const ambulo_allocator *allocator, ambulo__panel *panel);
+
 /* One bar a foot; returns the height used, px (0 for a model without feet). */
 double ambulo__gait_bars(const ambulo__stride *stride, const ambulo__panel *panel,
                          ambulo__text_buffer *text);

@@ -103,13 +103,20 @@ static int is_massless_root(const ambulo_model *model, int i) {
   return 1;
 }
 
-/* length of the line from the parent's joint to this link's */
+/* 1 if the line from the parent's joint to this link's is drawn */
 static int has_own_line(const ambulo_model *model, int i) {
   const ambulo_link *link = &model->links[i];
   if (is_massless_root(model, i)) return 0;
   if (link->coordinate >= 0 && !model->coordinates[link->coordinate].actuated) return 0;
   if (link->type == AMBULO_PRISMATIC) return 1;
   return hypot(link->a, link->d) > shortest_line;
+}
+
+/* a step along the joint's own axis does not turn with the joint: it belongs to the parent */
+static ambulo__side line_side(const ambulo__skeleton *skeleton, int i) {
+  const ambulo_link *link = &skeleton->model->links[i];
+  int along_axis = link->type == AMBULO_REVOLUTE && fabs(link->a) <= shortest_line;
+  return along_axis && link->parent >= 0 ? skeleton->side[link->parent] : skeleton->side[i];
 }
 
 /* heel and toe centres of the feet; the line runs ankle - heel - toe - ankle */
@@ -148,7 +155,7 @@ static void add_lines(ambulo__skeleton *skeleton) {
   for (int i = 0; i < model->link_count; i++) {
     const ambulo_link *link = &model->links[i];
     if (has_own_line(model, i)) {
-      add_bone(skeleton, link->parent, NULL, i, NULL, skeleton->side[i], 0.0);
+      add_bone(skeleton, link->parent, NULL, i, NULL, line_side(skeleton, i), 0.0);
     } else if (link->mass > 0.0 && !link_has_point(model, i)) {
       double length = hypot(hypot(link->com[0], link->com[1]), link->com[2]);
       if (length > shortest_line)
