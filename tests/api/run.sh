@@ -99,6 +99,15 @@ for program in "$work"/guide*.c; do
   check "docs/guide-c-api.md: ${program##*/}" guide_program "$program"
 done
 
+# the complete examples of the format pages, among the installed models
+yaml_block() { sed -n '/^```yaml$/,/^```$/p' "$1" | sed '1d;/^```$/,$d'; }
+models=$work/root/usr/share/ambulo/models
+yaml_block docs/model-format.md >"$models/example_model.yaml"
+yaml_block docs/problem-format.md >"$models/example_problem.yaml"
+check 'docs/model-format.md: example' "$work/root/usr/bin/ambulo" info "$models/example_model.yaml"
+check 'docs/problem-format.md: example' \
+  "$work/root/usr/bin/ambulo" check "$models/example_problem.yaml"
+
 mkdir "$work/shell"
 ln -s "$PWD/models" "$work/shell/models"
 while IFS= read -r line; do
