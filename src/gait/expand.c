@@ -18,7 +18,7 @@
 
 static const double shortest_span = 1e-9; /* s */
 
-enum { MOST_STEPS = 10000 };
+enum { MOST_STEPS = 1000 };
 
 static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
   double lengths[] = {gait->step_length, gait->step_width, gait->start};

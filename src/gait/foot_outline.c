@@ -41,6 +41,8 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
   ambulo__neutral_point(model, f->heel_center, origin);
   project(model, f->toe_center, origin, ahead);
   outline.length = hypot(ahead[0], ahead[1]);
+  outline.moves_sideways = ambulo__link_moves_sideways(model, model->points[f->heel_center].link) ||
+                           ambulo__link_moves_sideways(model, model->points[f->toe_center].link);
   if (outline.length > 0.0) {
     ahead[0] /= outline.length;
     ahead[1] /= outline.length;
@@ -52,17 +54,27 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
   return outline;
 }
 
+ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
+                                            const ambulo_allocator *allocator) {
+  ambulo__foot_outline *outlines =
+      ambulo__alloc(allocator, (size_t)model->foot_count, sizeof *outlines);
+  for (int foot = 0; outlines && foot < model->foot_count; foot++) {
+    outlines[foot] = ambulo__foot_outline_of(model, foot);
+  }
+  return outlines;
+}
+
 int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel) {
   if (mode == AMBULO_CONTACT_FLAT) return 1;
   return is_heel ? mode == AMBULO_CONTACT_HEEL : mode == AMBULO_CONTACT_TOE;
 }
 
-int ambulo__contact_point(const ambulo_model *model, const ambulo_contact *contact,
-                          double place[2]) {
+int ambulo__contact_point(const ambulo_model *model, const ambulo__foot_outline *outline,
+                          const ambulo_contact *contact, double place[2]) {
   const ambulo_foot *foot = &model->feet[contact->foot];
   place[0] = contact->place[0];
   place[1] = contact->place[1];
   if (contact->mode != AMBULO_CONTACT_TOE) return foot->heel_center;
-  place[0] += ambulo__foot_outline_of(model, contact->foot).length;
+  place[0] += outline->length;
   return foot->toe_center;
 }

@@ -7,12 +7,14 @@
 #define AMBULO_GAIT_FOOT_OUTLINE_H
 
 #include "ambulo/problem.h"
+#include "base/alloc.h"
 #include "model/model.h"
 
 enum { AMBULO__FOOT_CORNERS = 4 };
 
 typedef struct ambulo__foot_outline {
   double length;                         /* heel centre to toe centre, m */
+  int moves_sideways;                    /* 0: a planar foot, which has no lateral rows */
   int count;                             /* corners: 2 (planar foot) or 4 */
   int point[AMBULO__FOOT_CORNERS];       /* the model's point of each corner */
   int is_heel[AMBULO__FOOT_CORNERS];     /* heel corner, else toe corner */
@@ -20,13 +22,17 @@ typedef struct ambulo__foot_outline {
 } ambulo__foot_outline;
 
 ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot);
+/* Of all feet, [foot_count]; NULL without memory. Free with ambulo__free. */
+ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
+                                            const ambulo_allocator *allocator);
 
 /* Whether a corner touches the ground in a mode. */
 int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel);
 
 /* The point that a contact holds in place, and where: the heel centre on the foothold,
- * or (in toe contact) the toe centre where the flat foot has it. Returns the point. */
-int ambulo__contact_point(const ambulo_model *model, const ambulo_contact *contact,
-                          double place[2]);
+ * or (in toe contact) the toe centre where the flat foot has it. `outline`: of the contact's foot.
+ * Returns the point. */
+int ambulo__contact_point(const ambulo_model *model, const ambulo__foot_outline *outline,
+                          const ambulo_contact *contact, double place[2]);
 
 #endif

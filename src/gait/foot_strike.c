@@ -8,7 +8,6 @@
  */
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
-#include "gait/neutral_pose.h"
 
 static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,
                       const double direction[3], double place, ambulo__row_table *table) {
@@ -21,12 +20,12 @@ static void place_row(const ambulo__gait_frame *frame, int node, int point, cons
 }
 
 static void contact_rows(const ambulo__gait_frame *frame, int node, const ambulo_contact *contact,
-                         ambulo__row_table *table) {
+                         const ambulo__foot_outline *outline, ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   double place[2];
-  int point = ambulo__contact_point(model, contact, place);
+  int point = ambulo__contact_point(model, outline, contact, place);
   place_row(frame, node, point, "forward", model->forward, place[0], table);
-  if (!ambulo__link_moves_sideways(model, model->points[point].link)) return;
+  if (!outline->moves_sideways) return;
   place_row(frame, node, point, "left", model->left, place[1], table);
   if (contact->mode != AMBULO_CONTACT_FLAT) return;
   int toe = model->feet[contact->foot].toe_center;
@@ -35,12 +34,17 @@ static void contact_rows(const ambulo__gait_frame *frame, int node, const ambulo
 
 void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);
+  if (!outlines) {
+    table->status = AMBULO_E_MEMORY;
+    return;
+  }
   for (int node = 0; node < frame->nodes; node++) {
     for (int foot = 0; foot < feet; foot++) {
       int contact = frame->active[node * feet + foot];
-      if (contact >= 0) {
-        contact_rows(frame, node, &frame->definition->contacts[contact], table);
-      }
+      if (contact < 0) continue;
+      contact_rows(frame, node, &frame->definition->contacts[contact], &outlines[foot], table);
     }
   }
+  ambulo__free(&table->allocator, outlines);
 }

@@ -18,18 +18,26 @@ static void height_row(const ambulo__gait_frame *frame, int node, int point,
   }
 }
 
+static void foot_rows(const ambulo__gait_frame *frame, int node, int contact,
+                      const ambulo__foot_outline *outline, ambulo__row_table *table) {
+  for (int c = 0; c < outline->count; c++) {
+    int down = contact >= 0 && ambulo__corner_in_contact(frame->definition->contacts[contact].mode,
+                                                         outline->is_heel[c]);
+    height_row(frame, node, outline->point[c], down ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE, table);
+  }
+}
+
 void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);
+  if (!outlines) {
+    table->status = AMBULO_E_MEMORY;
+    return;
+  }
   for (int node = 0; node < frame->nodes; node++) {
     for (int foot = 0; foot < feet; foot++) {
-      int contact = frame->active[node * feet + foot];
-      ambulo__foot_outline outline = ambulo__foot_outline_of(frame->model, foot);
-      for (int c = 0; c < outline.count; c++) {
-        int down =
-            contact >= 0 && ambulo__corner_in_contact(frame->definition->contacts[contact].mode,
-                                                      outline.is_heel[c]);
-        height_row(frame, node, outline.point[c], down ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE, table);
-      }
+      foot_rows(frame, node, frame->active[node * feet + foot], &outlines[foot], table);
     }
   }
+  ambulo__free(&table->allocator, outlines);
 }

@@ -70,8 +70,10 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
   const ambulo_model *model = definition->model;
   const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
   double place_a[2], place_b[2];
-  int point_a = ambulo__contact_point(model, a, place_a);
-  int point_b = ambulo__contact_point(model, b, place_b);
+  ambulo__foot_outline outline_a = ambulo__foot_outline_of(model, a->foot);
+  ambulo__foot_outline outline_b = ambulo__foot_outline_of(model, b->foot);
+  int point_a = ambulo__contact_point(model, &outline_a, a, place_a);
+  int point_b = ambulo__contact_point(model, &outline_b, b, place_b);
   double distance = hypot(place_a[0] - place_b[0], place_a[1] - place_b[1]);
   double reach = reach_between(model, point_a, point_b);
   if (distance <= reach + length_tolerance) return AMBULO_OK;

@@ -86,11 +86,11 @@ static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, dou
                        planar ? "length" : "area");
 }
 
-static ambulo_status node_rows(const ambulo__gait_frame *frame, int node, int planar,
-                               ambulo__row_table *table, ambulo_diagnostics *diagnostics) {
-  ambulo__support_region region;
+/* the region of the feet loaded at a node, refused when it is empty */
+static ambulo_status region_at(const ambulo__gait_frame *frame, int node, int planar,
+                               ambulo__support_region *region, ambulo_diagnostics *diagnostics) {
   const int *active = frame->active + node * frame->model->foot_count;
-  ambulo_status status = ambulo__support_region_of(frame->definition, active, planar, &region);
+  ambulo_status status = ambulo__support_region_of(frame->definition, active, planar, region);
   if (status) {
     static const ambulo__place nowhere = {NULL, 0, 0, NULL};
     return ambulo__error(
@@ -98,20 +98,32 @@ static ambulo_status node_rows(const ambulo__gait_frame *frame, int node, int pl
         "constraints.zmp: too many foot corners at t = %.6g s; expected at most %d",
         frame->times[node], AMBULO__POLYGON_CAPACITY - 1);
   }
-  if (region.size < smallest_region) {
-    return refuse_empty(frame, node, region.size, planar, diagnostics);
+  if (region->size >= smallest_region) return AMBULO_OK;
+  return refuse_empty(frame, node, region->size, planar, diagnostics);
+}
+
+/* the same contacts as one node before: the region, a constant of the phase, is kept */
+static int same_contacts(const ambulo__gait_frame *frame, int node) {
+  int feet = frame->model->foot_count;
+  const int *active = frame->active + node * feet;
+  if (node == 0) return 0;
+  for (int foot = 0; foot < feet; foot++) {
+    if (active[foot] != active[foot - feet]) return 0;
   }
-  for (int k = 0; k < region.count; k++) side_row(frame, node, &region.side[k], table);
-  return AMBULO_OK;
+  return 1;
 }
 
 ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_table *table,
                                ambulo_diagnostics *diagnostics) {
   int planar = !ambulo__model_moves_sideways(frame->model);
+  ambulo__support_region region = {.count = 0};
   for (int node = 0; node < frame->nodes; node++) {
     if (frame->definition->support != AMBULO_SUPPORT_OFF) {
-      ambulo_status status = node_rows(frame, node, planar, table, diagnostics);
-      if (status) return status;
+      if (!same_contacts(frame, node)) {
+        ambulo_status status = region_at(frame, node, planar, &region, diagnostics);
+        if (status) return status;
+      }
+      for (int k = 0; k < region.count; k++) side_row(frame, node, &region.side[k], table);
     }
     if (frame->definition->minimum_force >= 0.0) force_row(frame, node, table);
   }

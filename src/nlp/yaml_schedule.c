@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-enum { MOST_CONTACTS = 100000 };
+enum { MOST_CONTACTS = 5000 };
 
 /* index of the foot a node names; -1 when there is none */
 static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
@@ -157,7 +157,7 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
 
 static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   ambulo_gait gait = {.steps = 1};
-  gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 10000, 1);
+  gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
   gait.step_length =
       ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);

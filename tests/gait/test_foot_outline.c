@@ -8,6 +8,7 @@ static void corners_lie_as_built(void **state) {
   ambulo__foot_outline outline = ambulo__foot_outline_of(model, WALKER_LEFT);
   static const double expected[4][2] = {{0.0, 0.04}, {0.0, -0.04}, {0.22, 0.04}, {0.22, -0.04}};
   assert_int_equal(outline.count, 4);
+  assert_int_equal(outline.moves_sideways, 1);
   assert_close(outline.length, 0.22, 1e-15);
   for (int c = 0; c < 4; c++) {
     assert_int_equal(outline.is_heel[c], c < 2);
@@ -37,6 +38,7 @@ static void a_planar_foot_has_two_corners(void **state) {
   ambulo_model *model = walker_create(1);
   ambulo__foot_outline outline = ambulo__foot_outline_of(model, WALKER_LEFT);
   assert_int_equal(outline.count, 2);
+  assert_int_equal(outline.moves_sideways, 0);
   assert_close(outline.place[1][0] - outline.place[0][0], 0.22, 1e-15);
   ambulo_model_free(model);
 }
@@ -49,7 +51,8 @@ static void modes_hold_their_points(void **state) {
   for (int mode = AMBULO_CONTACT_HEEL; mode <= AMBULO_CONTACT_TOE; mode++) {
     contact.mode = (ambulo_contact_mode)mode;
     int toe = mode == AMBULO_CONTACT_TOE;
-    int point = ambulo__contact_point(model, &contact, place);
+    ambulo__foot_outline outline = ambulo__foot_outline_of(model, WALKER_LEFT);
+    int point = ambulo__contact_point(model, &outline, &contact, place);
     assert_string_equal(model->points[point].name, toe ? "l_toe" : "l_heel");
     assert_close(place[0], toe ? 0.82 : 0.6, 1e-15);
     assert_close(place[1], 0.09, 0.0);
