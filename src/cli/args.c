@@ -130,7 +130,8 @@ static int unknown_option(const parser *p, const char *text, size_t length) {
   char word[LONGEST_WORD + 1] = "", hint[LONGEST_WORD + 32];
   const char *names[64];
   int count = 0;
-  for (; count < command->option_count && count < 63; count++) names[count] = command->options[count].name;
+  for (; count < command->option_count && count < 63; count++)
+    names[count] = command->options[count].name;
   names[count++] = "help";
   if (length <= LONGEST_WORD) memcpy(word, text, length);
   const char *nearest = ambulo__cli_nearest(word, names, count);
@@ -170,8 +171,8 @@ static int parse_option(parser *p) {
                                    option->name, attached);
   if (option->value && !attached) {
     if (p->next + 1 >= p->argc)
-      return ambulo__cli_usage_error(p->command->name, NULL, "--%s needs a value: %s",
-                                     option->name, option->value);
+      return ambulo__cli_usage_error(p->command->name, NULL, "--%s needs a value: %s", option->name,
+                                     option->value);
     value = p->argv[++p->next];
   }
   p->options[p->given_count] = index;

@@ -3,9 +3,9 @@
 #define AMBULO_CLI_ARGS_H
 
 typedef struct ambulo__cli_option {
-  const char *name;    /* without the dashes: "time-limit" */
-  char letter;         /* 'o' for -o; 0: none */
-  const char *value;   /* what the value is called in the help; NULL: a flag */
+  const char *name;  /* without the dashes: "time-limit" */
+  char letter;       /* 'o' for -o; 0: none */
+  const char *value; /* what the value is called in the help; NULL: a flag */
   const char *help;
 } ambulo__cli_option;
 
@@ -19,17 +19,17 @@ typedef struct ambulo__cli_command {
   const char *example;     /* lines to paste */
   const ambulo__cli_option *options;
   int option_count;
-  int minimum, maximum;    /* number of positional arguments; maximum < 0: any */
-  int (*run)(const ambulo__cli_input *input);  /* returns the exit code */
+  int minimum, maximum;                       /* number of positional arguments; maximum < 0: any */
+  int (*run)(const ambulo__cli_input *input); /* returns the exit code */
 } ambulo__cli_command;
 
 /* A parsed command line. Strings are those of argv. */
 struct ambulo__cli_input {
   const ambulo__cli_command *command;
-  const char **arguments;  /* [argument_count] */
+  const char **arguments; /* [argument_count] */
   int argument_count;
-  const int *options;      /* [given_count]: index into command->options */
-  const char **values;     /* [given_count]: NULL for flags */
+  const int *options;  /* [given_count]: index into command->options */
+  const char **values; /* [given_count]: NULL for flags */
   int given_count;
 };
 

@@ -18,9 +18,9 @@ enum { POSES = 4, OUTPUTS = 3, INPUTS = 3 };
 typedef struct tables {
   const ambulo_model *model;
   ambulo_mechanics *mechanics;
-  int d, size[OUTPUTS];          /* numbers in tau, wrench, points */
-  double *state[INPUTS];         /* q, qd, qdd [d] */
-  double *value[4][OUTPUTS];     /* at the four moved states */
+  int d, size[OUTPUTS];      /* numbers in tau, wrench, points */
+  double *state[INPUTS];     /* q, qd, qdd [d] */
+  double *value[4][OUTPUTS]; /* at the four moved states */
   double *jacobian[OUTPUTS][INPUTS];
   double error[OUTPUTS][INPUTS];
   int worst_row[OUTPUTS][INPUTS], worst_column[OUTPUTS][INPUTS];
@@ -70,8 +70,8 @@ static ambulo_status check_pose(tables *t) {
   ambulo_jacobians all = {t->jacobian[0][0], t->jacobian[0][1], t->jacobian[0][2],
                           t->jacobian[1][0], t->jacobian[1][1], t->jacobian[1][2],
                           t->jacobian[2][0]};
-  ambulo_status status = ambulo_mechanics_jacobians(t->mechanics, 1, t->state[0], t->state[1],
-                                                    t->state[2], &all);
+  ambulo_status status =
+      ambulo_mechanics_jacobians(t->mechanics, 1, t->state[0], t->state[1], t->state[2], &all);
   for (int i = 0; i < INPUTS && !status; i++) {
     for (int c = 0; c < t->d && !status; c++) {
       static const double moves[4] = {-2.0, -1.0, 1.0, 2.0};

@@ -40,12 +40,11 @@ static ambulo_status check_gradients(const ambulo_problem *problem, int *wrong) 
   ambulo_derivative_error errors[MOST_FAMILIES];
   ambulo_workspace *workspace = NULL;
   double *x = calloc((size_t)n + 1, sizeof *x);
-  ambulo_status status =
-      x ? ambulo_workspace_create(problem, NULL, &workspace) : AMBULO_E_MEMORY;
+  ambulo_status status = x ? ambulo_workspace_create(problem, NULL, &workspace) : AMBULO_E_MEMORY;
   if (!status) {
     unremarkable_point(x, n);
-    status = ambulo_problem_check_derivatives(problem, workspace, x, 0.0, errors, MOST_FAMILIES,
-                                              &count);
+    status =
+        ambulo_problem_check_derivatives(problem, workspace, x, 0.0, errors, MOST_FAMILIES, &count);
   }
   if (!status) *wrong += print_gradients(errors, count);
   ambulo_workspace_free(workspace);
@@ -58,8 +57,7 @@ static ambulo_status check_rank(const ambulo_problem *problem, ambulo_diagnostic
   if (!zero) return AMBULO_E_MEMORY;
   ambulo_options options = ambulo_problem_options(problem);
   ambulo_result *result = NULL;
-  ambulo_status status =
-      ambulo_audit_point(problem, &options, zero, NULL, diagnostics, &result);
+  ambulo_status status = ambulo_audit_point(problem, &options, zero, NULL, diagnostics, &result);
   if (!status) {
     const ambulo_audit *audit = ambulo_result_audit(result);
     printf("  at the zero start: %d active rows of rank %d, %d dependent equalities\n",
@@ -97,8 +95,8 @@ static int check_file(const char *file) {
   int code = ambulo__cli_diagnostics(diagnostics, status, file);
   ambulo_diagnostics_free(diagnostics);
   if (!code && wrong) {
-    ambulo__cli_error("E_NUMERIC", NULL, "%s: %d gradients disagree with central differences",
-                      file, wrong);
+    ambulo__cli_error("E_NUMERIC", NULL, "%s: %d gradients disagree with central differences", file,
+                      wrong);
     code = ambulo_status_exit_code(AMBULO_E_NUMERIC);
   }
   return code;

@@ -18,8 +18,8 @@ static ambulo_status audit(const ambulo__cli_input *input, evaluation *e) {
   const char **overrides = calloc((size_t)input->given_count + 1, sizeof *overrides);
   if (!overrides) return AMBULO_E_MEMORY;
   int count = ambulo__cli_values(input, "set", overrides);
-  ambulo_status status = ambulo_problem_load(input->arguments[0], overrides, count, NULL,
-                                             e->diagnostics, &e->problem);
+  ambulo_status status =
+      ambulo_problem_load(input->arguments[0], overrides, count, NULL, e->diagnostics, &e->problem);
   free(overrides);
   if (status) return status;
   e->x = calloc((size_t)ambulo_problem_variable_count(e->problem), sizeof *e->x);

@@ -66,8 +66,7 @@ static void print_points(const ambulo_model *model) {
   for (int i = 0; i < points; i++) {
     const ambulo_point *p = ambulo_model_point(model, i);
     printf("  %-3d %-22s %-22s %9.4f %9.4f %9.4f\n", i, p->name,
-           ambulo_model_link(model, p->link)->name, p->position[0], p->position[1],
-           p->position[2]);
+           ambulo_model_link(model, p->link)->name, p->position[0], p->position[1], p->position[2]);
   }
   if (feet) printf("\nfeet\n");
   for (int i = 0; i < feet; i++) {
@@ -98,13 +97,14 @@ static void print_schedule(const ambulo_problem *problem) {
   static const char *const modes[] = {"heel", "flat", "toe"};
   int count = ambulo_problem_contact_count(problem);
   if (count == 0) return;
-  printf("\ncontacts (s; foothold in m along forward and left)\n  %-3s %-10s %-5s %9s %9s %9s %9s\n",
-         "", "foot", "mode", "from", "to", "forward", "left");
+  printf(
+      "\ncontacts (s; foothold in m along forward and left)\n  %-3s %-10s %-5s %9s %9s %9s %9s\n",
+      "", "foot", "mode", "from", "to", "forward", "left");
   for (int i = 0; i < count; i++) {
     const ambulo_contact *c = ambulo_problem_contact(problem, i);
     printf("  %-3d %-10s %-5s %9.4f %9.4f %9.4f %9.4f\n", i,
-           ambulo_model_foot(ambulo_problem_model(problem), c->foot)->name, modes[c->mode],
-           c->from, c->to, c->place[0], c->place[1]);
+           ambulo_model_foot(ambulo_problem_model(problem), c->foot)->name, modes[c->mode], c->from,
+           c->to, c->place[0], c->place[1]);
   }
 }
 
@@ -118,9 +118,9 @@ static void print_families(const ambulo_problem *problem) {
   for (int r = 0; r < ambulo_problem_row_count(problem); r++) {
     if (ambulo_problem_row(problem, r, &row)) continue;
     int k = 0;
-    while (k < kind_count && (strcmp(kinds[k].family, row.family) != 0 ||
-                              strcmp(kinds[k].unit, row.unit) != 0 ||
-                              kinds[k].relation != row.relation))
+    while (k < kind_count &&
+           (strcmp(kinds[k].family, row.family) != 0 || strcmp(kinds[k].unit, row.unit) != 0 ||
+            kinds[k].relation != row.relation))
       k++;
     if (k == MOST_KINDS) continue;
     if (k == kind_count) kinds[kind_count++] = row;

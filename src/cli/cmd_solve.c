@@ -25,7 +25,7 @@ static void catch_signals(void) {
   struct sigaction action;
   memset(&action, 0, sizeof action);
   action.sa_handler = note_signal;
-  action.sa_flags = (int)SA_RESETHAND;  /* the second one kills */
+  action.sa_flags = (int)SA_RESETHAND; /* the second one kills */
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
@@ -33,14 +33,14 @@ static void catch_signals(void) {
 
 typedef struct job {
   const ambulo__cli_input *input;
-  char *directory;               /* where the result goes */
+  char *directory; /* where the result goes */
   ambulo_report_options report;
   ambulo_problem *problem;
   ambulo_result *result;
-  double *start;                 /* NULL: zero */
-  double time_limit;             /* s; < 0: as in the file */
+  double *start;     /* NULL: zero */
+  double time_limit; /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
-  int terminal;                  /* 1: show progress */
+  int terminal; /* 1: show progress */
 } job;
 
 static int show_progress(void *user, const ambulo_progress *p) {
@@ -48,7 +48,8 @@ static int show_progress(void *user, const ambulo_progress *p) {
   if (j->terminal) {
     char left[40] = "";
     if (p->seconds_left >= 0.0) snprintf(left, sizeof left, ", %.0f s left", p->seconds_left);
-    fprintf(stderr, "\riteration %d: objective %.6g, violation %.1e, %d evaluations, %.1f s%s\033[K",
+    fprintf(stderr,
+            "\riteration %d: objective %.6g, violation %.1e, %d evaluations, %.1f s%s\033[K",
             p->iteration, p->objective, p->violation, p->evaluations, p->seconds, left);
     fflush(stderr);
   }
@@ -147,8 +148,8 @@ static int run_job(job *j) {
   if (!status) status = load_start(j);
   if (!status) status = solve(j);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);
-  status = ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL,
-                               j->diagnostics);
+  status =
+      ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
   code = ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
   ambulo_status printed = print_outcome(j);
   if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
@@ -168,7 +169,8 @@ static int run(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option options[] = {
     {"output", 'o', "DIR", "result folder (default: <problem>_result)"},
-    {"set", 0, "path=value", "replace a value of the problem file, e.g. time.intervals=36;\nmay be repeated"},
+    {"set", 0, "path=value",
+     "replace a value of the problem file, e.g. time.intervals=36;\nmay be repeated"},
     {"start", 0, "zero|FILE", "start from zero (default) or from a solution.yaml"},
     {"time-limit", 0, "S", "stop after S seconds with the best point; 0: no limit"},
     {"samples", 0, "n", "times in motion.csv (default: the time nodes)"},

@@ -1,4 +1,5 @@
-/* cli/summary.c - a result as a person reads it: what is the point, how good is it, what did it cost. */
+/* cli/summary.c - a result as a person reads it: what is the point, how good is it, what did it
+ * cost. */
 #include "cli/summary.h"
 
 #include <math.h>

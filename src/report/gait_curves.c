@@ -15,9 +15,9 @@ static const double degrees = 57.295779513082321;
 typedef struct chart {
   ambulo__panel box;
   const ambulo__stride *stride;
-  const double *values;    /* [samples][coordinates] */
-  double factor;           /* to the unit shown */
-  double low, high;        /* of the axis, in the unit shown */
+  const double *values; /* [samples][coordinates] */
+  double factor;        /* to the unit shown */
+  double low, high;     /* of the axis, in the unit shown */
 } chart;
 
 /* ----------------------------------------------------------------- selection */

@@ -22,13 +22,13 @@ typedef struct strip {
   const ambulo__panel *panel;
   const ambulo_model *model;
   ambulo__skeleton skeleton;
-  int reference;          /* link whose parent's origin moves with the body */
-  double speed, start;    /* of the reference along forward, m/s, m */
-  double ground;          /* m */
-  double left, right;     /* extent of the figures about the reference line, m */
-  double low, high;       /* above the ground, m */
-  double scale;           /* px per m */
-  double base;            /* y of the ground, px */
+  int reference;       /* link whose parent's origin moves with the body */
+  double speed, start; /* of the reference along forward, m/s, m */
+  double ground;       /* m */
+  double left, right;  /* extent of the figures about the reference line, m */
+  double low, high;    /* above the ground, m */
+  double scale;        /* px per m */
+  double base;         /* y of the ground, px */
   int figures;
 } strip;
 
@@ -241,8 +241,7 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
   strip s = {.panel = NULL};
   ambulo__stride shown = {.samples = 0};
   ambulo_status status = measure(problem, x, panel, &text->allocator, &s);
-  if (!status)
-    status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
+  if (!status) status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
   if (!status) {
     draw_figures(&s, &shown, text);
     caption(&s, text);

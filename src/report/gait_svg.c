@@ -93,8 +93,7 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x, layo
   int feet = ambulo_problem_contact_count(stride->problem) ? stride->model->foot_count : 0;
   double left = margin + 70.0, width = page_width - 2.0 * margin - 150.0;
   ambulo__panel strip = {left, 92.0, width, 270.0, stride->duration};
-  ambulo_status status =
-      ambulo__gait_strip_height(stride->problem, x, &stride->allocator, &strip);
+  ambulo_status status = ambulo__gait_strip_height(stride->problem, x, &stride->allocator, &strip);
   page->strip = strip;
   page->bars = strip;
   page->bars.y = strip.y + strip.height + 30.0;

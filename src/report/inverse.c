@@ -21,10 +21,10 @@ typedef struct inverse {
   const ambulo_model *model;
   ambulo_diagnostics *diagnostics;
   const char *file;
-  ambulo__motion *given;     /* as in the file */
-  ambulo__motion *motion;    /* one column a coordinate, radians and metres */
+  ambulo__motion *given;  /* as in the file */
+  ambulo__motion *motion; /* one column a coordinate, radians and metres */
   ambulo__motion_fit *fit;
-  double *q, *qd, *qdd, *tau, *wrench, *zmp;  /* [rows][...] */
+  double *q, *qd, *qdd, *tau, *wrench, *zmp; /* [rows][...] */
 } inverse;
 
 static void clear(inverse *v) {
@@ -52,8 +52,7 @@ static ambulo_status select_columns(inverse *v, const char **names, unsigned cha
   int d = model->coordinate_count, found = 0;
   ambulo__place place = {.file = v->file};
   for (int i = 0; i < d; i++) names[i] = model->coordinates[i].name;
-  ambulo_status status =
-      ambulo__motion_create(v->given->rows, d, names, &v->allocator, &v->motion);
+  ambulo_status status = ambulo__motion_create(v->given->rows, d, names, &v->allocator, &v->motion);
   if (status) return status;
   memcpy(v->motion->time, v->given->time, (size_t)v->given->rows * sizeof *v->motion->time);
   v->motion->in_degrees = v->given->in_degrees;
@@ -72,8 +71,8 @@ static ambulo_status select_columns(inverse *v, const char **names, unsigned cha
                          model->name, d ? names[0] : "");
   for (int i = 0; i < d; i++) {
     if (ambulo__motion_coordinate(v->given, names[i]) < 0)
-      ambulo__warning(v->diagnostics, place, NULL, "no column for coordinate '%s'; it is taken as 0",
-                      names[i]);
+      ambulo__warning(v->diagnostics, place, NULL,
+                      "no column for coordinate '%s'; it is taken as 0", names[i]);
   }
   ambulo__motion_to_radians(v->motion, is_angle);
   return AMBULO_OK;
@@ -143,15 +142,21 @@ static ambulo_status deliver(inverse *v, const char *output, char **text) {
   ambulo__text_buffer buffer;
   ambulo__text_init(&buffer, &v->allocator);
   ambulo__motion_table table = {
-      .model = v->model, .name = v->model->name, .samples = v->motion->rows,
-      .times = v->motion->time, .q = v->q,   .qd = v->qd,
-      .qdd = v->qdd,            .tau = v->tau, .zmp = v->zmp,
+      .model = v->model,
+      .name = v->model->name,
+      .samples = v->motion->rows,
+      .times = v->motion->time,
+      .q = v->q,
+      .qd = v->qd,
+      .qdd = v->qdd,
+      .tau = v->tau,
+      .zmp = v->zmp,
   };
   ambulo__motion_csv(&table, &buffer);
   ambulo_status status = ambulo__text_status(&buffer);
   if (!status && output) {
-    status = ambulo__write_file(output, ambulo__text_data(&buffer), buffer.length, 1,
-                                &v->allocator, v->diagnostics);
+    status = ambulo__write_file(output, ambulo__text_data(&buffer), buffer.length, 1, &v->allocator,
+                                v->diagnostics);
   } else if (!status) {
     char *copy = ambulo__strdup(&v->allocator, ambulo__text_data(&buffer));
     if (copy) *text = copy;

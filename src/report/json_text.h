@@ -6,13 +6,13 @@
 
 typedef struct ambulo__json {
   ambulo__text_buffer *text;
-  int depth, first;  /* first: nothing yet stands in the innermost object or array */
+  int depth, first; /* first: nothing yet stands in the innermost object or array */
 } ambulo__json;
 
 /* Keys are NULL inside arrays and for the outermost value. */
-void ambulo__json_open(ambulo__json *json, const char *key, char bracket);  /* '{' or '[' */
-void ambulo__json_close(ambulo__json *json, char bracket);                  /* '}' or ']' */
-void ambulo__json_text(ambulo__json *json, const char *key, const char *value);  /* NULL: null */
+void ambulo__json_open(ambulo__json *json, const char *key, char bracket);      /* '{' or '[' */
+void ambulo__json_close(ambulo__json *json, char bracket);                      /* '}' or ']' */
+void ambulo__json_text(ambulo__json *json, const char *key, const char *value); /* NULL: null */
 /* null for NaN and infinities, which JSON does not have */
 void ambulo__json_number(ambulo__json *json, const char *key, double value);
 void ambulo__json_integer(ambulo__json *json, const char *key, long long value);

@@ -28,8 +28,8 @@ static int options_valid(const ambulo_report_options *options) {
 static ambulo_status begin(const char *directory, const ambulo_report_options *options,
                            const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                            ambulo__folder **folder) {
-  return ambulo__folder_begin(directory, options->overwrite ? marker : NULL, allocator,
-                              diagnostics, folder);
+  return ambulo__folder_begin(directory, options->overwrite ? marker : NULL, allocator, diagnostics,
+                              folder);
 }
 
 ambulo_status ambulo_report_check(const char *directory, const ambulo_report_options *options,
@@ -42,8 +42,8 @@ ambulo_status ambulo_report_check(const char *directory, const ambulo_report_opt
 }
 
 /* hands a finished text to the folder and empties the buffer for the next one */
-static ambulo_status write_text(ambulo__folder *folder, const char *name,
-                                ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
+static ambulo_status write_text(ambulo__folder *folder, const char *name, ambulo__text_buffer *text,
+                                ambulo_diagnostics *diagnostics) {
   ambulo_status status = ambulo__text_status(text);
   if (!status)
     status = ambulo__folder_write(folder, name, ambulo__text_data(text), text->length, diagnostics);
@@ -55,13 +55,19 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
                                   int samples, ambulo__folder *folder, ambulo__text_buffer *text,
                                   ambulo_diagnostics *diagnostics) {
   ambulo__stride stride = {.samples = 0};
-  ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result), samples,
-                                               &text->allocator, &stride);
+  ambulo_status status =
+      ambulo__stride_create(problem, ambulo_result_x(result), samples, &text->allocator, &stride);
   if (status) return status;
   ambulo__motion_table table = {
-      .model = stride.model, .name = ambulo_problem_name(problem), .samples = stride.samples,
-      .times = stride.times, .q = stride.q,   .qd = stride.qd,
-      .qdd = stride.qdd,     .tau = stride.tau, .zmp = stride.zmp,
+      .model = stride.model,
+      .name = ambulo_problem_name(problem),
+      .samples = stride.samples,
+      .times = stride.times,
+      .q = stride.q,
+      .qd = stride.qd,
+      .qdd = stride.qdd,
+      .tau = stride.tau,
+      .zmp = stride.zmp,
   };
   ambulo__motion_csv(&table, text);
   status = write_text(folder, "motion.csv", text, diagnostics);

@@ -14,9 +14,8 @@ static void link_transform(const ambulo_link *link, double q, double t[12]) {
   double theta = link->theta + (link->type == AMBULO_REVOLUTE ? q : 0.0);
   double d = link->d + (link->type == AMBULO_PRISMATIC ? q : 0.0);
   double c = cos(theta), s = sin(theta), ca = cos(link->alpha), sa = sin(link->alpha);
-  double rows[12] = {c,   -s * ca, s * sa, link->a * c,
-                     s,   c * ca,  -c * sa, link->a * s,
-                     0.0, sa,      ca,      d};
+  double rows[12] = {c,       -s * ca,     s * sa, link->a * c, s,  c * ca,
+                     -c * sa, link->a * s, 0.0,    sa,          ca, d};
   memcpy(t, rows, sizeof rows);
 }
 
@@ -51,7 +50,8 @@ void ambulo__skeleton_point(const ambulo__skeleton *skeleton, int link, const do
   }
   const double *f = skeleton->frames + 12 * (size_t)link;
   for (int r = 0; r < 3; r++)
-    world[r] = f[4 * r] * local[0] + f[4 * r + 1] * local[1] + f[4 * r + 2] * local[2] + f[4 * r + 3];
+    world[r] =
+        f[4 * r] * local[0] + f[4 * r + 1] * local[1] + f[4 * r + 2] * local[2] + f[4 * r + 3];
 }
 
 /* --------------------------------------------------------------------- sides */
@@ -158,8 +158,7 @@ static void add_lines(ambulo__skeleton *skeleton) {
       add_bone(skeleton, link->parent, NULL, i, NULL, line_side(skeleton, i), 0.0);
     } else if (link->mass > 0.0 && !link_has_point(model, i)) {
       double length = hypot(hypot(link->com[0], link->com[1]), link->com[2]);
-      if (length > shortest_line)
-        add_bone(skeleton, i, NULL, i, link->com, skeleton->side[i], 0.0);
+      if (length > shortest_line) add_bone(skeleton, i, NULL, i, link->com, skeleton->side[i], 0.0);
     }
   }
   add_feet(skeleton);

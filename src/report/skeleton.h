@@ -14,10 +14,10 @@
 typedef enum ambulo__side { AMBULO__MIDDLE, AMBULO__LEFT, AMBULO__RIGHT } ambulo__side;
 
 typedef struct ambulo__bone {
-  int link[2];          /* links its ends are fixed to; -1: the world */
-  double at[2][3];      /* ends in the links' frames, m */
+  int link[2];     /* links its ends are fixed to; -1: the world */
+  double at[2][3]; /* ends in the links' frames, m */
   ambulo__side side;
-  double head;          /* > 0: a head of this radius (m) sits at the second end */
+  double head; /* > 0: a head of this radius (m) sits at the second end */
 } ambulo__bone;
 
 typedef struct ambulo__skeleton {
@@ -25,14 +25,14 @@ typedef struct ambulo__skeleton {
   const ambulo_model *model;
   ambulo__bone *bones;
   int bone_count, bone_capacity;
-  ambulo__side *side;   /* [links] */
-  double *frames;       /* [links][12]: rows of the 3 x 4 transform, after ambulo__skeleton_pose */
+  ambulo__side *side; /* [links] */
+  double *frames;     /* [links][12]: rows of the 3 x 4 transform, after ambulo__skeleton_pose */
 } ambulo__skeleton;
 
 /* Errors: E_MEMORY. */
 ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                       ambulo__skeleton *skeleton);
-void ambulo__skeleton_free(ambulo__skeleton *skeleton);  /* accepts a zero-filled one */
+void ambulo__skeleton_free(ambulo__skeleton *skeleton); /* accepts a zero-filled one */
 
 /* Frames at q [coordinates]. */
 void ambulo__skeleton_pose(ambulo__skeleton *skeleton, const double *q);

@@ -17,9 +17,9 @@ typedef struct reader {
   const ambulo_problem *problem;
   ambulo_allocator allocator;
   ambulo__yaml *document;
-  ambulo__basis *basis;    /* of the file */
-  int *column;             /* [d]: coordinate of the problem that stands in column i of the file */
-  double *points;          /* [control points of the file][d], in the problem's order */
+  ambulo__basis *basis; /* of the file */
+  int *column;          /* [d]: coordinate of the problem that stands in column i of the file */
+  double *points;       /* [control points of the file][d], in the problem's order */
 } reader;
 
 static ambulo_status read_basis(reader *r, const ambulo__yaml_node *root) {
@@ -28,8 +28,7 @@ static ambulo_status read_basis(reader *r, const ambulo__yaml_node *root) {
   double duration = ambulo__yaml_number_in(ambulo__yaml_require(root, "duration"), 1e-9, 1e9, 1.0);
   int kind = ambulo__yaml_choice(ambulo__yaml_require(t, "basis"), words, 3, 0);
   int degree = ambulo__yaml_integer(ambulo__yaml_get(t, "degree"), 3, AMBULO__MAX_DEGREE, 3);
-  int intervals =
-      ambulo__yaml_integer(ambulo__yaml_require(t, "intervals"), 1, MAX_INTERVALS, 1);
+  int intervals = ambulo__yaml_integer(ambulo__yaml_require(t, "intervals"), 1, MAX_INTERVALS, 1);
   const ambulo__yaml_node *breaks = ambulo__yaml_get(t, "breakpoints");
   ambulo__yaml_close(t);
   ambulo_status status = ambulo__yaml_finish(r->document);
@@ -73,11 +72,12 @@ static ambulo_status read_coordinates(reader *r, const ambulo__yaml_node *root) 
     int coordinate = name ? ambulo_model_find_coordinate(model, name) : -1;
     for (int k = 0; k < i && coordinate >= 0; k++) {
       if (r->column[k] == coordinate)
-        return ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "coordinate '%s' appears twice", name);
+        return ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "coordinate '%s' appears twice",
+                                  name);
     }
     if (name && coordinate < 0)
-      return ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL,
-                                "model '%s' has no coordinate '%s'", model->name, name);
+      return ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL, "model '%s' has no coordinate '%s'",
+                                model->name, name);
     r->column[i] = coordinate;
   }
   return ambulo__yaml_finish(r->document);
@@ -138,8 +138,8 @@ static ambulo_status read_document(reader *r, double *x) {
     memcpy(x, r->points, (size_t)r->problem->variables * sizeof *x);
     return AMBULO_OK;
   }
-  return ambulo__basis_transfer(r->basis, r->points, r->problem->basis, x,
-                                r->problem->coordinates, &r->allocator);
+  return ambulo__basis_transfer(r->basis, r->points, r->problem->basis, x, r->problem->coordinates,
+                                &r->allocator);
 }
 
 ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *problem,

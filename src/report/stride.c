@@ -8,8 +8,8 @@
 
 /* times at which the problem itself is sampled, and which of them stand for the mirrored step */
 typedef struct sampling {
-  double *base;    /* [samples], in [0, T] */
-  char *mirrored;  /* [samples] */
+  double *base;   /* [samples], in [0, T] */
+  char *mirrored; /* [samples] */
 } sampling;
 
 static void choose_times(ambulo__stride *s, int wanted, sampling *sample) {
@@ -46,8 +46,7 @@ static void mirror_row(const ambulo_model *model, double *row, const double *shi
 static void mirror_point(const ambulo_model *model, double travel, double *point) {
   double aside = 0.0;
   for (int i = 0; i < 3; i++) aside += point[i] * model->left[i];
-  for (int i = 0; i < 3; i++)
-    point[i] += travel * model->forward[i] - 2.0 * aside * model->left[i];
+  for (int i = 0; i < 3; i++) point[i] += travel * model->forward[i] - 2.0 * aside * model->left[i];
 }
 
 static void fill_shift(const ambulo__stride *s, double *shift) {
@@ -138,8 +137,7 @@ void ambulo__stride_free(ambulo__stride *s) {
   ambulo__free(&s->allocator, s->zmp);
 }
 
-int ambulo__stride_contact(const ambulo__stride *s, int foot, double t,
-                           ambulo_contact_mode *mode) {
+int ambulo__stride_contact(const ambulo__stride *s, int foot, double t, ambulo_contact_mode *mode) {
   double step = ambulo_problem_duration(s->problem);
   if (s->mirrored && t > step) {
     t -= step;

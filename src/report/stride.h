@@ -18,19 +18,19 @@ typedef struct ambulo__stride {
   const ambulo_problem *problem;
   const ambulo_model *model;
   int mirrored;
-  double duration;             /* s: T or 2 T */
+  double duration; /* s: T or 2 T */
   int samples, coordinates;
-  double *times;               /* [samples], s */
-  double *q, *qd, *qdd, *tau;  /* [samples][coordinates], rad, m, N m, N; not finite where the
-                                  motion is not */
-  double *zmp;                 /* [samples][3], m; NaN where the body does not press down */
+  double *times;              /* [samples], s */
+  double *q, *qd, *qdd, *tau; /* [samples][coordinates], rad, m, N m, N; not finite where the
+                                 motion is not */
+  double *zmp;                /* [samples][3], m; NaN where the body does not press down */
 } ambulo__stride;
 
 /* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced
  * times. Fills *stride, which ambulo__stride_free releases. Errors: E_ARGUMENT, E_MEMORY. */
 ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double *x, int samples,
                                     const ambulo_allocator *allocator, ambulo__stride *stride);
-void ambulo__stride_free(ambulo__stride *stride);  /* accepts a zero-filled one */
+void ambulo__stride_free(ambulo__stride *stride); /* accepts a zero-filled one */
 
 /* Mode of the contact of `foot` at time t in the stride; 0 if it is in the air. */
 int ambulo__stride_contact(const ambulo__stride *stride, int foot, double t,

@@ -17,9 +17,10 @@ static int remember(const ambulo__cli_input *input) {
   int samples = -1;
   if (!ambulo__cli_number(input, "limit", 0.0, 100.0, &limit)) return 2;
   if (!ambulo__cli_integer(input, "samples", 2, 50, &samples)) return 2;
-  int used = snprintf(seen, sizeof seen, "%s %d", output ? output : "-",
-                      ambulo__cli_flag(input, "quiet"));
-  if (want_number) used += snprintf(seen + used, sizeof seen - (size_t)used, " %g %d", limit, samples);
+  int used =
+      snprintf(seen, sizeof seen, "%s %d", output ? output : "-", ambulo__cli_flag(input, "quiet"));
+  if (want_number)
+    used += snprintf(seen + used, sizeof seen - (size_t)used, " %g %d", limit, samples);
   for (int i = 0; i < count; i++)
     used += snprintf(seen + used, sizeof seen - (size_t)used, " [%s]", values[i]);
   for (int i = 0; i < input->argument_count; i++)
@@ -84,10 +85,20 @@ static void test_forms(void **state) {
 
 static void test_refusals(void **state) {
   (void)state;
-  static const char *const bad[] = {"",         "a b c",      "a --outpt x", "a -x",
-                                    "a -o",     "a --quiet=1", "a -qx",       "a --limit x",
-                                    "a --limit 1,5", "a --limit 0x10", "a --limit inf",
-                                    "a --limit 101", "a --samples 1", "a --samples 2.5",
+  static const char *const bad[] = {"",
+                                    "a b c",
+                                    "a --outpt x",
+                                    "a -x",
+                                    "a -o",
+                                    "a --quiet=1",
+                                    "a -qx",
+                                    "a --limit x",
+                                    "a --limit 1,5",
+                                    "a --limit 0x10",
+                                    "a --limit inf",
+                                    "a --limit 101",
+                                    "a --samples 1",
+                                    "a --samples 2.5",
                                     "a --samples 99999999999999999999"};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     int code = run(bad[i]);
@@ -116,6 +127,7 @@ static void test_nearest(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_forms), cmocka_unit_test(test_refusals),
-                                     cmocka_unit_test(test_numbers), cmocka_unit_test(test_nearest)};
+                                     cmocka_unit_test(test_numbers),
+                                     cmocka_unit_test(test_nearest)};
   return cmocka_run_group_tests_name("cli/args", tests, NULL, NULL);
 }

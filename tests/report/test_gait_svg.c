@@ -63,7 +63,8 @@ static void test_arm(void **state) {
   const char *svg = ambulo__text_data(&text);
   assert_true(is_xml(svg));
   assert_non_null(strstr(svg, "a &lt;swing&gt; &amp; more"));
-  assert_int_equal(occurrences(svg, "<path class=\"trunk\""), occurrences(svg, "<g class=\"figure\">"));
+  assert_int_equal(occurrences(svg, "<path class=\"trunk\""),
+                   occurrences(svg, "<g class=\"figure\">"));
   assert_int_equal(occurrences(svg, "<path class=\"trunk curve\""), 4);
   assert_null(strstr(svg, "class=\"ground\""));
   ambulo__text_free(&text);

@@ -6,8 +6,12 @@
 #include "trajectory/motion_file.h"
 
 /* quintic in time: the interpolating spline of degree 5 reproduces it and its rates */
-static double shoulder(double t) { return 0.3 + t - 0.5 * t * t * t; }
-static double elbow(double t) { return -0.2 + 0.7 * t * t; }
+static double shoulder(double t) {
+  return 0.3 + t - 0.5 * t * t * t;
+}
+static double elbow(double t) {
+  return -0.2 + 0.7 * t * t;
+}
 
 static void write_motion(const char *path, const char *header, int rows, double unit) {
   FILE *file = fopen(path, "w");
@@ -30,16 +34,17 @@ static double cell(const ambulo__motion *m, int row, const char *name) {
 static void check_torques(const ambulo_model *model, const char *text) {
   ambulo__motion *m = NULL;
   ambulo_mechanics *mechanics = NULL;
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "result", AMBULO__MOTION_CSV, NULL,
-                                            NULL, &m),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo__motion_read_text(text, strlen(text), "result", AMBULO__MOTION_CSV, NULL, NULL, &m),
+      AMBULO_OK);
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
   assert_int_equal(m->rows, 9);
   for (int k = 0; k < m->rows; k++) {
     double t = 0.1 * k, tau[2];
     double q[2] = {shoulder(t), elbow(t)}, qd[2] = {1.0 - 1.5 * t * t, 1.4 * t};
     double qdd[2] = {-3.0 * t, 1.4};
-    assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, NULL, NULL), 0);
+    assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, NULL, NULL),
+                     0);
     assert_close(cell(m, k, "q.shoulder"), q[0], 1e-13);
     assert_close(cell(m, k, "qd.shoulder"), qd[0], 1e-10);
     assert_close(cell(m, k, "qdd.elbow"), qdd[1], 1e-8);
@@ -57,7 +62,8 @@ static void test_torques(void **state) {
   write_motion(motion, "time,shoulder,q.elbow", 9, 1.0);
   assert_int_equal(ambulo_inverse_dynamics_file(model, motion, NULL, NULL, NULL, &text), AMBULO_OK);
   check_torques(model, text);
-  assert_int_equal(ambulo_inverse_dynamics_file(model, motion, output, NULL, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo_inverse_dynamics_file(model, motion, output, NULL, NULL, NULL),
+                   AMBULO_OK);
   char *written = read_text(output);
   assert_string_equal(written, text);
   ambulo_text_free(text, NULL);

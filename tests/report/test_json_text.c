@@ -31,14 +31,14 @@ static void test_layout(void **state) {
 /* the recognizers themselves can say no */
 static void test_recognizers(void **state) {
   (void)state;
-  static const char *const bad_json[] = {"", "{", "{\"a\" 1}", "[1,]", "nan", "01", "{\"a\":1}x",
-                                         "\"\n\"", "1e", "[1 2]"};
+  static const char *const bad_json[] = {"",   "{",          "{\"a\" 1}", "[1,]", "nan",
+                                         "01", "{\"a\":1}x", "\"\n\"",    "1e",   "[1 2]"};
   for (size_t i = 0; i < sizeof bad_json / sizeof *bad_json; i++) {
     if (is_json(bad_json[i])) print_error("taken for JSON: %s\n", bad_json[i]);
     assert_false(is_json(bad_json[i]));
   }
-  static const char *const bad_xml[] = {"<a>", "<a></b>", "<a b=1/><c/>", "<a>&x</a>", "<a \"<\"/>",
-                                        "<a/>x"};
+  static const char *const bad_xml[] = {"<a>",       "<a></b>",    "<a b=1/><c/>",
+                                        "<a>&x</a>", "<a \"<\"/>", "<a/>x"};
   for (size_t i = 0; i < sizeof bad_xml / sizeof *bad_xml; i++) {
     if (is_xml(bad_xml[i])) print_error("taken for XML: %s\n", bad_xml[i]);
     assert_false(is_xml(bad_xml[i]));

@@ -5,8 +5,8 @@
 #include "trajectory/motion_file.h"
 
 static ambulo__motion_table table_of(const ambulo__stride *s) {
-  ambulo__motion_table table = {s->model, "a walk", s->samples, s->times, s->q, s->qd,
-                                s->qdd,   s->tau,   s->zmp};
+  ambulo__motion_table table = {s->model, "a walk", s->samples, s->times, s->q,
+                                s->qd,    s->qdd,   s->tau,     s->zmp};
   return table;
 }
 

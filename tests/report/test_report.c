@@ -116,9 +116,9 @@ static void test_full_disk(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(test_complete), SCRATCH_TEST(test_replaced_only_on_request),
-      SCRATCH_TEST(test_a_folder_of_others_is_kept), SCRATCH_TEST(test_bad_places),
-      SCRATCH_TEST(test_full_disk)};
+  const struct CMUnitTest tests[] = {SCRATCH_TEST(test_complete),
+                                     SCRATCH_TEST(test_replaced_only_on_request),
+                                     SCRATCH_TEST(test_a_folder_of_others_is_kept),
+                                     SCRATCH_TEST(test_bad_places), SCRATCH_TEST(test_full_disk)};
   return cmocka_run_group_tests_name("report/report", tests, NULL, NULL);
 }

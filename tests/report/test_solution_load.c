@@ -92,8 +92,9 @@ static void test_missing_file(void **state) {
   walk w;
   walk_open(&w, 12);
   double x = 0.0;
-  assert_int_equal(ambulo_solution_load(scratch_path(state, "none.yaml"), w.problem, NULL, NULL, &x),
-                   AMBULO_E_IO);
+  assert_int_equal(
+      ambulo_solution_load(scratch_path(state, "none.yaml"), w.problem, NULL, NULL, &x),
+      AMBULO_E_IO);
   walk_close(&w);
 }
 

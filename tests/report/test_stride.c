@@ -13,8 +13,7 @@ static void test_nodes(void **state) {
   assert_int_equal(s.samples, 25);
   assert_true(s.mirrored);
   assert_close(s.duration, 2.0 * walker_step_time, 1e-15);
-  for (int k = 0; k < 25; k++)
-    assert_close(s.times[k], (double)k * walker_step_time / 12.0, 1e-14);
+  for (int k = 0; k < 25; k++) assert_close(s.times[k], (double)k * walker_step_time / 12.0, 1e-14);
   ambulo__stride_free(&s);
   walk_close(&w);
 }

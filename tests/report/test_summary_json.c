@@ -10,12 +10,23 @@ static void test_content(void **state) {
   char *text = NULL;
   assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
   assert_true(is_json(text));
-  static const char *const parts[] = {
-      "\"verdict\": \"feasible\"", "\"total\": 0.30000000000000004", "\"torque_squared\": ",
-      "\"worst\": 3e-07", "\"family\": \"foot_strike\"", "\"row\": \"left_heel\"",
-      "\"time\": 0.25", "\"dense_violation\": {", "\"kkt\": 0", "\"coordinates\": 9",
-      "\"variables\": 135", "\"nodes\": 13", "\"linear_algebra\": 0", "\"nlopt\": \"",
-      "\"libyaml\": \"0.", "\"instruction_set\": \"", "\"ending\": \"made by \\\"hand\\\"\\u000a\""};
+  static const char *const parts[] = {"\"verdict\": \"feasible\"",
+                                      "\"total\": 0.30000000000000004",
+                                      "\"torque_squared\": ",
+                                      "\"worst\": 3e-07",
+                                      "\"family\": \"foot_strike\"",
+                                      "\"row\": \"left_heel\"",
+                                      "\"time\": 0.25",
+                                      "\"dense_violation\": {",
+                                      "\"kkt\": 0",
+                                      "\"coordinates\": 9",
+                                      "\"variables\": 135",
+                                      "\"nodes\": 13",
+                                      "\"linear_algebra\": 0",
+                                      "\"nlopt\": \"",
+                                      "\"libyaml\": \"0.",
+                                      "\"instruction_set\": \"",
+                                      "\"ending\": \"made by \\\"hand\\\"\\u000a\""};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
     if (!strstr(text, parts[i])) print_error("%s is missing from\n%s\n", parts[i], text);
     assert_non_null(strstr(text, parts[i]));

@@ -34,9 +34,8 @@ static void test_nice_steps(void **state) {
     int parts;
     double step;
     int decimals;
-  } cases[] = {{1.1, 9, 0.2, 1},  {10.0, 4, 2.5, 1},     {60.0, 4, 20.0, 0},
-               {0.9, 9, 0.1, 1},  {2000.0, 4, 500.0, 0}, {0.0, 4, 1.0, 0},
-               {0.07, 4, 0.02, 2}, {9.9, 1, 10.0, 0}};
+  } cases[] = {{1.1, 9, 0.2, 1},      {10.0, 4, 2.5, 1}, {60.0, 4, 20.0, 0}, {0.9, 9, 0.1, 1},
+               {2000.0, 4, 500.0, 0}, {0.0, 4, 1.0, 0},  {0.07, 4, 0.02, 2}, {9.9, 1, 10.0, 0}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     int decimals = -1;
     double step = ambulo__nice_step(cases[i].range, cases[i].parts, &decimals);
@@ -58,7 +57,9 @@ static void label(double value, int decimals, const char *expected) {
 static void test_labels(void **state) {
   (void)state;
   label(0.1 + 0.2, 1, "0.3");
-  label(-20.0, 0, "\xe2\x88\x92" "20");
+  label(-20.0, 0,
+        "\xe2\x88\x92"
+        "20");
   label(-0.0001, 2, "0");
 }
 

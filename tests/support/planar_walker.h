@@ -35,7 +35,7 @@ static inline ambulo_link walker_link(const char *name, int parent, ambulo_joint
 
 static inline ambulo_model *walker_create(void) {
   static const char *const names[WALKER_COORDINATES] = {
-      "pelvis_tx",    "pelvis_ty",     "pelvis_tilt",  "hip_flexion_r", "knee_angle_r",
+      "pelvis_tx",     "pelvis_ty",     "pelvis_tilt",  "hip_flexion_r", "knee_angle_r",
       "ankle_angle_r", "hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
   const double quarter = walker_pi / 2.0;
   ambulo_link links[WALKER_LINKS] = {
@@ -63,7 +63,8 @@ static inline ambulo_model *walker_create(void) {
                                               {"right_toe", 6, {0.16, -0.06, 0.0}},
                                               {"left_heel", 9, {-0.05, -0.06, 0.0}},
                                               {"left_toe", 9, {0.16, -0.06, 0.0}}};
-  const ambulo_foot feet[2] = {{"right", {1, -1}, {2, -1}, 1, 2, 1}, {"left", {3, -1}, {4, -1}, 3, 4, 0}};
+  const ambulo_foot feet[2] = {{"right", {1, -1}, {2, -1}, 1, 2, 1},
+                               {"left", {3, -1}, {4, -1}, 3, 4, 0}};
   ambulo_model_definition definition = ambulo_model_definition_default();
   definition.name = "planar_walker";
   definition.links = links;
@@ -81,8 +82,8 @@ static inline ambulo_model *walker_create(void) {
 
 /* One mirrored step with contact rows; NULL if it is refused. */
 static inline ambulo_problem *walker_problem(const ambulo_model *model, int intervals) {
-  const ambulo_gait gait = {1, 0, walker_step_length, walker_step_time, 0.0, 0.0,
-                            0.0, 0.08, 0.38, 0.62};
+  const ambulo_gait gait = {1,    0,   walker_step_length, walker_step_time, 0.0, 0.0, 0.0, 0.08,
+                            0.38, 0.62};
   ambulo_contact contacts[12];
   ambulo_problem_definition definition = ambulo_problem_definition_default();
   ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
