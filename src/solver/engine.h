@@ -107,7 +107,7 @@ int ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, doub
 /* pipeline.c: the whole method from x (in and out). The last multipliers stay in
  * engine->lambda and engine->equality_multiplier. `loose`: a coarse grid whose solution
  * only starts the next one. */
-ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, int warm, int loose,
+ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, int loose,
                                double *x);
 
 #endif

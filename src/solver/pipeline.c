@@ -1,6 +1,6 @@
 /* solver/pipeline.c - the method on one grid: restore, then refresh and minimize in turn.
  *
- *     mu = 0.3 T/K (cold) or 1 T/K (after knot insertion), rho = 10, lambda = 0
+ *     mu = 0.3 T/K, rho = 10, lambda = 0
  *     restore
  *     repeat
  *         model step d, metric L L'                            (model_step.c)
@@ -17,8 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 8, MAX_BACKTRACKS = 6, STALL = 25 };
-static const double mu_cold = 0.3, mu_warm = 1.0;   /* times T/K */
+enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 10, MAX_BACKTRACKS = 6, STALL = 25 };
+static const double mu_start = 0.3;                  /* times T/K */
 static const double rho_start = 10.0, rho_largest = 3000.0, rho_factor = 2.0;
 static const double step_cap = 0.5;                 /* rad, m */
 static const double restored = 1e-6;
@@ -111,13 +111,13 @@ static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, doub
   return finished(e, p) || stop;
 }
 
-ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int warm, int loose,
+ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose,
                                double *x) {
   const ambulo_problem *p = e->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose};
   double error;
-  e->mu = (warm ? mu_warm : mu_cold) * interval;
+  e->mu = mu_start * interval;
   e->rho = rho_start;
   memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
   memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);

@@ -43,7 +43,7 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
   if (!status && warm) status = ambulo_problem_transfer(*previous, *x_previous, level, x);
   if (!status) status = ambulo__engine_create(level, x, a, run, NULL, &engine);
   if (!status && engine->rows.regular)
-    status = ambulo__pipeline(engine, AMBULO__INNER_AUGLAG, warm, 1, x);
+    status = ambulo__pipeline(engine, AMBULO__INNER_AUGLAG, 1, x);
   int useful = !status && engine->rows.regular && engine->best.value < HUGE_VAL;
   ambulo__engine_free(engine);
   if (useful) {

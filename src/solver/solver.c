@@ -16,9 +16,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SMALL = 150 };
+enum { SMALL = 60 }; /* unknowns */
 static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-static const double near_feasible = 1e-2; /* equality error of a start that is taken as warm */
 
 typedef struct solve {
   const ambulo_problem *problem;
@@ -71,20 +70,18 @@ static double violation_at(ambulo__engine *e, const double *x) {
 
 static ambulo_status solve_by_pipeline(solve *s) {
   double *x = s->result->x;
-  int levels = 0, warm = 0;
+  int levels = 0;
   ambulo_status status = AMBULO_OK;
   s->method = "AUGLAG with LBFGS, whitened";
   if (s->from_zero && s->run.options->continuation)
     status = ambulo__refine(s->problem, s->allocator, &s->run, x, &levels);
   if (status) return status;
-  if (levels == 0 && ambulo__evaluate(s->engine->workspace, x) == AMBULO_OK)
-    warm = !s->from_zero && ambulo__engine_equality_error(s->engine) < near_feasible;
-  status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, warm || levels > 0, 0, x);
+  status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
   if (status || levels == 0 || s->run.stopped) return status;
   if (violation_at(s->engine, x) <= s->run.options->feasibility_tolerance) return status;
   /* the coarse grids led astray: once more, from the start */
   memset(x, 0, (size_t)s->problem->variables * sizeof *x);
-  return ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, 0, x);
+  return ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
 }
 
 static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm) {
