@@ -99,6 +99,10 @@ int ambulo__model_minimize(ambulo__engine *engine, double *phi);
  * large finite value. */
 double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradient);
 
+/* polish.c: moves x by a few Newton steps until the inequalities hold to a fifth of the
+ * tolerance; 1 on success, else x stays. engine->best must belong to x. */
+int ambulo__polish(ambulo__engine *engine, double *x);
+
 /* inner.c: NLopt from engine->w: at most `evaluations` of ambulo__augmented. */
 typedef enum ambulo__inner_kind { AMBULO__INNER_AUGLAG, AMBULO__INNER_LBFGS } ambulo__inner_kind;
 int ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,

@@ -8,7 +8,8 @@
  *         NLopt from there, a few evaluations of F             (inner.c, augmented.c)
  *         lambda <- max(0, lambda + rho v)
  *         rho <- min(3000, 2 rho) when max |max(v, -lambda/rho)| did not halve
- *     until v <= tolerance, f has settled, and the reduced gradient is small
+ *     until f has settled, the reduced gradient is small, and v <= tolerance, or small enough
+ *     for a few Newton steps on the rows                   (polish.c)
  *
  * Equalities hold all along: every point is a retracted one.
  */
@@ -17,13 +18,15 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 10, MAX_BACKTRACKS = 6, STALL = 25 };
+enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 10, MAX_BACKTRACKS = 6, STALL = 15 };
 static const double mu_start = 0.3;                  /* times T/K */
 static const double rho_start = 10.0, rho_largest = 3000.0, rho_factor = 2.0;
 static const double step_cap = 0.5;                 /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5;            /* relative */
 static const double gradient_small = 1e-4;
+static const double polishable = 1e-5;              /* excess, row's own unit */
+static const double polish_reach = 1e-3;            /* the same, when nothing else helps */
 static const double loose_violation = 1e-3, loose_change = 1e-3;   /* on coarse grids */
 
 typedef struct progress {
@@ -75,23 +78,28 @@ static void update_multipliers(ambulo__engine *e, progress *p) {
   p->measure = now;
 }
 
-static int finished(const ambulo__engine *e, progress *p) {
+/* follows the best point; 1 when the loop is to end */
+static int finished(ambulo__engine *e, progress *p, double *x) {
   const ambulo__trial *best = &e->best;
-  double change = fabs(best->objective - p->objective);
+  double change = fabs(best->objective - p->objective), violation = best->violation;
   double tolerance = p->loose ? loose_violation : e->run->options->feasibility_tolerance;
   double relative = p->loose ? loose_change : value_change;
-  int feasible = best->violation <= tolerance;
   int steady = change <= relative * fabs(best->objective) || best->objective == 0.0;
-  p->settled = feasible && steady ? p->settled + 1 : 0;
+  int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
+  int near = violation <= fmax(tolerance, polishable);
+  p->settled = near && steady ? p->settled + 1 : 0;
   p->objective = best->objective;
   p->since_better++;
-  if (best->violation < 0.9 * p->least_violation) {
-    p->least_violation = best->violation;
+  if (violation < 0.9 * p->least_violation) {
+    p->least_violation = violation;
     p->since_better = 0;
   }
-  if (!feasible && e->rho >= rho_largest && p->since_better > STALL) return 1;
-  int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
-  return (p->settled >= 1 && (small || p->loose)) || p->settled >= 3;
+  int stalled = e->rho >= rho_largest && p->since_better > STALL;
+  int settled = (p->settled >= 1 && (small || p->loose)) || p->settled >= 3;
+  if (violation <= tolerance) return settled;
+  if (!settled && !stalled) return 0;
+  int polished = violation <= polish_reach && ambulo__polish(e, x);
+  return polished || stalled;
 }
 
 /* one refresh; 1 when there is nothing more to do */
@@ -108,7 +116,7 @@ static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, doub
   e->run->iterations++;
   int stop = ambulo__run_progress(e->run, e->best.objective / e->objective_scale,
                                   e->best.violation);
-  return finished(e, p) || stop;
+  return finished(e, p, x) || stop;
 }
 
 ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose,
