@@ -15,6 +15,19 @@ enum { FORMAT_VERSION = 1 };
 
 /* ------------------------------------------------------------------ overrides */
 
+/* "solver.algorithm=slsqp" must also work in a file without a section `solver`: adds it empty */
+static ambulo_status add_section(ambulo__yaml *document, const char *path) {
+  static const char *const sections[] = {"subject",     "time", "trajectory", "gait",
+                                         "constraints", "ends", "solver"};
+  for (int i = 0; i < 7; i++) {
+    size_t length = strlen(sections[i]);
+    if (strncmp(path, sections[i], length) != 0 || path[length] != '.') continue;
+    if (ambulo__yaml_get(ambulo__yaml_root(document), sections[i])) return AMBULO_OK;
+    return ambulo__yaml_set(document, sections[i], "{}");
+  }
+  return AMBULO_OK;
+}
+
 static ambulo_status apply_override(ambulo__problem_reader *reader, ambulo__yaml *document,
                                     const char *override) {
   static const ambulo__place command_line = {NULL, 0, 0, NULL};
@@ -28,7 +41,8 @@ static ambulo_status apply_override(ambulo__problem_reader *reader, ambulo__yaml
   char *path = ambulo__reader_alloc(reader, length + 1, 1);
   if (!path) return AMBULO_E_MEMORY;
   memcpy(path, override, length);
-  return ambulo__yaml_set(document, path, equals + 1);
+  ambulo_status status = add_section(document, path);
+  return status ? status : ambulo__yaml_set(document, path, equals + 1);
 }
 
 static ambulo_status apply_overrides(ambulo__problem_reader *reader, ambulo__yaml *document,

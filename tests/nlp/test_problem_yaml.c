@@ -31,6 +31,26 @@ static void every_shipped_problem_loads(void **state) {
   }
 }
 
+/* the first example of docs/problem-format.md */
+static void the_documented_example_loads(void **state) {
+  (void)state;
+  char text[32768];
+  FILE *stream = fopen("docs/problem-format.md", "r");
+  assert_non_null(stream);
+  text[fread(text, 1, sizeof text - 1, stream)] = '\0';
+  fclose(stream);
+  char *begin = strstr(text, "```yaml\n");
+  assert_non_null(begin);
+  begin += 8;
+  char *end = strstr(begin, "```");
+  assert_non_null(end);
+  *end = '\0';
+  ambulo_problem *p = problem_of(begin);
+  assert_string_equal(ambulo_problem_name(p), "stroll");
+  assert_close(ambulo_problem_duration(p), 2.4, 1e-14);
+  ambulo_problem_free(p);
+}
+
 static void the_subject_scales_the_model(void **state) {
   (void)state;
   ambulo_problem *p = problem_of(WALKER "subject: {mass: 60, stature: 1.6, sex: female}\n" REST);
@@ -92,14 +112,16 @@ static void contradictions_have_a_place(void **state) {
 static void overrides_come_first(void **state) {
   (void)state;
   const char *text = PENDULUM REST;
-  const char *const good[] = {"time.intervals=36", "name=swing", "time.duration=2.5"};
+  const char *const good[] = {"time.intervals=36", "name=swing", "time.duration=2.5",
+                              "solver.presolve=off"};
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load_text(text, strlen(text), NULL, "models/", good, 3, NULL, NULL, &p),
+      ambulo_problem_load_text(text, strlen(text), NULL, "models/", good, 4, NULL, NULL, &p),
       AMBULO_OK);
   assert_int_equal(ambulo_problem_node_count(p), 37);
   assert_close(ambulo_problem_duration(p), 2.5, 0.0);
   assert_string_equal(ambulo_problem_name(p), "swing");
+  assert_int_equal(ambulo_problem_options(p).presolve, 0);
   ambulo_problem_free(p);
   p = NULL;
   static const struct {
@@ -181,6 +203,7 @@ static void memory_may_run_out_anywhere(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_smallest_problem_loads),
                                      cmocka_unit_test(every_shipped_problem_loads),
+                                     cmocka_unit_test(the_documented_example_loads),
                                      cmocka_unit_test(the_subject_scales_the_model),
                                      cmocka_unit_test(headers_are_checked),
                                      cmocka_unit_test(a_missing_model_is_named),
