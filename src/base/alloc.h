@@ -17,8 +17,8 @@ void *ambulo__alloc(const ambulo_allocator *allocator, size_t count, size_t size
 void *ambulo__alloc_aligned(const ambulo_allocator *allocator, size_t count, size_t size);
 /* Grows or shrinks; new bytes are not cleared; NULL leaves `pointer` as it was. */
 void *ambulo__realloc(const ambulo_allocator *allocator, void *pointer, size_t count, size_t size);
-void ambulo__free(const ambulo_allocator *allocator, void *pointer);          /* accepts NULL */
-void ambulo__free_aligned(const ambulo_allocator *allocator, void *pointer);  /* accepts NULL */
+void ambulo__free(const ambulo_allocator *allocator, void *pointer);         /* accepts NULL */
+void ambulo__free_aligned(const ambulo_allocator *allocator, void *pointer); /* accepts NULL */
 char *ambulo__strdup(const ambulo_allocator *allocator, const char *text);
 
 #endif

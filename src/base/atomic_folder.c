@@ -128,14 +128,14 @@ ambulo_status ambulo__folder_begin(const char *path, const char *marker,
   f->allocator = own;
   f->path = ambulo__strdup(&own, path);
   f->marker = marker ? ambulo__strdup(&own, marker) : NULL;
-  ambulo_status status = AMBULO_OK;
-  if (!f->path || (marker && !f->marker)) status = ambulo__io_memory_error(diagnostics, path);
-  if (status == AMBULO_OK) {
-    /* "out/" and "out" are one place; the temporary must be a sibling, not a child */
-    for (size_t n = strlen(f->path); n > 1 && f->path[n - 1] == '/'; n--) f->path[n - 1] = '\0';
-    int occupied;
-    status = inspect_target(f, diagnostics, &occupied);
+  if (!f->path || (marker && !f->marker)) {
+    ambulo__folder_abort(f);
+    return ambulo__io_memory_error(diagnostics, path);
   }
+  /* "out/" and "out" are one place; the temporary must be a sibling, not a child */
+  for (size_t n = strlen(f->path); n > 1 && f->path[n - 1] == '/'; n--) f->path[n - 1] = '\0';
+  int occupied;
+  ambulo_status status = inspect_target(f, diagnostics, &occupied);
   if (status == AMBULO_OK) {
     f->parent = ambulo__parent_path(&own, f->path);
     status =

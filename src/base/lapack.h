@@ -43,9 +43,9 @@ extern void dsbmv_(const char *uplo, const int *n, const int *k, const double *a
 extern void dgbtrf_(const int *m, const int *n, const int *kl, const int *ku, double *ab,
                     const int *ldab, int *ipiv, int *info);
 /* A X = B or A' X = B with the factor of dgbtrf */
-extern void dgbtrs_(const char *trans, const int *n, const int *kl, const int *ku,
-                    const int *nrhs, const double *ab, const int *ldab, const int *ipiv, double *b,
-                    const int *ldb, int *info);
+extern void dgbtrs_(const char *trans, const int *n, const int *kl, const int *ku, const int *nrhs,
+                    const double *ab, const int *ldab, const int *ipiv, double *b, const int *ldb,
+                    int *info);
 
 /* -------------------------------------------------------------------- dense */
 
@@ -89,17 +89,16 @@ extern void dsyrk_(const char *uplo, const char *trans, const int *n, const int 
                    const double *alpha, const double *a, const int *lda, const double *beta,
                    double *c, const int *ldc);
 /* C = alpha op(A) op(B) + beta C */
-extern void dgemm_(const char *transa, const char *transb, const int *m, const int *n,
-                   const int *k, const double *alpha, const double *a, const int *lda,
-                   const double *b, const int *ldb, const double *beta, double *c,
-                   const int *ldc);
+extern void dgemm_(const char *transa, const char *transb, const int *m, const int *n, const int *k,
+                   const double *alpha, const double *a, const int *lda, const double *b,
+                   const int *ldb, const double *beta, double *c, const int *ldc);
 /* y = alpha op(A) x + beta y */
 extern void dgemv_(const char *trans, const int *m, const int *n, const double *alpha,
                    const double *a, const int *lda, const double *x, const int *incx,
                    const double *beta, double *y, const int *incy);
 /* B = alpha op(T)^-1 B or alpha B op(T)^-1 */
 extern void dtrsm_(const char *side, const char *uplo, const char *transa, const char *diag,
-                   const int *m, const int *n, const double *alpha, const double *a,
-                   const int *lda, double *b, const int *ldb);
+                   const int *m, const int *n, const double *alpha, const double *a, const int *lda,
+                   double *b, const int *ldb);
 
 #endif

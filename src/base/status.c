@@ -3,8 +3,8 @@
 
 const char *ambulo_status_name(ambulo_status status) {
   switch (status) {
-#define NAME_CASE(id, name, exit_status, text) \
-  case id: \
+#define NAME_CASE(id, name, exit_status, text)                                                     \
+  case id:                                                                                         \
     return name;
     AMBULO_STATUS_LIST(NAME_CASE)
 #undef NAME_CASE
@@ -14,8 +14,8 @@ const char *ambulo_status_name(ambulo_status status) {
 
 const char *ambulo_status_text(ambulo_status status) {
   switch (status) {
-#define TEXT_CASE(id, name, exit_status, text) \
-  case id: \
+#define TEXT_CASE(id, name, exit_status, text)                                                     \
+  case id:                                                                                         \
     return text;
     AMBULO_STATUS_LIST(TEXT_CASE)
 #undef TEXT_CASE
@@ -25,8 +25,8 @@ const char *ambulo_status_text(ambulo_status status) {
 
 int ambulo_status_exit_code(ambulo_status status) {
   switch (status) {
-#define EXIT_CASE(id, name, exit_status, text) \
-  case id: \
+#define EXIT_CASE(id, name, exit_status, text)                                                     \
+  case id:                                                                                         \
     return exit_status;
     AMBULO_STATUS_LIST(EXIT_CASE)
 #undef EXIT_CASE
@@ -34,4 +34,6 @@ int ambulo_status_exit_code(ambulo_status status) {
   return 6;
 }
 
-const char *ambulo_version(void) { return AMBULO_VERSION_STRING; }
+const char *ambulo_version(void) {
+  return AMBULO_VERSION_STRING;
+}

@@ -9,13 +9,13 @@
 
 typedef struct ambulo__text_buffer {
   ambulo_allocator allocator;
-  char *data;           /* NULL until the first append: use ambulo__text_data() */
+  char *data; /* NULL until the first append: use ambulo__text_data() */
   size_t length, capacity;
   int failed;
 } ambulo__text_buffer;
 
 void ambulo__text_init(ambulo__text_buffer *buffer, const ambulo_allocator *allocator);
-void ambulo__text_free(ambulo__text_buffer *buffer);   /* accepts a zero-filled buffer */
+void ambulo__text_free(ambulo__text_buffer *buffer); /* accepts a zero-filled buffer */
 /* Empties the buffer and keeps its memory; clears the failure. */
 void ambulo__text_clear(ambulo__text_buffer *buffer);
 

@@ -17,8 +17,8 @@
 #include "ambulo/status.h"
 #include "base/diagnostics.h"
 
-typedef struct ambulo__yaml ambulo__yaml;            /* a document */
-typedef struct ambulo__yaml_node ambulo__yaml_node;  /* a node of it */
+typedef struct ambulo__yaml ambulo__yaml;           /* a document */
+typedef struct ambulo__yaml_node ambulo__yaml_node; /* a node of it */
 
 typedef enum ambulo__yaml_kind {
   AMBULO__YAML_SCALAR,
@@ -34,7 +34,7 @@ ambulo_status ambulo__yaml_load(const char *path, const ambulo_allocator *alloca
 ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char *name,
                                      const ambulo_allocator *allocator,
                                      ambulo_diagnostics *diagnostics, ambulo__yaml **document);
-void ambulo__yaml_free(ambulo__yaml *document);  /* accepts NULL */
+void ambulo__yaml_free(ambulo__yaml *document); /* accepts NULL */
 
 /* Replaces or adds the scalar at a dotted path ("time.intervals",
  * "objective[0].weight") by a YAML flow text ("36", "[1, 2]", "off"): what
@@ -47,7 +47,8 @@ const char *ambulo__yaml_file(const ambulo__yaml *document);
 ambulo_status ambulo__yaml_finish(const ambulo__yaml *document);
 
 ambulo__yaml_kind ambulo__yaml_kind_of(const ambulo__yaml_node *node);
-int ambulo__yaml_count(const ambulo__yaml_node *node);   /* items of a sequence, pairs of a mapping; 0 for NULL */
+int ambulo__yaml_count(
+    const ambulo__yaml_node *node); /* items of a sequence, pairs of a mapping; 0 for NULL */
 const ambulo__yaml_node *ambulo__yaml_item(const ambulo__yaml_node *sequence, int index);
 /* Pairs in file order: key text and value. */
 const char *ambulo__yaml_key(const ambulo__yaml_node *mapping, int index);
@@ -78,7 +79,7 @@ double ambulo__yaml_number(const ambulo__yaml_node *node, double fallback);
 double ambulo__yaml_number_in(const ambulo__yaml_node *node, double min, double max,
                               double fallback);
 int ambulo__yaml_integer(const ambulo__yaml_node *node, int min, int max, int fallback);
-int ambulo__yaml_boolean(const ambulo__yaml_node *node, int fallback);   /* true / false only */
+int ambulo__yaml_boolean(const ambulo__yaml_node *node, int fallback); /* true / false only */
 /* Index of the scalar in words[0..count), error with the list (and nearest) otherwise. */
 int ambulo__yaml_choice(const ambulo__yaml_node *node, const char *const *words, int count,
                         int fallback);
