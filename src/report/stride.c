@@ -115,7 +115,7 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
     /* a motion that blew up is still shown, holes and all */
     if (status == AMBULO_E_NUMERIC) status = AMBULO_OK;
   }
-  if (!status) mirror_second_step(&s, &sample, scratch);
+  if (!status && scratch) mirror_second_step(&s, &sample, scratch);
   ambulo_workspace_free(workspace);
   ambulo__free(&s.allocator, sample.base);
   ambulo__free(&s.allocator, sample.mirrored);

@@ -1,4 +1,5 @@
 /* The result folder: complete, replaced only on request, never half. */
+#include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/walker_result.h"
@@ -113,12 +114,38 @@ static void test_full_disk(void **state) {
   walk_close(&w);
 }
 
+/* every request of memory is refused once: nothing leaks, nothing is written */
+static void test_out_of_memory(void **state) {
+  walk w;
+  walk_open(&w, 6);
+  ambulo_report_options options = ambulo_report_options_default();
+  long tried = 0;
+  for (long k = 0; k < 10000; k++, tried++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    const char *folder = scratch_path(state, "result");
+    ambulo_status status =
+        ambulo_report_write(w.problem, w.result, folder, &options, &allocator, NULL);
+    if (status != AMBULO_E_MEMORY && status != AMBULO_OK)
+      print_error("request %ld: %s\n", k, ambulo_status_name(status));
+    assert_true(status == AMBULO_OK || status == AMBULO_E_MEMORY);
+    assert_int_equal(memory.live, 0);
+    assert_int_equal(entries_in(*state), status == AMBULO_OK);
+    if (!memory.failed) break;
+    if (status == AMBULO_OK) assert_int_equal(scratch_remove_at(AT_FDCWD, folder), 0);
+  }
+  assert_true(tried > 40);
+  walk_close(&w);
+}
+
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(test_complete),
                                      SCRATCH_TEST(test_replaced_only_on_request),
                                      SCRATCH_TEST(test_a_folder_of_others_is_kept),
-                                     SCRATCH_TEST(test_bad_places), SCRATCH_TEST(test_full_disk)};
+                                     SCRATCH_TEST(test_bad_places),
+                                     SCRATCH_TEST(test_full_disk),
+                                     SCRATCH_TEST(test_out_of_memory)};
   return cmocka_run_group_tests_name("report/report", tests, NULL, NULL);
 }

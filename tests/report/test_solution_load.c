@@ -1,5 +1,6 @@
 /* solution.yaml: the same bits on the same grid, the same motion on another, and refusals. */
 #include "report/solution_yaml.h"
+#include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/walker_result.h"
@@ -98,10 +99,37 @@ static void test_missing_file(void **state) {
   walk_close(&w);
 }
 
+static void test_out_of_memory(void **state) {
+  walk coarse, fine;
+  walk_open(&coarse, 4);
+  walk_open(&fine, 8);
+  const char *path = write_solution(state, &coarse);
+  int n = ambulo_problem_variable_count(fine.problem);
+  double *x = calloc((size_t)n, sizeof *x);
+  long k = 0;
+  for (;; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_status status = ambulo_solution_load(path, fine.problem, &allocator, NULL, x);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) {
+      assert_int_equal(status, AMBULO_OK);
+      break;
+    }
+    assert_int_equal(status, AMBULO_E_MEMORY);
+    for (int i = 0; i < n; i++) assert_true(x[i] == 0.0);
+  }
+  assert_true(k > 5);
+  free(x);
+  walk_close(&coarse);
+  walk_close(&fine);
+}
+
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(test_same_bits), SCRATCH_TEST(test_finer_grid),
-                                     SCRATCH_TEST(test_refusals), SCRATCH_TEST(test_missing_file)};
+                                     SCRATCH_TEST(test_refusals), SCRATCH_TEST(test_missing_file),
+                                     SCRATCH_TEST(test_out_of_memory)};
   return cmocka_run_group_tests_name("report/solution_load", tests, NULL, NULL);
 }
