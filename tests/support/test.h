@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 /* |got - want| <= tolerance * max(1, |want|) */
-#define assert_close(got, want, tolerance) \
+#define assert_close(got, want, tolerance)                                                         \
   check_close((double)(got), (double)(want), (double)(tolerance), #got, __FILE__, __LINE__)
 
 static inline void check_close(double got, double want, double tolerance, const char *what,
