@@ -72,6 +72,26 @@ keys_documented() {
   [ -s "$1" ] && return $lost
 }
 
+# the map in the README names the folders of src, all of them
+# shellcheck disable=SC2016,SC2317
+map_is_true() {
+  diff <(sed -n '/^| folder/,/^$/s/^| `\([a-z]*\)`.*/\1/p' README.md | sort) \
+    <(find src -mindepth 1 -maxdepth 1 -type d -exec basename {} \; | sort)
+}
+# no link of a page leads nowhere
+# shellcheck disable=SC2317
+links_lead_somewhere() {
+  local page target lost=0
+  for page in README.md CHANGELOG.md docs/*.md; do
+    while read -r target; do
+      [ -e "$(dirname "$page")/$target" ] || { echo "$page: no $target"; lost=1; }
+    done < <(grep -oE '\]\([^)#]+\)' "$page" | sed 's/^](//; s/)$//' | grep -v '^https\?:')
+  done
+  return $lost
+}
+
+check 'README: map of src' map_is_true
+check 'links of the pages' links_lead_somewhere
 check 'make install' make --no-print-directory VARIANT="$variant" CC="$cc" install \
   DESTDIR="$work/root" PREFIX=/usr
 export LD_LIBRARY_PATH=$work/root/usr/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
