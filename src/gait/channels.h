@@ -22,15 +22,34 @@ typedef struct ambulo__channels {
   int coordinates, points;
 } ambulo__channels;
 
-static inline int ambulo__channel_q(const ambulo__channels *c, int i) { (void)c; return i; }
-static inline int ambulo__channel_qd(const ambulo__channels *c, int i) { return c->coordinates + i; }
-static inline int ambulo__channel_qdd(const ambulo__channels *c, int i) { return 2 * c->coordinates + i; }
-static inline int ambulo__channel_tau(const ambulo__channels *c, int i) { return 3 * c->coordinates + i; }
-static inline int ambulo__channel_moment(const ambulo__channels *c, int axis) { return 4 * c->coordinates + axis; }
-static inline int ambulo__channel_force(const ambulo__channels *c, int axis) { return 4 * c->coordinates + 3 + axis; }
-static inline int ambulo__channel_point(const ambulo__channels *c, int point, int axis) { return 4 * c->coordinates + 6 + 3 * point + axis; }
-static inline int ambulo__channel_count(const ambulo__channels *c) { return 4 * c->coordinates + 6 + 3 * c->points; }
+static inline int ambulo__channel_q(const ambulo__channels *c, int i) {
+  (void)c;
+  return i;
+}
+static inline int ambulo__channel_qd(const ambulo__channels *c, int i) {
+  return c->coordinates + i;
+}
+static inline int ambulo__channel_qdd(const ambulo__channels *c, int i) {
+  return 2 * c->coordinates + i;
+}
+static inline int ambulo__channel_tau(const ambulo__channels *c, int i) {
+  return 3 * c->coordinates + i;
+}
+static inline int ambulo__channel_moment(const ambulo__channels *c, int axis) {
+  return 4 * c->coordinates + axis;
+}
+static inline int ambulo__channel_force(const ambulo__channels *c, int axis) {
+  return 4 * c->coordinates + 3 + axis;
+}
+static inline int ambulo__channel_point(const ambulo__channels *c, int point, int axis) {
+  return 4 * c->coordinates + 6 + 3 * point + axis;
+}
+static inline int ambulo__channel_count(const ambulo__channels *c) {
+  return 4 * c->coordinates + 6 + 3 * c->points;
+}
 /* First channel that the mechanics computes. */
-static inline int ambulo__channel_outputs(const ambulo__channels *c) { return 3 * c->coordinates; }
+static inline int ambulo__channel_outputs(const ambulo__channels *c) {
+  return 3 * c->coordinates;
+}
 
 #endif

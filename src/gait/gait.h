@@ -17,9 +17,9 @@ typedef struct ambulo__gait_frame {
   const ambulo_model *model;
   const ambulo__basis *basis;
   ambulo__channels channels;
-  const double *times;      /* [nodes] */
+  const double *times; /* [nodes] */
   int nodes;
-  const int *active;        /* [nodes][feet]: contact index or -1 */
+  const int *active; /* [nodes][feet]: contact index or -1 */
 } ambulo__gait_frame;
 
 /* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that

@@ -15,23 +15,23 @@
 #include "base/alloc.h"
 
 typedef struct ambulo__row_term {
-  int node;             /* -1: `channel` is the index of an unknown */
+  int node; /* -1: `channel` is the index of an unknown */
   int channel;
   double coefficient;
 } ambulo__row_term;
 
 typedef struct ambulo__table_row {
-  const char *family;   /* static text */
-  const char *subject;  /* a name that lives in the model (or static text) */
-  const char *detail;   /* static text */
-  const char *unit;     /* static text */
+  const char *family;  /* static text */
+  const char *subject; /* a name that lives in the model (or static text) */
+  const char *detail;  /* static text */
+  const char *unit;    /* static text */
   ambulo_relation relation;
-  int node;             /* the node whose channels it uses; -1: several, or none */
+  int node; /* the node whose channels it uses; -1: several, or none */
   double time;
   double constant;
   int first_term, term_count;
-  int user;             /* index of the caller's user row, whose value and coefficients come
-                           from its function at every evaluation; -1: linear, as above */
+  int user; /* index of the caller's user row, whose value and coefficients come
+               from its function at every evaluation; -1: linear, as above */
 } ambulo__table_row;
 
 typedef struct ambulo__row_table {

@@ -15,14 +15,14 @@ typedef struct ambulo__reader_block ambulo__reader_block;
 typedef struct ambulo__problem_reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
-  const char *directory;            /* where relative names start; "" for the current one */
-  ambulo__reader_block *blocks;     /* freed with the reader */
-  ambulo_status failure;            /* E_MEMORY, or what a referenced file failed with */
-  double radians;                   /* per unit of angle in the file; 0: not stated */
-  int asked_for_unit;               /* the missing unit has been reported */
-  ambulo_model *model;              /* NULL if it could not be loaded */
-  const ambulo__yaml_node *gait;    /* the section, or NULL */
-  int has_duration;                 /* time.duration is in the file */
+  const char *directory;         /* where relative names start; "" for the current one */
+  ambulo__reader_block *blocks;  /* freed with the reader */
+  ambulo_status failure;         /* E_MEMORY, or what a referenced file failed with */
+  double radians;                /* per unit of angle in the file; 0: not stated */
+  int asked_for_unit;            /* the missing unit has been reported */
+  ambulo_model *model;           /* NULL if it could not be loaded */
+  const ambulo__yaml_node *gait; /* the section, or NULL */
+  int has_duration;              /* time.duration is in the file */
   ambulo_problem_definition definition;
   ambulo_options options;
 } ambulo__problem_reader;
@@ -53,7 +53,7 @@ void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_n
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* A tracking reference: the file's motion at the nodes, [intervals + 1][d], and the scale of
  * the coordinates it lacks set to 0. NULL when something was wrong. */
-const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                                     double *scale);
+const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, double *scale);
 
 #endif

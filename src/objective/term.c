@@ -1,5 +1,7 @@
-/* objective/term.c - the table of terms, and which channel each one looks at. */
+/* objective/term.c - the table of terms, and which channels each one looks at. */
 #include "objective/term.h"
+
+#include "base/lanes.h"
 
 const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
   static const ambulo__term_info infos[] = {
@@ -8,23 +10,44 @@ const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
       [AMBULO_ACCELERATION] = {.name = "acceleration", .uses_qdd = 1},
       [AMBULO_TRACKING] = {.name = "tracking", .uses_q = 1},
       [AMBULO_USER_TERM] = {.name = "user", .uses_tau = 1, .uses_qdd = 1, .uses_q = 1},
+      [AMBULO_TORQUE_POWER] = {.name = "torque_power", .uses_tau = 1, .uses_q = 1},
+      [AMBULO_TORQUE_RATE] = {.name = "torque_rate", .uses_tau = 1},
+      [AMBULO_MECHANICAL_POWER] = {.name = "mechanical_power", .uses_tau = 1},
+      [AMBULO_POSTURE] = {.name = "posture", .uses_q = 1},
+      [AMBULO_UPRIGHT] = {.name = "upright", .uses_q = 1},
+      [AMBULO_GROUND_FORCE] = {.name = "ground_force", .uses_tau = 1},
   };
   int index = (int)kind;
   if (index < 0 || index >= (int)(sizeof infos / sizeof infos[0])) return NULL;
   return &infos[index];
 }
 
-int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channels, int i) {
+/* ------------------------------------------------------------ simple terms */
+
+int ambulo__term_is_simple(const ambulo_term *term) {
   switch (term->kind) {
-  case AMBULO_ACCELERATION:
-    return ambulo__channel_qdd(channels, i);
-  case AMBULO_TRACKING:
-    return ambulo__channel_q(channels, i);
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:
+  case AMBULO_ACCELERATION:
+  case AMBULO_TRACKING:
+  case AMBULO_POSTURE:
+    return 1;
+  case AMBULO_TORQUE_POWER:
+    return !term->passive && !term->strength;
   case AMBULO_USER_TERM:
+  case AMBULO_TORQUE_RATE:
+  case AMBULO_MECHANICAL_POWER:
+  case AMBULO_UPRIGHT:
+  case AMBULO_GROUND_FORCE:
     break;
   }
+  return 0;
+}
+
+int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channels, int i) {
+  if (term->kind == AMBULO_ACCELERATION) return ambulo__channel_qdd(channels, i);
+  if (term->kind == AMBULO_TRACKING || term->kind == AMBULO_POSTURE)
+    return ambulo__channel_q(channels, i);
   return ambulo__channel_tau(channels, i);
 }
 
@@ -40,16 +63,74 @@ double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, i
 }
 
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
+  if (term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_MECHANICAL_POWER)
+    return ambulo__absolute(u, term->smoothing);
+  if (term->kind == AMBULO_TORQUE_POWER) return ambulo__power_law(u, term->power, term->smoothing);
+  return ambulo__squared(u);
+}
+
+/* --------------------------------------------------------- composite terms */
+
+double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channel) {
+  return frame->lanes[ambulo__lane_index(node, frame->channel_count, channel)];
+}
+
+void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope) {
+  if (form->count == AMBULO__FORM_CHANNELS) return;
+  form->channel[form->count] = channel;
+  form->ahead[form->count] = ahead;
+  form->slope[form->count] = slope;
+  form->count++;
+}
+
+int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame, int node) {
   switch (term->kind) {
-  case AMBULO_TORQUE_ABSOLUTE:
-    return ambulo__torque_absolute(u, term->smoothing);
-  case AMBULO_ACCELERATION:
-    return ambulo__acceleration(u);
-  case AMBULO_TRACKING:
-    return ambulo__tracking(u);
+  case AMBULO_TORQUE_POWER:
+  case AMBULO_MECHANICAL_POWER:
+    return frame->channels.coordinates;
+  case AMBULO_TORQUE_RATE:
+    return node + 1 < frame->nodes ? frame->channels.coordinates : 0;
+  case AMBULO_UPRIGHT:
+    return 2;
+  case AMBULO_GROUND_FORCE:
+    return 3;
   case AMBULO_TORQUE_SQUARED:
+  case AMBULO_TORQUE_ABSOLUTE:
+  case AMBULO_ACCELERATION:
+  case AMBULO_TRACKING:
+  case AMBULO_POSTURE:
   case AMBULO_USER_TERM:
     break;
   }
-  return ambulo__torque_squared(u);
+  return 0;
+}
+
+void ambulo__term_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
+                       ambulo__form *form) {
+  form->u = 0.0;
+  form->count = 0;
+  switch (term->kind) {
+  case AMBULO_TORQUE_POWER:
+    ambulo__strength_form(term, frame, node, j, form);
+    break;
+  case AMBULO_MECHANICAL_POWER:
+    ambulo__mechanical_power_form(term, frame, node, j, form);
+    break;
+  case AMBULO_TORQUE_RATE:
+    ambulo__torque_rate_form(term, frame, node, j, form);
+    break;
+  case AMBULO_UPRIGHT:
+    ambulo__upright_form(term, frame, node, j, form);
+    break;
+  case AMBULO_GROUND_FORCE:
+    ambulo__ground_force_form(frame, node, j, form);
+    break;
+  case AMBULO_TORQUE_SQUARED:
+  case AMBULO_TORQUE_ABSOLUTE:
+  case AMBULO_ACCELERATION:
+  case AMBULO_TRACKING:
+  case AMBULO_POSTURE:
+  case AMBULO_USER_TERM:
+    break;
+  }
 }

@@ -1,13 +1,16 @@
 /* objective/term.h - objective terms as functions of channels.
  *
- * A term is a sum over nodes and channels of scalar functions phi of one scaled
- * residual u = scale (channel - offset):
+ * A term is a sum over nodes of scalar functions phi of residuals u:
  *
- *     J_term = weight * sum_k w_k sum_i phi(u_ik),    w_k trapezoidal, s
+ *     J_term = weight * sum_k w_k sum_j phi(u_jk),    w_k trapezoidal, s
  *
- * so its gradient and its (Gauss-Newton) curvature are diagonal in channel space:
+ * Simple terms have one residual per coordinate, u = scale (channel - offset); their
+ * gradient and (Gauss-Newton) curvature are diagonal in channel space:
  *     slope = weight w_k phi'(u) scale,   curvature = weight w_k phi''(u) scale^2 >= 0.
- * phi'' of the absolute torque is replaced by phi'(u)/u, the curvature of the
+ * Composite terms have residuals in several channels, given with their slopes du/dchannel
+ * as an ambulo__form; curvature then is weight w_k phi''(u) g g' with g = grad u.
+ *
+ * phi'' of a smoothed absolute value is replaced by phi'(u)/u, the curvature of the
  * quadratic that majorizes it (iteratively reweighted least squares).
  *
  * User terms are arbitrary functions of a node; they offer a gradient only, and
@@ -21,26 +24,79 @@
 
 /* One scalar residual of a term. */
 typedef struct ambulo__residual {
-  double value, slope, curvature;   /* phi, phi', phi'' of u */
+  double value, slope, curvature; /* phi, phi', phi'' of u */
 } ambulo__residual;
 
-/* phi of each kind at u. */
-ambulo__residual ambulo__torque_squared(double u);
-ambulo__residual ambulo__torque_absolute(double u, double smoothing);
-ambulo__residual ambulo__acceleration(double u);
-ambulo__residual ambulo__tracking(double u);
+/* phi of each shape at u. */
+ambulo__residual ambulo__squared(double u);
+ambulo__residual ambulo__absolute(double u, double smoothing);
+ambulo__residual ambulo__power_law(double u, double power, double smoothing);
 
 /* What the evaluation needs to know about a term. */
 typedef struct ambulo__term_info {
-  const char *name;     /* as written in problem files */
+  const char *name; /* as written in problem files */
   int uses_tau, uses_qdd, uses_q;
 } ambulo__term_info;
-const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind);  /* NULL if unknown */
+const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind); /* NULL if unknown */
 
+/* ------------------------------------------------------------ simple terms */
+
+/* 1 if every residual stands on one channel: the next four serve then. */
+int ambulo__term_is_simple(const ambulo_term *term);
 /* The residual of `term` on coordinate i: its channel, scale, offset at node k. */
 int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channels, int i);
 double ambulo__term_scale(const ambulo_term *term, int i);
 double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, int i);
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u);
+
+/* --------------------------------------------------------- composite terms */
+
+/* A residual u and its slopes. Channels may stand on the next node as well (torque
+ * rate); ahead[c] is 0 for the node itself, 1 for the next. */
+enum { AMBULO__FORM_CHANNELS = 8 };
+typedef struct ambulo__form {
+  double u;
+  int count;
+  int channel[AMBULO__FORM_CHANNELS];
+  int ahead[AMBULO__FORM_CHANNELS];
+  double slope[AMBULO__FORM_CHANNELS];
+} ambulo__form;
+
+/* Where a composite term finds its channels. */
+typedef struct ambulo__term_frame {
+  const ambulo_model *model;
+  ambulo__channels channels;
+  int channel_count;
+  const double *lanes; /* [blocks][channels][8], base/lanes.h */
+  int nodes;
+  double step; /* time between nodes, s */
+} ambulo__term_frame;
+
+/* Residuals at one node (0 at nodes where the term says nothing). */
+int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame, int node);
+/* Residual j of `term` at `node`. */
+void ambulo__term_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
+                       ambulo__form *form);
+
+/* The pieces, one file each. */
+void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_frame *frame,
+                                   int node, int i, ambulo__form *form);
+void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
+                          ambulo__form *form);
+void ambulo__ground_force_form(const ambulo__term_frame *frame, int node, int axis,
+                               ambulo__form *form);
+void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+                              int i, ambulo__form *form);
+void ambulo__strength_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+                           int i, ambulo__form *form);
+
+/* Value of a channel at a node; adds a channel with a slope to a form. */
+double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channel);
+void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope);
+
+/* Passive torque b1 exp(k1 q) + b2 exp(k2 q) and its derivative (joint_curves.c). */
+double ambulo__passive_torque(const double curve[4], double q, double *derivative);
+/* Isometric strength peak cos(c2 (q - c3)), kept above a tenth of the peak. */
+double ambulo__strength(const double curve[3], double q, double *derivative);
 
 #endif
