@@ -94,7 +94,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench sanitize valgrind coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-headers \
-  lint-equations lint-leftovers format \
+  lint-equations lint-keys lint-leftovers format \
   install uninstall clean force
 
 # A second make with as many jobs as there are processors, unless -j was given. It also reads
@@ -217,7 +217,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols mirror headers equations leftovers
+LINT := format static order size symbols mirror headers equations keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch])
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
@@ -246,6 +246,8 @@ lint-headers:
 	@CC='$(CC)' .setup/lint_headers.sh
 lint-equations:
 	@.setup/lint_equations.sh
+lint-keys:
+	@.setup/lint_keys.sh
 lint-leftovers:
 	@! grep -nE '\b(TODO|FIXME|XXX)\b' -r $(wildcard src include tests models bench docs README* CHANGELOG*)
 

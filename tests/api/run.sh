@@ -61,6 +61,16 @@ run_line() {
   (cd "$work/shell" && PATH=$work/root/usr/bin:$PATH && eval "$1")
 }
 
+# each command of the overview has a row in docs/cli.md
+# shellcheck disable=SC2317
+commands_documented() {
+  local command lost=0
+  for command in $(ambulo --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
+    grep -q "^| \`ambulo $command " docs/cli.md || { echo "no row for $command"; lost=1; }
+  done
+  [ -n "$command" ] && return $lost
+}
+
 # every key of summary.json (but the names of terms) stands in docs/results.md
 # shellcheck disable=SC2317
 keys_documented() {
@@ -92,8 +102,13 @@ links_lead_somewhere() {
 
 check 'README: map of src' map_is_true
 check 'links of the pages' links_lead_somewhere
-check 'make install' make --no-print-directory VARIANT="$variant" CC="$cc" install \
+# what was built is what gets installed: "all" counts as made
+check 'make install' make --no-print-directory -o all VARIANT="$variant" CC="$cc" install \
   DESTDIR="$work/root" PREFIX=/usr
+if [ ! -x "$work/root/usr/bin/ambulo" ]; then
+  echo "$passed passed, $failed failed"
+  exit 1
+fi
 export LD_LIBRARY_PATH=$work/root/usr/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 
 block c >"$work/example.c"
@@ -127,6 +142,8 @@ yaml_block docs/problem-format.md >"$models/example_problem.yaml"
 check 'docs/model-format.md: example' "$work/root/usr/bin/ambulo" info "$models/example_model.yaml"
 check 'docs/problem-format.md: example' \
   "$work/root/usr/bin/ambulo" check "$models/example_problem.yaml"
+
+PATH=$work/root/usr/bin:$PATH check 'docs/cli.md: commands' commands_documented
 
 mkdir "$work/shell"
 ln -s "$PWD/models" "$work/shell/models"
