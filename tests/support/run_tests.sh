@@ -37,7 +37,7 @@ present=() missing=()
 for program in "${programs[@]}"; do
   if [ -x "$program" ]; then present+=("$program"); else missing+=("$program"); fi
 done
-printf '%s\0' "${present[@]}" | xargs -0 -r -n1 -P "${JOBS:-1}" bash -c 'run_one "$1"' run_one
+[ ${#present[@]} = 0 ] || printf '%s\0' "${present[@]}" | xargs -0 -r -n1 -P "${JOBS:-1}" bash -c 'run_one "$1"' run_one
 
 # sum of the numbers that a pattern (with one group) captures in a log
 sum() { sed -nE "s/$2/\1/p" "$1" | awk '{ s += $1 } END { print s + 0 }'; }
