@@ -92,7 +92,8 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all help setup demo check tests run-tests bench sanitize valgrind coverage \
+.PHONY: all help setup demo check tests run-tests bench bench-table4 bench-peers \
+  sanitize valgrind coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-headers \
   lint-equations lint-keys lint-leftovers format \
   install uninstall clean force
@@ -110,7 +111,9 @@ help:
 	@echo 'make coverage     line coverage of the tests, by folder'
 	@echo 'make lint         format, static analysis, folder order, sizes, symbols, test mirror'
 	@echo 'make format       clang-format everything'
-	@echo 'make bench        build and run the programs of bench/'
+	@echo 'make bench        time every layer; results and changes in bench/results'
+	@echo 'make bench-table4 the nine cells of Table 4 of the source paper'
+	@echo 'make bench-peers  mechanics and solves beside other programs, in one run'
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
 	@echo 'make clean        remove build/'
@@ -200,9 +203,18 @@ run-tests:
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests
 
+# one thread: OpenBLAS gains nothing on matrices of this size
 bench: build/.ready-build
 	$(submake) $(BENCHES)
-	@for program in $(BENCHES); do echo "# $$program"; $$program || exit 1; done
+	@for program in $(BENCHES); do OPENBLAS_NUM_THREADS=1 $$program || exit 1; done
+
+bench-table4: build/.ready-build
+	$(submake) $(OUT)/bench/table4
+	@OPENBLAS_NUM_THREADS=1 $(OUT)/bench/table4
+
+bench-peers: build/.ready-build
+	$(submake) $(OUT)/ambulo $(OUT)/bench/peers/ours
+	@OUT=$(OUT) sh bench/peers.sh
 
 # the emulated processor has no AVX-512, so this also covers the narrower kernels
 VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/trajectory/%,$(TESTS))
@@ -218,7 +230,7 @@ coverage: build/.ready-test
 # -------------------------------------------------------------------- lint
 
 LINT := format static order size symbols mirror headers equations keys leftovers
-FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch])
+FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
 

@@ -1,4 +1,7 @@
-/* bench/bench.h - clock and medians for the benchmarks. */
+/* bench/bench.h - clock and medians for the benchmarks.
+ *
+ * Times are processor seconds of the measuring thread: on a machine that does other work they
+ * count only the time in which this program ran. */
 #ifndef AMBULO_BENCH_H
 #define AMBULO_BENCH_H
 
@@ -7,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 /* where models/ is: benches are run from the top folder unless built for another */
@@ -16,7 +20,7 @@
 
 static inline double bench_seconds(void) {
   struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -29,6 +33,19 @@ static inline int bench_compare(const void *a, const void *b) {
 static inline double bench_median(double *values, int count) {
   qsort(values, (size_t)count, sizeof *values, bench_compare);
   return values[count / 2];
+}
+
+/* Slope of log(y) over log(x): y grows like x to that power. */
+static inline double bench_power(const double *x, const double *y, int count) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (int i = 0; i < count; i++) {
+    double u = log(x[i]), v = log(y[i]);
+    sx += u;
+    sy += v;
+    sxx += u * u;
+    sxy += u * v;
+  }
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
 
 #endif

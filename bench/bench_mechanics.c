@@ -3,35 +3,30 @@
  *   bench_mechanics [MODEL.yaml]        default: models/yardstick_body.yaml
  *
  * For each instruction set the processor has: nanoseconds per time node of the outputs (tau, root
- * wrench, points), of outputs and vector-Jacobian product, of outputs and all Jacobians; then the
+ * wrench, points), of outputs and vector-Jacobian product, of outputs and all Jacobians; the
  * same per coordinate, for bodies of limbs and for random trees of growing size. Times are the
- * median of repeated runs over 16 blocks of different states; the ratios are against the reference
- * recursion and between instruction sets, in the same run.
+ * median of repeated runs over 16 blocks of different states; ratios are against the reference
+ * recursion and the fastest instruction set, in the same run. At last the batch calls of
+ * ambulo/mechanics.h, which take and return one node after the other.
  */
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
-
-#include "ambulo/mechanics.h"
+#include "bench_csv.h"
 #include "mechanics/plan.h"
 #include "support/random_model.h"
 
-enum { blocks = 16, repeats = 15 };
+enum { blocks = 16, repeats = 15, tasks = 3 };
+
+static const char *const task_name[tasks] = {"tau", "tau_vjp", "tau_jacobians"};
 
 typedef struct rig {
+  const ambulo_model *model;
   ambulo__plan *plan;
+  ambulo_mechanics *mechanics;
   const ambulo__kernels *kernels;
   double *q, *qd, *qdd, *weights; /* [blocks][d or rows][lanes] */
   double *out, *gradient, *jacobian, *scratch;
 } rig;
 
 typedef void (*task)(rig *rig, int block);
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
-}
 
 static void run_forward(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
@@ -55,28 +50,33 @@ static void run_jacobian(rig *r, int block) {
                        jqd + pattern.dynamic_count * AMBULO__LANES, r->scratch);
 }
 
-static int by_size(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
+/* Through the public interface, all blocks in one call; the states are read node by node. */
+static void run_batch(rig *r, int block) {
+  if (block != 0) return;
+  if (ambulo_mechanics_inverse_dynamics(r->mechanics, blocks * AMBULO__LANES, r->q, r->qd, r->qdd,
+                                        r->out, NULL, NULL) != AMBULO_OK) {
+    exit(1);
+  }
 }
+
+static const task task_run[tasks] = {run_forward, run_gradient, run_jacobian};
 
 /* Median nanoseconds per node. */
 static double measure(rig *r, task run) {
   double times[repeats], elapsed = 0;
   long rounds = 1;
   for (;; rounds *= 2) {
-    double start = now();
+    double start = bench_seconds();
     for (long i = 0; i < rounds * blocks; i++) run(r, (int)(i % blocks));
-    elapsed = now() - start;
-    if (elapsed > 2e6) break;
+    elapsed = bench_seconds() - start;
+    if (elapsed > 2e-3) break;
   }
   for (int t = 0; t < repeats; t++) {
-    double start = now();
+    double start = bench_seconds();
     for (long i = 0; i < rounds * blocks; i++) run(r, (int)(i % blocks));
-    times[t] = (now() - start) / ((double)rounds * blocks * AMBULO__LANES);
+    times[t] = 1e9 * (bench_seconds() - start) / ((double)rounds * blocks * AMBULO__LANES);
   }
-  qsort(times, repeats, sizeof *times, by_size);
-  return times[repeats / 2];
+  return bench_median(times, repeats);
 }
 
 static double *doubles(size_t count) {
@@ -91,7 +91,9 @@ static double *doubles(size_t count) {
 static rig rig_create(const ambulo_model *model) {
   rig r = {0};
   random_source source = {7};
+  r.model = model;
   if (ambulo__plan_create(model, NULL, &r.plan) != AMBULO_OK) exit(1);
+  if (ambulo_mechanics_create(model, NULL, &r.mechanics) != AMBULO_OK) exit(1);
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(r.plan);
   size_t n = (size_t)ambulo__plan_coordinates(r.plan) * AMBULO__LANES;
   size_t rows = (size_t)ambulo__plan_rows(r.plan) * AMBULO__LANES;
@@ -99,7 +101,7 @@ static rig rig_create(const ambulo_model *model) {
   r.qd = doubles(blocks * n);
   r.qdd = doubles(blocks * n);
   r.weights = doubles(rows);
-  r.out = doubles(rows);
+  r.out = doubles(blocks * rows);
   r.gradient = doubles(3 * n);
   r.jacobian = doubles((size_t)(pattern.count + 2 * pattern.dynamic_count) * AMBULO__LANES);
   r.scratch = doubles(ambulo__plan_scratch(r.plan));
@@ -116,63 +118,30 @@ static void rig_free(rig *r) {
   double *const arrays[] = {r->q,   r->qd,       r->qdd,      r->weights,
                             r->out, r->gradient, r->jacobian, r->scratch};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
+  ambulo_mechanics_free(r->mechanics);
   ambulo__plan_free(r->plan);
 }
 
-static double measure_reference(const ambulo_model *model, const rig *r) {
+/* The seed's matrix recursion, tau of one node. */
+static double measure_reference(const rig *r) {
   int d = ambulo__plan_coordinates(r->plan);
-  double *state = doubles(4 * (size_t)d), best = 1e300, wrench[6];
-  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+  double *state = doubles(4 * (size_t)d), times[repeats], wrench[6];
+  void *scratch = malloc(ambulo_lagrangian_scratch_size(r->model));
   if (!scratch) exit(1);
   for (int i = 0; i < 3 * d; i++) state[i] = r->q[i];
   for (int t = 0; t < repeats; t++) {
-    double start = now();
+    double start = bench_seconds();
     for (int i = 0; i < 50; i++) {
-      if (ambulo_lagrangian_inverse_dynamics(model, state, state + d, state + 2 * d, state + 3 * d,
-                                             wrench, NULL, scratch) != AMBULO_OK) {
+      if (ambulo_lagrangian_inverse_dynamics(r->model, state, state + d, state + 2 * d,
+                                             state + 3 * d, wrench, NULL, scratch) != AMBULO_OK) {
         exit(1);
       }
     }
-    double each = (now() - start) / 50;
-    if (each < best) best = each;
+    times[t] = 1e9 * (bench_seconds() - start) / 50;
   }
   free(scratch);
   free(state);
-  return best;
-}
-
-static void report_sets(const ambulo_model *model) {
-  static const char *const names[] = {"avx512", "avx2", "baseline", "scalar"};
-  rig r = rig_create(model);
-  double fastest[3] = {0};
-  double reference = measure_reference(model, &r);
-  printf("%s: %d coordinates, %d points, scratch %.1f kB; reference recursion %.0f ns per node\n",
-         ambulo_model_name(model), ambulo__plan_coordinates(r.plan), ambulo__plan_points(r.plan),
-         (double)ambulo__plan_scratch(r.plan) / 128, reference);
-  printf("%-10s %10s %10s %10s   ratio to the first, reference / outputs\n", "ns / node", "outputs",
-         "+ VJP", "+ Jacobian");
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    r.kernels = ambulo__kernels_by_name(names[i]);
-    if (!r.kernels) continue;
-    double times[3] = {measure(&r, run_forward), measure(&r, run_gradient),
-                       measure(&r, run_jacobian)};
-    if (fastest[0] == 0) memcpy(fastest, times, sizeof times);
-    printf("%-10s %10.1f %10.1f %10.1f   %.2f %.2f %.2f, %.0f\n", names[i], times[0], times[1],
-           times[2], times[0] / fastest[0], times[1] / fastest[1], times[2] / fastest[2],
-           reference / times[0]);
-  }
-  rig_free(&r);
-}
-
-static void report_growth(const char *what, const ambulo_model *model) {
-  rig r = rig_create(model);
-  r.kernels = ambulo__kernels_select();
-  double d = ambulo__plan_coordinates(r.plan);
-  double times[3] = {measure(&r, run_forward), measure(&r, run_gradient),
-                     measure(&r, run_jacobian)};
-  printf("%-8s %4.0f %10.2f %10.2f %10.2f   (scratch %.1f kB)\n", what, d, times[0] / d,
-         times[1] / d, times[2] / d, (double)ambulo__plan_scratch(r.plan) / 128);
-  rig_free(&r);
+  return bench_median(times, repeats);
 }
 
 /* A root of 3 + 3 coordinates that carries limbs of 3 + 1 + 2, like a leg each. */
@@ -206,33 +175,90 @@ static void body_of_limbs(random_tree *tree, int limbs) {
   tree->definition.coordinate_count = count;
 }
 
-static void report_tree(const char *what, const random_tree *tree) {
-  ambulo_model *model = NULL;
-  if (ambulo_model_create(&tree->definition, NULL, NULL, &model) != AMBULO_OK) exit(1);
-  report_growth(what, model);
-  ambulo_model_free(model);
+/* ------------------------------------------------------------------- report */
+
+enum { limb_sizes = 5, random_sizes = 6, most_models = 1 + limb_sizes + random_sizes };
+
+typedef struct subject {
+  char name[32];
+  ambulo_model *model;
+  rig rig;
+} subject;
+
+static void add_tree(subject *s, const char *kind, const random_tree *tree) {
+  if (ambulo_model_create(&tree->definition, NULL, NULL, &s->model) != AMBULO_OK) exit(1);
+  s->rig = rig_create(s->model);
+  (void)snprintf(s->name, sizeof s->name, "%s_%d", kind, ambulo_model_coordinate_count(s->model));
+}
+
+static int collect(subject *subjects, const char *path) {
+  static const int sizes[random_sizes] = {6, 12, 18, 30, 42, 55};
+  static random_tree tree;
+  int count = 1;
+  if (ambulo_model_load(path, NULL, NULL, NULL, &subjects->model) != AMBULO_OK) {
+    (void)fprintf(stderr, "bench_mechanics: cannot load %s\n", path);
+    return 0;
+  }
+  subjects->rig = rig_create(subjects->model);
+  (void)snprintf(subjects->name, sizeof subjects->name, "%.20s",
+                 ambulo_model_name(subjects->model));
+  for (int limbs = 0; limbs <= 8; limbs += 2) {
+    body_of_limbs(&tree, limbs);
+    add_tree(&subjects[count++], "limbs", &tree);
+  }
+  for (int i = 0; i < random_sizes; i++) {
+    random_tree_make(&tree, 11 + (uint64_t)sizes[i], sizes[i]);
+    add_tree(&subjects[count++], "random", &tree);
+  }
+  return count;
+}
+
+/* All quantities of one instruction set; `best` holds those of the first set. */
+static void report_set(const char *set, subject *subjects, int count, double best[tasks]) {
+  bench_table table;
+  char quantity[bench_key];
+  bench_open(&table, set, "mechanics");
+  for (int i = 0; i < count; i++) {
+    rig *r = &subjects[i].rig;
+    r->kernels = ambulo__kernels_by_name(set);
+    for (int k = 0; k < tasks; k++) {
+      double time = measure(r, task_run[k]);
+      if (i == 0) {
+        if (best[k] == 0) best[k] = time;
+        (void)snprintf(quantity, sizeof quantity, "%s %s", task_name[k], subjects[i].name);
+        bench_put(&table, quantity, "ns/node", time);
+        (void)snprintf(quantity, sizeof quantity, "%s over the fastest set", task_name[k]);
+        bench_put(&table, quantity, "ratio", time / best[k]);
+      }
+      (void)snprintf(quantity, sizeof quantity, "%s %s per coordinate", task_name[k],
+                     subjects[i].name);
+      bench_put(&table, quantity, "ns/node", time / ambulo__plan_coordinates(r->plan));
+    }
+    if (i == 0) {
+      double reference = measure_reference(r);
+      bench_put(&table, "reference recursion", "ns/node", reference);
+      bench_put(&table, "reference recursion over tau", "ratio",
+                reference / measure(r, run_forward));
+      if (strcmp(set, ambulo_instruction_set()) == 0)
+        bench_put(&table, "tau in a batch call", "ns/node", measure(r, run_batch));
+    }
+  }
+  bench_close(&table);
 }
 
 int main(int argc, char **argv) {
-  static const int sizes[] = {6, 12, 18, 30, 42, 55};
-  static random_tree tree;
-  const char *path = argc > 1 ? argv[1] : "models/yardstick_body.yaml";
-  ambulo_model *model = NULL;
-  if (ambulo_model_load(path, NULL, NULL, NULL, &model) != AMBULO_OK) {
-    fprintf(stderr, "bench_mechanics: cannot load %s\n", path);
-    return 1;
+  static const char *const sets[] = {"avx512", "avx2", "baseline", "scalar"};
+  static subject subjects[most_models];
+  double best[tasks] = {0};
+  int count =
+      collect(subjects, argc > 1 ? argv[1] : AMBULO_SOURCE_DIR "/models/yardstick_body.yaml");
+  if (!count) return 1;
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+    if (ambulo__kernels_by_name(sets[i])) report_set(sets[i], subjects, count, best);
   }
-  report_sets(model);
-  ambulo_model_free(model);
-  printf("\nns / node / coordinate, %s\n%-8s %4s %10s %10s %10s\n", ambulo_instruction_set(),
-         "model", "size", "outputs", "+ VJP", "+ Jacobian");
-  for (int limbs = 2; limbs <= 8; limbs += 2) {
-    body_of_limbs(&tree, limbs);
-    report_tree("limbs", &tree);
-  }
-  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-    random_tree_make(&tree, 11 + (uint64_t)sizes[i], sizes[i]);
-    report_tree("random", &tree);
+  for (int i = 0; i < count; i++) {
+    rig_free(&subjects[i].rig);
+    ambulo_model_free(subjects[i].model);
   }
   return 0;
 }
