@@ -25,31 +25,32 @@
 extern "C" {
 #endif
 
-typedef struct ambulo_problem ambulo_problem;      /* immutable */
-typedef struct ambulo_workspace ambulo_workspace;  /* one per thread */
+typedef struct ambulo_problem ambulo_problem;     /* immutable */
+typedef struct ambulo_workspace ambulo_workspace; /* one per thread */
 
 /* ---------------------------------------------------------------- vocabulary */
 
 typedef enum ambulo_discretization {
-  AMBULO_BSPLINE,             /* clamped B-spline, Eq. 23 */
-  AMBULO_CENTRAL_DIFFERENCE,  /* Eqs. 18-19 */
-  AMBULO_HERMITE              /* Eqs. 20-22 */
+  AMBULO_BSPLINE,            /* clamped B-spline, Eq. 23 */
+  AMBULO_CENTRAL_DIFFERENCE, /* Eqs. 18-19 */
+  AMBULO_HERMITE             /* Eqs. 20-22 */
 } ambulo_discretization;
 
 /* How a loaded foot touches the ground: which of its corners are at height zero. */
 typedef enum ambulo_contact_mode {
-  AMBULO_CONTACT_HEEL,  /* heel corners down; heel centre on the foothold */
-  AMBULO_CONTACT_FLAT,  /* all corners down; heel centre on the foothold, toe centre straight ahead */
-  AMBULO_CONTACT_TOE    /* toe corners down; toe centre where the flat foot has it */
+  AMBULO_CONTACT_HEEL, /* heel corners down; heel centre on the foothold */
+  AMBULO_CONTACT_FLAT, /* all corners down; heel centre on the foothold, toe centre straight ahead
+                        */
+  AMBULO_CONTACT_TOE   /* toe corners down; toe centre where the flat foot has it */
 } ambulo_contact_mode;
 
 /* One foot in one mode on one foothold. Nodes with from <= t < to are in contact;
  * a span that ends at the duration includes it. */
 typedef struct ambulo_contact {
-  int foot;                   /* index of the model's foot */
+  int foot; /* index of the model's foot */
   ambulo_contact_mode mode;
-  double from, to;            /* s */
-  double place[2];            /* foothold of the heel centre: along forward, along left; m */
+  double from, to; /* s */
+  double place[2]; /* foothold of the heel centre: along forward, along left; m */
 } ambulo_contact;
 
 /* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps)
@@ -59,22 +60,23 @@ typedef struct ambulo_contact {
  * negative: the heel is down before the nominal strike. */
 typedef struct ambulo_gait {
   int steps;
-  int first_foot;             /* foot that strikes at t = 0 */
-  double step_length, step_time, step_width, start;   /* m, s, m, m */
-  double heel_strike, foot_flat, heel_off, toe_off;   /* e.g. 0, 0.08, 0.38, 0.62 */
+  int first_foot;                                   /* foot that strikes at t = 0 */
+  double step_length, step_time, step_width, start; /* m, s, m, m */
+  double heel_strike, foot_flat, heel_off, toe_off; /* e.g. 0, 0.08, 0.38, 0.62 */
 } ambulo_gait;
 
 /* Writes at most `capacity` contacts that meet [0, steps * step_time] and sets
  * *count to their number. Errors: E_ARGUMENT (phases out of order, no such foot,
  * fewer than two feet), E_LIMIT (*count > capacity; *count is set). */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_gait_expand(
-    const ambulo_model *model, const ambulo_gait *gait, ambulo_contact *contacts, int capacity,
-    int *count);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_gait_expand(const ambulo_model *model,
+                                                             const ambulo_gait *gait,
+                                                             ambulo_contact *contacts, int capacity,
+                                                             int *count);
 
 typedef enum ambulo_support {
-  AMBULO_SUPPORT_OFF,         /* no ZMP rows */
-  AMBULO_SUPPORT_BOX,         /* axis-aligned box around the loaded feet (the seed's four rows) */
-  AMBULO_SUPPORT_HULL         /* convex hull of the points in contact */
+  AMBULO_SUPPORT_OFF, /* no ZMP rows */
+  AMBULO_SUPPORT_BOX, /* axis-aligned box around the loaded feet (the seed's four rows) */
+  AMBULO_SUPPORT_HULL /* convex hull of the points in contact */
 } ambulo_support;
 
 typedef enum ambulo_limit_mode {
@@ -85,15 +87,15 @@ typedef enum ambulo_limit_mode {
 
 typedef enum ambulo_ends {
   AMBULO_ENDS_FREE,
-  AMBULO_ENDS_PERIODIC,       /* state(T) = state(0), moved forward by `travel` */
-  AMBULO_ENDS_MIRRORED        /* state(T) = mirror image of state(0), moved forward by `travel` */
+  AMBULO_ENDS_PERIODIC, /* state(T) = state(0), moved forward by `travel` */
+  AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel` */
 } ambulo_ends;
 
 /* A prescribed end value: the order-th derivative of a coordinate at t = 0 or T. */
 typedef struct ambulo_end_value {
   int coordinate;
-  int order;                  /* 0: q, 1: qd, 2: qdd */
-  int final;                  /* 0: at t = 0, 1: at t = T */
+  int order; /* 0: q, 1: qd, 2: qdd */
+  int final; /* 0: at t = 0, 1: at t = T */
   double value;
 } ambulo_end_value;
 
@@ -122,31 +124,45 @@ typedef double (*ambulo_node_function)(void *user, const ambulo_node_state *stat
 /* ----------------------------------------------------------------- objective */
 
 typedef enum ambulo_term_kind {
-  AMBULO_TORQUE_SQUARED,      /* sum_i u_i^2,  u_i = scale_i (tau_i - offset_i) */
-  AMBULO_TORQUE_ABSOLUTE,     /* sum_i sqrt(u_i^2 + s^2) - s,  s = smoothing (the seed's Fig. 5b) */
-  AMBULO_ACCELERATION,        /* sum_i (scale_i qdd_i)^2 */
-  AMBULO_TRACKING,            /* sum_i (scale_i (q_i - reference_i))^2 */
-  AMBULO_USER_TERM            /* function(user, state, gradient) */
+  AMBULO_TORQUE_SQUARED,   /* sum_i u_i^2,  u_i = scale_i (tau_i - offset_i) */
+  AMBULO_TORQUE_ABSOLUTE,  /* sum_i sqrt(u_i^2 + s^2) - s,  s = smoothing (the seed's Fig. 5b) */
+  AMBULO_ACCELERATION,     /* sum_i (scale_i qdd_i)^2 */
+  AMBULO_TRACKING,         /* sum_i (scale_i (q_i - reference_i))^2 */
+  AMBULO_USER_TERM,        /* function(user, state, gradient) */
+  AMBULO_TORQUE_POWER,     /* sum_i (u_i^2 + s^2)^(p/2) - s^p,  u_i the active torque as a share
+                              of strength: scale_i (tau_i - offset_i - passive_i(q)) / strength_i(q) */
+  AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
+  AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg */
+  AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
+  AMBULO_UPRIGHT,     /* squared horizontal direction cosines of the line point[0] to point[1] */
+  AMBULO_GROUND_FORCE /* |F / (m g) - n|^2, F the root force, n up */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
   ambulo_term_kind kind;
-  const char *name;           /* for reports; NULL: the kind's name */
-  double weight;              /* >= 0 */
-  const double *scale;        /* [d]; NULL: 1 everywhere */
-  const double *offset;       /* [d]; NULL: 0 everywhere (torque terms) */
-  double smoothing;           /* > 0 for AMBULO_TORQUE_ABSOLUTE, unit of u */
-  const double *reference;    /* [N + 1][d] for AMBULO_TRACKING */
-  ambulo_node_function function;  /* AMBULO_USER_TERM */
+  const char *name;              /* for reports; NULL: the kind's name */
+  double weight;                 /* >= 0 */
+  const double *scale;           /* [d]; NULL: 1 everywhere */
+  const double *offset;          /* [d]; NULL: 0 everywhere (torques: N m, N; posture: rad, m) */
+  double smoothing;              /* s > 0 where the kind has one, unit of u */
+  double power;                  /* p in [2, 8] of AMBULO_TORQUE_POWER */
+  const double *passive;         /* [d][4]: b1, k1, b2, k2 of b1 exp(k1 q) + b2 exp(k2 q), N m and
+                                    1/rad; NULL: none (AMBULO_TORQUE_POWER) */
+  const double *strength;        /* [d][2][3]: for positive, then negative torque: peak (N m), c2
+                                    (1/rad), c3 (rad) of peak cos(c2 (q - c3)); peak 0: strength 1;
+                                    NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
+  int point[2];                  /* model points of AMBULO_UPRIGHT, on one link */
+  const double *reference;       /* [N + 1][d] for AMBULO_TRACKING */
+  ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;
 } ambulo_term;
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */
 typedef struct ambulo_user_row {
-  const char *name;           /* its family in reports */
+  const char *name; /* its family in reports */
   const char *unit;
   ambulo_relation relation;
-  double from, to;            /* s */
+  double from, to; /* s */
   ambulo_node_function function;
   void *user;
 } ambulo_user_row;
@@ -156,36 +172,36 @@ typedef struct ambulo_user_row {
 /* Borrowed during ambulo_problem_create() only, except `model` and the callbacks'
  * user pointers, which must outlive the problem. */
 typedef struct ambulo_problem_definition {
-  int cookie;                 /* set by ambulo_problem_definition_default() */
+  int cookie; /* set by ambulo_problem_definition_default() */
   const char *name;
   const ambulo_model *model;
 
-  double duration;            /* T, s */
-  int intervals;              /* N; nodes = N + 1 */
+  double duration; /* T, s */
+  int intervals;   /* N; nodes = N + 1 */
   ambulo_discretization discretization;
-  int degree;                 /* of the B-spline, 3..7 */
-  int spline_intervals;       /* K, intervals of the trajectory; 0: as many as time intervals */
-  const double *breakpoints;  /* [K + 1] from 0 to T; NULL: uniform */
+  int degree;                /* of the B-spline, 3..7 */
+  int spline_intervals;      /* K, intervals of the trajectory; 0: as many as time intervals */
+  const double *breakpoints; /* [K + 1] from 0 to T; NULL: uniform */
 
   const ambulo_contact *contacts;
   int contact_count;
-  double ground_height;       /* n . r = h, m */
-  int ground_penetration;     /* rows on the corners' heights */
-  int foot_strike;            /* rows on the contact points' places */
-  ambulo_support support;     /* ZMP rows */
-  double support_margin;      /* m, >= 0: the polygon is shrunk by it */
-  double minimum_force;       /* n . F >= minimum_force * m g; negative: no row */
+  double ground_height;   /* n . r = h, m */
+  int ground_penetration; /* rows on the corners' heights */
+  int foot_strike;        /* rows on the contact points' places */
+  ambulo_support support; /* ZMP rows */
+  double support_margin;  /* m, >= 0: the polygon is shrunk by it */
+  double minimum_force;   /* n . F >= minimum_force * m g; negative: no row */
 
   ambulo_limit_mode joint_limits;
   int speed_limits, torque_limits;
 
   ambulo_ends ends;
-  int ends_order;             /* highest derivative that is matched: 0, 1 (default) or 2 */
-  double travel;              /* m along forward */
+  int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2 */
+  double travel;  /* m along forward */
   const ambulo_end_value *end_values;
   int end_value_count;
 
-  const ambulo_term *terms;   /* none: a feasible motion is all that is asked (Fig. 5a) */
+  const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;
   const ambulo_user_row *user_rows;
   int user_row_count;
@@ -215,16 +231,17 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load_text(
     const char *const *overrides, int override_count, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
-AMBULO_API void ambulo_problem_free(ambulo_problem *problem);  /* accepts NULL */
+AMBULO_API void ambulo_problem_free(ambulo_problem *problem); /* accepts NULL */
 
 /* ------------------------------------------------------------------- queries */
 
 AMBULO_API const char *ambulo_problem_name(const ambulo_problem *problem);
 AMBULO_API const ambulo_model *ambulo_problem_model(const ambulo_problem *problem);
 AMBULO_API double ambulo_problem_duration(const ambulo_problem *problem);
-AMBULO_API int ambulo_problem_node_count(const ambulo_problem *problem);           /* N + 1 */
+AMBULO_API int ambulo_problem_node_count(const ambulo_problem *problem); /* N + 1 */
 AMBULO_API int ambulo_problem_control_point_count(const ambulo_problem *problem);
-AMBULO_API int ambulo_problem_variable_count(const ambulo_problem *problem);       /* control points * d */
+AMBULO_API int
+ambulo_problem_variable_count(const ambulo_problem *problem); /* control points * d */
 AMBULO_API int ambulo_problem_row_count(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_equality_count(const ambulo_problem *problem);
 AMBULO_API ambulo_ends ambulo_problem_ends(const ambulo_problem *problem);
@@ -237,13 +254,13 @@ AMBULO_API unsigned long long ambulo_problem_hash(const ambulo_problem *problem)
 
 /* One row. Strings belong to the problem. */
 typedef struct ambulo_row {
-  const char *family;         /* "ground_penetration", "foot_strike", "zmp", "joint_limit", ... */
-  const char *subject;        /* "left_heel", "knee_angle_r", ... */
-  const char *detail;         /* "height", "forward", "upper", ... */
-  const char *unit;           /* "m", "rad", "N m", ... */
+  const char *family;  /* "ground_penetration", "foot_strike", "zmp", "joint_limit", ... */
+  const char *subject; /* "left_heel", "knee_angle_r", ... */
+  const char *detail;  /* "height", "forward", "upper", ... */
+  const char *unit;    /* "m", "rad", "N m", ... */
   ambulo_relation relation;
-  int node;                   /* -1: not tied to one node */
-  double time;                /* s */
+  int node;    /* -1: not tied to one node */
+  double time; /* s */
 } ambulo_row;
 /* E_ARGUMENT when out of range. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row(const ambulo_problem *problem,
@@ -251,28 +268,31 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row(const ambulo_proble
 
 /* ---------------------------------------------------------------- evaluation */
 
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_workspace_create(
-    const ambulo_problem *problem, const ambulo_allocator *allocator,
-    ambulo_workspace **workspace);
-AMBULO_API void ambulo_workspace_free(ambulo_workspace *workspace);  /* accepts NULL */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
+                                                                  const ambulo_allocator *allocator,
+                                                                  ambulo_workspace **workspace);
+AMBULO_API void ambulo_workspace_free(ambulo_workspace *workspace); /* accepts NULL */
 
 /* Objective, its terms [term_count] and row values [row_count] at x
  * [variable_count]; each output may be NULL. Nothing is recomputed while x stays
  * the same. E_NUMERIC: a value is not finite. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_evaluate(
-    const ambulo_problem *problem, ambulo_workspace *workspace, const double *x,
-    double *objective, double *terms, double *rows);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_evaluate(const ambulo_problem *problem,
+                                                                  ambulo_workspace *workspace,
+                                                                  const double *x,
+                                                                  double *objective, double *terms,
+                                                                  double *rows);
 
 /* Gradient [variable_count] of objective_weight * J + sum_r row_weights[r] c_r
  * (row_weights may be NULL): one reverse sweep. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_gradient(
-    const ambulo_problem *problem, ambulo_workspace *workspace, const double *x,
-    double objective_weight, const double *row_weights, double *gradient);
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_problem_gradient(const ambulo_problem *problem, ambulo_workspace *workspace, const double *x,
+                        double objective_weight, const double *row_weights, double *gradient);
 
 /* Gradient of one row, dense [variable_count]. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(
-    const ambulo_problem *problem, ambulo_workspace *workspace, const double *x, int row,
-    double *gradient);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambulo_problem *problem,
+                                                                      ambulo_workspace *workspace,
+                                                                      const double *x, int row,
+                                                                      double *gradient);
 
 /* The motion at `count` times in [0, T]. Outputs [count][...] as in mechanics.h
  * plus the ZMP [count][3] on the ground plane (NaN where n . F <= 0); each may be
@@ -280,9 +300,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(
 typedef struct ambulo_motion {
   double *q, *qd, *qdd, *tau, *wrench, *points, *zmp;
 } ambulo_motion;
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(
-    const ambulo_problem *problem, ambulo_workspace *workspace, const double *x, int count,
-    const double *times, const ambulo_motion *motion);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_problem *problem,
+                                                                ambulo_workspace *workspace,
+                                                                const double *x, int count,
+                                                                const double *times,
+                                                                const ambulo_motion *motion);
 
 /* Which contact of `foot` is active at time t: its index, or -1. */
 AMBULO_API int ambulo_problem_contact_at(const ambulo_problem *problem, int foot, double time);
@@ -292,13 +314,13 @@ AMBULO_API int ambulo_problem_contact_at(const ambulo_problem *problem, int foot
 /* Worst disagreement between the hand-derived gradients and central differences,
  * one entry per family of rows and one per objective term. */
 typedef struct ambulo_derivative_error {
-  const char *family;         /* row family or term name */
-  const char *subject;        /* of the worst row; "" for a term */
-  const char *variable;       /* coordinate whose control point is worst */
+  const char *family;   /* row family or term name */
+  const char *subject;  /* of the worst row; "" for a term */
+  const char *variable; /* coordinate whose control point is worst */
   int control_point;
-  double time;                /* of the worst row, s */
+  double time; /* of the worst row, s */
   double analytic, numeric;
-  double error;               /* |analytic - numeric| / max(1, size of the row's gradient) */
+  double error; /* |analytic - numeric| / max(1, size of the row's gradient) */
 } ambulo_derivative_error;
 /* Fills up to `capacity` entries, sets *count. `step` <= 0 picks one. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_check_derivatives(
@@ -307,8 +329,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_check_derivatives(
 
 /* Carries a solution of another problem (same coordinates and duration, another
  * grid or basis) over to this one: knot insertion. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_transfer(
-    const ambulo_problem *from, const double *x_from, const ambulo_problem *to, double *x_to);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_transfer(const ambulo_problem *from,
+                                                                  const double *x_from,
+                                                                  const ambulo_problem *to,
+                                                                  double *x_to);
 
 #ifdef __cplusplus
 }

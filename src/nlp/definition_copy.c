@@ -41,6 +41,8 @@ static void copy_terms(const ambulo_problem_definition *from, const ambulo_alloc
     terms[t].name = copy_text(a, source->name, failed);
     terms[t].scale = copy_array(a, source->scale, d, sizeof(double), failed);
     terms[t].offset = copy_array(a, source->offset, d, sizeof(double), failed);
+    terms[t].passive = copy_array(a, source->passive, 4 * d, sizeof(double), failed);
+    terms[t].strength = copy_array(a, source->strength, 6 * d, sizeof(double), failed);
     terms[t].reference = copy_array(a, source->reference, nodes * d, sizeof(double), failed);
   }
 }
@@ -95,6 +97,8 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->terms[t].name);
     release(a, d->terms[t].scale);
     release(a, d->terms[t].offset);
+    release(a, d->terms[t].passive);
+    release(a, d->terms[t].strength);
     release(a, d->terms[t].reference);
   }
   for (int i = 0; i < d->user_row_count; i++) {

@@ -102,13 +102,35 @@ static double residual_term_value(const ambulo_workspace *workspace, const ambul
   return sum;
 }
 
+static double composite_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  double sum = 0.0;
+  for (int k = 0; k < p->nodes; k++) {
+    int count = ambulo__term_forms(term, &frame, k);
+    double node = 0.0;
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &frame, k, j, &form);
+      if (form.count) node += ambulo__term_residual(term, form.u).value;
+    }
+    sum += ambulo__term_quadrature(p, term, k) * node;
+  }
+  return sum;
+}
+
+static double term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  if (term->kind == AMBULO_USER_TERM) return user_term_value(workspace, term);
+  if (ambulo__term_is_simple(term)) return residual_term_value(workspace, term);
+  return composite_term_value(workspace, term);
+}
+
 static double evaluate_terms(ambulo_workspace *workspace) {
   const ambulo_problem_definition *definition = &workspace->problem->definition;
   double total = 0.0;
   for (int t = 0; t < definition->term_count; t++) {
     const ambulo_term *term = &definition->terms[t];
-    double value = term->kind == AMBULO_USER_TERM ? user_term_value(workspace, term)
-                                                  : residual_term_value(workspace, term);
+    double value = term_value(workspace, term);
     workspace->term_value[t] = term->weight * value;
     total += workspace->term_value[t];
   }

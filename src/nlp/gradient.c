@@ -52,14 +52,33 @@ static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, 
   }
 }
 
+static void add_composite_term(ambulo_workspace *workspace, const ambulo_term *term,
+                               double factor) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  for (int k = 0; k < p->nodes; k++) {
+    double weight = factor * ambulo__term_quadrature(p, term, k);
+    int count = ambulo__term_forms(term, &frame, k);
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &frame, k, j, &form);
+      double slope = weight * ambulo__term_residual(term, form.u).slope;
+      for (int c = 0; c < form.count; c++)
+        *weight_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
+    }
+  }
+}
+
 static void add_term(ambulo_workspace *workspace, int t, double objective_weight) {
   const ambulo_term *term = &workspace->problem->definition.terms[t];
   double factor = objective_weight * term->weight;
   if (factor == 0.0) return;
   if (term->kind == AMBULO_USER_TERM) {
     add_user_term(workspace, term, factor);
-  } else {
+  } else if (ambulo__term_is_simple(term)) {
     add_residual_term(workspace, term, factor);
+  } else {
+    add_composite_term(workspace, term, factor);
   }
 }
 

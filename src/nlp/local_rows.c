@@ -113,7 +113,7 @@ static double channel_curvature(const ambulo_workspace *workspace, int node, int
   double sum = 0.0;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (term->kind == AMBULO_USER_TERM) continue;
+    if (!ambulo__term_is_simple(term)) continue;
     if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
     double scale = ambulo__term_scale(term, i);
     double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
@@ -131,6 +131,46 @@ static void add_outer(int width, double curvature, const double *g, double *loca
   }
 }
 
+/* The part of a form that stands on `node`, as a local gradient; 0 if it has none. A form over
+ * two nodes is split by 2 a^2 + 2 b^2 >= (a + b)^2, which keeps the matrix local to the node and
+ * above the true one. */
+static int form_gradient(const ambulo_workspace *workspace, int node, int ahead,
+                         const ambulo__form *form, double *g, int *shared) {
+  int parts = 0;
+  memset(g, 0, (size_t)ambulo__node_width(workspace->problem, node) * sizeof *g);
+  *shared = 0;
+  for (int c = 0; c < form->count; c++) {
+    if (form->ahead[c] != ahead) {
+      *shared = 1;
+      continue;
+    }
+    add_channel(workspace, node, form->channel[c], form->slope[c], g);
+    parts++;
+  }
+  return parts;
+}
+
+static void add_composite(const ambulo_workspace *workspace, const ambulo_term *term, int node,
+                          double *local) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  double *g = workspace->local_scratch;
+  int width = ambulo__node_width(p, node), last = term->kind == AMBULO_TORQUE_RATE;
+  for (int ahead = 0; ahead <= last; ahead++) {
+    int base = node - ahead;
+    if (base < 0) continue;
+    double weight = term->weight * ambulo__term_quadrature(p, term, base);
+    int count = ambulo__term_forms(term, &frame, base), shared = 0;
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &frame, base, j, &form);
+      if (!form_gradient(workspace, node, ahead, &form, g, &shared)) continue;
+      double curvature = weight * ambulo__term_residual(term, form.u).curvature;
+      add_outer(width, shared ? 2.0 * curvature : curvature, g, local);
+    }
+  }
+}
+
 void ambulo__node_gauss_newton(const ambulo_workspace *workspace, int node, double *local) {
   const ambulo_problem *p = workspace->problem;
   double *g = workspace->local_scratch;
@@ -143,5 +183,10 @@ void ambulo__node_gauss_newton(const ambulo_workspace *workspace, int node, doub
       ambulo__channel_local_gradient(workspace, node, channel, g);
       add_outer(width, curvature, g, local);
     }
+  }
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    if (term->kind != AMBULO_USER_TERM && !ambulo__term_is_simple(term) && term->weight > 0.0)
+      add_composite(workspace, term, node, local);
   }
 }

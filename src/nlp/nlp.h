@@ -37,8 +37,8 @@ struct ambulo_problem {
   double *quadrature; /* [nodes], trapezoidal weights, s */
   int *active;        /* [nodes][feet] contact index or -1 */
   ambulo__row_table table;
-  size_t *term_at;                /* [table terms]: where its channel stands in
-                                     workspace->channel, or its unknown in x */
+  size_t *term_at; /* [table terms]: where its channel stands in
+                      workspace->channel, or its unknown in x */
   int rows, equalities;
   unsigned long long hash;
 };

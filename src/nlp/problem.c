@@ -25,7 +25,12 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
 }
 
 ambulo_term ambulo_term_default(ambulo_term_kind kind) {
-  ambulo_term term = {.kind = kind, .weight = 1.0, .smoothing = 1.0};
+  ambulo_term term = {.kind = kind, .weight = 1.0, .smoothing = 1.0, .power = 2.0};
+  if (kind == AMBULO_TORQUE_POWER) {
+    term.power = 3.0;
+    term.smoothing = 0.01;
+  }
+  if (kind == AMBULO_MECHANICAL_POWER) term.smoothing = 0.05;
   return term;
 }
 
@@ -55,6 +60,15 @@ static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagn
   return status;
 }
 
+/* two different points of one link */
+static int is_line(const ambulo_model *model, const int point[2]) {
+  const ambulo_point *a = ambulo_model_point(model, point[0]);
+  const ambulo_point *b = ambulo_model_point(model, point[1]);
+  if (!a || !b || a->link != b->link) return 0;
+  return a->position[0] != b->position[0] || a->position[1] != b->position[1] ||
+         a->position[2] != b->position[2];
+}
+
 static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                                 ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
@@ -63,9 +77,17 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
   if (!(term->weight >= 0.0) || !isfinite(term->weight))
     return REFUSE(list, "objective[%d] (%s): weight is %g; expected a number >= 0", t, info->name,
                   term->weight);
-  if (term->kind == AMBULO_TORQUE_ABSOLUTE && !(term->smoothing > 0.0))
+  int smoothed = term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_TORQUE_POWER ||
+                 term->kind == AMBULO_MECHANICAL_POWER;
+  if (smoothed && !(term->smoothing > 0.0))
     return REFUSE(list, "objective[%d] (%s): smoothing is %g; expected a positive number", t,
                   info->name, term->smoothing);
+  if (term->kind == AMBULO_TORQUE_POWER && !(term->power >= 2.0 && term->power <= 8.0))
+    return REFUSE(list, "objective[%d] (%s): power is %g; expected 2 to 8", t, info->name,
+                  term->power);
+  if (term->kind == AMBULO_UPRIGHT && !is_line(d->model, term->point))
+    return REFUSE(list, "objective[%d] (%s): points %d and %d; expected two points of one link", t,
+                  info->name, term->point[0], term->point[1]);
   if (term->kind == AMBULO_TRACKING && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
   if (term->kind == AMBULO_USER_TERM && !term->function)

@@ -17,6 +17,23 @@ static inline const double *ambulo__user_slope(const ambulo_workspace *workspace
          (size_t)workspace->user_slot[row] * (size_t)workspace->channel_count;
 }
 
+/* What composite terms read their channels from. */
+static inline ambulo__term_frame ambulo__term_frame_of(const ambulo_workspace *workspace) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__term_frame frame = {
+      p->model,           p->channels, workspace->channel_count,
+      workspace->channel, p->nodes,    p->definition.duration / p->definition.intervals};
+  return frame;
+}
+
+/* Quadrature weight of a term at a node, s: trapezoidal; the torque rate is constant over the
+ * interval that begins at the node. */
+static inline double ambulo__term_quadrature(const ambulo_problem *p, const ambulo_term *term,
+                                             int node) {
+  if (term->kind == AMBULO_TORQUE_RATE) return p->definition.duration / p->definition.intervals;
+  return p->quadrature[node];
+}
+
 /* Monotonic clock, s. */
 double ambulo__seconds_now(void);
 

@@ -64,8 +64,8 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
   return NULL;
 }
 
-const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                                     double *scale) {
+const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, double *scale) {
   const char *name = ambulo__yaml_text(node);
   const char *path = name ? ambulo__reader_path(reader, name) : NULL;
   if (!path) return NULL;

@@ -25,12 +25,12 @@ static double hand_height_wrong(void *user, const ambulo_node_state *state,
 }
 
 static double worst_error(fixture *f, const char *family) {
-  ambulo_derivative_error errors[16];
+  ambulo_derivative_error errors[32];
   int count = 0;
   double worst = -1.0;
-  assert_int_equal(ambulo_problem_check_derivatives(f->problem, f->workspace, f->x, 0.0, errors,
-                                                    16, &count),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_check_derivatives(f->problem, f->workspace, f->x, 0.0, errors, 32, &count),
+      AMBULO_OK);
   for (int i = 0; i < count; i++) {
     if (family && strcmp(errors[i].family, family) != 0) continue;
     if (errors[i].error > worst) worst = errors[i].error;
@@ -44,21 +44,28 @@ static void every_family_and_term_agrees_with_central_differences(void **state) 
   fixture f = {.model = arm_create()};
   double scale[2] = {0.3, 0.5}, offset[2] = {1.0, -2.0}, reference[11 * 2];
   for (int i = 0; i < 22; i++) reference[i] = cos(0.3 * i);
-  ambulo_term terms[5];
-  for (int k = 0; k < 5; k++) {
+  static const double passive[] = {0.2, 1.0, -0.1, -2.0, -0.3, -1.5, 0.2, 1.2};
+  static const double strength[] = {20.0, 0.9, 0.4, 30.0, 0.7, -0.2,
+                                    25.0, 0.8, 0.1, 15.0, 1.0, 0.3};
+  enum { KINDS = AMBULO_GROUND_FORCE + 1 };
+  ambulo_term terms[KINDS];
+  for (int k = 0; k < KINDS; k++) {
     terms[k] = ambulo_term_default((ambulo_term_kind)k);
     terms[k].weight = 0.1 + 0.2 * k;
     terms[k].scale = scale;
   }
   terms[AMBULO_TORQUE_SQUARED].offset = offset;
   terms[AMBULO_TORQUE_ABSOLUTE].smoothing = 0.7;
+  terms[AMBULO_TORQUE_POWER].passive = passive;
+  terms[AMBULO_TORQUE_POWER].strength = strength;
+  terms[AMBULO_UPRIGHT].point[1] = 1;
   terms[AMBULO_TRACKING].reference = reference;
   terms[AMBULO_USER_TERM].function = hand_height;
   terms[AMBULO_USER_TERM].user = &factor;
   ambulo_user_row row = {"hand", "m", AMBULO_NOT_NEGATIVE, 0.25, 0.75, hand_height, &factor};
   ambulo_problem_definition definition = arm_definition(f.model);
   definition.terms = terms;
-  definition.term_count = 5;
+  definition.term_count = KINDS;
   definition.user_rows = &row;
   definition.user_row_count = 1;
   definition.ends = AMBULO_ENDS_PERIODIC;
@@ -112,8 +119,8 @@ static void weights_combine_objective_and_rows(void **state) {
     assert_int_equal(ambulo_problem_row_gradient(f.problem, f.workspace, f.x, r, row), 0);
     for (int j = 0; j < f.n; j++) sum[j] += weights[r] * row[j];
   }
-  assert_int_equal(
-      ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.5, weights, f.gradient), 0);
+  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.5, weights, f.gradient),
+                   0);
   for (int j = 0; j < f.n; j++) assert_close(f.gradient[j], sum[j], 1e-10);
   free(weights);
   free(row);

@@ -60,8 +60,7 @@ static void other_models_are_refused(void **state) {
   definition.duration = 1.5;
   ambulo_problem *other = NULL;
   assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &other), AMBULO_OK);
-  assert_int_equal(ambulo_problem_transfer(f.problem, f.x, other, f.gradient),
-                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_transfer(f.problem, f.x, other, f.gradient), AMBULO_E_ARGUMENT);
   ambulo_problem_free(other);
   fixture_close(&f);
 }

@@ -40,8 +40,7 @@ static void gauss_newton_form_is_the_sum_of_squared_torque_slopes(void **state) 
     memset(local, 0, sizeof local);
     ambulo__node_gauss_newton(f.workspace, k, local);
     for (int a = 0; a < width; a++)
-      for (int b = 0; b < width; b++)
-        h[(first + a) * n + first + b] += local[a * width + b];
+      for (int b = 0; b < width; b++) h[(first + a) * n + first + b] += local[a * width + b];
   }
   arm_point(v, n, 1.0);
   double quadratic = 0.0, expected = 0.0;

@@ -8,11 +8,11 @@ static void nodes_agree_with_the_evaluation(void **state) {
   ambulo_problem_definition definition = arm_definition(f.model);
   fixture_open(&f, &definition);
   int nodes = ambulo_problem_node_count(f.problem);
-  double q[22], tau[22], points[33];
+  double q[22], tau[22], points[66];
   ambulo_motion motion = {.q = q, .tau = tau, .points = points};
-  assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, nodes, f.problem->times,
-                                         &motion),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_motion(f.problem, f.workspace, f.x, nodes, f.problem->times, &motion),
+      AMBULO_OK);
   assert_int_equal(ambulo_problem_evaluate(f.problem, f.workspace, f.x, NULL, NULL, f.rows), 0);
   for (int r = 0; r < f.m; r++) {
     ambulo_row row;
@@ -27,8 +27,8 @@ static void nodes_agree_with_the_evaluation(void **state) {
   /* the hand is where plane trigonometry puts it */
   for (int k = 0; k < nodes; k++) {
     double a = q[2 * k], b = a + q[2 * k + 1];
-    assert_close(points[3 * k], 0.3 * cos(a) + 0.25 * cos(b), 1e-13);
-    assert_close(points[3 * k + 1], 0.3 * sin(a) + 0.25 * sin(b), 1e-13);
+    assert_close(points[6 * k], 0.3 * cos(a) + 0.25 * cos(b), 1e-13);
+    assert_close(points[6 * k + 1], 0.3 * sin(a) + 0.25 * sin(b), 1e-13);
   }
   fixture_close(&f);
 }

@@ -51,17 +51,48 @@ static void each_kind_has_its_function(void **state) {
   ambulo_term term = {.kind = AMBULO_TORQUE_ABSOLUTE, .smoothing = 4.0};
   assert_close(ambulo__term_residual(&term, 3.0).value, 1.0, 1e-15);
   static const ambulo_term_kind squares[] = {AMBULO_TORQUE_SQUARED, AMBULO_ACCELERATION,
-                                             AMBULO_TRACKING};
-  for (int i = 0; i < 3; i++) {
+                                             AMBULO_TRACKING, AMBULO_POSTURE};
+  for (int i = 0; i < 4; i++) {
     term.kind = squares[i];
     assert_close(ambulo__term_residual(&term, 3.0).value, 9.0, 0.0);
   }
+}
+
+static void terms_with_curves_are_composite(void **state) {
+  (void)state;
+  static const double curve[12] = {0.0};
+  ambulo_term term = {.kind = AMBULO_TORQUE_POWER, .power = 4.0, .smoothing = 1e-3};
+  assert_true(ambulo__term_is_simple(&term));
+  assert_close(ambulo__term_residual(&term, 2.0).value, 16.0, 1e-5);
+  term.passive = curve;
+  assert_false(ambulo__term_is_simple(&term));
+  term.kind = AMBULO_UPRIGHT;
+  assert_false(ambulo__term_is_simple(&term));
+  term.kind = AMBULO_POSTURE;
+  assert_true(ambulo__term_is_simple(&term));
+  assert_int_equal(ambulo__term_channel(&term, &channels, 2), 2);
+}
+
+static void composite_terms_count_their_residuals(void **state) {
+  (void)state;
+  ambulo__term_frame frame = {.channels = channels, .nodes = 5};
+  ambulo_term term = {.kind = AMBULO_TORQUE_RATE};
+  assert_int_equal(ambulo__term_forms(&term, &frame, 3), 3);
+  assert_int_equal(ambulo__term_forms(&term, &frame, 4), 0);
+  term.kind = AMBULO_UPRIGHT;
+  assert_int_equal(ambulo__term_forms(&term, &frame, 4), 2);
+  term.kind = AMBULO_GROUND_FORCE;
+  assert_int_equal(ambulo__term_forms(&term, &frame, 0), 3);
+  term.kind = AMBULO_TORQUE_SQUARED;
+  assert_int_equal(ambulo__term_forms(&term, &frame, 0), 0);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(names_are_those_of_problem_files),
                                      cmocka_unit_test(terms_look_at_their_channels),
                                      cmocka_unit_test(scales_and_offsets),
-                                     cmocka_unit_test(each_kind_has_its_function)};
+                                     cmocka_unit_test(each_kind_has_its_function),
+                                     cmocka_unit_test(terms_with_curves_are_composite),
+                                     cmocka_unit_test(composite_terms_count_their_residuals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@ enum { ARM_COORDINATES = 2 };
 static inline ambulo_model *arm_create(void) {
   ambulo_link links[2] = {ambulo_link_default(), ambulo_link_default()};
   ambulo_coordinate coordinates[2] = {ambulo_coordinate_default(), ambulo_coordinate_default()};
-  ambulo_point point = {"hand", 1, {0.0, 0.0, 0.0}};
+  ambulo_point points[2] = {{"hand", 1, {0.0, 0.0, 0.0}}, {"forearm", 1, {-0.2, 0.05, 0.0}}};
   const char *names[2] = {"upper", "lower"}, *joints[2] = {"shoulder", "elbow"};
   for (int i = 0; i < 2; i++) {
     links[i].name = names[i];
@@ -42,8 +42,8 @@ static inline ambulo_model *arm_create(void) {
   definition.link_count = 2;
   definition.coordinates = coordinates;
   definition.coordinate_count = 2;
-  definition.points = &point;
-  definition.point_count = 1;
+  definition.points = points;
+  definition.point_count = 2;
   ambulo_model *model = NULL;
   if (ambulo_model_create(&definition, NULL, NULL, &model)) return NULL;
   return model;

@@ -1,0 +1,20 @@
+/* objective/mechanical_power.c - power of each joint per body mass, W/kg.
+ *
+ *     u_i = scale_i tau_i qd_i / m,   phi the smoothed absolute value: positive and
+ *     negative work cost the same.
+ *     du/dtau = scale qd / m,  du/dqd = scale tau / m
+ */
+#include "objective/term.h"
+
+void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_frame *frame,
+                                   int node, int i, ambulo__form *form) {
+  double factor = ambulo__term_scale(term, i) / ambulo_model_mass(frame->model);
+  if (factor == 0.0) return;
+  int tau_channel = ambulo__channel_tau(&frame->channels, i);
+  int qd_channel = ambulo__channel_qd(&frame->channels, i);
+  double tau = ambulo__frame_value(frame, node, tau_channel);
+  double qd = ambulo__frame_value(frame, node, qd_channel);
+  form->u = factor * tau * qd;
+  ambulo__form_add(form, tau_channel, 0, factor * qd);
+  ambulo__form_add(form, qd_channel, 0, factor * tau);
+}

@@ -1,0 +1,18 @@
+/* objective/torque_rate.c - how fast joint torques change.
+ *
+ *     u_i = scale_i (tau_i(t_k+1) - tau_i(t_k)) / dt,   one residual per interval, booked
+ *     on its first node (N m/s times scale)
+ */
+#include "objective/term.h"
+
+void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+                              int i, ambulo__form *form) {
+  double factor = ambulo__term_scale(term, i) / frame->step;
+  if (factor == 0.0) return;
+  int channel = ambulo__channel_tau(&frame->channels, i);
+  double now = ambulo__frame_value(frame, node, channel);
+  double next = ambulo__frame_value(frame, node + 1, channel);
+  form->u = factor * (next - now);
+  ambulo__form_add(form, channel, 0, -factor);
+  ambulo__form_add(form, channel, 1, factor);
+}

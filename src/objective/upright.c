@@ -1,0 +1,34 @@
+/* objective/upright.c - the line from one point of a segment to another stays vertical.
+ *
+ *     u_j = (p_to - p_from) . e_j / L,   e_0 forward, e_1 left,
+ *
+ * the horizontal direction cosines of the line; L its length, constant because both
+ * points belong to one rigid segment (of the shipped bodies: hip centre and head).
+ */
+#include "objective/term.h"
+
+#include <math.h>
+
+/* distance of two points of one link, m */
+static double line_length(const ambulo_model *model, const int point[2]) {
+  const double *a = ambulo_model_point(model, point[0])->position;
+  const double *b = ambulo_model_point(model, point[1])->position;
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+              (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
+                          ambulo__form *form) {
+  const double *e = j == 0 ? ambulo_model_forward(frame->model) : ambulo_model_left(frame->model);
+  double length = line_length(frame->model, term->point);
+  for (int end = 0; end < 2; end++) {
+    double sign = end ? 1.0 : -1.0;
+    for (int axis = 0; axis < 3; axis++) {
+      double slope = sign * e[axis] / length;
+      if (slope == 0.0) continue;
+      int channel = ambulo__channel_point(&frame->channels, term->point[end], axis);
+      form->u += slope * ambulo__frame_value(frame, node, channel);
+      ambulo__form_add(form, channel, 0, slope);
+    }
+  }
+}
