@@ -26,7 +26,7 @@
 
 enum { MAX_PASSES = 8 };
 /* S_r |J_r|^2 relative to the largest diagonal element of H */
-static const double penalty_factor = 1e3;
+static const double penalty_factor = 1e4;
 static const double pass_tolerance = 1e-11;
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,

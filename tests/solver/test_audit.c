@@ -1,0 +1,131 @@
+/* The audit tells a good point from a spoilt one, whoever made it. */
+#include "solver/audit.h"
+#include "support/engine_fixture.h"
+
+static ambulo_result *audit(const ambulo_problem *problem, const double *x) {
+  ambulo_options options = ambulo_options_default();
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_audit_point(problem, &options, x, NULL, NULL, &result), AMBULO_OK);
+  return result;
+}
+
+static ambulo_result *solve(const ambulo_problem *problem) {
+  ambulo_options options = ambulo_options_default();
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  return result;
+}
+
+static void spoilt_coordinate_is_found_by_name(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_result *solved = solve(problem);
+  assert_int_equal(ambulo_result_verdict(solved), AMBULO_OPTIMAL);
+  size_t n = (size_t)ambulo_problem_variable_count(problem);
+  double *x = calloc(n, sizeof *x);
+  memcpy(x, ambulo_result_x(solved), n * sizeof *x);
+  x[0] += 1e-3;
+  ambulo_result *spoilt = audit(problem, x);
+  assert_int_equal(ambulo_result_verdict(spoilt), AMBULO_INFEASIBLE);
+  assert_string_equal(ambulo_result_audit(spoilt)->violation.family, "initial_state");
+  assert_string_equal(ambulo_result_audit(spoilt)->violation.subject, "shoulder");
+  assert_true(ambulo_result_audit(spoilt)->violation.worst >= 1e-3 - 1e-9);
+  free(x);
+  ambulo_result_free(spoilt);
+  ambulo_result_free(solved);
+  ambulo_problem_free(problem);
+}
+
+/* feasible but not stationary: the restored point */
+static void restored_point_is_not_called_optimal(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open_restored(&f, "pendulum_swing");
+  ambulo_result *result = audit(f.problem, f.x);
+  assert_true(ambulo_result_audit(result)->violation.worst <= 1e-6);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_FEASIBLE);
+  assert_true(ambulo_result_audit(result)->kkt > 1e-3);
+  ambulo_result_free(result);
+  engine_close(&f);
+}
+
+/* grad J = sum multiplier grad c, with multipliers of inequalities >= 0 */
+static void multipliers_explain_the_gradient(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_result *r = solve(problem);
+  ambulo_workspace *workspace = NULL;
+  int n = ambulo_problem_variable_count(problem), m = ambulo_problem_row_count(problem);
+  double *rest = calloc((size_t)n, sizeof *rest), *g = calloc((size_t)n, sizeof *g);
+  double *weights = calloc((size_t)m, sizeof *weights), size = 0.0, worst = 0.0;
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  for (int i = 0; i < m; i++) {
+    ambulo_row row;
+    assert_int_equal(ambulo_problem_row(problem, i, &row), AMBULO_OK);
+    weights[i] = -ambulo_result_multipliers(r)[i];
+    if (row.relation == AMBULO_NOT_NEGATIVE) assert_true(weights[i] <= 0.0);
+  }
+  assert_int_equal(
+      ambulo_problem_gradient(problem, workspace, ambulo_result_x(r), 1.0, NULL, g), AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_gradient(problem, workspace, ambulo_result_x(r), 1.0, weights, rest),
+      AMBULO_OK);
+  for (int j = 0; j < n; j++) {
+    size = fmax(size, fabs(g[j]));
+    worst = fmax(worst, fabs(rest[j]));
+  }
+  assert_true(worst <= 1.1 * ambulo_result_audit(r)->kkt * size + 1e-7 * size);
+  assert_int_equal(ambulo_result_audit(r)->dropped_equalities, 16);
+  assert_true(ambulo_result_audit(r)->rank <= ambulo_result_audit(r)->active_rows - 16);
+  free(rest);
+  free(g);
+  free(weights);
+  ambulo_workspace_free(workspace);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+/* between the nodes a coarse spline cannot hold its contacts: the audit says how far off */
+static void dense_violation_is_larger_than_the_nodes(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_result *r = solve(problem);
+  ambulo_violation same;
+  const ambulo_audit *a = ambulo_result_audit(r);
+  assert_true(a->dense_violation.worst > 1e-3);
+  assert_true(strlen(a->dense_violation.family) > 0);
+  assert_int_equal(ambulo__audit_dense(problem, ambulo_result_x(r), 1, NULL, &same), AMBULO_OK);
+  assert_true(same.worst <= 1e-6);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static void families_are_complete(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  size_t n = (size_t)ambulo_problem_variable_count(problem);
+  double *x = calloc(n, sizeof *x), worst = 0.0;
+  ambulo_result *r = audit(problem, x);
+  for (int i = 0; i < ambulo_result_family_count(r); i++) {
+    const ambulo_violation *v = ambulo_result_family(r, i);
+    assert_non_null(v->family);
+    worst = fmax(worst, v->worst);
+  }
+  assert_true(ambulo_result_family_count(r) >= 5);
+  assert_close(worst, ambulo_result_audit(r)->violation.worst, 0.0);
+  assert_null(ambulo_result_family(r, ambulo_result_family_count(r)));
+  free(x);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(spoilt_coordinate_is_found_by_name),
+      cmocka_unit_test(restored_point_is_not_called_optimal),
+      cmocka_unit_test(multipliers_explain_the_gradient),
+      cmocka_unit_test(dense_violation_is_larger_than_the_nodes),
+      cmocka_unit_test(families_are_complete),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,123 @@
+/* Banded matrices against dense ones. */
+#include "solver/band.h"
+#include "support/engine_fixture.h"
+
+enum { N = 23, KD = 6 };
+
+typedef struct banded {
+  ambulo__pool pool;
+  ambulo__band band;
+  double dense[N][N];
+} banded;
+
+/* sum of outer products of rows on windows: positive definite with the diagonal added */
+static void fill(banded *m, unsigned seed) {
+  ambulo__pool_init(&m->pool, NULL);
+  assert_int_equal(ambulo__band_create(&m->pool, N, KD, &m->band), AMBULO_OK);
+  memset(m->dense, 0, sizeof m->dense);
+  for (int first = 0; first + KD < N; first += 2) {
+    double rows[3][KD + 1];
+    for (int r = 0; r < 3; r++) {
+      for (int j = 0; j <= KD; j++) rows[r][j] = random_number(&seed);
+    }
+    ambulo__band_add_rows(&m->band, first, KD + 1, 3, &rows[0][0]);
+    for (int r = 0; r < 3; r++) {
+      for (int i = 0; i <= KD; i++) {
+        for (int j = 0; j <= KD; j++) m->dense[first + i][first + j] += rows[r][i] * rows[r][j];
+      }
+    }
+  }
+  ambulo__band_add_diagonal(&m->band, 0.5);
+  for (int i = 0; i < N; i++) m->dense[i][i] += 0.5;
+}
+
+static void product_is_the_dense_one(void **state) {
+  (void)state;
+  banded m;
+  double x[N], y[N];
+  unsigned seed = 7;
+  fill(&m, 1);
+  for (int i = 0; i < N; i++) x[i] = random_number(&seed);
+  ambulo__band_multiply(&m.band, x, y);
+  for (int i = 0; i < N; i++) {
+    double want = 0.0;
+    for (int j = 0; j < N; j++) want += m.dense[i][j] * x[j];
+    assert_close(y[i], want, 1e-13);
+  }
+  ambulo__pool_clear(&m.pool);
+}
+
+static void factor_solves_the_dense_system(void **state) {
+  (void)state;
+  banded m;
+  double x[N], rhs[N];
+  unsigned seed = 9;
+  fill(&m, 2);
+  for (int i = 0; i < N; i++) x[i] = random_number(&seed);
+  for (int i = 0; i < N; i++) {
+    rhs[i] = 0.0;
+    for (int j = 0; j < N; j++) rhs[i] += m.dense[i][j] * x[j];
+  }
+  assert_int_equal(ambulo__band_factor(&m.band), 0);
+  ambulo__band_forward(&m.band, rhs);
+  ambulo__band_backward(&m.band, rhs);
+  for (int i = 0; i < N; i++) assert_close(rhs[i], x[i], 1e-11);
+  ambulo__band_upper_multiply(&m.band, rhs);
+  ambulo__band_backward(&m.band, rhs);
+  for (int i = 0; i < N; i++) assert_close(rhs[i], x[i], 1e-11);
+  ambulo__pool_clear(&m.pool);
+}
+
+static void many_right_hand_sides_are_single_ones(void **state) {
+  (void)state;
+  banded m;
+  double many[3 * N], one[3 * N];
+  unsigned seed = 3;
+  fill(&m, 4);
+  for (int i = 0; i < 3 * N; i++) many[i] = one[i] = random_number(&seed);
+  assert_int_equal(ambulo__band_factor(&m.band), 0);
+  ambulo__band_forward_many(&m.band, 3, many);
+  for (int k = 0; k < 3; k++) ambulo__band_forward(&m.band, one + (size_t)k * N);
+  for (int i = 0; i < 3 * N; i++) assert_close(many[i], one[i], 1e-12);
+  ambulo__pool_clear(&m.pool);
+}
+
+static void sparse_row_adds_its_outer_product(void **state) {
+  (void)state;
+  banded m;
+  int start[] = {0, 3}, column[] = {4, 6, 9};
+  double value[] = {2.0, -1.0, 0.5}, x[N] = {0.0}, before[N], after[N];
+  ambulo__sparse_rows rows = {.count = 1, .start = start, .column = column, .value = value};
+  fill(&m, 5);
+  for (int i = 0; i < N; i++) x[i] = 0.1 * i;
+  ambulo__band_multiply(&m.band, x, before);
+  ambulo__band_add_sparse(&m.band, &rows, 0, 3.0);
+  ambulo__band_multiply(&m.band, x, after);
+  double dot = 2.0 * x[4] - x[6] + 0.5 * x[9];
+  for (int i = 0; i < N; i++) {
+    double want = before[i];
+    for (int e = 0; e < 3; e++) want += i == column[e] ? 3.0 * value[e] * dot : 0.0;
+    assert_close(after[i], want, 1e-13);
+  }
+  ambulo__pool_clear(&m.pool);
+}
+
+static void indefinite_matrix_is_refused(void **state) {
+  (void)state;
+  banded m;
+  fill(&m, 6);
+  ambulo__band_add_diagonal(&m.band, -100.0);
+  assert_int_equal(ambulo__band_factor(&m.band), 1);
+  ambulo__pool_clear(&m.pool);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(product_is_the_dense_one),
+      cmocka_unit_test(factor_solves_the_dense_system),
+      cmocka_unit_test(many_right_hand_sides_are_single_ones),
+      cmocka_unit_test(sparse_row_adds_its_outer_product),
+      cmocka_unit_test(indefinite_matrix_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

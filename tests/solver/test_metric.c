@@ -1,0 +1,62 @@
+/* The banded metric is the sum of the nodes' Gauss-Newton matrices. */
+#include "support/engine_fixture.h"
+
+static void band_is_the_sum_over_nodes(void **state) {
+  (void)state;
+  engine_fixture f;
+  unsigned seed = 8;
+  engine_open(&f, "yardstick_12");
+  ambulo__engine *e = f.engine;
+  const ambulo_problem *p = f.problem;
+  double *d = calloc((size_t)f.n, sizeof *d), *got = calloc((size_t)f.n, sizeof *got);
+  double *want = calloc((size_t)f.n, sizeof *want);
+  size_t widest = (size_t)ambulo__metric_diagonals(p) + 1;
+  double *local = calloc(widest * widest, sizeof *local);
+  for (int j = 0; j < f.n; j++) f.x[j] = 0.2 * random_number(&seed);
+  for (int j = 0; j < f.n; j++) d[j] = random_number(&seed);
+  assert_int_equal(ambulo__evaluate_jacobian(e->workspace, f.x), AMBULO_OK);
+  ambulo__metric_fill(&e->metric, e->workspace, 2.0, &e->base);
+  ambulo__band_multiply(&e->base, d, got);
+  for (int k = 0; k < p->nodes; k++) {
+    int first = ambulo__node_first(p, k), width = ambulo__node_width(p, k);
+    memset(local, 0, widest * widest * sizeof *local);
+    ambulo__node_gauss_newton(e->workspace, k, local);
+    for (int i = 0; i < width; i++) {
+      for (int j = 0; j < width; j++) want[first + i] += 2.0 * local[i * width + j] * d[first + j];
+    }
+  }
+  for (int j = 0; j < f.n; j++) assert_close(got[j], want[j], 1e-10);
+  free(d);
+  free(got);
+  free(want);
+  free(local);
+  engine_close(&f);
+}
+
+static void yardstick_is_not_rescaled(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  assert_true(f.engine->objective_scale == 1.0);
+  engine_close(&f);
+}
+
+static void problem_without_objective_has_a_metric(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "fig5a_feasible");
+  ambulo__engine *e = f.engine;
+  assert_int_equal(e->metric.channels, 0);
+  ambulo__metric_fill(&e->metric, e->workspace, 1.0, &e->base);
+  assert_true(ambulo__band_largest(&e->base) > 0.0);
+  ambulo__band_add_diagonal(&e->base, 1e-6);
+  assert_int_equal(ambulo__band_factor(&e->base), 0);
+  engine_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(band_is_the_sum_over_nodes),
+                                     cmocka_unit_test(yardstick_is_not_rescaled),
+                                     cmocka_unit_test(problem_without_objective_has_a_metric)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,106 @@
+/* NLopt's plain algorithms on small problems; an analytic one through user callbacks. */
+#include "support/arm.h"
+#include "support/engine_fixture.h"
+
+static double solve(const char *name, ambulo_algorithm algorithm, int presolve) {
+  ambulo_problem *problem = load_problem(name);
+  ambulo_options options = ambulo_options_default();
+  ambulo_result *result = NULL;
+  options.algorithm = algorithm;
+  options.presolve = presolve;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  ambulo_verdict verdict = ambulo_result_verdict(result);
+  if (verdict != AMBULO_OPTIMAL)
+    print_error("%s: %s, %s\n", name, ambulo_verdict_name(verdict),
+                ambulo_result_ending(result));
+  assert_int_equal(verdict, AMBULO_OPTIMAL);
+  double objective = ambulo_result_objective(result);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  return objective;
+}
+
+static void every_way_finds_the_swing(void **state) {
+  (void)state;
+  double best = solve("pendulum_swing", AMBULO_AUTO, 1);
+  assert_close(solve("pendulum_swing", AMBULO_SLSQP, 0), best, 1e-5);
+  assert_close(solve("pendulum_swing", AMBULO_AUGLAG, 0), best, 1e-5);
+  assert_close(solve("pendulum_swing", AMBULO_SLSQP, 1), best, 1e-5);
+  assert_close(solve("pendulum_swing", AMBULO_AUGLAG, 1), best, 1e-5);
+}
+
+static void every_way_finds_the_reach(void **state) {
+  (void)state;
+  double best = solve("two_link_reach", AMBULO_AUTO, 1);
+  assert_close(solve("two_link_reach", AMBULO_SLSQP, 0), best, 1e-4);
+  assert_close(solve("two_link_reach", AMBULO_AUGLAG, 0), best, 1e-4);
+}
+
+/* (q0 - 2)^2 + (q1 + 1)^2 at every node */
+static double bowl(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  (void)user;
+  double a = state->q[0] - 2.0, b = state->q[1] + 1.0;
+  if (gradient) {
+    gradient->q[0] += 2.0 * a;
+    gradient->q[1] += 2.0 * b;
+  }
+  return a * a + b * b;
+}
+
+/* q0 + q1 <= 0 */
+static double half_plane(void *user, const ambulo_node_state *state,
+                         ambulo_node_gradient *gradient) {
+  (void)user;
+  if (gradient) {
+    gradient->q[0] -= 1.0;
+    gradient->q[1] -= 1.0;
+  }
+  return -state->q[0] - state->q[1];
+}
+
+/* nearest point of the half plane to (2, -1): (1.5, -1.5), distance squared 0.5, one second */
+static void analytic_problem(ambulo_algorithm algorithm, int presolve) {
+  ambulo_model *model = arm_create();
+  ambulo_term term = ambulo_term_default(AMBULO_USER_TERM);
+  ambulo_user_row row = {"half_plane", "rad", AMBULO_NOT_NEGATIVE, 0.0, 1.0, half_plane, NULL};
+  ambulo_problem_definition definition = ambulo_problem_definition_default();
+  term.name = "bowl";
+  term.function = bowl;
+  definition.model = model;
+  definition.intervals = 4;
+  definition.terms = &term;
+  definition.term_count = 1;
+  definition.user_rows = &row;
+  definition.user_row_count = 1;
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  ambulo_options options = ambulo_options_default();
+  options.algorithm = algorithm;
+  options.presolve = presolve;
+  assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &problem), AMBULO_OK);
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+    print_error("algorithm %d presolve %d: %s kkt %g\n", (int)algorithm, presolve,
+                ambulo_result_ending(result), ambulo_result_audit(result)->kkt);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_close(ambulo_result_objective(result), 0.5, 1e-5);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
+static void analytic_optimum_is_found(void **state) {
+  (void)state;
+  analytic_problem(AMBULO_SLSQP, 0);
+  analytic_problem(AMBULO_AUGLAG, 0);
+  analytic_problem(AMBULO_SLSQP, 1);
+  analytic_problem(AMBULO_AUGLAG, 1);
+  analytic_problem(AMBULO_AUTO, 1);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_finds_the_swing),
+                                     cmocka_unit_test(every_way_finds_the_reach),
+                                     cmocka_unit_test(analytic_optimum_is_found)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,86 @@
+/* Dependent rows are found and named; contradictions are told from copies. */
+#include "support/arm.h"
+#include "support/engine_fixture.h"
+
+static void flat_soles_and_the_periodic_end_are_dropped(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  const ambulo_problem *p = f.problem;
+  int soles = 0, copies = 0;
+  for (int r = 0; r < p->rows; r++) {
+    if (f.engine->rows.rank[r] != AMBULO__ROW_DEPENDENT) continue;
+    const ambulo__table_row *row = &p->table.rows[r];
+    if (row->node == p->nodes - 1) {
+      copies++;
+    } else {
+      assert_string_equal(row->family, "ground_penetration");
+      soles++;
+    }
+  }
+  assert_int_equal(soles, 8);
+  assert_int_equal(copies, 8);
+  assert_int_equal(f.engine->rows.dropped, 16);
+  assert_int_equal(f.engine->equalities + f.engine->borders + 16, p->equalities);
+  engine_close(&f);
+}
+
+static int ranks_of(const ambulo_end_value *ends, int count, ambulo__row_rank *last,
+                    ambulo_diagnostics *list) {
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition definition = arm_definition(model);
+  definition.end_values = ends;
+  definition.end_value_count = count;
+  definition.ends = AMBULO_ENDS_FREE;
+  ambulo_problem *problem = NULL;
+  ambulo_workspace *workspace = NULL;
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &problem), AMBULO_OK);
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  int *rank = calloc((size_t)problem->rows, sizeof *rank), dropped = 0;
+  double *x = calloc((size_t)problem->variables, sizeof *x);
+  assert_int_equal(ambulo__presolve_rank(problem, workspace, x, &pool, list, rank), AMBULO_OK);
+  for (int r = 0; r < problem->rows; r++) {
+    if (rank[r] == AMBULO__ROW_INDEPENDENT) continue;
+    *last = (ambulo__row_rank)rank[r];
+    dropped++;
+  }
+  free(rank);
+  free(x);
+  ambulo__pool_clear(&pool);
+  ambulo_workspace_free(workspace);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+  return dropped;
+}
+
+static void repeated_value_is_a_copy(void **state) {
+  (void)state;
+  ambulo_end_value ends[] = {{0, 0, 0, 0.3}, {0, 0, 1, 0.5}, {0, 0, 0, 0.3}};
+  ambulo__row_rank last = AMBULO__ROW_INDEPENDENT;
+  assert_int_equal(ranks_of(ends, 3, &last, NULL), 1);
+  assert_int_equal(last, AMBULO__ROW_DEPENDENT);
+}
+
+static void two_values_at_once_contradict_each_other(void **state) {
+  (void)state;
+  ambulo_end_value ends[] = {{0, 0, 0, 0.3}, {0, 0, 1, 0.5}, {0, 0, 0, 0.4}};
+  ambulo__row_rank last = AMBULO__ROW_INDEPENDENT;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ranks_of(ends, 3, &last, list), 1);
+  assert_int_equal(last, AMBULO__ROW_CONTRADICTORY);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  const ambulo_diagnostic *message = ambulo_diagnostics_get(list, 0);
+  assert_non_null(strstr(message->message, "initial_state"));
+  ambulo_diagnostics_free(list);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(flat_soles_and_the_periodic_end_are_dropped),
+      cmocka_unit_test(repeated_value_is_a_copy),
+      cmocka_unit_test(two_values_at_once_contradict_each_other),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,58 @@
+/* Retracted points satisfy the equalities; tangent vectors stay tangent. */
+#include "support/engine_fixture.h"
+
+static void open_factored(engine_fixture *f) {
+  double predicted;
+  engine_open_restored(f, "yardstick_12");
+  assert_int_equal(ambulo__model_step(f->engine, &predicted), 0);
+}
+
+static void point_nearby_is_carried_to_the_surface(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_factored(&f);
+  double t = ambulo__engine_step_limit(f.engine, f.engine->total, 0.2);
+  for (int j = 0; j < f.n; j++) f.x[j] += t * f.engine->total[j];
+  assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+  assert_true(ambulo__engine_equality_error(f.engine) > 1e-4);
+  assert_int_equal(ambulo__retract(f.engine, f.x), 1);
+  assert_true(ambulo__engine_equality_error(f.engine) <= 1e-8);
+  engine_close(&f);
+}
+
+static void reduced_gradient_is_tangent(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_factored(&f);
+  double *z = calloc((size_t)f.n, sizeof *z);
+  assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+  ambulo__reduced_gradient(f.engine, f.engine->lambda, z);
+  double size = 0.0, off = 0.0;
+  for (int j = 0; j < f.n; j++) size = fmax(size, fabs(z[j]));
+  ambulo__sparse_rows_multiply(&f.engine->rows.equality, z, f.engine->h);
+  for (int i = 0; i < f.engine->equalities; i++) off = fmax(off, fabs(f.engine->h[i]));
+  ambulo__sparse_rows_multiply(&f.engine->rows.border, z, f.engine->b);
+  for (int i = 0; i < f.engine->borders; i++) off = fmax(off, fabs(f.engine->b[i]));
+  assert_true(size > 1e-6);
+  assert_true(off <= 1e-5 * size);
+  free(z);
+  engine_close(&f);
+}
+
+static void hopeless_point_is_refused(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_factored(&f);
+  for (int j = 0; j < f.n; j++) f.x[j] += j % 3 ? 50.0 : -70.0;
+  assert_int_equal(ambulo__retract(f.engine, f.x), 0);
+  engine_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(point_nearby_is_carried_to_the_surface),
+      cmocka_unit_test(reduced_gradient_is_tangent),
+      cmocka_unit_test(hopeless_point_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,189 @@
+/* ambulo_solve as a caller meets it. */
+#include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
+
+#include <pthread.h>
+
+static ambulo_result *solve(const ambulo_problem *problem, ambulo_options options) {
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  return result;
+}
+
+static void yardstick_is_solved_from_zero(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_result *r = solve(problem, ambulo_options_default());
+  double f = ambulo_result_objective(r);
+  if (f > 0.3568) print_error("f = %.6f: %s\n", f, ambulo_result_ending(r));
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_true(f <= 0.3568);
+  assert_true(ambulo_result_audit(r)->violation.worst <= 1e-6);
+  assert_true(ambulo_result_timing(r)->total > 0.0);
+  assert_non_null(strstr(ambulo_result_ending(r), "AUGLAG"));
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static void grids_continue_from_coarser_ones(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_36");
+  ambulo_result *r = solve(problem, ambulo_options_default());
+  double f = ambulo_result_objective(r);
+  if (f > 1.0211) print_error("f = %.6f: %s\n", f, ambulo_result_ending(r));
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_true(f <= 1.0211);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static void feasibility_alone_is_enough(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("fig5a_feasible");
+  ambulo_result *r = solve(problem, ambulo_options_default());
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_OPTIMAL);
+  assert_true(ambulo_result_objective(r) == 0.0);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static int stop_at_second(void *user, const ambulo_progress *progress) {
+  *(ambulo_progress *)user = *progress;
+  return progress->iteration >= 2;
+}
+
+static void cancelled_solve_returns_its_point(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_options options = ambulo_options_default();
+  ambulo_progress last = {0};
+  options.progress = stop_at_second;
+  options.user = &last;
+  ambulo_result *r = solve(problem, options);
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_INTERRUPTED);
+  assert_int_equal(ambulo_result_iterations(r), 2);
+  assert_close(ambulo_result_objective(r), last.objective, 1e-12);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static void limits_end_the_solve(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_options options = ambulo_options_default();
+  options.maximum_evaluations = 20;
+  ambulo_result *r = solve(problem, options);
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_LIMIT_REACHED);
+  assert_in_range(ambulo_result_evaluations(r), 20, 30);
+  ambulo_result_free(r);
+  options = ambulo_options_default();
+  options.time_limit = 1e-6;
+  r = solve(problem, options);
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_LIMIT_REACHED);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static void impossible_problem_is_called_infeasible(void **state) {
+  (void)state;
+  const char *overrides[] = {"ends.travel=3.4"};
+  ambulo_problem *problem = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/yardstick_12.yaml", overrides, 1, NULL, NULL, &problem),
+      AMBULO_OK);
+  ambulo_result *r = solve(problem, ambulo_options_default());
+  assert_int_equal(ambulo_result_verdict(r), AMBULO_INFEASIBLE);
+  assert_true(ambulo_result_audit(r)->violation.worst > 0.1);
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
+static void start_that_is_not_finite_is_refused(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("pendulum_swing");
+  size_t n = (size_t)ambulo_problem_variable_count(problem);
+  double *x = calloc(n, sizeof *x);
+  ambulo_result *r = NULL;
+  x[1] = NAN;
+  assert_int_equal(ambulo_solve(problem, NULL, x, NULL, NULL, &r), AMBULO_E_PROBLEM);
+  assert_null(r);
+  free(x);
+  ambulo_problem_free(problem);
+}
+
+typedef struct job {
+  const char *name;
+  ambulo_result *result;
+} job;
+
+static void *work(void *data) {
+  job *j = data;
+  ambulo_problem *problem = NULL;
+  char path[96];
+  (void)snprintf(path, sizeof path, "models/%s.yaml", j->name);
+  if (ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem)) return NULL;
+  ambulo_options options = ambulo_options_default();
+  if (ambulo_solve(problem, &options, NULL, NULL, NULL, &j->result)) j->result = NULL;
+  ambulo_problem_free(problem);
+  return NULL;
+}
+
+static void threads_give_the_bits_of_serial_runs(void **state) {
+  (void)state;
+  job serial[2] = {{"yardstick_12", NULL}, {"two_link_reach", NULL}};
+  job parallel[2] = {{"yardstick_12", NULL}, {"two_link_reach", NULL}};
+  pthread_t thread[2];
+  for (int i = 0; i < 2; i++) (void)work(&serial[i]);
+  for (int i = 0; i < 2; i++) assert_int_equal(pthread_create(&thread[i], NULL, work, &parallel[i]), 0);
+  for (int i = 0; i < 2; i++) assert_int_equal(pthread_join(thread[i], NULL), 0);
+  for (int i = 0; i < 2; i++) {
+    assert_non_null(serial[i].result);
+    assert_non_null(parallel[i].result);
+    double a = ambulo_result_objective(serial[i].result);
+    double b = ambulo_result_objective(parallel[i].result);
+    assert_memory_equal(&a, &b, sizeof a);
+    ambulo_result_free(serial[i].result);
+    ambulo_result_free(parallel[i].result);
+  }
+}
+
+static void out_of_memory_is_survived(const char *name, long stride) {
+  ambulo_problem *problem = load_problem(name);
+  ambulo_options options = ambulo_options_default();
+  options.maximum_evaluations = 30;
+  for (long k = 0; k < 100000; k += stride) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_result *r = NULL;
+    ambulo_status status = ambulo_solve(problem, &options, NULL, &allocator, NULL, &r);
+    if (status) {
+      assert_int_equal(status, AMBULO_E_MEMORY);
+      assert_null(r);
+    }
+    ambulo_result_free(r);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  ambulo_problem_free(problem);
+}
+
+static void any_allocation_may_fail(void **state) {
+  (void)state;
+  out_of_memory_is_survived("two_link_reach", 3);
+  out_of_memory_is_survived("yardstick_36", 41);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(yardstick_is_solved_from_zero),
+      cmocka_unit_test(grids_continue_from_coarser_ones),
+      cmocka_unit_test(feasibility_alone_is_enough),
+      cmocka_unit_test(cancelled_solve_returns_its_point),
+      cmocka_unit_test(limits_end_the_solve),
+      cmocka_unit_test(impossible_problem_is_called_infeasible),
+      cmocka_unit_test(start_that_is_not_finite_is_refused),
+      cmocka_unit_test(threads_give_the_bits_of_serial_runs),
+      cmocka_unit_test(any_allocation_may_fail),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

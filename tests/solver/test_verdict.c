@@ -1,0 +1,41 @@
+/* Every verdict can be reached, and each has a name and a text. */
+#include "solver/verdict.h"
+#include "support/test.h"
+
+static ambulo_verdict verdict(double violation, double kkt, ambulo__ending_kind ending) {
+  ambulo_options options = ambulo_options_default();
+  ambulo_audit audit = {.kkt = kkt};
+  audit.violation.worst = violation;
+  return ambulo__verdict_of(&audit, &options, ending);
+}
+
+static void each_is_reached(void **state) {
+  (void)state;
+  assert_int_equal(verdict(1e-7, 1e-5, AMBULO__ENDED_BY_ITSELF), AMBULO_OPTIMAL);
+  assert_int_equal(verdict(1e-7, 1e-5, AMBULO__ENDED_BY_LIMIT), AMBULO_OPTIMAL);
+  assert_int_equal(verdict(1e-7, 0.1, AMBULO__ENDED_BY_ITSELF), AMBULO_FEASIBLE);
+  assert_int_equal(verdict(1e-7, 0.1, AMBULO__ENDED_BY_LIMIT), AMBULO_FEASIBLE);
+  assert_int_equal(verdict(1e-3, 1e-5, AMBULO__ENDED_BY_ITSELF), AMBULO_INFEASIBLE);
+  assert_int_equal(verdict(1e-3, 1e-5, AMBULO__ENDED_BY_LIMIT), AMBULO_LIMIT_REACHED);
+  assert_int_equal(verdict(1e-3, 1e-5, AMBULO__ENDED_BY_CALLER), AMBULO_INTERRUPTED);
+  assert_int_equal(verdict(NAN, 1e-5, AMBULO__ENDED_BY_ITSELF), AMBULO_NUMERIC_FAILURE);
+  assert_int_equal(verdict(HUGE_VAL, 0.0, AMBULO__ENDED_BY_CALLER), AMBULO_NUMERIC_FAILURE);
+}
+
+static void names_are_distinct(void **state) {
+  (void)state;
+  for (int a = AMBULO_OPTIMAL; a <= AMBULO_INTERRUPTED; a++) {
+    assert_true(strlen(ambulo_verdict_text((ambulo_verdict)a)) > 10);
+    for (int b = AMBULO_OPTIMAL; b < a; b++)
+      assert_string_not_equal(ambulo_verdict_name((ambulo_verdict)a),
+                              ambulo_verdict_name((ambulo_verdict)b));
+  }
+  assert_string_equal(ambulo_verdict_name(AMBULO_LIMIT_REACHED), "limit");
+  assert_string_equal(ambulo_verdict_name((ambulo_verdict)99), "unknown");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_is_reached),
+                                     cmocka_unit_test(names_are_distinct)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

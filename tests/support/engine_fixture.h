@@ -1,0 +1,60 @@
+/* tests/support/engine_fixture.h - the yardstick on 12 intervals, opened as the solver does. */
+#ifndef AMBULO_TESTS_ENGINE_FIXTURE_H
+#define AMBULO_TESTS_ENGINE_FIXTURE_H
+
+#include "solver/engine.h"
+#include "support/test.h"
+
+typedef struct engine_fixture {
+  ambulo_problem *problem;
+  ambulo_options options;
+  ambulo__run run;
+  ambulo__engine *engine;
+  double *x;
+  int n;
+} engine_fixture;
+
+static inline ambulo_problem *load_problem(const char *name) {
+  char path[96];
+  ambulo_problem *problem = NULL;
+  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  ambulo_status status = ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem);
+  if (status) print_error("%s: %s\n", path, ambulo_status_name(status));
+  assert_int_equal(status, AMBULO_OK);
+  return problem;
+}
+
+static inline void engine_open(engine_fixture *f, const char *name) {
+  f->problem = load_problem(name);
+  f->options = ambulo_options_default();
+  f->n = ambulo_problem_variable_count(f->problem);
+  f->x = calloc((size_t)f->n, sizeof *f->x);
+  ambulo__run_begin(&f->run, &f->options);
+  assert_int_equal(
+      ambulo__engine_create(f->problem, f->x, NULL, &f->run, NULL, &f->engine), AMBULO_OK);
+  f->engine->mu = 0.05;
+  f->engine->rho = 10.0;
+}
+
+/* also carries x to a point that satisfies the equalities */
+static inline void engine_open_restored(engine_fixture *f, const char *name) {
+  double error;
+  engine_open(f, name);
+  assert_int_equal(ambulo__restore(f->engine, f->x, &error), AMBULO_OK);
+  assert_true(error < 1e-9);
+  memcpy(f->engine->center, f->x, (size_t)f->n * sizeof *f->x);
+}
+
+static inline void engine_close(engine_fixture *f) {
+  ambulo__engine_free(f->engine);
+  ambulo_problem_free(f->problem);
+  free(f->x);
+}
+
+/* numbers in [-1, 1) that are the same on every machine */
+static inline double random_number(unsigned *state) {
+  *state = *state * 1664525u + 1013904223u;
+  return (double)(*state >> 8) / 8388608.0 - 1.0;
+}
+
+#endif
