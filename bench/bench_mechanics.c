@@ -30,15 +30,15 @@ typedef void (*task)(rig *rig, int block);
 
 static void run_forward(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
-  r->kernels->forward(r->plan, r->q + at, r->qd + at, r->qdd + at, r->out, r->scratch);
+  r->kernels->forward(r->plan, r->q + at, r->qd + at, r->qdd + at, NULL, r->out, r->scratch);
 }
 
 static void run_gradient(rig *r, int block) {
   int d = ambulo__plan_coordinates(r->plan), n = d * AMBULO__LANES;
   size_t at = (size_t)(block * d) * AMBULO__LANES;
   run_forward(r, block);
-  r->kernels->reverse(r->plan, r->qd + at, r->qdd + at, r->weights, r->gradient, r->gradient + n,
-                      r->gradient + 2 * n, r->scratch);
+  r->kernels->reverse(r->plan, r->qd + at, r->qdd + at, NULL, r->weights, r->gradient,
+                      r->gradient + n, r->gradient + 2 * n, r->scratch);
 }
 
 static void run_jacobian(rig *r, int block) {
@@ -46,7 +46,7 @@ static void run_jacobian(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
   double *jqd = r->jacobian + pattern.count * AMBULO__LANES;
   run_forward(r, block);
-  r->kernels->jacobian(r->plan, r->qd + at, r->qdd + at, r->jacobian, jqd,
+  r->kernels->jacobian(r->plan, r->qd + at, r->qdd + at, NULL, r->jacobian, jqd,
                        jqd + pattern.dynamic_count * AMBULO__LANES, r->scratch);
 }
 

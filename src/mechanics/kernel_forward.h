@@ -19,9 +19,8 @@
 
 #include <math.h>
 
+#include "mechanics/kernel_ground.h"
 #include "mechanics/kernel_sincos.h"
-
-enum { three = 3 * AMBULO__LANES };
 
 static __attribute__((noinline)) void libm_angles(const ambulo__plan *plan, const double *q,
                                                   double *scratch) {
@@ -200,7 +199,7 @@ static void forward_loads(const ambulo__plan *plan, double *out, double *scratch
 }
 
 static void forward_part(const ambulo__plan *plan, const double *q, const double *qd,
-                         const double *qdd, double *out, double *scratch) {
+                         const double *qdd, const double *ground, double *out, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   forward_angles(plan, q, scratch);
   forward_world(plan, scratch);
@@ -216,7 +215,9 @@ static void forward_part(const ambulo__plan *plan, const double *q, const double
     store3(scratch + frame->load_at, zero);
     store3(scratch + frame->load_at + three, zero);
   }
+  if (plan->grounded) ground_split(plan, ground, scratch);
   forward_loads(plan, out, scratch);
+  if (plan->grounded) ground_rows(plan, ground, out, scratch);
   out += (plan->coordinates + 6) * AMBULO__LANES;
   for (int i = 0; i < plan->points; i++) {
     const ambulo__plan_point *point = &plan->point[i];

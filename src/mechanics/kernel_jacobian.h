@@ -39,23 +39,6 @@ enum {
   composite_coriolis = 4 * three
 };
 
-typedef struct wide_pair {
-  wide3 angular, linear;
-} wide_pair;
-
-AMBULO__INLINE wide_pair load_pair(const double *at) {
-  return (wide_pair){load3(at), load3(at + three)};
-}
-
-AMBULO__INLINE void store_pair(double *at, wide_pair pair) {
-  store3(at, pair.angular);
-  store3(at + three, pair.linear);
-}
-
-AMBULO__INLINE wide dot_pair(wide_pair a, wide_pair b) {
-  return dot3(a.angular, b.angular) + dot3(a.linear, b.linear);
-}
-
 /* h, P, I and E of a body. */
 AMBULO__INLINE void jacobian_body(const ambulo__plan *plan, const ambulo__frame *frame,
                                   double *scratch) {
@@ -138,7 +121,8 @@ typedef struct subtree_changes {
   wide3 turned;
 } subtree_changes;
 
-AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__plan *plan, int k,
+/* f: the force of the subtree's bodies. */
+AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__plan *plan, int k, wide_pair f,
                                                 const double *scratch) {
   const ambulo__joint *joint = &plan->joints[k];
   const ambulo__frame *frame = &plan->frames[k + 1];
@@ -149,7 +133,7 @@ AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__plan *plan, int k,
   wide6 inertia = load6(composite + composite_inertia);
   wide33 e = load33(composite + composite_coriolis);
   wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
-  wide_pair sdd = load_pair(motion + 4 * three), f = load_pair(scratch + frame->load_at);
+  wide_pair sdd = load_pair(motion + 4 * three);
   wide3 z = s.angular, z2 = scale3(spread(2), z);
   subtree_changes t;
   t.qdd.angular = add_cross3(multiply6(inertia, z), h, s.linear);
@@ -218,6 +202,13 @@ static void jacobian_points(const ambulo__plan *plan, double *jq, const double *
   }
 }
 
+/* Adds the composite of joint k's subtree to that of its parent. */
+AMBULO__INLINE void jacobian_pass_up(const ambulo__plan *plan, int k, double *scratch) {
+  double *above = scratch + plan->frames[plan->joints[k].parent].composite_at;
+  const double *below = scratch + plan->frames[k + 1].composite_at;
+  for (int n = 0; n < 7; n++) add3_at(above + n * three, load3(below + n * three));
+}
+
 static void jacobian_part(const ambulo__plan *plan, const double *qd, double *jq, double *jqd,
                           double *jqdd, double *scratch) {
   jacobian_motion(plan, qd, scratch);
@@ -225,16 +216,12 @@ static void jacobian_part(const ambulo__plan *plan, const double *qd, double *jq
     const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1];
-    subtree_changes t = jacobian_changes(plan, k, scratch);
+    subtree_changes t = jacobian_changes(plan, k, load_pair(scratch + frame->load_at), scratch);
     jacobian_pairs(plan, k, &t, jq, jqd, jqdd, scratch);
     jacobian_wrench(plan, k, t.q, jq);
     jacobian_wrench(plan, k, t.qd, jqd);
     jacobian_wrench(plan, k, t.qdd, jqdd);
-    if (!joint->own_load || joint->parent == 0) continue;
-    double *above = scratch + plan->frames[joint->parent].composite_at;
-    for (int n = 0; n < 7; n++) {
-      add3_at(above + n * three, load3(scratch + frame->composite_at + n * three));
-    }
+    if (joint->own_load && joint->parent != 0) jacobian_pass_up(plan, k, scratch);
   }
   jacobian_points(plan, jq, scratch);
 }

@@ -8,6 +8,10 @@
  * frame are the subtree's moment t about the frame's origin and its force F, which the forward
  * pass left behind. With x' the adjoint of x, what remains is the adjoint of the pass down.
  *
+ * With ground reaction (kernel_ground.h) the loads are those that the ground's wrenches leave, and
+ * (eta_0, u_0) contains what reaches the tree through these wrenches. The wrench of a foot is held
+ * about the world origin: o' += F_foot x eta at the foot's frame.
+ *
  * Rotations: turning a frame by d turns each vector v fixed in it by d x v, so that instead of the
  * adjoints of nine direction cosines one vector  rho = sum v x v'  is carried. An expression of
  * vectors alone does not change if all of them turn together; hence the inertia gives
@@ -71,12 +75,12 @@ AMBULO__INLINE void reverse_body(const ambulo__plan *plan, int f, double *scratc
 }
 
 /* Virtual motion down the tree, and the bodies. */
-static void reverse_virtual(const ambulo__plan *plan, const double *weights, double *scratch) {
+static void reverse_virtual(const ambulo__plan *plan, const double *weights, wide_pair root,
+                            double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
-  const double *root = weights + plan->coordinates * AMBULO__LANES;
   const ambulo__frame *world = &plan->frames[0];
-  store3(scratch + world->virtual_at, load3(root));
-  store3(scratch + world->slide_at, load3(root + three));
+  store3(scratch + world->virtual_at, root.angular);
+  store3(scratch + world->slide_at, root.linear);
   if (world->spin_at >= 0) store33(scratch + world->spin_adjoint_at, (wide33){zero, zero, zero});
   for (int i = 0; i < plan->coordinates; i++) {
     const int k = plan->order[i];
@@ -114,6 +118,25 @@ static void reverse_points(const ambulo__plan *plan, const double *weights, doub
     wide3 r = add_rotated(zero, scratch, frame->column_at, point->position);
     store3(adjoint + adjoint_rho, add_cross3(load3(adjoint + adjoint_rho), r, pi));
     add3_at(adjoint + adjoint_origin, pi);
+  }
+}
+
+/* The feet's wrenches are held about the world origin, loads about the frames' origins; and the
+ * weight pi on the centre of mass is a weight m / (sum m) pi on that of every body. */
+static void reverse_ground(const ambulo__plan *plan, wide3 pi, double *scratch) {
+  for (int f = 0; f < 2; f++) {
+    const ambulo__frame *frame = &plan->frames[plan->foot_frame[f]];
+    if (plan->foot_frame[f] == 0) continue;
+    wide3 force = load3(scratch + plan->ground_at + ground_foot + (2 * f + 1) * three);
+    wide3 eta = load3(scratch + frame->virtual_at);
+    add3_at(scratch + frame->adjoint_at + adjoint_origin, cross3(force, eta));
+  }
+  for (int i = 0; i < plan->bodies; i++) {
+    const ambulo__body *body = &plan->body[i];
+    double *adjoint = scratch + plan->frames[body->frame].adjoint_at;
+    wide3 part = scale3(spread(body->mass / plan->mass), pi), c = load3(scratch + body->at);
+    store3(adjoint + adjoint_rho, add_cross3(load3(adjoint + adjoint_rho), c, part));
+    add3_at(adjoint + adjoint_origin, part);
   }
 }
 
@@ -193,10 +216,14 @@ AMBULO__INLINE wide3 reverse_prismatic(const ambulo__plan *plan, int k, joint_in
 }
 
 static void reverse_part(const ambulo__plan *plan, const double *qd, const double *qdd,
-                         const double *weights, double *gq, double *gqd, double *gqdd,
-                         double *scratch) {
-  reverse_virtual(plan, weights, scratch);
+                         const double *ground, const double *weights, double *gq, double *gqd,
+                         double *gqdd, double *scratch) {
+  wide_pair root = load_pair(weights + plan->coordinates * AMBULO__LANES);
+  wide3 pi = {{0}, {0}, {0}};
+  if (plan->grounded) ground_adjoints(plan, ground, weights, &root, &pi, scratch);
+  reverse_virtual(plan, weights, root, scratch);
   reverse_points(plan, weights, scratch);
+  if (plan->grounded) reverse_ground(plan, pi, scratch);
   for (int i = plan->coordinates - 1; i >= 0; i--) {
     const int k = plan->order[i];
     const ambulo__joint *joint = &plan->joints[k];

@@ -10,28 +10,40 @@
 
 #include "mechanics/kernel_forward.h"
 #include "mechanics/kernel_jacobian.h"
+#include "mechanics/kernel_jacobian_ground.h"
 #include "mechanics/kernel_reverse.h"
 
-static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
-                    double *out, double *scratch) {
-  for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    forward_part(plan, q + lane, qd + lane, qdd + lane, out + lane, scratch + lane);
-  }
+static const double *lanes_from(const double *ground, int lane) {
+  return ground ? ground + lane : NULL;
 }
 
-static void reverse(const ambulo__plan *plan, const double *qd, const double *qdd,
-                    const double *weights, double *gq, double *gqd, double *gqdd, double *scratch) {
+static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
+                    const double *ground, double *out, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    reverse_part(plan, qd + lane, qdd + lane, weights + lane, gq + lane, gqd + lane, gqdd + lane,
+    forward_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane), out + lane,
                  scratch + lane);
   }
 }
 
-static void jacobian(const ambulo__plan *plan, const double *qd, const double *qdd, double *jq,
-                     double *jqd, double *jqdd, double *scratch) {
+static void reverse(const ambulo__plan *plan, const double *qd, const double *qdd,
+                    const double *ground, const double *weights, double *gq, double *gqd,
+                    double *gqdd, double *scratch) {
+  for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
+    reverse_part(plan, qd + lane, qdd + lane, lanes_from(ground, lane), weights + lane, gq + lane,
+                 gqd + lane, gqdd + lane, scratch + lane);
+  }
+}
+
+static void jacobian(const ambulo__plan *plan, const double *qd, const double *qdd,
+                     const double *ground, double *jq, double *jqd, double *jqdd, double *scratch) {
   (void)qdd; /* the forward pass has left the accelerations in the scratch */
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    jacobian_part(plan, qd + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+    if (plan->grounded) {
+      jacobian_ground_part(plan, qd + lane, ground + lane, jq + lane, jqd + lane, jqdd + lane,
+                           scratch + lane);
+    } else {
+      jacobian_part(plan, qd + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+    }
   }
 }
 

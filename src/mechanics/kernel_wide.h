@@ -13,6 +13,8 @@
 
 #include "mechanics/plan_layout.h"
 
+enum { three = 3 * AMBULO__LANES };
+
 #define AMBULO__INLINE static inline __attribute__((always_inline, unused))
 
 typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias));
@@ -31,6 +33,11 @@ typedef struct wide33 {
 typedef struct wide6 {
   wide xx, yy, zz, xy, xz, yz;
 } wide6;
+
+/* Motion (angular, linear) or wrench (moment, force) about the world origin. */
+typedef struct wide_pair {
+  wide3 angular, linear;
+} wide_pair;
 
 AMBULO__INLINE wide spread(double value) {
   return value - (wide){0};
@@ -138,6 +145,24 @@ AMBULO__INLINE wide3 add_rotated(wide3 c, const double *base, const int columns[
     if (r[i] != 0) c = axpy3(c, spread(r[i]), load3(base + columns[i]));
   }
   return c;
+}
+
+AMBULO__INLINE wide_pair load_pair(const double *at) {
+  return (wide_pair){load3(at), load3(at + three)};
+}
+
+AMBULO__INLINE void store_pair(double *at, wide_pair pair) {
+  store3(at, pair.angular);
+  store3(at + three, pair.linear);
+}
+
+AMBULO__INLINE wide dot_pair(wide_pair a, wide_pair b) {
+  return dot3(a.angular, b.angular) + dot3(a.linear, b.linear);
+}
+
+/* a + s b */
+AMBULO__INLINE wide_pair axpy_pair(wide_pair a, wide s, wide_pair b) {
+  return (wide_pair){axpy3(a.angular, s, b.angular), axpy3(a.linear, s, b.linear)};
 }
 
 AMBULO__INLINE wide33 add_outer(wide33 m, wide3 a, wide3 b) {

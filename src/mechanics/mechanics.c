@@ -126,7 +126,7 @@ static void run_forward(ambulo_mechanics *m, const batch *motion, int first) {
   gather(m->q, motion->q, d, first, motion->nodes);
   gather(m->qd, motion->qd, d, first, motion->nodes);
   gather(m->qdd, motion->qdd, d, first, motion->nodes);
-  m->kernels->forward(m->plan, m->q, m->qd, m->qdd, m->out, m->scratch);
+  m->kernels->forward(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
 }
 
 ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, const double *q,
@@ -172,7 +172,8 @@ ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const do
       gather(m->weights, tau_weights, d, first, nodes);
       gather(m->weights + d * AMBULO__LANES, wrench_weights, 6, first, nodes);
       gather(m->weights + (d + 6) * AMBULO__LANES, point_weights, p, first, nodes);
-      m->kernels->reverse(m->plan, m->qd, m->qdd, m->weights, m->gq, m->gqd, m->gqdd, m->scratch);
+      m->kernels->reverse(m->plan, m->qd, m->qdd, NULL, m->weights, m->gq, m->gqd, m->gqdd,
+                          m->scratch);
       if (!all_finite(m->gq, 3 * columns)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
       scatter(q_gradient, m->gq, d, first, nodes);
@@ -214,7 +215,7 @@ ambulo_status ambulo_mechanics_jacobians(ambulo_mechanics *m, int nodes, const d
   for (int run = runs; run > 0; run--) {
     for (int first = 0; first < nodes; first += AMBULO__LANES) {
       run_forward(m, &motion, first);
-      m->kernels->jacobian(m->plan, m->qd, m->qdd, m->jq, m->jqd, m->jqdd, m->scratch);
+      m->kernels->jacobian(m->plan, m->qd, m->qdd, NULL, m->jq, m->jqd, m->jqdd, m->scratch);
       if (!all_finite(m->jq, count)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
       scatter_rows(m, jacobians->tau_q, m->jq, 0, d, first, nodes);

@@ -142,6 +142,7 @@ static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__pl
 
 static void set_fixed_load(ambulo__plan *plan, const ambulo__mass *fixed) {
   for (int i = 0; i < 3; i++) plan->fixed_load[3 + i] = -fixed->mass * plan->gravity[i];
+  for (int i = 0; i < 3; i++) plan->fixed_first[i] = fixed->mass * fixed->com[i];
   for (int i = 0; i < 3; i++) {
     int u = (i + 1) % 3, v = (i + 2) % 3;
     plan->fixed_load[i] =
@@ -158,6 +159,7 @@ static void collect_bodies(ambulo__plan *plan, const ambulo_model *model,
     ambulo__mass_add(&masses[placings[i].frame], &mass);
   }
   set_fixed_load(plan, &masses[0]);
+  plan->mass = masses[0].mass;
   plan->frames[0].body = -1;
   for (int k = 1; k <= plan->coordinates; k++) {
     plan->frames[k].body = -1;
@@ -165,6 +167,7 @@ static void collect_bodies(ambulo__plan *plan, const ambulo_model *model,
     ambulo__body *body = &plan->body[plan->bodies];
     ambulo__mass_factor(&masses[k], body);
     body->frame = k;
+    plan->mass += body->mass;
     plan->frames[k].body = plan->bodies++;
   }
 }
@@ -182,7 +185,8 @@ static void collect_points(ambulo__plan *plan, const ambulo_model *model,
   }
 }
 
-static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model) {
+static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
+                             const double *ground_height) {
   const ambulo_allocator *allocator = &plan->allocator;
   ambulo_status status = AMBULO_E_MEMORY;
   size_t frames = (size_t)plan->coordinates + 1;
@@ -197,16 +201,18 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model) {
   }
   collect_bodies(plan, model, placings, masses);
   collect_points(plan, model, placings);
+  if (ground_height) ambulo__plan_ground(plan, model, *ground_height);
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
+  if (status == AMBULO_OK && ground_height) status = ambulo__plan_ground_terms(plan);
 done:
   ambulo__free(allocator, placings);
   ambulo__free(allocator, masses);
   return status;
 }
 
-ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
-                                  ambulo__plan **out) {
+static ambulo_status create(const ambulo_model *model, const double *ground_height,
+                            const ambulo_allocator *allocator, ambulo__plan **out) {
   ambulo_status status = AMBULO_E_MEMORY;
   ambulo_allocator memory = ambulo__allocator_or_default(allocator);
   ambulo__plan *plan = ambulo__alloc(&memory, 1, sizeof *plan);
@@ -222,13 +228,24 @@ ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_alloca
   plan->body = ambulo__alloc(&memory, frames, sizeof *plan->body);
   plan->point = ambulo__alloc(&memory, (size_t)plan->points, sizeof *plan->point);
   if (!plan->frames || !plan->joints || !plan->order || !plan->body || !plan->point) goto failed;
-  status = compile(plan, model);
+  status = compile(plan, model, ground_height);
   if (status != AMBULO_OK) goto failed;
   *out = plan;
   return AMBULO_OK;
 failed:
   ambulo__plan_free(plan);
   return status;
+}
+
+ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                  ambulo__plan **plan) {
+  return create(model, NULL, allocator, plan);
+}
+
+ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double ground_height,
+                                           const ambulo_allocator *allocator, ambulo__plan **plan) {
+  if (model->foot_count != 2) return AMBULO_E_ARGUMENT;
+  return create(model, &ground_height, allocator, plan);
 }
 
 void ambulo__plan_free(ambulo__plan *plan) {
@@ -244,6 +261,10 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->ancestor_start);
   ambulo__free(&memory, plan->ancestor);
   ambulo__free(&memory, plan->upper);
+  ambulo__free(&memory, plan->rate_start);
+  ambulo__free(&memory, plan->lower);
+  ambulo__free(&memory, plan->term_fresh);
+  ambulo__free(&memory, plan->term);
   ambulo__free(&memory, plan);
 }
 
@@ -253,6 +274,10 @@ int ambulo__plan_coordinates(const ambulo__plan *plan) {
 
 int ambulo__plan_points(const ambulo__plan *plan) {
   return plan->points;
+}
+
+int ambulo__plan_is_grounded(const ambulo__plan *plan) {
+  return plan->grounded;
 }
 
 size_t ambulo__plan_scratch(const ambulo__plan *plan) {

@@ -21,49 +21,73 @@ typedef struct ambulo__plan ambulo__plan;
 /* Errors: E_MEMORY. The plan keeps no pointer to the model. */
 ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                   ambulo__plan **plan);
+/* The same, with the two-step ground reaction of kernel_ground.h on the plane
+ * up . r = ground_height: the torques are those of a body that stands on its feet.
+ * Errors: E_ARGUMENT (not exactly two feet), E_MEMORY. */
+ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double ground_height,
+                                           const ambulo_allocator *allocator, ambulo__plan **plan);
 void ambulo__plan_free(ambulo__plan *plan); /* accepts NULL */
 
 int ambulo__plan_coordinates(const ambulo__plan *plan);
 int ambulo__plan_points(const ambulo__plan *plan);
+int ambulo__plan_is_grounded(const ambulo__plan *plan);
 /* Doubles of scratch that any kernel needs; 64-byte aligned. The scratch carries
  * the forward pass over to the reverse sweep and to the Jacobians. */
 size_t ambulo__plan_scratch(const ambulo__plan *plan);
 
 /* Output rows of the mechanics, in this order: tau (d rows), moment (3), force
- * (3), point coordinates (3 p: x, y, z of point 0, then of point 1, ...). */
+ * (3), point coordinates (3 p: x, y, z of point 0, then of point 1, ...); with
+ * ground reaction then, for each foot, the force on it (3) and its free moment
+ * about the normal (1), and the centre of mass (3). */
 static inline int ambulo__plan_rows(const ambulo__plan *plan) {
+  return ambulo__plan_coordinates(plan) + 6 + 3 * ambulo__plan_points(plan) +
+         (ambulo__plan_is_grounded(plan) ? 11 : 0);
+}
+/* First of the rows that only a plan with ground reaction has. */
+static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
   return ambulo__plan_coordinates(plan) + 6 + 3 * ambulo__plan_points(plan);
 }
 
 /* Structural nonzeros of the Jacobian of output row r: columns
  * column[start[r] .. start[r+1]), ascending coordinate indices. Rows tau, moment
- * and force depend on q, qd and qdd through the same columns; point rows on q
- * only. dynamic_count = start[d + 6]. */
+ * and force, and those of the feet, depend on q, qd and qdd through the same
+ * columns; rows of points and of the centre of mass on q only. Entry e of row r
+ * stands at e in jq, and at rate_start[r] + e - start[r] in jqd and jqdd. With
+ * ground reaction, rows of tau that vanish identically (joints that carry the
+ * whole body) have no entries. */
 typedef struct ambulo__plan_pattern {
-  const int *start;  /* [rows + 1] */
-  const int *column; /* [start[rows]] */
-  int dynamic_count; /* entries of the rows that also depend on qd and qdd */
-  int count;         /* start[rows] */
+  const int *start;      /* [rows + 1] */
+  const int *column;     /* [start[rows]] */
+  const int *rate_start; /* [rows]; -1: the row depends on q only */
+  int dynamic_count;     /* entries of the rows that also depend on qd and qdd */
+  int count;             /* start[rows] */
 } ambulo__plan_pattern;
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan);
 
-/* Kernels, one set per instruction set. q, qd, qdd: [d]. */
+/* What a block's ground reaction is told, [AMBULO__GROUND_ENTRIES][lanes]: share a of
+ * foot 0 (that of foot 1 is 1 - a), nominal centre of pressure of foot 0 less that
+ * of foot 1 (3, world axes, m), kappa (kernel_ground.h). */
+#define AMBULO__GROUND_ENTRIES 5
+
+/* Kernels, one set per instruction set. q, qd, qdd: [d]. ground: NULL unless the
+ * plan is grounded; the same for the three calls. */
 typedef struct ambulo__kernels {
   const char *name; /* "avx512", "avx2", "baseline", "scalar" */
 
   /* out: [rows], see above. Fills scratch for the two below. */
   void (*forward)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
-                  double *out, double *scratch);
+                  const double *ground, double *out, double *scratch);
 
   /* After forward on the same scratch: given weights on the outputs [rows], the
    * gradient of sum_r weight_r out_r with respect to q, qd, qdd ([d] each). */
   void (*reverse)(const ambulo__plan *plan, const double *qd, const double *qdd,
-                  const double *weights, double *gq, double *gqd, double *gqdd, double *scratch);
+                  const double *ground, const double *weights, double *gq, double *gqd,
+                  double *gqdd, double *scratch);
 
   /* After forward on the same scratch: Jacobian entries in pattern order:
    * jq [count], jqd and jqdd [dynamic_count]. */
-  void (*jacobian)(const ambulo__plan *plan, const double *qd, const double *qdd, double *jq,
-                   double *jqd, double *jqdd, double *scratch);
+  void (*jacobian)(const ambulo__plan *plan, const double *qd, const double *qdd,
+                   const double *ground, double *jq, double *jqd, double *jqdd, double *scratch);
 } ambulo__kernels;
 
 /* The fastest set this processor can run; the environment variable AMBULO_ISA

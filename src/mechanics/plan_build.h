@@ -22,9 +22,13 @@ void ambulo__mass_add(ambulo__mass *a, const ambulo__mass *b);
 /* Writes mass, com and the factors of the inertia. */
 void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
 
+/* Which joints carry which foot, and their rows; frames, joints, bodies, points are compiled. */
+void ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model, double ground_height);
 /* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
 void ambulo__plan_place(ambulo__plan *plan);
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
+/* The last part of the pattern: terms of the dense rows. Errors: E_MEMORY. */
+ambulo_status ambulo__plan_ground_terms(ambulo__plan *plan);
 
 #endif

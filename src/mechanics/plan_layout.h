@@ -53,6 +53,9 @@ typedef struct ambulo__joint {
   int new_moment;  /* the moment is computed at this joint */
   int own_load;    /* load_at differs from the parent's */
   int own_adjoint; /* adjoint_at differs from the parent's */
+  int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
+  int torque_row;  /* ambulo__torque_row of a grounded plan */
+  int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (14) */
   int motion_at;   /* Jacobian: S and its first and second derivative (18) */
 } ambulo__joint;
 
@@ -68,6 +71,19 @@ typedef struct ambulo__body {
   int order[3];
   int diagonal; /* lower = 0 */
 } ambulo__body;
+
+/* Row of tau in the Jacobians: the coordinates above and below the joint, all coordinates (what
+ * it carries stands on the ground), or none (it carries the whole body: tau = 0). */
+typedef enum ambulo__torque_row {
+  AMBULO__ROW_SPARSE = 0,
+  AMBULO__ROW_DENSE,
+  AMBULO__ROW_VANISHES
+} ambulo__torque_row;
+
+/* Part of a Jacobian column: where it goes, and the row that makes it. */
+typedef struct ambulo__reaction_term {
+  int entry, row_at;
+} ambulo__reaction_term;
 
 typedef struct ambulo__plan_point {
   int frame;
@@ -87,12 +103,26 @@ struct ambulo__plan {
   int angle_at;         /* sine and cosine of the joint angles (2 per coordinate) */
   size_t scratch;       /* doubles */
 
+  /* Ground reaction, see kernel_ground.h. */
+  int grounded, foot_frame[2];
+  double ground_height, up[3];
+  double mass, fixed_first[3]; /* of the whole body; mass times position of what is fixed */
+  int ground_at; /* M, F (6), wrenches of the feet (12), centre of mass (3), its height, T */
+
   /* Jacobian pattern, see plan.h. Row of tau i: ancestors of i, i, descendants of i. */
-  int *start, *column;
+  int *start, *column, *rate_start;
   int dynamic_count, count;
   int *ancestor_start; /* [coordinates + 1] into: */
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */
   int *upper;          /* same length: position of column i in the row of that ancestor */
+
+  /* Grounded. Position of the ancestor's column in the row of i, if i has a row. `upper` is -1
+   * where the ancestor's row is not sparse. */
+  int *lower;
+  /* Column k of the dense rows: terms [k dense_count] to [(k + 1) dense_count]; the first
+   * term_fresh[k] of them are written, the others are added to what stands there. */
+  int dense_count, *term_fresh;
+  ambulo__reaction_term *term;
 };
 
 #endif

@@ -2,7 +2,8 @@
  *
  * Coordinates are numbered parents first, so that in the row of tau_i the ancestors of i come
  * before i and its descendants after it. Moment and force depend on every coordinate, a point on
- * the coordinates between it and the world.
+ * the coordinates between it and the world; with ground reaction, what carries a foot depends on
+ * every coordinate, as do the wrenches of the feet and the centre of mass.
  */
 #include "mechanics/plan_build.h"
 
@@ -28,14 +29,31 @@ static void write_chain(const ambulo__plan *plan, int coordinate, int *out) {
   for (int k = coordinate; k >= 0; k = parent_of(plan, k)) out[--place] = k;
 }
 
+static int in_torque_row(const ambulo__plan *plan, int i, int j) {
+  if (plan->joints[i].torque_row == AMBULO__ROW_VANISHES) return 0;
+  if (plan->joints[i].torque_row == AMBULO__ROW_DENSE) return 1;
+  return is_ancestor(plan, j, i) || is_ancestor(plan, i, j);
+}
+
 static void count_entries(ambulo__plan *plan, size_t *pairs) {
   int d = plan->coordinates, count = 0;
   *pairs = 0;
   for (int i = 0; i < d; i++) *pairs += (size_t)depth_of(plan, i) - 1;
-  count = 2 * (int)*pairs + d + 6 * d;
-  plan->dynamic_count = count;
+  for (int i = 0; i < d; i++) {
+    for (int j = 0; j < d; j++) count += in_torque_row(plan, i, j);
+  }
+  count += 6 * d;
+  plan->dynamic_count = count + (plan->grounded ? 8 * d : 0);
   for (int i = 0; i < plan->points; i++) count += 3 * depth_of(plan, plan->point[i].frame - 1);
-  plan->count = count;
+  plan->count = count + (plan->grounded ? 11 * d : 0);
+}
+
+/* Rows that depend on all coordinates. */
+static void fill_full_rows(ambulo__plan *plan, int row, int rows, int *at) {
+  for (int i = 0; i < rows; i++) {
+    plan->start[row + i] = *at;
+    for (int j = 0; j < plan->coordinates; j++) plan->column[(*at)++] = j;
+  }
 }
 
 static void fill_rows(ambulo__plan *plan) {
@@ -43,20 +61,32 @@ static void fill_rows(ambulo__plan *plan) {
   for (int i = 0; i < d; i++) {
     plan->start[row++] = at;
     for (int j = 0; j < d; j++) {
-      if (is_ancestor(plan, j, i) || is_ancestor(plan, i, j)) plan->column[at++] = j;
+      if (in_torque_row(plan, i, j)) plan->column[at++] = j;
     }
   }
-  for (int i = 0; i < 6; i++) {
-    plan->start[row++] = at;
-    for (int j = 0; j < d; j++) plan->column[at++] = j;
-  }
+  fill_full_rows(plan, row, 6, &at);
+  row += 6;
   for (int i = 0; i < 3 * plan->points; i++) {
     int coordinate = plan->point[i / 3].frame - 1;
     plan->start[row++] = at;
     write_chain(plan, coordinate, plan->column + at);
     at += depth_of(plan, coordinate);
   }
+  if (plan->grounded) {
+    fill_full_rows(plan, row, 11, &at);
+    row += 11;
+  }
   plan->start[row] = at;
+}
+
+static void fill_rate_starts(ambulo__plan *plan) {
+  int feet = ambulo__plan_first_foot_row(plan), wrench_end = plan->coordinates + 6;
+  for (int row = 0; row < ambulo__plan_rows(plan); row++) {
+    plan->rate_start[row] = -1;
+    if (row < wrench_end) plan->rate_start[row] = plan->start[row];
+    if (row < feet || row >= feet + 8) continue;
+    plan->rate_start[row] = plan->start[row] - plan->start[feet] + plan->start[wrench_end];
+  }
 }
 
 static void fill_ancestors(ambulo__plan *plan) {
@@ -64,10 +94,14 @@ static void fill_ancestors(ambulo__plan *plan) {
   for (int i = 0; i < plan->coordinates; i++) {
     int depth = depth_of(plan, i);
     plan->ancestor_start[i] = at;
+    for (int k = parent_of(plan, i), place = at + depth - 2; k >= 0; k = parent_of(plan, k)) {
+      plan->ancestor[place--] = k;
+    }
     for (int t = 0; t < depth - 1; t++, at++) {
-      int j = plan->column[plan->start[i] + t], entry = plan->start[j];
+      int j = plan->ancestor[at], entry = plan->start[j];
+      plan->upper[at] = -1;
+      if (plan->joints[j].torque_row != AMBULO__ROW_SPARSE) continue;
       while (plan->column[entry] != i) entry++;
-      plan->ancestor[at] = j;
       plan->upper[at] = entry;
     }
   }
@@ -80,18 +114,22 @@ ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   count_entries(plan, &pairs);
   plan->start = ambulo__alloc(allocator, rows + 1, sizeof(int));
   plan->column = ambulo__alloc(allocator, (size_t)plan->count, sizeof(int));
+  plan->rate_start = ambulo__alloc(allocator, rows, sizeof(int));
   plan->ancestor_start = ambulo__alloc(allocator, (size_t)plan->coordinates + 1, sizeof(int));
   plan->ancestor = ambulo__alloc(allocator, pairs, sizeof(int));
   plan->upper = ambulo__alloc(allocator, pairs, sizeof(int));
-  if (!plan->start || !plan->column || !plan->ancestor_start || !plan->ancestor || !plan->upper) {
+  if (!plan->start || !plan->column || !plan->rate_start || !plan->ancestor_start ||
+      !plan->ancestor || !plan->upper) {
     return AMBULO_E_MEMORY;
   }
   fill_rows(plan);
+  fill_rate_starts(plan);
   fill_ancestors(plan);
   return AMBULO_OK;
 }
 
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan) {
-  ambulo__plan_pattern pattern = {plan->start, plan->column, plan->dynamic_count, plan->count};
+  ambulo__plan_pattern pattern = {plan->start, plan->column, plan->rate_start, plan->dynamic_count,
+                                  plan->count};
   return pattern;
 }

@@ -3,7 +3,8 @@
  * Sharing keeps the scratch small and saves additions:
  *   - a joint keeps its axis column, a prismatic joint keeps the whole orientation;
  *   - a revolute joint whose axis meets the parent's origin keeps the origin;
- *   - a frame without a body and with one child carries the same load as that child, and its
+ *   - a frame without a body and with one child carries the same load as that child (unless it
+ *     is a foot that the ground acts on), and its
  *     adjoints (if no point hangs on it either) may be accumulated in place.
  * The scratch of the reverse sweep and of the Jacobians start at the same place: each is written
  * before it is read, after the part that the forward pass leaves behind.
@@ -33,6 +34,13 @@ static int has_point(const ambulo__plan *plan, int frame) {
     if (plan->point[i].frame == frame) return 1;
   }
   return 0;
+}
+
+/* Whether the frame's load is that of its only child. */
+static int passes_load_on(const ambulo__plan *plan, int frame, int *only) {
+  int one = child_count(plan, frame, only) == 1 && plan->frames[frame].body < 0;
+  if (!plan->grounded) return one;
+  return one && frame != plan->foot_frame[0] && frame != plan->foot_frame[1];
 }
 
 /* The frame whose orientation (or, with `place`, origin) this frame has. */
@@ -107,9 +115,8 @@ static void place_loads(ambulo__plan *plan, size_t *used) {
   for (int f = plan->coordinates; f >= 1; f--) {
     ambulo__frame *frame = &plan->frames[f];
     ambulo__joint *joint = &plan->joints[f - 1];
-    int only = 0, children = child_count(plan, f, &only);
-    int shared = frame->body < 0 && children == 1;
-    frame->zero_load = frame->body < 0 && children != 1;
+    int only = 0, shared = passes_load_on(plan, f, &only);
+    frame->zero_load = frame->body < 0 && !shared;
     frame->load_at = shared ? plan->frames[only].load_at : take(used, 6);
     const ambulo__frame *child = &plan->frames[only];
     int same = shared && child->place_at == frame->place_at && child->moment_at >= 0;
@@ -157,11 +164,11 @@ static void place_jacobian(ambulo__plan *plan, size_t *used) {
   for (int f = plan->coordinates; f >= 1; f--) {
     ambulo__joint *joint = &plan->joints[f - 1];
     ambulo__frame *frame = &plan->frames[f];
-    int only = 0, children = child_count(plan, f, &only);
-    int shared = frame->body < 0 && children == 1;
+    int only = 0, shared = passes_load_on(plan, f, &only);
     frame->composite_at = shared ? plan->frames[only].composite_at : take(used, 21);
     plan->frames[joint->parent].subtree_mass += frame->subtree_mass;
     joint->motion_at = take(used, 18);
+    if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 14);
   }
 }
 
@@ -188,6 +195,7 @@ void ambulo__plan_place(ambulo__plan *plan) {
   place_spins(plan, &used);
   for (int i = 0; i < plan->bodies; i++) plan->body[i].at = take(&used, 18);
   place_loads(plan, &used);
+  if (plan->grounded) plan->ground_at = take(&used, 23);
   size_t reverse = used, jacobian = used, angles = used;
   plan->angle_at = take(&angles, 2 * plan->coordinates);
   place_reverse(plan, &reverse);

@@ -78,7 +78,7 @@ static inline void case_open(kernel_case *c, int number) {
 }
 
 static inline void case_close(kernel_case *c) {
-  double *const arrays[] = {c->q, c->qd, c->qdd, c->weights, c->out, c->scratch};
+  double *const arrays[] = {c->q, c->qd, c->qdd, NULL, c->weights, c->out, c->scratch};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
   free(c->reference_scratch);
   ambulo__plan_free(c->plan);
@@ -123,15 +123,15 @@ static inline void case_jacobian(const kernel_case *c, const double *state, doub
 }
 
 static inline void case_forward(kernel_case *c, const ambulo__kernels *kernels) {
-  kernels->forward(c->plan, c->q, c->qd, c->qdd, c->out, c->scratch);
+  kernels->forward(c->plan, c->q, c->qd, c->qdd, NULL, c->out, c->scratch);
 }
 
 /* The gradient of the weighted rows, [3][d][lanes]. */
 static inline void case_reverse(kernel_case *c, const ambulo__kernels *kernels, double *gradient) {
   int n = c->d * AMBULO__LANES;
   case_forward(c, kernels);
-  kernels->reverse(c->plan, c->qd, c->qdd, c->weights, gradient, gradient + n, gradient + 2 * n,
-                   c->scratch);
+  kernels->reverse(c->plan, c->qd, c->qdd, NULL, c->weights, gradient, gradient + n,
+                   gradient + 2 * n, c->scratch);
 }
 
 /* Largest |a - b| over n entries `stride` apart in a and adjacent in b, relative to the largest

@@ -1,0 +1,163 @@
+/* mechanics/kernel_ground.h - the ground's wrenches on two feet, by the two-step method.
+ *
+ * Step 1: the bodies' loads sum up to the root wrench (M, F) about the world origin that the
+ * ground must supply. Step 2: it is split between the feet 0 and 1 so that each centre of
+ * pressure lies under its own foot. With the normal n, the plane n . r = height, shares a_0 and
+ * a_1 = 1 - a_0, D the nominal centre of pressure of foot 0 less that of foot 1 (in the plane),
+ * c the centre of mass, z = n . c - height, and F_n = n . F:
+ *   p   = (n x M + height F) / F_n                          zero-moment point     (16')
+ *   h   = kappa a_0 a_1 F_n D / z                           shear: both feet push towards c
+ *   F_0 = a_0 F - h,   M_0 = a_0 M + a_0 a_1 D x F - c_0 x h,   c_0 = p + a_1 D
+ *   F_1 = a_1 F + h,   M_1 = a_1 M - a_0 a_1 D x F + c_1 x h,   c_1 = p - a_0 D
+ * Free moment of foot f: T_f = n . (M_f - c_f x F_f). Since h is parallel to D, F_n cancels from
+ * c_f x h, what passes from one foot to the other is one wrench (X, -h), and T_f is a share:
+ *   gain = kappa a_0 a_1 / z,   V = n x M + height F,   Y = a_0 a_1 F + gain V
+ *   X = D x Y,   h = gain F_n D,   T = M . F / F_n,   T_f = a_f T
+ *   (M_0, F_0) = a_0 (M, F) + (X, -h),    (M_1, F_1) = a_1 (M, F) - (X, -h)
+ * The torques are tau_i = S_i . (f_i - sum of W_f over the feet f that joint i carries): the
+ * wrenches are taken off the loads of the feet's frames before the pass up the tree.
+ *
+ * Adjoints. Weights y on tau give each foot a virtual motion (about the world origin), the sum of
+ * S_i y_i over the joints that carry it; W_f has its negative as adjoint (A_f, B_f), plus the
+ * weight on F_f. With x' the adjoint of x, theta the sum of a_f times the weight on T_f:
+ *   X' = A_0 - A_1,   h' = B_1 - B_0,   Y' = X' x D,   V' = gain Y'
+ *   gain' = Y' . V + F_n h' . D,        z' = -gain / z gain',    c' = z' n + weight on c
+ *   M' = sum a_f A_f + V' x n + theta F / F_n
+ *   F' = sum a_f B_f + a_0 a_1 Y' + height V' + gain h' . D n + theta (M - T n) / F_n
+ * M' and F' act like weights on the root wrench; c' is passed on to the bodies.
+ */
+#ifndef AMBULO_MECHANICS_KERNEL_GROUND_H
+#define AMBULO_MECHANICS_KERNEL_GROUND_H
+
+#include "mechanics/kernel_wide.h"
+
+/* At plan->ground_at. */
+enum {
+  ground_wrench = 0,
+  ground_foot = 2 * three,                     /* two wrenches */
+  ground_center = 6 * three,                   /* c */
+  ground_height = 7 * three,                   /* z */
+  ground_twist = ground_height + AMBULO__LANES /* T */
+};
+
+typedef struct ground_shares {
+  wide share[2], product, gain, height;
+  wide3 apart, up; /* D, n */
+} ground_shares;
+
+AMBULO__INLINE wide3 ground_up(const ambulo__plan *plan) {
+  return (wide3){spread(plan->up[0]), spread(plan->up[1]), spread(plan->up[2])};
+}
+
+AMBULO__INLINE ground_shares ground_load(const ambulo__plan *plan, const double *ground, wide z) {
+  wide a = load(ground), b = 1 - a;
+  wide gain = load(ground + 4 * AMBULO__LANES) * (a * b) / z;
+  return (ground_shares){{a, b}, a * b, gain, z, load3(ground + AMBULO__LANES), ground_up(plan)};
+}
+
+/* V = n x M + height F */
+AMBULO__INLINE wide3 ground_lever(const ambulo__plan *plan, wide3 up, wide_pair w) {
+  return add_cross3(scale3(spread(plan->ground_height), w.linear), up, w.angular);
+}
+
+/* The root wrench from the bodies' loads, its split, and what it leaves to the feet's frames. */
+static void ground_split(const ambulo__plan *plan, const double *ground, double *scratch) {
+  const double *fixed = plan->fixed_load, *fixed_first = plan->fixed_first;
+  double *at = scratch + plan->ground_at;
+  wide_pair w = {{spread(fixed[0]), spread(fixed[1]), spread(fixed[2])},
+                 {spread(fixed[3]), spread(fixed[4]), spread(fixed[5])}};
+  wide3 c = {spread(fixed_first[0]), spread(fixed_first[1]), spread(fixed_first[2])};
+  for (int i = 0; i < plan->bodies; i++) {
+    const ambulo__body *body = &plan->body[i];
+    const ambulo__frame *frame = &plan->frames[body->frame];
+    wide3 r = add3(load3(scratch + frame->place_at), load3(scratch + body->at));
+    w.angular = add3(w.angular, load3(scratch + frame->load_at));
+    w.linear = add3(w.linear, load3(scratch + frame->load_at + three));
+    c = axpy3(c, spread(body->mass), r);
+  }
+  c = scale3(spread(1 / plan->mass), c);
+  ground_shares s = ground_load(plan, ground, dot3(ground_up(plan), c) - plan->ground_height);
+  wide normal = dot3(s.up, w.linear);
+  wide3 lever = scale3(s.gain, ground_lever(plan, s.up, w));
+  wide_pair passed = {cross3(s.apart, axpy3(lever, s.product, w.linear)),
+                      scale3(-s.gain * normal, s.apart)};
+  store_pair(at + ground_wrench, w);
+  store3(at + ground_center, c);
+  store(at + ground_height, s.height);
+  store(at + ground_twist, dot3(w.angular, w.linear) / normal);
+  for (int f = 0; f < 2; f++) {
+    const ambulo__frame *frame = &plan->frames[plan->foot_frame[f]];
+    wide_pair part = {scale3(s.share[f], w.angular), scale3(s.share[f], w.linear)};
+    part = axpy_pair(part, spread(1 - 2 * f), passed);
+    store_pair(at + ground_foot + 2 * f * three, part);
+    if (plan->foot_frame[f] == 0) continue;
+    add3_at(scratch + frame->load_at, scale3(spread(-1), part.angular));
+    add3_at(scratch + frame->load_at + three, scale3(spread(-1), part.linear));
+  }
+}
+
+/* Outputs: the root wrench (at the root only a residual is left), feet, centre of mass. */
+static void ground_rows(const ambulo__plan *plan, const double *ground, double *out,
+                        const double *scratch) {
+  const double *at = scratch + plan->ground_at;
+  const wide share[2] = {load(ground), 1 - load(ground)};
+  store_pair(out + plan->coordinates * AMBULO__LANES, load_pair(at + ground_wrench));
+  out += ambulo__plan_first_foot_row(plan) * AMBULO__LANES;
+  for (int f = 0; f < 2; f++) {
+    store3(out, load3(at + ground_foot + (2 * f + 1) * three));
+    store(out + three, share[f] * load(at + ground_twist));
+    out += three + AMBULO__LANES;
+  }
+  store3(out, load3(at + ground_center));
+}
+
+/* Virtual motion, about the world origin, by the weights on tau of joints that carry `feet`. */
+AMBULO__INLINE wide_pair ground_virtual(const ambulo__plan *plan, const double *weights, int feet,
+                                        wide_pair sum, const double *scratch) {
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->feet != feet) continue;
+    wide y = joint->sign * load(weights + k * AMBULO__LANES);
+    wide3 step = scale3(y, load3(scratch + joint->axis_at));
+    if (joint->revolute) {
+      sum.angular = add3(sum.angular, step);
+      sum.linear = add_cross3(sum.linear, load3(scratch + plan->frames[k + 1].place_at), step);
+    } else {
+      sum.linear = add3(sum.linear, step);
+    }
+  }
+  return sum;
+}
+
+/* Adds M' and F' to *root, the weights on the root wrench; *center is c'. */
+static void ground_adjoints(const ambulo__plan *plan, const double *ground, const double *weights,
+                            wide_pair *root, wide3 *center, const double *scratch) {
+  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  const double *at = scratch + plan->ground_at;
+  const double *rows = weights + ambulo__plan_first_foot_row(plan) * AMBULO__LANES;
+  ground_shares s = ground_load(plan, ground, load(at + ground_height));
+  wide_pair w = load_pair(at + ground_wrench),
+            both = ground_virtual(plan, weights, 3, zero, scratch);
+  wide_pair sum = *root, passed = zero;
+  wide theta = {0};
+  for (int f = 0; f < 2; f++) {
+    const double *row = rows + 4 * f * AMBULO__LANES;
+    wide_pair foot = ground_virtual(plan, weights, 1 + f, both, scratch);
+    foot.linear = sub3(foot.linear, load3(row));
+    sum = axpy_pair(sum, -s.share[f], foot);
+    passed = axpy_pair(passed, spread(f ? 1 : -1), foot);
+    theta += s.share[f] * load(row + three);
+  }
+  wide normal = dot3(s.up, w.linear), along = dot3(passed.linear, s.apart);
+  wide3 y = cross3(passed.angular, s.apart), v = scale3(s.gain, y);
+  wide gain = dot3(y, ground_lever(plan, s.up, w)) - normal * along;
+  theta /= normal;
+  sum.angular = axpy3(add_cross3(sum.angular, v, s.up), theta, w.linear);
+  sum.linear = axpy3(axpy3(sum.linear, s.product, y), spread(plan->ground_height), v);
+  sum.linear = axpy3(sum.linear, theta, w.angular);
+  sum.linear = axpy3(sum.linear, -(s.gain * along + theta * load(at + ground_twist)), s.up);
+  *root = sum;
+  *center = axpy3(load3(rows + 8 * AMBULO__LANES), -s.gain / s.height * gain, s.up);
+}
+
+#endif
