@@ -1,13 +1,14 @@
 /* solver/metric.c - see metric.h.
  *
- * Each node adds G'G, G the gradients of its curved channels times the square root of their
- * curvature (objective/term.h): one symmetric rank-k update straight into the band.
+ * Each node adds G'G, G the gradients of its residuals times the square root of their
+ * curvature: one symmetric rank-k update straight into the band.
  *
  * Where no term has curvature (user terms, or no objective) a metric of accelerations
  * stands in, sum_k w_k |qdd_k|^2 times a small factor: steps are then measured by how much
  * they bend the motion.
  */
 #include "solver/metric.h"
+#include "nlp/states.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,27 +29,34 @@ static int is_curved(const ambulo_problem *p, int channel) {
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
     int i = channel % p->coordinates;
-    if (term->kind == AMBULO_USER_TERM || term->weight == 0.0) continue;
+    if (!ambulo__term_is_simple(term) || term->weight == 0.0) continue;
     if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
     if (ambulo__term_scale(term, i) != 0.0) return 1;
   }
   return 0;
 }
 
+static int is_composite(const ambulo_term *term) {
+  return term->kind != AMBULO_USER_TERM && !ambulo__term_is_simple(term) && term->weight > 0.0;
+}
+
 ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
                                     ambulo__metric *metric) {
   int candidates = 4 * p->coordinates; /* q, qd, qdd, tau */
+  int forms = p->coordinates > 3 ? p->coordinates : 3;
   metric->problem = p;
-  metric->channels = 0;
+  metric->channels = metric->composites = 0;
   metric->channel = ambulo__pool_ints(pool, (size_t)candidates);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int c = 0; c < candidates; c++) {
     if (is_curved(p, c)) metric->channel[metric->channels++] = c;
   }
+  for (int t = 0; t < p->definition.term_count; t++)
+    metric->composites += is_composite(&p->definition.terms[t]);
   size_t widest = (size_t)ambulo__metric_diagonals(p) + 1;
-  size_t rows = metric->channels > p->coordinates ? (size_t)metric->channels
-                                                  : (size_t)p->coordinates;
-  metric->rows = ambulo__pool_doubles(pool, rows * widest);
+  metric->row_capacity = metric->channels + forms * (2 * metric->composites + 1);
+  metric->rows = ambulo__pool_doubles(pool, (size_t)metric->row_capacity * widest);
+  metric->one = ambulo__pool_doubles(pool, widest);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -60,13 +68,56 @@ static double curvature_of(const ambulo_workspace *workspace, int node, int chan
   double sum = 0.0;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (term->kind == AMBULO_USER_TERM) continue;
+    if (!ambulo__term_is_simple(term)) continue;
     if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
     double scale = ambulo__term_scale(term, i);
     double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
     sum += term->weight * scale * scale * ambulo__term_residual(term, u).curvature;
   }
   return sum * p->quadrature[node];
+}
+
+/* adds the part of a form that stands on `node`, times factor, to a row; returns whether
+ * it has one, and whether it has others */
+static int form_row(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+                    int ahead, const ambulo__form *form, double *row, int *shared) {
+  int width = ambulo__node_width(metric->problem, node), parts = 0;
+  memset(row, 0, (size_t)width * sizeof *row);
+  *shared = 0;
+  for (int c = 0; c < form->count; c++) {
+    if (form->ahead[c] != ahead) {
+      *shared = 1;
+      continue;
+    }
+    ambulo__channel_local_gradient(workspace, node, form->channel[c], metric->one);
+    for (int j = 0; j < width; j++) row[j] += form->slope[c] * metric->one[j];
+    parts++;
+  }
+  return parts;
+}
+
+/* weighted gradients of one composite term's residuals; returns the rows used so far */
+static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *workspace,
+                          const ambulo_term *term, int node, double scale, int count) {
+  const ambulo_problem *p = metric->problem;
+  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  int width = ambulo__node_width(p, node), last = term->kind == AMBULO_TORQUE_RATE;
+  for (int ahead = 0; ahead <= last && ahead <= node; ahead++) {
+    int base = node - ahead, forms = ambulo__term_forms(term, &frame, base), shared;
+    double weight = scale * term->weight * ambulo__term_quadrature(p, term, base);
+    for (int j = 0; j < forms && count < metric->row_capacity; j++) {
+      double *row = metric->rows + (size_t)count * (size_t)width;
+      ambulo__form form;
+      ambulo__term_form(term, &frame, base, j, &form);
+      if (!form_row(metric, workspace, node, ahead, &form, row, &shared)) continue;
+      double curvature = weight * ambulo__term_residual(term, form.u).curvature;
+      /* 2 a^2 + 2 b^2 >= (a + b)^2 keeps a residual over two nodes local to each */
+      double root = sqrt(fmax(0.0, shared ? 2.0 * curvature : curvature));
+      for (int i = 0; i < width; i++) row[i] *= root;
+      count++;
+    }
+  }
+  return count;
 }
 
 static void add_node(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
@@ -79,6 +130,10 @@ static void add_node(const ambulo__metric *metric, const ambulo_workspace *works
     double *row = metric->rows + (size_t)count++ * (size_t)width, root = sqrt(curvature);
     ambulo__channel_local_gradient(workspace, node, metric->channel[c], row);
     for (int j = 0; j < width; j++) row[j] *= root;
+  }
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    if (is_composite(term)) count = composite_rows(metric, workspace, term, node, scale, count);
   }
   ambulo__band_add_rows(h, ambulo__node_first(p, node), width, count, metric->rows);
 }
@@ -101,7 +156,7 @@ void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *w
   const ambulo_problem *p = metric->problem;
   ambulo__band_clear(h);
   for (int k = 0; k < p->nodes; k++) {
-    if (metric->channels > 0) {
+    if (metric->channels + metric->composites > 0) {
       add_node(metric, workspace, k, scale, h);
     } else {
       add_accelerations(metric, workspace, k, h);
@@ -109,22 +164,41 @@ void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *w
   }
 }
 
-/* sum over the nodes of curvature * (dy / dqdd_i)^2: the torque's slope is the mass matrix */
+/* |dy / dqdd|^2 of a channel: for a torque a row of the mass matrix */
+static double acceleration_slope(const ambulo_workspace *workspace, int node, int channel) {
+  const ambulo_problem *p = workspace->problem;
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  int output = channel - ambulo__channel_outputs(&p->channels);
+  if (output < 0 || output >= p->coordinates + 6) return 1.0;
+  double sum = 0.0;
+  for (int e = pattern.start[output]; e < pattern.start[output + 1]; e++) {
+    double slope = workspace->jqdd[ambulo__lane_index(node, pattern.dynamic_count, e)];
+    sum += slope * slope;
+  }
+  return sum;
+}
+
+/* curvature of the objective along accelerations, one node, summed over coordinates */
 static double acceleration_curvature(const ambulo__metric *metric,
                                      const ambulo_workspace *workspace, int node) {
   const ambulo_problem *p = metric->problem;
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
   double sum = 0.0;
-  for (int c = 0; c < metric->channels; c++) {
-    int output = metric->channel[c] - ambulo__channel_outputs(&p->channels);
-    double curvature = curvature_of(workspace, node, metric->channel[c]);
-    if (output < 0) {
-      sum += curvature;
-      continue;
-    }
-    for (int e = pattern.start[output]; e < pattern.start[output + 1]; e++) {
-      double slope = workspace->jqdd[ambulo__lane_index(node, pattern.dynamic_count, e)];
-      sum += curvature * slope * slope;
+  for (int c = 0; c < metric->channels; c++)
+    sum += curvature_of(workspace, node, metric->channel[c]) *
+           acceleration_slope(workspace, node, metric->channel[c]);
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    if (!is_composite(term)) continue;
+    double weight = term->weight * ambulo__term_quadrature(p, term, node);
+    int forms = ambulo__term_forms(term, &frame, node);
+    for (int j = 0; j < forms; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &frame, node, j, &form);
+      double curvature = weight * ambulo__term_residual(term, form.u).curvature;
+      for (int c = 0; c < form.count; c++)
+        sum += curvature * form.slope[c] * form.slope[c] *
+               acceleration_slope(workspace, node + form.ahead[c], form.channel[c]);
     }
   }
   return sum;

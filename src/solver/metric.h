@@ -2,8 +2,9 @@
  *
  *     H0 = scale * H_GN + mu I   (+ a small metric of accelerations where H_GN is empty)
  *
- * H_GN = sum_k sum_y curvature_yk g_yk g_yk', y the channels that the objective's terms
- * stand on and g their gradients with respect to the unknowns of node k.
+ * H_GN = sum_k sum_u curvature_uk g_uk g_uk', u the residuals of the objective's terms
+ * (objective/term.h) and g their gradients with respect to the unknowns of node k. Residuals
+ * that span two nodes (torque rate) are split as in ambulo__node_gauss_newton.
  */
 #ifndef AMBULO_SOLVER_METRIC_H
 #define AMBULO_SOLVER_METRIC_H
@@ -13,8 +14,11 @@
 typedef struct ambulo__metric {
   const ambulo_problem *problem;
   int channels;
-  int *channel;          /* [channels]: those with a weight in some term, ascending */
-  double *rows;          /* [channels][widest window]: one node's weighted gradients */
+  int *channel;          /* [channels]: those with a weight in some simple term, ascending */
+  int composites;        /* terms whose residuals stand on several channels */
+  double *rows;          /* [row_capacity][widest window]: one node's weighted gradients */
+  int row_capacity;
+  double *one;           /* [widest window]: gradient of one channel */
 } ambulo__metric;
 
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,

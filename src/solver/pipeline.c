@@ -24,6 +24,7 @@ static const double rho_start = 10.0, rho_largest = 3000.0, rho_factor = 2.0;
 static const double step_cap = 0.5;                 /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5;            /* relative */
+static const double moving = 1e-3;                  /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
 static const double polishable = 1e-5;              /* excess, row's own unit */
 static const double polish_reach = 1e-3;            /* the same, when nothing else helps */
@@ -90,10 +91,9 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   p->settled = near && steady ? p->settled + 1 : 0;
   p->objective = best->objective;
   p->since_better++;
-  if (violation < 0.9 * p->least_violation) {
-    p->least_violation = violation;
+  if (violation < 0.9 * p->least_violation || change > moving * fabs(best->objective))
     p->since_better = 0;
-  }
+  p->least_violation = fmin(p->least_violation, violation);
   int stalled = e->rho >= rho_largest && p->since_better > STALL;
   int settled = (p->settled >= 1 && (small || p->loose)) || p->settled >= 3;
   if (violation <= tolerance) return settled;
