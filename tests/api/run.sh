@@ -82,6 +82,17 @@ keys_documented() {
   [ -s "$1" ] && return $lost
 }
 
+# and so does every kind of column of motion.csv
+# shellcheck disable=SC2317
+columns_documented() {
+  local kind lost=0
+  for kind in $(grep -v '^#' "$1" | head -n 1 | tr ',' '\n' | sed 's/\..*//' | sort -u); do
+    grep -qE "^\| \`$kind[.\`]" docs/results.md ||
+      { echo "docs/results.md has no row for the columns '$kind'"; lost=1; }
+  done
+  [ -s "$1" ] && return $lost
+}
+
 # the map in the README names the folders of src, all of them
 # shellcheck disable=SC2016,SC2317
 map_is_true() {
@@ -151,6 +162,7 @@ while IFS= read -r line; do
   case $line in ambulo*) check "README: $line" run_line "$line" ;; esac
 done < <(block sh)
 check 'keys of summary.json are documented' keys_documented "$work/shell/walk/summary.json"
+check 'columns of motion.csv are documented' columns_documented "$work/shell/walk/motion.csv"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
