@@ -27,7 +27,7 @@ static const double value_change = 1e-5;            /* relative */
 static const double moving = 1e-3;                  /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
 static const double polishable = 1e-5;              /* excess, row's own unit */
-static const double polish_reach = 1e-3;            /* the same, when nothing else helps */
+static const double polish_reach = 1e-2;            /* the same, when nothing else helps */
 static const double loose_violation = 1e-3, loose_change = 1e-3;   /* on coarse grids */
 
 typedef struct progress {
@@ -133,7 +133,10 @@ ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int l
   if (status) return status;
   if (error > restored) return AMBULO_OK;
   for (int k = 0; k < MAX_REFRESHES && !ambulo__run_over(e->run); k++) {
-    if (refresh(e, kind, &state, e->iterate, x)) break;
+    if (refresh(e, kind, &state, e->iterate, x)) return AMBULO_OK;
   }
+  /* out of refreshes or of time: what can still be had at once */
+  if (!loose && e->best.value < HUGE_VAL && e->best.violation <= polish_reach)
+    (void)ambulo__polish(e, x);
   return AMBULO_OK;
 }

@@ -68,6 +68,19 @@ static double violation_at(ambulo__engine *e, const double *x) {
   return fmax(error, ambulo__engine_excess(e, e->held.excess));
 }
 
+/* the coarse grids led astray: once more from zero; x stays if that is no better */
+static ambulo_status solve_again(solve *s, double *x) {
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  size_t n = (size_t)s->problem->variables;
+  double *other = ambulo__alloc(&a, n, sizeof *other);
+  if (!other) return AMBULO_E_MEMORY;
+  double before = violation_at(s->engine, x);
+  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, other);
+  if (!status && violation_at(s->engine, other) < before) memcpy(x, other, n * sizeof *x);
+  ambulo__free(&a, other);
+  return status;
+}
+
 static ambulo_status solve_by_pipeline(solve *s) {
   double *x = s->result->x;
   int levels = 0;
@@ -75,13 +88,10 @@ static ambulo_status solve_by_pipeline(solve *s) {
   s->method = "AUGLAG with LBFGS, whitened";
   if (s->from_zero && s->run.options->continuation)
     status = ambulo__refine(s->problem, s->allocator, &s->run, x, &levels);
-  if (status) return status;
-  status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
+  if (!status) status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
   if (status || levels == 0 || s->run.stopped) return status;
   if (violation_at(s->engine, x) <= s->run.options->feasibility_tolerance) return status;
-  /* the coarse grids led astray: once more, from the start */
-  memset(x, 0, (size_t)s->problem->variables * sizeof *x);
-  return ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
+  return solve_again(s, x);
 }
 
 static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm) {
