@@ -75,6 +75,8 @@ typedef struct ambulo_foot {
   int toe_center;          /* point that fixes the heading, and the place in toe contact */
   int mirror;              /* foot that takes its place in the mirror image (in a definition
                               -1: itself) */
+  int has_tip;             /* 1: a tip reaches further ahead than the pivot of push-off */
+  int tip;                 /* its point: it only has to clear the ground late in swing */
 } ambulo_foot;
 
 /* ------------------------------------------------------------ build in code */

@@ -13,13 +13,19 @@
  *   tau      [d]        N m, N             3 d   \
  *   moment   [3]        N m                4 d    | in the order of the mechanics'
  *   force    [3]        N                  4 d+3  | output rows (mechanics/plan.h)
- *   points   [p][3]     m                  4 d+6 /
+ *   points   [p][3]     m                  4 d+6  |
+ *
+ * and with ground reaction (feet = 2), n = 4 d + 6 + 3 p,
+ *
+ *   reaction [feet][4]  N, N m             n      |  force on the foot, free moment
+ *   com      [3]        m                  n+4 f /   centre of mass
  */
 #ifndef AMBULO_GAIT_CHANNELS_H
 #define AMBULO_GAIT_CHANNELS_H
 
 typedef struct ambulo__channels {
   int coordinates, points;
+  int feet; /* 0 without ground reaction */
 } ambulo__channels;
 
 static inline int ambulo__channel_q(const ambulo__channels *c, int i) {
@@ -44,8 +50,17 @@ static inline int ambulo__channel_force(const ambulo__channels *c, int axis) {
 static inline int ambulo__channel_point(const ambulo__channels *c, int point, int axis) {
   return 4 * c->coordinates + 6 + 3 * point + axis;
 }
+static inline int ambulo__channel_foot_force(const ambulo__channels *c, int foot, int axis) {
+  return 4 * c->coordinates + 6 + 3 * c->points + 4 * foot + axis;
+}
+static inline int ambulo__channel_free_moment(const ambulo__channels *c, int foot) {
+  return ambulo__channel_foot_force(c, foot, 3);
+}
+static inline int ambulo__channel_center_of_mass(const ambulo__channels *c, int axis) {
+  return ambulo__channel_foot_force(c, c->feet, axis);
+}
 static inline int ambulo__channel_count(const ambulo__channels *c) {
-  return 4 * c->coordinates + 6 + 3 * c->points;
+  return 4 * c->coordinates + 6 + 3 * c->points + (c->feet ? 4 * c->feet + 3 : 0);
 }
 /* First channel that the mechanics computes. */
 static inline int ambulo__channel_outputs(const ambulo__channels *c) {

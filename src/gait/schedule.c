@@ -127,7 +127,8 @@ ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
   if (status) return status;
   status = check_overlaps(definition, diagnostics);
   int needs_support = definition->ground_penetration || definition->foot_strike ||
-                      definition->support != AMBULO_SUPPORT_OFF;
+                      definition->support != AMBULO_SUPPORT_OFF ||
+                      definition->ground_reaction.kind != AMBULO_REACTION_NONE;
   ambulo_status gaps = needs_support ? check_gaps(definition, diagnostics) : AMBULO_OK;
   if (!status) status = gaps;
   if (status) return status;

@@ -37,7 +37,8 @@ static void compute_block(ambulo_workspace *workspace, int block) {
   const ambulo_problem *p = workspace->problem;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *c = block_of(workspace, workspace->channel, block);
-  p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, NULL, c + 3 * d8, workspace->scratch);
+  p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, block),
+                      c + 3 * d8, workspace->scratch);
 }
 
 static void compute_channels(ambulo_workspace *workspace, const double *x) {
@@ -203,7 +204,8 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
     /* the scratch of a single block serves all: refill it for this one */
     compute_block(workspace, b);
-    p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, NULL, workspace->jq + all,
+    p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
+                         workspace->jq + all,
                          workspace->jqd + dynamic, workspace->jqdd + dynamic, workspace->scratch);
   }
   workspace->jacobians++;

@@ -26,13 +26,14 @@ static void add_output(const ambulo_workspace *workspace, int node, int output, 
   const ambulo_problem *p = workspace->problem;
   const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  int d = p->coordinates, dynamic = output < d + 6;
+  int d = p->coordinates, rates = pattern.rate_start[output];
   for (int e = pattern.start[output]; e < pattern.start[output + 1]; e++) {
     int i = pattern.column[e];
     double jq = factor * workspace->jq[ambulo__lane_index(node, pattern.count, e)];
     double jqd = 0.0, jqdd = 0.0;
-    if (dynamic) {
-      size_t at = ambulo__lane_index(node, pattern.dynamic_count, e);
+    if (rates >= 0) {
+      int entry = rates + e - pattern.start[output];
+      size_t at = ambulo__lane_index(node, pattern.dynamic_count, entry);
       jqd = factor * workspace->jqd[at];
       jqdd = factor * workspace->jqdd[at];
     }

@@ -12,13 +12,14 @@
 
 typedef struct dense {
   ambulo__lane_map *map;
-  double *channel, *scratch;
+  double *channel, *scratch, *ground;
 } dense;
 
 static void dense_free(const ambulo_allocator *a, dense *d) {
   ambulo__lane_map_free(d->map);
   ambulo__free_aligned(a, d->channel);
   ambulo__free_aligned(a, d->scratch);
+  ambulo__free_aligned(a, d->ground);
 }
 
 static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocator *a,
@@ -30,6 +31,7 @@ static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocato
   ambulo_status status =
       ambulo__lane_map_create(p->basis, times, count, p->coordinates, a, &d->map);
   if (!status && (!d->channel || !d->scratch)) status = AMBULO_E_MEMORY;
+  if (!status) status = ambulo__ground_fill(p, a, times, count, &d->ground);
   return status;
 }
 
@@ -55,15 +57,39 @@ static void zero_moment_point(const double *n, double height, const double *wren
     zmp[i] = normal > 0.0 ? (cross[i] + height * f[i]) / normal : (double)NAN;
 }
 
+static void zmp_at(const ambulo_problem *p, const dense *d, int channels, int k, double *zmp) {
+  double wrench[6];
+  for (int c = 0; c < 6; c++) {
+    int channel = ambulo__channel_moment(&p->channels, c);
+    wrench[c] = d->channel[ambulo__lane_index(k, channels, channel)];
+  }
+  zero_moment_point(ambulo_model_up(p->model), p->definition.ground_height, wrench, zmp);
+}
+
 static void fill_zmp(const ambulo_problem *p, const dense *d, int channels, int count,
                      double *zmp) {
-  for (int k = 0; k < count; k++) {
-    double wrench[6];
-    for (int c = 0; c < 6; c++) {
-      int channel = ambulo__channel_moment(&p->channels, c);
-      wrench[c] = d->channel[ambulo__lane_index(k, channels, channel)];
+  for (int k = 0; k < count; k++) zmp_at(p, d, channels, k, zmp + 3 * k);
+}
+
+/* forces, centres of pressure and free moments of the feet */
+static void fill_feet(const ambulo_problem *p, const dense *d, int channels, int count,
+                      const ambulo_motion *motion) {
+  int feet = ambulo_model_foot_count(p->model);
+  for (int at = 0; at < count * feet; at++) {
+    int k = at / feet, foot = at % feet;
+    for (int axis = 0; axis < 4; axis++) {
+      double value = NAN;
+      int channel = ambulo__channel_foot_force(&p->channels, foot, axis);
+      if (d->ground) value = d->channel[ambulo__lane_index(k, channels, channel)];
+      if (axis < 3 && motion->grf) motion->grf[3 * at + axis] = value;
+      if (axis < 3 && motion->cop) motion->cop[3 * at + axis] = NAN;
+      if (axis == 3 && motion->free_moment) motion->free_moment[at] = value;
     }
-    zero_moment_point(ambulo_model_up(p->model), p->definition.ground_height, wrench, zmp + 3 * k);
+  }
+  for (int k = 0; d->ground && motion->cop && k < count; k++) {
+    double zmp[3];
+    zmp_at(p, d, channels, k, zmp);
+    ambulo__pressure_centers(d->ground, k, zmp, motion->cop + 6 * k);
   }
 }
 
@@ -72,7 +98,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
                                     const ambulo_motion *motion) {
   if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
     return AMBULO_E_ARGUMENT;
-  dense d = {NULL, NULL, NULL};
+  dense d = {NULL, NULL, NULL, NULL};
   const ambulo_allocator *a = &workspace->allocator;
   ambulo_status status = dense_create(p, a, times, count, &d);
   if (!status) {
@@ -81,7 +107,8 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
     for (int b = 0; b < ambulo__block_count(count); b++) {
       double *y = d.channel + (size_t)b * stride;
-      p->kernels->forward(p->plan, y, y + d8, y + 2 * d8, NULL, y + 3 * d8, d.scratch);
+      p->kernels->forward(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(d.ground, b),
+                          y + 3 * d8, d.scratch);
     }
     int finite = unpack(&d, channels, 0, c, count, motion->q);
     finite &= unpack(&d, channels, c, c, count, motion->qd);
@@ -90,6 +117,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c, 6, count, motion->wrench);
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
+    fill_feet(p, &d, channels, count, motion);
     if (!finite) status = AMBULO_E_NUMERIC;
   }
   dense_free(a, &d);

@@ -36,6 +36,7 @@ struct ambulo_problem {
   double *times;      /* [nodes], s */
   double *quadrature; /* [nodes], trapezoidal weights, s */
   int *active;        /* [nodes][feet] contact index or -1 */
+  double *ground;     /* [blocks][AMBULO__GROUND_ENTRIES][8]; NULL without ground reaction */
   ambulo__row_table table;
   size_t *term_at; /* [table terms]: where its channel stands in
                       workspace->channel, or its unknown in x */
@@ -79,6 +80,19 @@ void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
 
 /* After ambulo__evaluate: gradient of one objective term (its weight included). */
 void ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient);
+
+/* ---------------------------------------------------------- ground reaction */
+
+/* What the kernels are told about the ground at `count` times, [blocks][entries][8]; freed with
+ * ambulo__free_aligned. *ground is NULL without ground reaction. E_MEMORY. */
+ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_allocator *allocator,
+                                  const double *times, int count, double **ground);
+/* Centres of pressure cop[2][3] of the feet at one node from its ZMP; NaN for a foot in the air. */
+void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
+/* The entries of one block, NULL without ground reaction. */
+static inline const double *ambulo__ground_block(const double *ground, int block) {
+  return ground ? ground + (size_t)block * AMBULO__GROUND_ENTRIES * AMBULO__LANES : NULL;
+}
 
 /* ------------------------------------------------------------- local rows */
 

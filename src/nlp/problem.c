@@ -19,6 +19,20 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
       .discretization = AMBULO_BSPLINE,
       .degree = 3,
       .minimum_force = -1.0,
+      .orientation_tolerance = 0.01,
+      .clearance = {-1.0, 0.3, 0.35, 0.2, 0.06, 0.03},
+      .ground_reaction = {.kind = AMBULO_REACTION_NONE,
+                          .transfer = AMBULO_TRANSFER_EARLY,
+                          .exponent = 1.4,
+                          .shear = 1.0,
+                          .friction = 0.5,
+                          .free_moment = 0.02,
+                          .pressure = 1,
+                          .heel_pressure = {-0.02, 0.03},
+                          .heel_roll = 0.04,
+                          .flat_pressure = {-0.005, 0.02},
+                          .toe_pressure = {-0.02, 0.055},
+                          .pressure_width = 0.035},
       .ends_order = 1,
   };
   return definition;
@@ -225,14 +239,27 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   return ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
 }
 
+static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  const ambulo_problem_definition *d = &p->definition;
+  if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
+    return ambulo__plan_create(p->model, &p->allocator, &p->plan);
+  int feet = ambulo_model_foot_count(p->model);
+  if (feet != 2)
+    return REFUSE(diagnostics, "ground_reaction: the model '%s' has %d feet; expected 2",
+                  ambulo_model_name(p->model), feet);
+  p->channels.feet = feet;
+  return ambulo__plan_create_grounded(p->model, d->ground_height, &p->allocator, &p->plan);
+}
+
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->model = p->definition.model;
   p->coordinates = ambulo_model_coordinate_count(p->model);
   p->channels.coordinates = p->coordinates;
   p->channels.points = ambulo_model_point_count(p->model);
   ambulo_status status = build_grid(p);
-  if (!status) status = ambulo__plan_create(p->model, &p->allocator, &p->plan);
+  if (!status) status = build_plan(p, diagnostics);
   if (!status) status = build_schedule(p, diagnostics);
+  if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
@@ -273,6 +300,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->quadrature);
   ambulo__free(&a, p->term_at);
   ambulo__free(&a, p->active);
+  ambulo__free_aligned(&a, p->ground);
   ambulo__definition_free(&a, &p->definition);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p);

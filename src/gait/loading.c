@@ -1,0 +1,146 @@
+/* gait/loading.c - transfer of the load from the rear to the front foot.
+ *
+ * Schedules are cut at 0 and T. A motion that repeats goes on beyond both: its contacts are
+ * repeated a period earlier and later, of the mirror foot when the ends are mirrored, so that a
+ * double support that begins before t = 0 has its true length.
+ *
+ * With u = (t - strike of the front foot) / (toe-off of the rear foot - strike), the share of the
+ * front foot is
+ *   early   a = 1 - (1 - u)^e          smooth   a = u^2 (3 - 2 u)          linear   a = u
+ * e = 1.4 follows the vertical forces that people show in double support (Winter, Biomechanics
+ * and Motor Control of Human Movement). Nominal centres of pressure: the heel of the front foot,
+ * 0.02 m ahead of the toe centre (ball) of the rear foot; D is their difference.
+ */
+#include "gait/loading.h"
+
+#include "gait/gait.h"
+
+#include <math.h>
+
+static const double time_tolerance = 1e-9; /* s */
+static const double rear_ahead = 0.02;     /* m */
+
+enum { PERIODS = 2 };
+
+static int last_period(const ambulo_problem_definition *d) {
+  return d->ends == AMBULO_ENDS_FREE ? 0 : PERIODS;
+}
+
+/* the span of contact i, `period` periods later, if it belongs to `foot` then */
+static int image_of(const ambulo_problem_definition *d, int i, int period, int foot,
+                    ambulo__span *span) {
+  const ambulo_contact *c = &d->contacts[i];
+  int mirrored = d->ends == AMBULO_ENDS_MIRRORED && period % 2 != 0;
+  if ((mirrored ? d->model->feet[c->foot].mirror : c->foot) != foot) return 0;
+  span->from = c->from + period * d->duration;
+  span->to = c->to + period * d->duration;
+  return 1;
+}
+
+const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *d, int foot,
+                                         double time) {
+  for (int i = 0; i < d->contact_count; i++) {
+    const ambulo_contact *c = &d->contacts[i];
+    if (c->foot == foot && ambulo__contact_holds(c, d->duration, time)) return c;
+  }
+  return NULL;
+}
+
+/* joins one more contact to the span; 0 if none touches it from outside */
+static int grow(const ambulo_problem_definition *d, int foot, ambulo__span *span) {
+  int last = last_period(d);
+  for (int i = 0; i < d->contact_count; i++) {
+    for (int period = -last; period <= last; period++) {
+      ambulo__span image;
+      if (!image_of(d, i, period, foot, &image)) continue;
+      int touches =
+          image.from <= span->to + time_tolerance && image.to >= span->from - time_tolerance;
+      int reaches =
+          image.from < span->from - time_tolerance || image.to > span->to + time_tolerance;
+      if (!touches || !reaches) continue;
+      span->from = fmin(span->from, image.from);
+      span->to = fmax(span->to, image.to);
+      return 1;
+    }
+  }
+  return 0;
+}
+
+int ambulo__loaded_span(const ambulo_problem_definition *d, int foot, double time,
+                        ambulo__span *span) {
+  const ambulo_contact *contact = ambulo__contact_of(d, foot, time);
+  if (!contact) return 0;
+  span->from = contact->from;
+  span->to = contact->to;
+  while (grow(d, foot, span)) continue;
+  return 1;
+}
+
+ambulo__span ambulo__air_span(const ambulo_problem_definition *d, int foot, double time) {
+  int last = last_period(d);
+  ambulo__span air = {-(last + 1) * d->duration, (last + 2) * d->duration};
+  if (last == 0) air = (ambulo__span){0.0, d->duration};
+  for (int i = 0; i < d->contact_count; i++) {
+    for (int period = -last; period <= last; period++) {
+      ambulo__span image;
+      if (!image_of(d, i, period, foot, &image)) continue;
+      if (image.to <= time + time_tolerance) air.from = fmax(air.from, image.to);
+      if (image.from >= time - time_tolerance) air.to = fmin(air.to, image.from);
+    }
+  }
+  return air;
+}
+
+static double share_of_front(const ambulo_ground_reaction *reaction, double u) {
+  u = fmin(1.0, fmax(0.0, u));
+  switch (reaction->transfer) {
+  case AMBULO_TRANSFER_EARLY:
+    return 1.0 - pow(1.0 - u, reaction->exponent);
+  case AMBULO_TRANSFER_SMOOTH:
+    return u * u * (3.0 - 2.0 * u);
+  case AMBULO_TRANSFER_LINEAR:
+    break;
+  }
+  return u;
+}
+
+/* the foot that came down later; of two at once the one that stays longer, then the one ahead */
+static int front_foot(const ambulo__span span[2], const ambulo_contact *const contact[2]) {
+  double keys[3] = {span[1].from - span[0].from, span[1].to - span[0].to,
+                    contact[1]->place[0] - contact[0]->place[0]};
+  for (int i = 0; i < 3; i++) {
+    if (fabs(keys[i]) > time_tolerance) return keys[i] > 0.0;
+  }
+  return 0;
+}
+
+static ambulo__load double_support(const ambulo_problem_definition *d,
+                                   const ambulo__foot_outline *outlines, double time,
+                                   const ambulo__span span[2],
+                                   const ambulo_contact *const contact[2]) {
+  ambulo__load load;
+  int front = front_foot(span, contact), rear = 1 - front;
+  double length = span[rear].to - span[front].from;
+  double u = length > time_tolerance ? (time - span[front].from) / length : 1.0;
+  load.share[front] = share_of_front(&d->ground_reaction, u);
+  load.share[rear] = 1.0 - load.share[front];
+  double sign = front == 0 ? 1.0 : -1.0;
+  double rear_end = contact[rear]->place[0] + outlines[rear].length + rear_ahead;
+  load.apart[0] = sign * (contact[front]->place[0] - rear_end);
+  load.apart[1] = contact[0]->place[1] - contact[1]->place[1];
+  return load;
+}
+
+ambulo__load ambulo__load_at(const ambulo_problem_definition *d,
+                             const ambulo__foot_outline *outlines, double time) {
+  ambulo__span span[2];
+  int loaded[2];
+  for (int foot = 0; foot < 2; foot++) loaded[foot] = ambulo__loaded_span(d, foot, time, &span[foot]);
+  if (loaded[0] && loaded[1]) {
+    const ambulo_contact *contact[2] = {ambulo__contact_of(d, 0, time),
+                                        ambulo__contact_of(d, 1, time)};
+    return double_support(d, outlines, time, span, contact);
+  }
+  ambulo__load load = {{loaded[1] ? 0.0 : 1.0, loaded[1] ? 1.0 : 0.0}, {0.0, 0.0}};
+  return load;
+}

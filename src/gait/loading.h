@@ -1,0 +1,32 @@
+/* gait/loading.h - since when a foot is loaded, until when, and how much it carries. */
+#ifndef AMBULO_GAIT_LOADING_H
+#define AMBULO_GAIT_LOADING_H
+
+#include "gait/foot_outline.h"
+
+typedef struct ambulo__span {
+  double from, to; /* s; may lie outside [0, T] when the motion is periodic or mirrored */
+} ambulo__span;
+
+/* The uninterrupted contact of `foot` around `time`; 0 if the foot is in the air. */
+int ambulo__loaded_span(const ambulo_problem_definition *definition, int foot, double time,
+                        ambulo__span *span);
+/* The time in the air around `time`: from the last toe-off to the next strike, at most
+ * [0, T] if the motion does not repeat. */
+ambulo__span ambulo__air_span(const ambulo_problem_definition *definition, int foot, double time);
+
+/* The contact of `foot` at `time`, NULL if there is none. */
+const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *definition, int foot,
+                                         double time);
+
+/* How the ground's force is shared at a time. */
+typedef struct ambulo__load {
+  double share[2]; /* of foot 0 and 1; sum 1 */
+  double apart[2]; /* D: nominal centre of pressure of foot 0 less that of foot 1, along
+                      forward and left, m; 0 unless both are loaded */
+} ambulo__load;
+/* `outlines`: of the model's two feet. */
+ambulo__load ambulo__load_at(const ambulo_problem_definition *definition,
+                             const ambulo__foot_outline *outlines, double time);
+
+#endif
