@@ -23,24 +23,12 @@
  * Everything is analytic in q, qd, qdd (no absolute value, no conjugate): a complex step gives
  * derivatives without cancellation.
  */
-#include <complex.h>
 #include <math.h>
 #include <string.h>
 
 #include "ambulo/mechanics.h"
+#include "mechanics/lagrangian.h"
 #include "model/model.h"
-
-typedef double complex scalar;
-
-typedef struct matrix {
-  scalar e[3][4];
-} matrix;
-
-typedef struct link_state {
-  matrix t, t1, t2;     /* T, T', T'' */
-  matrix a, b, c;       /* A, B, C */
-  scalar d[4][3], e[4]; /* D, E */
-} link_state;
 
 /* Scratch: link states, then tau [coordinates], then point positions [points][3]. */
 size_t ambulo_lagrangian_scratch_size(const ambulo_model *model) {
