@@ -8,7 +8,8 @@
  * 1 / (1 + s) or more, s the smallest eigenvalue of S^1/2 J H^-1 J' S^1/2. With S large three
  * passes reach rounding, and M stays banded and positive definite: a Cholesky factor of the
  * band of H replaces the LU factor of the interleaved, indefinite and wider KKT matrix.
- * Dependent rows do no harm: M does not notice them.
+ * Dependent rows do no harm: M does not notice them. Rows that nearly depend on each other
+ * make s small: S is then raised for the next factorization.
  *
  * Border rows by their Schur complement. M = L L', W = L^-1 C' (borders forward solves):
  *
@@ -25,13 +26,14 @@
 #include <string.h>
 
 enum { MAX_PASSES = 8 };
-/* S_r |J_r|^2 relative to the largest diagonal element of H */
-static const double penalty_factor = 1e4;
+static const double stiffness_start = 1e4, stiffness_largest = 1e8, stiffness_factor = 100.0;
 static const double pass_tolerance = 1e-11;
+static const double slow = 1e-7;      /* error after all passes that asks for more stiffness */
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
                                  const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
                                  ambulo__kkt *kkt) {
+  kkt->stiffness = stiffness_start;
   kkt->equality = equality;
   kkt->border = border;
   kkt->n = equality->problem->variables;
@@ -52,7 +54,7 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
 static void set_penalties(ambulo__kkt *kkt, double size) {
   for (int i = 0; i < kkt->equalities; i++) {
     double norm = ambulo__sparse_rows_norm(kkt->equality, i);
-    kkt->penalty[i] = norm > 0.0 ? penalty_factor * size / (norm * norm) : 0.0;
+    kkt->penalty[i] = norm > 0.0 ? kkt->stiffness * size / (norm * norm) : 0.0;
   }
 }
 
@@ -76,13 +78,20 @@ static int factor_border(ambulo__kkt *kkt) {
   return info != 0;
 }
 
-int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
+static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
   ambulo__band_copy(h, &kkt->factor);
   set_penalties(kkt, ambulo__band_largest(h));
   for (int i = 0; i < kkt->equalities; i++)
     ambulo__band_add_sparse(&kkt->factor, kkt->equality, i, kkt->penalty[i]);
   if (ambulo__band_factor(&kkt->factor)) return 1;
   return factor_border(kkt);
+}
+
+int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
+  int failed = factor(kkt, h);
+  if (!failed || kkt->stiffness <= stiffness_start) return failed;
+  kkt->stiffness = stiffness_start;
+  return factor(kkt, h);
 }
 
 void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m) {
@@ -121,7 +130,7 @@ static double equality_error(ambulo__kkt *kkt, const double *h, const double *d)
 void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
                        double *d, double *l, double *m) {
   size_t n = (size_t)kkt->n;
-  double before = HUGE_VAL;
+  double before = HUGE_VAL, error = 0.0;
   for (int pass = 0; pass < MAX_PASSES; pass++) {
     for (int i = 0; i < kkt->equalities; i++)
       kkt->residual[i] = (h ? kkt->penalty[i] * h[i] : 0.0) - l[i];
@@ -132,9 +141,10 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
     }
     ambulo__sparse_rows_add_transpose(kkt->equality, 1.0, kkt->residual, d);
     ambulo__kkt_pass(kkt, d, b, m);
-    double error = equality_error(kkt, h, d);
+    error = equality_error(kkt, h, d);
     for (int i = 0; i < kkt->equalities; i++) l[i] += kkt->penalty[i] * kkt->residual[i];
     if (error <= pass_tolerance || error > 0.5 * before) break;
     before = error;
   }
+  if (error > slow) kkt->stiffness = fmin(stiffness_largest, stiffness_factor * kkt->stiffness);
 }

@@ -7,7 +7,8 @@
  *         t = min(1, 0.5 rad / largest change); F(t L'd) until it descends, t <- 0.4 t
  *         NLopt from there, a few evaluations of F             (inner.c, augmented.c)
  *         lambda <- max(0, lambda + rho v)
- *         rho <- min(3000, 2 rho) when max |max(v, -lambda/rho)| did not halve
+ *         rho <- min(3000, 2 rho) when max |max(v, -lambda/rho)| did not halve; a stall
+ *         at the bound raises the bound tenfold, twice at most
  *     until f has settled, the reduced gradient is small, and v <= tolerance, or small enough
  *     for a few Newton steps on the rows                   (polish.c)
  *
@@ -21,6 +22,7 @@
 enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 10, MAX_BACKTRACKS = 6, STALL = 15 };
 static const double mu_start = 0.3;                  /* times T/K */
 static const double rho_start = 10.0, rho_largest = 3000.0, rho_factor = 2.0;
+static const double rho_last = 3e5;                 /* when the rows do not give way */
 static const double step_cap = 0.5;                 /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5;            /* relative */
@@ -33,6 +35,7 @@ static const double loose_violation = 1e-3, loose_change = 1e-3;   /* on coarse 
 typedef struct progress {
   double objective, measure, least_violation;
   int settled, since_better, loose;
+  double rho_limit;
 } progress;
 
 /* largest |max(v, -lambda / rho)|: infeasibility and complementarity in one */
@@ -74,8 +77,8 @@ static void update_multipliers(ambulo__engine *e, progress *p) {
   memcpy(e->lambda, e->best.multiplier, (size_t)e->inequalities * sizeof *e->lambda);
   memcpy(e->equality_multiplier, e->best.equality_multiplier,
          (size_t)e->equalities * sizeof *e->equality_multiplier);
-  if (now > 0.5 * p->measure && now > 1e-7 && e->rho < rho_largest)
-    e->rho = fmin(rho_largest, rho_factor * e->rho);
+  if (now > 0.5 * p->measure && now > 1e-7 && e->rho < p->rho_limit)
+    e->rho = fmin(p->rho_limit, rho_factor * e->rho);
   p->measure = now;
 }
 
@@ -94,12 +97,15 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   if (violation < 0.9 * p->least_violation || change > moving * fabs(best->objective))
     p->since_better = 0;
   p->least_violation = fmin(p->least_violation, violation);
-  int stalled = e->rho >= rho_largest && p->since_better > STALL;
+  int stalled = e->rho >= p->rho_limit && p->since_better > STALL;
   int settled = (p->settled >= 1 && (small || p->loose)) || p->settled >= 3;
   if (violation <= tolerance) return settled;
   if (!settled && !stalled) return 0;
-  int polished = violation <= polish_reach && ambulo__polish(e, x);
-  return polished || stalled;
+  if (violation <= polish_reach && ambulo__polish(e, x)) return 1;
+  if (!stalled || p->rho_limit >= rho_last) return stalled;
+  p->rho_limit *= 10.0;
+  p->since_better = 0;
+  return 0;
 }
 
 /* one refresh; 1 when there is nothing more to do */
@@ -123,7 +129,7 @@ ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int l
                                double *x) {
   const ambulo_problem *p = e->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
-  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose};
+  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose, rho_largest};
   double error;
   e->mu = mu_start * interval;
   e->rho = rho_start;

@@ -45,7 +45,8 @@ int ambulo__polish(ambulo__engine *e, double *x) {
   for (int k = 0; k < MAX_STEPS && !done; k++) {
     memcpy(e->center, e->iterate, bytes);
     if (ambulo__evaluate_jacobian(e->workspace, e->center)) break;
-    done = ambulo__engine_excess(e, e->linear) <= target;
+    double worst = ambulo__engine_excess(e, e->linear);
+    done = worst <= target || (k == MAX_STEPS - 1 && worst <= target / share);
     if (!done && step(e, e->iterate)) break;
   }
   e->rho = rho;
