@@ -22,34 +22,33 @@
 #include "mechanics/kernel_ground.h"
 #include "mechanics/kernel_sincos.h"
 
-static __attribute__((noinline)) void libm_angles(const ambulo__plan *plan, const double *q,
+static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, const double *q,
                                                   double *scratch) {
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
-    double *out = scratch + plan->angle_at + 2 * k * AMBULO__LANES;
-    for (int lane = 0; joint->revolute && lane < AMBULO__WIDTH; lane++) {
-      double angle = joint->sign * (q[k * AMBULO__LANES + lane] + joint->shift);
-      out[lane] = sin(angle);
-      out[AMBULO__LANES + lane] = cos(angle);
+  for (int i = 0; i < steps->angle_count; i++) {
+    const ambulo__angle_step *step = &steps->angles[i];
+    for (int lane = 0; lane < AMBULO__WIDTH; lane++) {
+      double angle = step->sign * (q[step->input + lane] + step->shift);
+      scratch[step->output + lane] = sin(angle);
+      scratch[step->output + AMBULO__LANES + lane] = cos(angle);
     }
   }
 }
 
-static void forward_angles(const ambulo__plan *plan, const double *q, double *scratch) {
-  wide_bits outside = {0};
-  double *out = scratch + plan->angle_at;
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
-    if (!joint->revolute) continue;
-    wide sine, cosine, angle = joint->sign * (load(q + k * AMBULO__LANES) + joint->shift);
-    outside |= out_of_range(angle);
+/* The sum of the magnitudes is what is compared to the limit: a NaN or an
+ * infinity shows, too. */
+static void forward_angles(const ambulo__steps *steps, const double *q, double *scratch) {
+  wide total = {0};
+  for (int i = 0; i < steps->angle_count; i++) {
+    const ambulo__angle_step *step = &steps->angles[i];
+    wide sine, cosine, angle = step->sign * (load(q + step->input) + step->shift);
+    total += magnitude(angle);
     sincos_wide(angle, &sine, &cosine);
-    store(out + 2 * k * AMBULO__LANES, sine);
-    store(out + (2 * k + 1) * AMBULO__LANES, cosine);
+    store(scratch + step->output, sine);
+    store(scratch + step->output + AMBULO__LANES, cosine);
   }
-  int64_t any = 0;
-  for (int lane = 0; lane < AMBULO__WIDTH; lane++) any |= outside[lane];
-  if (any) libm_angles(plan, q, scratch);
+  int inside = 1;
+  for (int lane = 0; lane < AMBULO__WIDTH; lane++) inside &= total[lane] <= AMBULO__SINCOS_LIMIT;
+  if (!inside) libm_angles(steps, q, scratch);
 }
 
 static void forward_world(const ambulo__plan *plan, double *scratch) {
@@ -68,73 +67,77 @@ static void forward_world(const ambulo__plan *plan, double *scratch) {
   if (world->spin_at >= 0) store33(scratch + world->spin_at, (wide33){zero, zero, zero});
 }
 
-AMBULO__INLINE void forward_turn(const ambulo__joint *joint, const int columns[3],
-                                 double *scratch) {
-  for (int i = joint->revolute ? 0 : 2; i < 3; i++) {
-    const double column[3] = {joint->turn[i], joint->turn[3 + i], joint->turn[6 + i]};
-    wide3 sum = {{0}, {0}, {0}};
-    store3(scratch + joint->turn_at[i], add_rotated(sum, scratch, columns, column));
+AMBULO__INLINE void forward_turn(const ambulo__turn_step *step, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int i = step->first; i < 3; i++) {
+    const double column[3] = {step->turn[i], step->turn[3 + i], step->turn[6 + i]};
+    store3(scratch + step->to[i], add_rotated(zero, scratch, step->from, column));
   }
 }
 
-/* New origin and its acceleration. */
-AMBULO__INLINE void forward_origin(const ambulo__plan *plan, int k, const double *q,
-                                   const double *qd, const double *qdd, double *scratch) {
-  const ambulo__joint *joint = &plan->joints[k];
-  const ambulo__frame *parent = &plan->frames[joint->parent];
-  double *place = scratch + plan->frames[k + 1].place_at;
-  wide3 o = load3(scratch + parent->place_at), a = load3(scratch + parent->place_at + three);
-  wide3 r = {{0}, {0}, {0}};
-  if (joint->revolute) {
-    r = add_rotated(r, scratch, parent->column_at, joint->offset);
-  } else {
-    wide3 z = load3(scratch + joint->axis_at);
-    wide rate = joint->sign * load(qd + k * AMBULO__LANES);
-    r = scale3(joint->sign * load(q + k * AMBULO__LANES), z);
-    a = axpy3(a, joint->sign * load(qdd + k * AMBULO__LANES), z);
-    if (!joint->still) a = add_cross3(a, load3(scratch + parent->rate_at), scale3(2 * rate, z));
+/* Orientations and their rates. */
+static void forward_hinges(const ambulo__steps *steps, const double *qd, const double *qdd,
+                           double *scratch) {
+  for (int i = 0; i < steps->angle_count; i++) {
+    const ambulo__hinge_step *step = &steps->hinges[i];
+    if (step->turn >= 0) forward_turn(&steps->turns[step->turn], scratch);
+    wide s = load(scratch + step->angle), c = load(scratch + step->angle + AMBULO__LANES);
+    wide3 u = load3(scratch + step->from[0]), v = load3(scratch + step->from[1]);
+    store3(scratch + step->to[0], axpy3(scale3(c, u), s, v));
+    store3(scratch + step->to[1], (wide3){c * v.x - s * u.x, c * v.y - s * u.y, c * v.z - s * u.z});
+    wide3 z = load3(scratch + step->axis), w = load3(scratch + step->rate_from);
+    wide3 turn = scale3(step->sign * load(qd + step->input), z);
+    wide3 alpha = load3(scratch + step->rate_from + three);
+    alpha = axpy3(alpha, step->sign * load(qdd + step->input), z);
+    store3(scratch + step->rate_to, add3(w, turn));
+    store3(scratch + step->rate_to + three, add_cross3(alpha, w, turn));
   }
-  if (!joint->still) a = add_multiply33(a, load33(scratch + parent->spin_at), r);
-  store3(place, add3(o, r));
-  store3(place + three, a);
+  for (int i = steps->late_turn; i < steps->turn_count; i++) {
+    forward_turn(&steps->turns[i], scratch);
+  }
 }
 
-AMBULO__INLINE wide33 spin_of(wide3 w, wide3 alpha) {
-  wide xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
-  wide xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
-  return (wide33){{-(yy + zz), xy - alpha.z, xz + alpha.y},
-                  {xy + alpha.z, -(xx + zz), yz - alpha.x},
-                  {xz - alpha.y, yz + alpha.x, -(xx + yy)}};
+static void forward_spins(const ambulo__steps *steps, double *scratch) {
+  for (int i = 0; i < steps->spin_count; i++) {
+    const ambulo__spin_step *step = &steps->spins[i];
+    wide3 w = load3(scratch + step->rate), alpha = load3(scratch + step->rate + three);
+    wide xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
+    wide xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
+    wide33 spin = {{-(yy + zz), xy - alpha.z, xz + alpha.y},
+                   {xy + alpha.z, -(xx + zz), yz - alpha.x},
+                   {xz - alpha.y, yz + alpha.x, -(xx + yy)}};
+    store33(scratch + step->spin, spin);
+  }
 }
 
-/* New orientation and its rates. */
-AMBULO__INLINE void forward_rotation(const ambulo__plan *plan, int k, const double *qd,
-                                     const double *qdd, double *scratch) {
-  const ambulo__joint *joint = &plan->joints[k];
-  const double *rate_p = scratch + plan->frames[joint->parent].rate_at;
-  double *rate = scratch + plan->frames[k + 1].rate_at;
-  const double *angle = scratch + plan->angle_at + 2 * k * AMBULO__LANES;
-  wide s = load(angle), c = load(angle + AMBULO__LANES);
-  wide3 u = load3(scratch + joint->from_at[0]), v = load3(scratch + joint->from_at[1]);
-  store3(scratch + joint->to_at[0], axpy3(scale3(c, u), s, v));
-  store3(scratch + joint->to_at[1], axpy3(scale3(c, v), -s, u));
-  wide3 z = load3(scratch + joint->axis_at), w_p = load3(rate_p);
-  wide3 step = scale3(joint->sign * load(qd + k * AMBULO__LANES), z);
-  wide3 alpha = axpy3(load3(rate_p + three), joint->sign * load(qdd + k * AMBULO__LANES), z);
-  wide3 w = add3(w_p, step);
-  alpha = add_cross3(alpha, w_p, step);
-  store3(rate, w);
-  store3(rate + three, alpha);
-  if (joint->new_spin) store33(scratch + plan->frames[k + 1].spin_at, spin_of(w, alpha));
+/* Origins that move, and their accelerations. */
+static void forward_origins(const ambulo__steps *steps, const double *q, const double *qd,
+                            const double *qdd, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int i = 0; i < steps->origin_count; i++) {
+    const ambulo__origin_step *step = &steps->origins[i];
+    wide3 a = load3(scratch + step->place_from + three);
+    wide3 r = add_rotated(zero, scratch, step->columns, step->offset);
+    if (step->prismatic) {
+      wide3 z = load3(scratch + step->axis);
+      r = axpy3(r, step->sign * load(q + step->input), z);
+      a = axpy3(a, step->sign * load(qdd + step->input), z);
+      if (!step->still) {
+        wide3 twice = scale3(2 * step->sign * load(qd + step->input), z);
+        a = add_cross3(a, load3(scratch + step->rate), twice);
+      }
+    }
+    if (!step->still) a = add_multiply33(a, load33(scratch + step->spin), r);
+    store3(scratch + step->place_to, add3(load3(scratch + step->place_from), r));
+    store3(scratch + step->place_to + three, a);
+  }
 }
 
 /* base 1 + first u u^T + second w w^T, see plan_mass.c. */
-AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const ambulo__frame *frame,
-                                  const double *scratch) {
-  wide3 x = load3(scratch + frame->column_at[body->order[0]]);
-  wide3 y = load3(scratch + frame->column_at[body->order[1]]);
+AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const double *scratch) {
+  wide3 x = load3(scratch + body->ordered[0]), y = load3(scratch + body->ordered[1]);
   if (!body->diagonal) {
-    wide3 z = load3(scratch + frame->column_at[body->order[2]]);
+    wide3 z = load3(scratch + body->ordered[2]);
     x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
     y = axpy3(y, spread(body->lower[2]), z);
   }
@@ -147,84 +150,107 @@ AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const ambulo__frame 
                  u.y * x.z + w.y * y.z};
 }
 
-/* Force and moment that move the body; the first part of its frame's load. */
-AMBULO__INLINE void forward_body(const ambulo__body *body, const ambulo__frame *frame,
-                                 double *scratch) {
-  double *at = scratch + body->at, *total = scratch + frame->load_at;
-  const double *place = scratch + frame->place_at;
-  wide3 w = load3(scratch + frame->rate_at), alpha = load3(scratch + frame->rate_at + three);
-  wide3 c = {{0}, {0}, {0}};
-  c = add_rotated(c, scratch, frame->column_at, body->com);
-  wide3 force = add_multiply33(load3(place + three), load33(scratch + frame->spin_at), c);
-  force = scale3(spread(body->mass), force);
-  wide6 inertia = body_inertia(body, frame, scratch);
-  wide3 momentum = multiply6(inertia, w);
-  wide3 rate = add_cross3(multiply6(inertia, alpha), w, momentum);
-  store3(at, c);
-  store3(at + three, force);
-  store3(at + 2 * three, rate);
-  store3(at + 3 * three, momentum);
-  store6(at + 4 * three, inertia);
-  store3(total, add_cross3(rate, add3(load3(place), c), force));
-  store3(total + three, force);
+/* Force and moment that move each body; the first part of its frame's load. */
+static void forward_bodies(const ambulo__plan *plan, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int i = 0; i < plan->bodies; i++) {
+    const ambulo__body *body = &plan->body[i];
+    double *at = scratch + body->at;
+    const double *place = scratch + body->place;
+    wide3 w = load3(scratch + body->rate), alpha = load3(scratch + body->rate + three);
+    wide3 c = add_rotated(zero, scratch, body->columns, body->com);
+    wide3 force = add_multiply33(load3(place + three), load33(scratch + body->spin), c);
+    force = scale3(spread(body->mass), force);
+    wide6 inertia = body_inertia(body, scratch);
+    wide3 momentum = multiply6(inertia, w);
+    wide3 rate = add_cross3(multiply6(inertia, alpha), w, momentum);
+    store3(at, c);
+    store3(at + three, force);
+    store3(at + 2 * three, rate);
+    store3(at + 3 * three, momentum);
+    store6(at + 4 * three, inertia);
+    store3(scratch + body->load, add_cross3(rate, add3(load3(place), c), force));
+    store3(scratch + body->load + three, force);
+  }
+}
+
+/* Two vectors of each subtree, `first` doubles into its place, added to the
+ * parent's. A sum that the next step goes on with stays in registers: memory
+ * would make it wait. */
+AMBULO__INLINE void sum_up(const ambulo__add_step *steps, int count, int first, double *scratch) {
+  wide3 a = {{0}, {0}, {0}}, b = a;
+  scratch += first;
+  for (int i = 0; i < count; i++) {
+    double *to = scratch + steps[i].to;
+    const double *from = scratch + steps[i].from;
+    wide3 above_a = load3(to), above_b = load3(to + three);
+    if (!steps[i].carried) {
+      a = load3(from);
+      b = load3(from + three);
+    }
+    a = add3(above_a, a);
+    b = add3(above_b, b);
+    store3(to, a);
+    store3(to + three, b);
+  }
 }
 
 /* Loads up the tree, and the forces at the joints. */
 static void forward_loads(const ambulo__plan *plan, double *out, double *scratch) {
+  const ambulo__steps *steps = &plan->steps;
   double *root = scratch + plan->frames[0].load_at;
   for (int i = 0; i < 6; i++) store(root + i * AMBULO__LANES, spread(plan->fixed_load[i]));
-  for (int i = plan->coordinates - 1; i >= 0; i--) {
-    const int k = plan->order[i];
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1];
-    const double *total = scratch + frame->load_at;
-    wide3 z = load3(scratch + joint->axis_at), push = load3(total + three);
-    if (joint->revolute) {
-      double *moment = scratch + frame->moment_at;
-      if (joint->new_moment) {
-        wide3 o = load3(scratch + frame->place_at);
-        store3(moment, add_cross3(load3(total), push, o));
-      }
-      push = load3(moment);
-    }
-    store(out + k * AMBULO__LANES, joint->sign * dot3(z, push));
-    if (!joint->own_load) continue;
-    double *above = scratch + plan->frames[joint->parent].load_at;
-    add3_at(above, load3(total));
-    add3_at(above + three, load3(total + three));
+  sum_up(steps->loads, steps->load_count, 0, scratch);
+  for (int i = 0; i < steps->moment_count; i++) {
+    const ambulo__moment_step *step = &steps->moments[i];
+    wide3 o = load3(scratch + step->place), force = load3(scratch + step->load + three);
+    store3(scratch + step->moment, add_cross3(load3(scratch + step->load), force, o));
+  }
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__push_step *step = &steps->pushes[i];
+    wide work = dot3(load3(scratch + step->axis), load3(scratch + step->push));
+    store(out + step->output, step->sign * work);
   }
   out += plan->coordinates * AMBULO__LANES;
   store3(out, load3(root));
   store3(out + three, load3(root + three));
 }
 
+/* Positions of the points, to their rows or, packed, one after the other in
+ * order of groups. */
+AMBULO__INLINE void forward_positions(const ambulo__steps *steps, double *out, int packed,
+                                      const double *scratch) {
+  for (int g = 0; g < steps->group_count; g++) {
+    const ambulo__group_step *group = &steps->groups[g];
+    wide3 o = load3(scratch + group->place), x = load3(scratch + group->columns[0]);
+    wide3 y = load3(scratch + group->columns[1]), z = load3(scratch + group->columns[2]);
+    for (int i = group->first; i < group->first + group->count; i++) {
+      const ambulo__point_step *point = &steps->points[i];
+      const double *r = point->position;
+      wide3 p = axpy3(axpy3(axpy3(o, spread(r[0]), x), spread(r[1]), y), spread(r[2]), z);
+      store3(out + (packed ? i * three : point->output), p);
+    }
+  }
+}
+
 static void forward_part(const ambulo__plan *plan, const double *q, const double *qd,
                          const double *qdd, const double *ground, double *out, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
-  forward_angles(plan, q, scratch);
+  const ambulo__steps *steps = &plan->steps;
+  forward_angles(steps, q, scratch);
   forward_world(plan, scratch);
-  for (int i = 0; i < plan->coordinates; i++) {
-    const int k = plan->order[i];
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1];
-    if (joint->turned) forward_turn(joint, plan->frames[joint->parent].column_at, scratch);
-    if (joint->own_origin) forward_origin(plan, k, q, qd, qdd, scratch);
-    if (joint->revolute) forward_rotation(plan, k, qd, qdd, scratch);
-    if (frame->body >= 0) forward_body(&plan->body[frame->body], frame, scratch);
-    if (!frame->zero_load) continue;
-    store3(scratch + frame->load_at, zero);
-    store3(scratch + frame->load_at + three, zero);
+  forward_hinges(steps, qd, qdd, scratch);
+  forward_spins(steps, scratch);
+  forward_origins(steps, q, qd, qdd, scratch);
+  for (int i = 0; i < steps->zero_load_count; i++) {
+    store3(scratch + steps->zero_loads[i], zero);
+    store3(scratch + steps->zero_loads[i] + three, zero);
   }
+  forward_bodies(plan, scratch);
   if (plan->grounded) ground_split(plan, ground, scratch);
   forward_loads(plan, out, scratch);
   if (plan->grounded) ground_rows(plan, ground, out, scratch);
-  out += (plan->coordinates + 6) * AMBULO__LANES;
-  for (int i = 0; i < plan->points; i++) {
-    const ambulo__plan_point *point = &plan->point[i];
-    const ambulo__frame *frame = &plan->frames[point->frame];
-    wide3 place = load3(scratch + frame->place_at);
-    store3(out + i * three, add_rotated(place, scratch, frame->column_at, point->position));
-  }
+  forward_positions(steps, out, 0, scratch);
 }
 
 #endif

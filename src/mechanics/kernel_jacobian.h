@@ -39,78 +39,92 @@ enum {
   composite_coriolis = 4 * three
 };
 
-/* h, P, I and E of a body. */
-AMBULO__INLINE void jacobian_body(const ambulo__plan *plan, const ambulo__frame *frame,
-                                  double *scratch) {
-  const ambulo__body *body = &plan->body[frame->body];
-  double *out = scratch + frame->composite_at;
-  wide3 c = load3(scratch + body->at), w = load3(scratch + frame->rate_at);
-  wide6 j = load6(scratch + body->at + 4 * three);
-  wide3 x = add3(load3(scratch + frame->place_at), c);
-  wide3 v = add_cross3(load3(scratch + frame->velocity_at), w, c);
-  wide3 h = scale3(spread(body->mass), x);
-  wide square = dot3(h, x);
-  wide6 inertia = {j.xx + square - h.x * x.x, j.yy + square - h.y * x.y, j.zz + square - h.z * x.z,
-                   j.xy - h.x * x.y,          j.xz - h.x * x.z,          j.yz - h.y * x.z};
-  wide half = 0.5 * (j.xx + j.yy + j.zz);
-  /* columns of [w x] (half - J), which has no trace, then E = (v.h) 1 - v h^T - [w x] (...) */
-  wide3 k1 = cross3(w, (wide3){half - j.xx, -j.xy, -j.xz});
-  wide3 k2 = cross3(w, (wide3){-j.xy, half - j.yy, -j.yz});
-  wide3 k3 = cross3(w, (wide3){-j.xz, -j.yz, half - j.zz});
-  wide trace = dot3(v, h);
-  wide33 coriolis = {{trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x},
-                     {-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y},
-                     {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
-  store3(out + composite_first, h);
-  store3(out + composite_momentum, scale3(spread(body->mass), v));
-  store6(out + composite_inertia, inertia);
-  store33(out + composite_coriolis, coriolis);
-}
-
-/* S, 2 Sd and Sdd of a joint. */
-AMBULO__INLINE void jacobian_joint(const ambulo__plan *plan, int k, double *scratch) {
+/* Velocities of the origins. */
+static void jacobian_velocities(const ambulo__plan *plan, const double *qd, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
-  const ambulo__joint *joint = &plan->joints[k];
-  const ambulo__frame *frame = &plan->frames[k + 1];
-  const double *rate = scratch + plan->frames[joint->parent].rate_at;
-  double *out = scratch + joint->motion_at;
-  wide3 z = scale3(spread(joint->sign), load3(scratch + joint->axis_at));
-  wide3 w = load3(rate), zd = cross3(w, z);
-  wide3 zdd = add_cross3(cross3(w, zd), load3(rate + three), z);
-  wide_pair s = {zero, z}, sd = {zero, scale3(spread(2), zd)}, sdd = {zero, zdd};
-  if (joint->revolute) {
-    wide3 o = load3(scratch + frame->place_at), a = load3(scratch + frame->place_at + three);
-    wide3 od = load3(scratch + frame->velocity_at);
-    wide3 zd2 = scale3(spread(2), zd), od2 = scale3(spread(2), od);
-    s = (wide_pair){z, cross3(o, z)};
-    sd = (wide_pair){zd2, add_cross3(cross3(od2, z), o, zd2)};
-    sdd = (wide_pair){zdd, add_cross3(add_cross3(cross3(a, z), od2, zd), o, zdd)};
-  }
-  store_pair(out, s);
-  store_pair(out + 2 * three, sd);
-  store_pair(out + 4 * three, sdd);
-}
-
-/* Velocities of the origins, joints' motions and bodies' composites, down the tree. */
-static void jacobian_motion(const ambulo__plan *plan, const double *qd, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
+  const ambulo__steps *steps = &plan->steps;
   store3(scratch + plan->frames[0].velocity_at, zero);
-  for (int i = 0; i < plan->coordinates; i++) {
-    const int k = plan->order[i];
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
-    if (joint->own_origin) {
-      wide3 r = sub3(load3(scratch + frame->place_at), load3(scratch + parent->place_at));
-      wide3 v =
-          add_cross3(load3(scratch + parent->velocity_at), load3(scratch + parent->rate_at), r);
-      wide rate = joint->sign * load(qd + k * AMBULO__LANES);
-      if (!joint->revolute) v = axpy3(v, rate, load3(scratch + joint->axis_at));
-      store3(scratch + frame->velocity_at, v);
+  for (int i = 0; i < steps->origin_count; i++) {
+    const ambulo__origin_step *step = &steps->origins[i];
+    wide3 r = sub3(load3(scratch + step->place_to), load3(scratch + step->place_from));
+    wide3 v = add_cross3(load3(scratch + step->velocity_from), load3(scratch + step->rate), r);
+    if (step->prismatic) {
+      v = axpy3(v, step->sign * load(qd + step->input), load3(scratch + step->axis));
     }
-    jacobian_joint(plan, k, scratch);
-    if (frame->body >= 0) jacobian_body(plan, frame, scratch);
-    for (int n = 0; frame->zero_load && n < 7; n++) {
-      store3(scratch + frame->composite_at + n * three, zero);
+    store3(scratch + step->velocity_to, v);
+  }
+}
+
+/* S, 2 Sd and Sdd of the revolute joints. */
+static void jacobian_hinges(const ambulo__steps *steps, double *scratch) {
+  for (int i = 0; i < steps->angle_count; i++) {
+    const ambulo__hinge_step *step = &steps->hinges[i];
+    double *out = scratch + step->motion;
+    wide3 z = scale3(spread(step->sign), load3(scratch + step->axis));
+    wide3 w = load3(scratch + step->rate_from), alpha = load3(scratch + step->rate_from + three);
+    wide3 o = load3(scratch + step->place), a = load3(scratch + step->place + three);
+    wide3 zd = cross3(w, z), zdd = add_cross3(cross3(w, zd), alpha, z);
+    wide3 zd2 = scale3(spread(2), zd), od2 = scale3(spread(2), load3(scratch + step->velocity));
+    store3(out, z);
+    store3(out + three, cross3(o, z));
+    store3(out + 2 * three, zd2);
+    store3(out + 3 * three, add_cross3(cross3(od2, z), o, zd2));
+    store3(out + 4 * three, zdd);
+    store3(out + 5 * three, add_cross3(add_cross3(cross3(a, z), od2, zd), o, zdd));
+  }
+}
+
+/* S, 2 Sd and Sdd of the prismatic joints. */
+static void jacobian_sliders(const ambulo__steps *steps, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int i = 0; i < steps->origin_count; i++) {
+    const ambulo__origin_step *step = &steps->origins[i];
+    if (!step->prismatic) continue;
+    double *out = scratch + step->motion;
+    wide3 z = scale3(spread(step->sign), load3(scratch + step->axis));
+    wide3 w = load3(scratch + step->rate), zd = cross3(w, z);
+    wide3 zdd = add_cross3(cross3(w, zd), load3(scratch + step->rate + three), z);
+    store_pair(out, (wide_pair){zero, z});
+    store_pair(out + 2 * three, (wide_pair){zero, scale3(spread(2), zd)});
+    store_pair(out + 4 * three, (wide_pair){zero, zdd});
+  }
+}
+
+/* h, P, I and E of the bodies. */
+static void jacobian_bodies(const ambulo__plan *plan, double *scratch) {
+  for (int i = 0; i < plan->bodies; i++) {
+    const ambulo__body *body = &plan->body[i];
+    double *out = scratch + body->composite;
+    wide3 c = load3(scratch + body->at), w = load3(scratch + body->rate);
+    wide6 j = load6(scratch + body->at + 4 * three);
+    wide3 x = add3(load3(scratch + body->place), c);
+    wide3 v = add_cross3(load3(scratch + body->velocity), w, c);
+    wide3 h = scale3(spread(body->mass), x);
+    wide square = dot3(h, x), trace = dot3(v, h), half = 0.5 * (j.xx + j.yy + j.zz);
+    wide6 inertia = {j.xx + square - h.x * x.x, j.yy + square - h.y * x.y,
+                     j.zz + square - h.z * x.z, j.xy - h.x * x.y,
+                     j.xz - h.x * x.z,          j.yz - h.y * x.z};
+    /* columns of [w x] (half - J), which has no trace; E = (v.h) 1 - v h^T - [w
+     * x] (...) */
+    wide3 k1 = cross3(w, (wide3){half - j.xx, -j.xy, -j.xz});
+    wide3 k2 = cross3(w, (wide3){-j.xy, half - j.yy, -j.yz});
+    wide3 k3 = cross3(w, (wide3){-j.xz, -j.yz, half - j.zz});
+    wide33 coriolis = {{trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x},
+                       {-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y},
+                       {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
+    store3(out + composite_first, h);
+    store3(out + composite_momentum, scale3(spread(body->mass), v));
+    store6(out + composite_inertia, inertia);
+    store33(out + composite_coriolis, coriolis);
+  }
+}
+
+/* Composites up the tree. */
+static void jacobian_sums(const ambulo__steps *steps, double *scratch) {
+  for (int i = 0; i < steps->composite_count; i++) {
+    const ambulo__add_step *step = &steps->composites[i];
+    for (int n = 0; n < 7; n++) {
+      add3_at(scratch + step->to + n * three, load3(scratch + step->from + n * three));
     }
   }
 }
@@ -122,13 +136,10 @@ typedef struct subtree_changes {
 } subtree_changes;
 
 /* f: the force of the subtree's bodies. */
-AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__plan *plan, int k, wide_pair f,
+AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__change_step *step, wide_pair f,
                                                 const double *scratch) {
-  const ambulo__joint *joint = &plan->joints[k];
-  const ambulo__frame *frame = &plan->frames[k + 1];
-  const double *composite = scratch + frame->composite_at;
-  const double *motion = scratch + joint->motion_at;
-  wide mass = spread(frame->subtree_mass);
+  const double *composite = scratch + step->composite, *motion = scratch + step->motion;
+  wide mass = spread(step->mass);
   wide3 h = load3(composite + composite_first), p = load3(composite + composite_momentum);
   wide6 inertia = load6(composite + composite_inertia);
   wide33 e = load33(composite + composite_coriolis);
@@ -151,77 +162,92 @@ AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__plan *plan, int k,
   return t;
 }
 
-/* Row and column of joint k in the Jacobians of tau. */
-static void jacobian_pairs(const ambulo__plan *plan, int k, const subtree_changes *changes,
-                           double *jq, double *jqd, double *jqdd, const double *scratch) {
-  const subtree_changes t = *changes;
-  wide3 turned2 = scale3(spread(2), t.turned);
-  const int first = plan->ancestor_start[k], count = plan->ancestor_start[k + 1] - first;
-  const int *ancestors = plan->ancestor + first, *uppers = plan->upper + first;
-  for (int i = 0; i <= count; i++) {
-    int j = i < count ? ancestors[i] : k, lower = (plan->start[k] + i) * AMBULO__LANES;
-    const double *motion = scratch + plan->joints[j].motion_at;
-    wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
-    wide_pair sdd = load_pair(motion + 4 * three);
-    wide mass = dot_pair(t.qdd, s);
-    store(jq + lower, dot3(t.turned, sd.angular) + dot_pair(t.qdd, sdd));
-    store(jqd + lower, dot3(turned2, s.angular) + dot_pair(t.qdd, sd));
+/* Entries of a joint's row; the mass matrix entry is returned. */
+AMBULO__INLINE wide jacobian_lower(const subtree_changes *t, wide_pair s, const double *motion,
+                                   int lower, double *jq, double *jqd) {
+  wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
+  wide turned = dot3(t->turned, s.angular);
+  store(jq + lower, dot3(t->turned, sd.angular) + dot_pair(t->qdd, sdd));
+  store(jqd + lower, 2 * turned + dot_pair(t->qdd, sd));
+  return dot_pair(t->qdd, s);
+}
+
+/* Row and column of a joint in the Jacobians of tau. */
+AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
+                                   const subtree_changes *t, double *jq, double *jqd, double *jqdd,
+                                   const double *scratch) {
+  int lower = step->lower;
+  for (int i = step->first; i < step->first + step->count; i++, lower += AMBULO__LANES) {
+    const double *motion = scratch + pairs[i].motion;
+    int upper = pairs[i].upper;
+    wide_pair s = load_pair(motion);
+    wide mass = jacobian_lower(t, s, motion, lower, jq, jqd);
     store(jqdd + lower, mass);
-    if (i == count) break;
-    int upper = uppers[i] * AMBULO__LANES;
-    store(jq + upper, dot_pair(t.q, s));
-    store(jqd + upper, dot_pair(t.qd, s));
     store(jqdd + upper, mass);
+    store(jq + upper, dot_pair(t->q, s));
+    store(jqd + upper, dot_pair(t->qd, s));
   }
+  const double *motion = scratch + step->motion;
+  store(jqdd + lower, jacobian_lower(t, load_pair(motion), motion, lower, jq, jqd));
 }
 
-/* Column of joint k in the Jacobian of the root wrench. */
+/* Column of a joint in the Jacobian of the root wrench. */
 AMBULO__INLINE void jacobian_wrench(const ambulo__plan *plan, int k, wide_pair t, double *out) {
-  const int *start = plan->start + plan->coordinates;
-  const wide values[6] = {t.angular.x, t.angular.y, t.angular.z,
-                          t.linear.x,  t.linear.y,  t.linear.z};
-  for (int i = 0; i < 6; i++) store(out + (start[i] + k) * AMBULO__LANES, values[i]);
+  int row = plan->coordinates * AMBULO__LANES;
+  out += (plan->start[plan->coordinates] + k) * AMBULO__LANES;
+  store(out, t.angular.x);
+  store(out + row, t.angular.y);
+  store(out + 2 * row, t.angular.z);
+  store(out + 3 * row, t.linear.x);
+  store(out + 4 * row, t.linear.y);
+  store(out + 5 * row, t.linear.z);
 }
 
-static void jacobian_points(const ambulo__plan *plan, double *jq, const double *scratch) {
-  for (int i = 0; i < plan->points; i++) {
-    const ambulo__plan_point *point = &plan->point[i];
-    const ambulo__frame *frame = &plan->frames[point->frame];
-    const int *start = plan->start + plan->coordinates + 6 + 3 * i;
-    wide3 p = load3(scratch + frame->place_at);
-    p = add_rotated(p, scratch, frame->column_at, point->position);
-    for (int e = 0; e < start[1] - start[0]; e++) {
-      const ambulo__joint *joint = &plan->joints[plan->column[start[0] + e]];
-      wide_pair s = load_pair(scratch + joint->motion_at);
-      wide3 column = s.linear;
-      if (joint->revolute) column = add_cross3(column, s.angular, p);
-      store(jq + (start[0] + e) * AMBULO__LANES, column.x);
-      store(jq + (start[1] + e) * AMBULO__LANES, column.y);
-      store(jq + (start[2] + e) * AMBULO__LANES, column.z);
+static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratch) {
+  const ambulo__steps *steps = &plan->steps;
+  double *places = scratch + plan->positions_at;
+  forward_positions(steps, places, 1, scratch);
+  for (int g = 0; g < steps->group_count; g++) {
+    const ambulo__group_step *group = &steps->groups[g];
+    int row = group->chain_count * AMBULO__LANES, last = group->first + group->count;
+    for (int e = 0; e < group->chain_count; e++) {
+      wide_pair s = load_pair(scratch + steps->chains[group->chain + e]);
+      for (int i = group->first; i < last; i++) {
+        double *out = jq + steps->points[i].entry + e * AMBULO__LANES;
+        wide3 column = add_cross3(s.linear, s.angular, load3(places + i * three));
+        store(out, column.x);
+        store(out + row, column.y);
+        store(out + 2 * row, column.z);
+      }
     }
   }
 }
 
-/* Adds the composite of joint k's subtree to that of its parent. */
-AMBULO__INLINE void jacobian_pass_up(const ambulo__plan *plan, int k, double *scratch) {
-  double *above = scratch + plan->frames[plan->joints[k].parent].composite_at;
-  const double *below = scratch + plan->frames[k + 1].composite_at;
-  for (int n = 0; n < 7; n++) add3_at(above + n * three, load3(below + n * three));
+/* Motions of the joints and composites of the subtrees. */
+static void jacobian_motion(const ambulo__plan *plan, const double *qd, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  const ambulo__steps *steps = &plan->steps;
+  jacobian_velocities(plan, qd, scratch);
+  jacobian_hinges(steps, scratch);
+  jacobian_sliders(steps, scratch);
+  for (int i = 0; i < steps->zero_composite_count; i++) {
+    for (int n = 0; n < 7; n++) store3(scratch + steps->zero_composites[i] + n * three, zero);
+  }
+  jacobian_bodies(plan, scratch);
+  jacobian_sums(steps, scratch);
 }
 
 static void jacobian_part(const ambulo__plan *plan, const double *qd, double *jq, double *jqd,
                           double *jqdd, double *scratch) {
+  const ambulo__steps *steps = &plan->steps;
   jacobian_motion(plan, qd, scratch);
-  for (int i = plan->coordinates - 1; i >= 0; i--) {
-    const int k = plan->order[i];
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1];
-    subtree_changes t = jacobian_changes(plan, k, load_pair(scratch + frame->load_at), scratch);
-    jacobian_pairs(plan, k, &t, jq, jqd, jqdd, scratch);
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__change_step *step = &steps->changes[k];
+    subtree_changes t = jacobian_changes(step, load_pair(scratch + step->load), scratch);
     jacobian_wrench(plan, k, t.q, jq);
     jacobian_wrench(plan, k, t.qd, jqd);
     jacobian_wrench(plan, k, t.qdd, jqdd);
-    if (joint->own_load && joint->parent != 0) jacobian_pass_up(plan, k, scratch);
+    jacobian_pairs(step, steps->pairs, &t, jq, jqd, jqdd, scratch);
   }
   jacobian_points(plan, jq, scratch);
 }

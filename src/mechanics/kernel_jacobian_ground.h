@@ -160,13 +160,12 @@ static void jacobian_ground_part(const ambulo__plan *plan, const double *qd, con
   jacobian_motion(plan, qd, scratch);
   ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
   ground_reaction_rows(plan, &slopes.shares, scratch);
-  for (int i = d - 1; i >= 0; i--) {
-    const int k = plan->order[i];
+  for (int k = d - 1; k >= 0; k--) {
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__frame *frame = &plan->frames[k + 1];
     wide_pair carried = ground_carried(plan, joint->feet, scratch);
     wide_pair bodies = axpy_pair(load_pair(scratch + frame->load_at), spread(1), carried);
-    subtree_changes t = jacobian_changes(plan, k, bodies, scratch);
+    subtree_changes t = jacobian_changes(&plan->steps.changes[k], bodies, scratch);
     wide3 dc = scale3(spread(1 / plan->mass), t.qdd.linear);
     wide dz = dot3(slopes.shares.up, dc);
     if (joint->torque_row != AMBULO__ROW_VANISHES) {
@@ -182,7 +181,6 @@ static void jacobian_ground_part(const ambulo__plan *plan, const double *qd, con
     store(jq + (center + k) * AMBULO__LANES, dc.x);
     store(jq + (center + d + k) * AMBULO__LANES, dc.y);
     store(jq + (center + 2 * d + k) * AMBULO__LANES, dc.z);
-    if (joint->own_load && joint->parent != 0) jacobian_pass_up(plan, k, scratch);
   }
   jacobian_points(plan, jq, scratch);
 }

@@ -43,81 +43,92 @@ enum {
   adjoint_acceleration = 4 * three
 };
 
-/* First contributions to a frame's adjoints: those of its body. */
-AMBULO__INLINE void reverse_body(const ambulo__plan *plan, int f, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const ambulo__frame *frame = &plan->frames[f];
-  const ambulo__body *body = &plan->body[frame->body];
-  const double *at = scratch + body->at;
-  double *adjoint = scratch + frame->adjoint_at;
-  double *spin_adjoint = scratch + frame->spin_adjoint_at;
-  wide3 eta = load3(scratch + frame->virtual_at), u = load3(scratch + frame->slide_at);
-  wide3 c = load3(at), force = load3(at + three), momentum = load3(at + 3 * three);
-  wide3 b = scale3(spread(body->mass), add_cross3(u, eta, c));
-  wide3 c_adjoint =
-      add_multiply33_transposed(cross3(force, eta), load33(scratch + frame->spin_at), b);
-  wide3 rho = cross3(c, c_adjoint);
-  wide33 spin = {zero, zero, zero};
-  if (!frame->starts_spin_adjoint) spin = load33(spin_adjoint);
-  store33(spin_adjoint, add_outer(spin, b, c));
-  wide3 w = load3(scratch + frame->rate_at), alpha = load3(scratch + frame->rate_at + three);
-  wide6 inertia = load6(at + 4 * three);
-  wide3 alpha_adjoint = multiply6(inertia, eta);
-  wide3 w_adjoint = add_cross3(multiply6(inertia, cross3(eta, w)), momentum, eta);
-  rho = add_cross3(rho, load3(at + 2 * three), eta);
-  rho = add_cross3(rho, alpha_adjoint, alpha);
-  rho = add_cross3(rho, w_adjoint, w);
-  store3(adjoint + adjoint_rho, rho);
-  store3(adjoint + adjoint_kappa, add_cross3(w_adjoint, w, alpha_adjoint));
-  store3(adjoint + adjoint_alpha, alpha_adjoint);
-  store3(adjoint + adjoint_origin, zero);
-  store3(adjoint + adjoint_acceleration, b);
-}
-
-/* Virtual motion down the tree, and the bodies. */
+/* Virtual motion down the tree. */
 static void reverse_virtual(const ambulo__plan *plan, const double *weights, wide_pair root,
                             double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const ambulo__frame *world = &plan->frames[0];
-  store3(scratch + world->virtual_at, root.angular);
-  store3(scratch + world->slide_at, root.linear);
-  if (world->spin_at >= 0) store33(scratch + world->spin_adjoint_at, (wide33){zero, zero, zero});
-  for (int i = 0; i < plan->coordinates; i++) {
-    const int k = plan->order[i];
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
-    wide y = joint->sign * load(weights + k * AMBULO__LANES);
-    wide3 z = load3(scratch + joint->axis_at), eta = load3(scratch + parent->virtual_at);
-    if (joint->own_origin) {
-      wide3 r = sub3(load3(scratch + frame->place_at), load3(scratch + parent->place_at));
-      wide3 u = add_cross3(load3(scratch + parent->slide_at), eta, r);
-      if (!joint->revolute) u = axpy3(u, y, z);
-      store3(scratch + frame->slide_at, u);
+  const ambulo__steps *steps = &plan->steps;
+  store3(scratch + plan->frames[0].virtual_at, root.angular);
+  store3(scratch + plan->frames[0].slide_at, root.linear);
+  wide3 eta = {{0}, {0}, {0}};
+  for (int i = 0; i < steps->angle_count; i++) {
+    const ambulo__virtual_step *step = &steps->virtuals[i];
+    wide y = step->sign * load(weights + step->input);
+    if (!step->carried) eta = load3(scratch + step->from);
+    eta = axpy3(eta, y, load3(scratch + step->axis));
+    store3(scratch + step->to, eta);
+  }
+  for (int i = 0; i < steps->origin_count; i++) {
+    const ambulo__origin_step *step = &steps->origins[i];
+    wide3 r = sub3(load3(scratch + step->place_to), load3(scratch + step->place_from));
+    wide3 u = load3(scratch + step->slide_from);
+    u = add_cross3(u, load3(scratch + step->virtual_from), r);
+    if (step->prismatic) {
+      u = axpy3(u, step->sign * load(weights + step->input), load3(scratch + step->axis));
     }
-    if (joint->revolute) store3(scratch + frame->virtual_at, axpy3(eta, y, z));
-    if (frame->body >= 0) {
-      reverse_body(plan, k + 1, scratch);
-    } else if (frame->starts_spin_adjoint) {
-      store33(scratch + frame->spin_adjoint_at, (wide33){zero, zero, zero});
-    }
-    for (int n = 0; frame->zero_adjoint && n < 5; n++) {
-      store3(scratch + frame->adjoint_at + n * three, zero);
-    }
+    store3(scratch + step->slide_to, u);
   }
 }
 
-static void reverse_points(const ambulo__plan *plan, const double *weights, double *scratch) {
+static void reverse_zero(const ambulo__steps *steps, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
-  weights += (plan->coordinates + 6) * AMBULO__LANES;
-  for (int i = 0; i < plan->points; i++) {
-    const ambulo__plan_point *point = &plan->point[i];
-    const ambulo__frame *frame = &plan->frames[point->frame];
-    if (point->frame == 0) continue;
-    double *adjoint = scratch + frame->adjoint_at;
-    wide3 pi = load3(weights + i * three);
-    wide3 r = add_rotated(zero, scratch, frame->column_at, point->position);
-    store3(adjoint + adjoint_rho, add_cross3(load3(adjoint + adjoint_rho), r, pi));
-    add3_at(adjoint + adjoint_origin, pi);
+  for (int i = 0; i < steps->zero_adjoint_count; i++) {
+    for (int k = 0; k < 5; k++) store3(scratch + steps->zero_adjoints[i] + k * three, zero);
+  }
+  for (int i = 0; i < steps->zero_spin_count; i++) {
+    store33(scratch + steps->zero_spins[i], (wide33){zero, zero, zero});
+  }
+}
+
+/* First contributions to the adjoints of a frame: those of its body. */
+static void reverse_bodies(const ambulo__plan *plan, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int i = 0; i < plan->bodies; i++) {
+    const ambulo__body *body = &plan->body[i];
+    const double *at = scratch + body->at;
+    double *adjoint = scratch + body->adjoint;
+    wide3 eta = load3(scratch + body->turn), c = load3(at), force = load3(at + three);
+    wide3 b = add_cross3(load3(scratch + body->slide), eta, c);
+    b = scale3(spread(body->mass), b);
+    wide3 c_adjoint = cross3(force, eta);
+    c_adjoint = add_multiply33_transposed(c_adjoint, load33(scratch + body->spin), b);
+    wide3 rho = cross3(c, c_adjoint);
+    wide33 spin = {zero, zero, zero};
+    if (body->adds_spin) spin = load33(scratch + body->spin_adjoint);
+    store33(scratch + body->spin_adjoint, add_outer(spin, b, c));
+    wide3 w = load3(scratch + body->rate), alpha = load3(scratch + body->rate + three);
+    wide6 inertia = load6(at + 4 * three);
+    wide3 alpha_adjoint = multiply6(inertia, eta);
+    wide3 w_adjoint = multiply6(inertia, cross3(eta, w));
+    w_adjoint = add_cross3(w_adjoint, load3(at + 3 * three), eta);
+    rho = add_cross3(rho, load3(at + 2 * three), eta);
+    rho = add_cross3(rho, alpha_adjoint, alpha);
+    rho = add_cross3(rho, w_adjoint, w);
+    store3(adjoint + adjoint_rho, rho);
+    store3(adjoint + adjoint_kappa, add_cross3(w_adjoint, w, alpha_adjoint));
+    store3(adjoint + adjoint_alpha, alpha_adjoint);
+    store3(adjoint + adjoint_origin, zero);
+    store3(adjoint + adjoint_acceleration, b);
+  }
+}
+
+static void reverse_points(const ambulo__steps *steps, const double *weights, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int g = 0; g < steps->group_count; g++) {
+    const ambulo__group_step *group = &steps->groups[g];
+    if (group->adjoint < 0) continue;
+    double *adjoint = scratch + group->adjoint;
+    wide3 x = load3(scratch + group->columns[0]), y = load3(scratch + group->columns[1]);
+    wide3 z = load3(scratch + group->columns[2]);
+    wide3 rho = load3(adjoint + adjoint_rho), sum = zero;
+    for (int i = group->first; i < group->first + group->count; i++) {
+      const double *place = steps->points[i].position;
+      wide3 r = axpy3(scale3(spread(place[0]), x), spread(place[1]), y);
+      wide3 pi = load3(weights + steps->points[i].output);
+      rho = add_cross3(rho, axpy3(r, spread(place[2]), z), pi);
+      sum = add3(sum, pi);
+    }
+    store3(adjoint + adjoint_rho, rho);
+    add3_at(adjoint + adjoint_origin, sum);
   }
 }
 
@@ -140,117 +151,120 @@ static void reverse_ground(const ambulo__plan *plan, wide3 pi, double *scratch) 
   }
 }
 
+/* A prismatic joint, r' known: its gradient, its part of kappa, and z x z' but
+ * for z q x r', which is r x r'. */
+AMBULO__INLINE wide3 reverse_prismatic(const ambulo__origin_step *step, wide3 r_adjoint, wide3 a,
+                                       const double *qd, const double *qdd, const double *weights,
+                                       double *const gradients[3], double *scratch) {
+  int at = step->input;
+  wide sign = spread(step->sign), rate = sign * load(qd + at);
+  wide3 z = load3(scratch + step->axis);
+  wide3 v = scale3(spread(2), cross3(a, load3(scratch + step->rate)));
+  store(gradients[0] + at, sign * dot3(z, r_adjoint));
+  store(gradients[1] + at, sign * dot3(z, v));
+  store(gradients[2] + at, sign * dot3(z, a));
+  wide3 z_adjoint = scale3(sign * load(weights + at), load3(scratch + step->load + three));
+  z_adjoint = axpy3(axpy3(z_adjoint, rate, v), sign * load(qdd + at), a);
+  if (!step->still) {
+    double *kappa = scratch + step->adjoint_above + adjoint_kappa;
+    store3(kappa, add_cross3(load3(kappa), scale3(2 * rate, z), a));
+  }
+  return cross3(z, z_adjoint);
+}
+
+/* Where origins move; what the move adds to rho is stored for later. */
+static void reverse_origins(const ambulo__steps *steps, const double *qd, const double *qdd,
+                            const double *weights, double *const gradients[3], double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int i = 0; i < steps->origin_count; i++) {
+    const ambulo__origin_step *step = &steps->origins[i];
+    wide3 r = sub3(load3(scratch + step->place_to), load3(scratch + step->place_from));
+    wide3 a = load3(scratch + step->adjoint + adjoint_acceleration), correction = zero;
+    wide3 r_adjoint =
+        add_cross3(load3(scratch + step->adjoint + adjoint_origin),
+                   load3(scratch + step->load + three), load3(scratch + step->virtual_from));
+    if (!step->still) {
+      double *spin_adjoint = scratch + step->spin_adjoint;
+      store33(spin_adjoint, add_outer(load33(spin_adjoint), a, r));
+      r_adjoint = add_multiply33_transposed(r_adjoint, load33(scratch + step->spin), a);
+    }
+    if (step->prismatic) {
+      correction = reverse_prismatic(step, r_adjoint, a, qd, qdd, weights, gradients, scratch);
+    }
+    store3(scratch + step->correction, add_cross3(correction, r, r_adjoint));
+  }
+}
+
 /* Adjoint of Omega into those of w and alpha. */
-AMBULO__INLINE void reverse_spin(const ambulo__frame *frame, double *scratch) {
-  double *adjoint = scratch + frame->adjoint_at;
-  wide33 m = load33(scratch + frame->spin_adjoint_at);
-  wide3 w = load3(scratch + frame->rate_at);
-  wide3 alpha = {m.z.y - m.y.z, m.x.z - m.z.x, m.y.x - m.x.y};
-  wide xy = m.x.y + m.y.x, xz = m.x.z + m.z.x, yz = m.y.z + m.z.y;
-  wide3 w_adjoint = {xy * w.y + xz * w.z - 2 * (m.y.y + m.z.z) * w.x,
-                     xy * w.x + yz * w.z - 2 * (m.x.x + m.z.z) * w.y,
-                     xz * w.x + yz * w.y - 2 * (m.x.x + m.y.y) * w.z};
-  add3_at(adjoint + adjoint_kappa, add_cross3(w_adjoint, w, alpha));
-  add3_at(adjoint + adjoint_alpha, alpha);
+static void reverse_spins(const ambulo__steps *steps, double *scratch) {
+  for (int i = 0; i < steps->spin_count; i++) {
+    const ambulo__spin_step *step = &steps->spins[i];
+    double *adjoint = scratch + step->adjoint;
+    wide33 m = load33(scratch + step->spin_adjoint);
+    wide3 w = load3(scratch + step->rate);
+    wide3 alpha = {m.z.y - m.y.z, m.x.z - m.z.x, m.y.x - m.x.y};
+    wide xy = m.x.y + m.y.x, xz = m.x.z + m.z.x, yz = m.y.z + m.z.y;
+    wide3 w_adjoint = {xy * w.y + xz * w.z - 2 * (m.y.y + m.z.z) * w.x,
+                       xy * w.x + yz * w.z - 2 * (m.x.x + m.z.z) * w.y,
+                       xz * w.x + yz * w.y - 2 * (m.x.x + m.y.y) * w.z};
+    add3_at(adjoint + adjoint_kappa, add_cross3(w_adjoint, w, alpha));
+    add3_at(adjoint + adjoint_alpha, alpha);
+  }
 }
 
-/* Adjoint of r where the origin moves; adds to the adjoint of Omega. */
-AMBULO__INLINE wide3 reverse_origin(const ambulo__plan *plan, int k, wide3 r, double *scratch) {
-  const ambulo__joint *joint = &plan->joints[k];
-  const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
-  const double *adjoint = scratch + frame->adjoint_at;
-  wide3 force = load3(scratch + frame->load_at + three);
-  wide3 a = load3(adjoint + adjoint_acceleration);
-  wide3 r_adjoint =
-      add_cross3(load3(adjoint + adjoint_origin), force, load3(scratch + parent->virtual_at));
-  if (joint->still) return r_adjoint;
-  double *spin_adjoint = scratch + parent->spin_adjoint_at;
-  store33(spin_adjoint, add_outer(load33(spin_adjoint), a, r));
-  return add_multiply33_transposed(r_adjoint, load33(scratch + parent->spin_at), a);
+/* Revolute joints: qd', qdd', and the change of rho. */
+static void reverse_hinges(const ambulo__steps *steps, const double *qd, const double *qdd,
+                           const double *weights, double *const gradients[3], double *scratch) {
+  for (int i = 0; i < steps->angle_count; i++) {
+    const ambulo__hinge_step *step = &steps->hinges[i];
+    int at = step->input;
+    wide sign = spread(step->sign);
+    wide3 z = load3(scratch + step->axis), alpha = load3(scratch + step->adjoint + adjoint_alpha);
+    wide3 both = add3(load3(scratch + step->rate_to), load3(scratch + step->rate_from));
+    wide3 g = add_cross3(load3(scratch + step->adjoint + adjoint_kappa), alpha, both);
+    store(gradients[1] + at, sign * dot3(z, g));
+    store(gradients[2] + at, sign * dot3(z, alpha));
+    wide3 z_adjoint = scale3(sign * load(weights + at), load3(scratch + step->moment));
+    z_adjoint = axpy3(axpy3(z_adjoint, sign * load(qd + at), g), sign * load(qdd + at), alpha);
+    wide3 correction = add_cross3(load3(scratch + step->correction_from), z, z_adjoint);
+    store3(scratch + step->correction, correction);
+  }
 }
 
-/* What a joint's block works on: its rates and weight, with the sign of the axis. */
-typedef struct joint_inputs {
-  wide rate, acceleration, weight;
-} joint_inputs;
-
-AMBULO__INLINE wide3 reverse_revolute(const ambulo__plan *plan, int k, joint_inputs in, wide out[3],
-                                      double *scratch) {
-  const ambulo__joint *joint = &plan->joints[k];
-  const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
-  const double *adjoint = scratch + frame->adjoint_at;
-  wide3 rho = load3(adjoint + adjoint_rho), alpha = load3(adjoint + adjoint_alpha);
-  wide3 z = load3(scratch + joint->axis_at);
-  wide3 both = add3(load3(scratch + frame->rate_at), load3(scratch + parent->rate_at));
-  wide3 g = add_cross3(load3(adjoint + adjoint_kappa), alpha, both);
-  out[0] = dot3(z, rho);
-  out[1] = dot3(z, g);
-  out[2] = dot3(z, alpha);
-  wide3 z_adjoint = scale3(in.weight, load3(scratch + frame->moment_at));
-  z_adjoint = axpy3(axpy3(z_adjoint, in.rate, g), in.acceleration, alpha);
-  rho = add_cross3(rho, z, z_adjoint);
-  if (!joint->has_offset) return rho;
-  wide3 r = sub3(load3(scratch + frame->place_at), load3(scratch + parent->place_at));
-  return add_cross3(rho, r, reverse_origin(plan, k, r, scratch));
-}
-
-AMBULO__INLINE wide3 reverse_prismatic(const ambulo__plan *plan, int k, joint_inputs in,
-                                       wide out[3], double *scratch) {
-  const ambulo__joint *joint = &plan->joints[k];
-  const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
-  double *adjoint = scratch + frame->adjoint_at;
-  wide3 z = load3(scratch + joint->axis_at), w = load3(scratch + parent->rate_at);
-  wide3 a = load3(adjoint + adjoint_acceleration);
-  wide3 r = sub3(load3(scratch + frame->place_at), load3(scratch + parent->place_at));
-  wide3 r_adjoint = reverse_origin(plan, k, r, scratch);
-  wide3 v = scale3(spread(2), cross3(a, w));
-  out[0] = dot3(z, r_adjoint);
-  out[1] = dot3(z, v);
-  out[2] = dot3(z, a);
-  wide3 z_adjoint = scale3(in.weight, load3(scratch + frame->load_at + three));
-  z_adjoint = axpy3(axpy3(z_adjoint, in.rate, v), in.acceleration, a);
-  wide3 kappa = load3(adjoint + adjoint_kappa);
-  store3(adjoint + adjoint_kappa, add_cross3(kappa, scale3(2 * in.rate, z), a));
-  wide3 rho = add_cross3(load3(adjoint + adjoint_rho), r, r_adjoint);
-  return add_cross3(rho, z, z_adjoint);
+/* rho up the tree, and q' of the revolute joints. */
+static void reverse_turnings(const ambulo__plan *plan, double *gq, double *scratch) {
+  wide3 rho = {{0}, {0}, {0}};
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__turning_step *step = &plan->steps.turnings[i];
+    wide3 sum = add3(load3(scratch + step->add), load3(scratch + step->correction));
+    if (!step->carried) rho = load3(scratch + step->rho);
+    if (step->output >= 0) {
+      store(gq + step->output, step->sign * dot3(load3(scratch + step->axis), rho));
+    }
+    rho = add3(sum, rho);
+    store3(scratch + step->to, rho);
+  }
 }
 
 static void reverse_part(const ambulo__plan *plan, const double *qd, const double *qdd,
                          const double *ground, const double *weights, double *gq, double *gqd,
                          double *gqdd, double *scratch) {
+  const ambulo__steps *steps = &plan->steps;
+  double *const gradients[3] = {gq, gqd, gqdd};
   wide_pair root = load_pair(weights + plan->coordinates * AMBULO__LANES);
   wide3 pi = {{0}, {0}, {0}};
   if (plan->grounded) ground_adjoints(plan, ground, weights, &root, &pi, scratch);
   reverse_virtual(plan, weights, root, scratch);
-  reverse_points(plan, weights, scratch);
+  reverse_zero(steps, scratch);
+  reverse_bodies(plan, scratch);
+  reverse_points(steps, weights, scratch);
   if (plan->grounded) reverse_ground(plan, pi, scratch);
-  for (int i = plan->coordinates - 1; i >= 0; i--) {
-    const int k = plan->order[i];
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1];
-    double *adjoint = scratch + frame->adjoint_at;
-    int at = k * AMBULO__LANES;
-    joint_inputs in = {joint->sign * load(qd + at), joint->sign * load(qdd + at),
-                       joint->sign * load(weights + at)};
-    wide out[3];
-    wide3 rho;
-    if (joint->new_spin) reverse_spin(frame, scratch);
-    if (joint->revolute) {
-      rho = reverse_revolute(plan, k, in, out, scratch);
-    } else {
-      rho = reverse_prismatic(plan, k, in, out, scratch);
-    }
-    store(gq + at, joint->sign * out[0]);
-    store(gqd + at, joint->sign * out[1]);
-    store(gqdd + at, joint->sign * out[2]);
-    if (joint->own_adjoint) {
-      double *above = scratch + plan->frames[joint->parent].adjoint_at;
-      add3_at(above + adjoint_rho, rho);
-      for (int n = 1; n < 5; n++) add3_at(above + n * three, load3(adjoint + n * three));
-    } else {
-      store3(adjoint + adjoint_rho, rho);
-    }
-  }
+  sum_up(steps->adjoints, steps->adjoint_count, adjoint_origin, scratch);
+  reverse_origins(steps, qd, qdd, weights, gradients, scratch);
+  reverse_spins(steps, scratch);
+  sum_up(steps->adjoints, steps->adjoint_count, adjoint_kappa, scratch);
+  reverse_hinges(steps, qd, qdd, weights, gradients, scratch);
+  reverse_turnings(plan, gq, scratch);
 }
 
 #endif

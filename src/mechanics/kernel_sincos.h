@@ -7,7 +7,7 @@
  *   sin r = r + r z P(z),   cos r = 1 - z (1/2 - z Q(z))
  * P and Q of degree 5 interpolate at Chebyshev nodes; the error of the approximation is below
  * 2^-56. With the rounding of the sums the results are within 2 units in the last place for
- * |x| <= 1e5; ambulo__sincos_in_range tells whether that holds.
+ * |x| <= 1e5 (AMBULO__SINCOS_LIMIT); callers look after that.
  *
  * n is rounded by adding 1.5 2^52, which leaves it in the low bits of the sum.
  */
@@ -18,10 +18,8 @@
 
 #define AMBULO__SINCOS_LIMIT 1e5
 
-/* All bits set in the lanes that are out of range or not a number. */
-AMBULO__INLINE wide_bits out_of_range(wide x) {
-  wide size = (wide)((wide_bits)x & INT64_MAX);
-  return (wide_bits) ~(size <= spread(AMBULO__SINCOS_LIMIT));
+AMBULO__INLINE wide magnitude(wide x) {
+  return (wide)((wide_bits)x & INT64_MAX);
 }
 
 AMBULO__INLINE wide_bits pick(wide_bits mask, wide a, wide b) {
@@ -49,9 +47,9 @@ AMBULO__INLINE void sincos_wide(wide x, wide *sine, wide *cosine) {
   q = q * z + 0.041666666666666664;
   wide s = r + (r * z) * p;
   wide c = 1.0 - z * (0.5 - z * q);
-  wide_bits odd = -(quadrant & 1);
-  *sine = (wide)(pick(odd, c, s) ^ ((quadrant & 2) << 62));
-  *cosine = (wide)(pick(odd, s, c) ^ (((quadrant + 1) & 2) << 62));
+  wide_bits odd = -(quadrant & 1), sine_sign = quadrant << 62, cosine_sign = (quadrant + 1) << 62;
+  *sine = (wide)(pick(odd, c, s) ^ (sine_sign & INT64_MIN));
+  *cosine = (wide)(pick(odd, s, c) ^ (cosine_sign & INT64_MIN));
 }
 
 #endif

@@ -138,13 +138,12 @@ AMBULO__INLINE wide3 multiply6(wide6 m, wide3 v) {
                  m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 
-/* c + r, r a constant in the frame with these columns; most constants have zeros. */
+/* c + r, r a constant in the frame with these columns. */
 AMBULO__INLINE wide3 add_rotated(wide3 c, const double *base, const int columns[3],
                                  const double r[3]) {
-  for (int i = 0; i < 3; i++) {
-    if (r[i] != 0) c = axpy3(c, spread(r[i]), load3(base + columns[i]));
-  }
-  return c;
+  c = axpy3(c, spread(r[0]), load3(base + columns[0]));
+  c = axpy3(c, spread(r[1]), load3(base + columns[1]));
+  return axpy3(c, spread(r[2]), load3(base + columns[2]));
 }
 
 AMBULO__INLINE wide_pair load_pair(const double *at) {

@@ -7,11 +7,10 @@
  *   revolute:   the axis is z = R e_z through p. If z = s e_c for a frame axis c, the new frame is
  *               the parent frame turned about e_c by s (q + shift), its origin at p, and the link
  *               is placed at R Rot_x, R (a, 0, d). An oblique axis first turns the frame by R.
- *   prismatic:  the new frame slides along z by q; the link is placed as if it were fixed.
+ *   prismatic:  the new frame stands at p and slides along z by q; the rest is as if it were fixed.
  * theta is made part of the placing if it is a multiple of 90 degrees, else part of the shift, so
- * that axes stay aligned along the chain. If the axis meets the parent's origin, the origins are
- * the same (the constant rest goes into the placing). Numbers that stem from cos(pi/2) are
- * rounded to zero.
+ * that axes stay aligned along the chain; Trans_z may be done before the turn, and is where that
+ * lets more axes share an origin. Numbers that stem from cos(pi/2) are rounded to zero.
  */
 #include <math.h>
 #include <string.h>
@@ -61,19 +60,25 @@ static int aligned_axis(const double rotation[3][3]) {
   return -1;
 }
 
-/* The placing's position becomes the joint's offset, or stays if the axis meets the origin. */
-static void set_origin(ambulo__joint *joint, ambulo__placing *placing) {
-  double along = 0, away[3], *p = placing->position;
+/* The joint's origin may stand anywhere on the axis. It is the parent's origin
+ * if the axis meets that and nothing is gained by leaving it, else the foot of
+ * the link's common normal, where the next axes of a compound joint go through.
+ * Returns what is left of d. */
+static double set_origin(ambulo__joint *joint, ambulo__placing *placing, const ambulo_link *link) {
+  double along = 0, away = 0, *p = placing->position, foot[3], distance = 0;
   for (int i = 0; i < 3; i++) along += placing->rotation[i][2] * p[i];
-  joint->has_offset = 0;
   for (int i = 0; i < 3; i++) {
-    away[i] = p[i] - along * placing->rotation[i][2];
-    if (fabs(away[i]) >= snap) joint->has_offset = 1;
+    away = fmax(away, fabs(p[i] - along * placing->rotation[i][2]));
+    foot[i] = snapped(p[i] + placing->rotation[i][2] * link->d);
+    distance = fmax(distance, fabs(foot[i]));
   }
+  if (away < snap && (distance < snap || link->a != 0)) return link->d;
+  joint->has_offset = 1;
   for (int i = 0; i < 3; i++) {
-    joint->offset[i] = joint->has_offset ? p[i] : 0;
-    p[i] = joint->has_offset ? 0 : p[i];
+    joint->offset[i] = foot[i];
+    p[i] = 0;
   }
+  return 0;
 }
 
 static void set_turn(ambulo__joint *joint, ambulo__placing *placing) {
@@ -96,7 +101,7 @@ static void compile_revolute(ambulo__joint *joint, ambulo__placing *placing,
                              const ambulo_link *link) {
   double turns = link->theta / (0.5 * acos(-1));
   int constant = fabs(turns - round(turns)) < snap;
-  set_origin(joint, placing);
+  double d = set_origin(joint, placing, link);
   joint->axis = aligned_axis((const double(*)[3])placing->rotation);
   if (joint->axis < 0) {
     set_turn(joint, placing);
@@ -105,7 +110,7 @@ static void compile_revolute(ambulo__joint *joint, ambulo__placing *placing,
   joint->sign = placing->rotation[joint->axis][2];
   joint->shift = constant ? 0 : link->theta;
   if (constant) rotate_columns(placing->rotation, 0, 1, link->theta);
-  move(placing, link->a, link->d);
+  move(placing, link->a, d);
   rotate_columns(placing->rotation, 1, 2, link->alpha);
 }
 
@@ -120,6 +125,8 @@ static void compile_prismatic(ambulo__joint *joint, ambulo__placing *placing,
   } else {
     joint->sign = placing->rotation[joint->axis][2];
   }
+  memcpy(joint->offset, placing->position, sizeof joint->offset);
+  memset(placing->position, 0, sizeof placing->position);
   place_fixed(placing, link);
 }
 
@@ -204,6 +211,7 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
   if (ground_height) ambulo__plan_ground(plan, model, *ground_height);
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
+  if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
   if (status == AMBULO_OK && ground_height) status = ambulo__plan_ground_terms(plan);
 done:
   ambulo__free(allocator, placings);
@@ -251,6 +259,7 @@ ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double gro
 void ambulo__plan_free(ambulo__plan *plan) {
   if (!plan) return;
   ambulo_allocator memory = plan->allocator;
+  ambulo__plan_steps_free(plan);
   ambulo__free(&memory, plan->frames);
   ambulo__free(&memory, plan->joints);
   ambulo__free(&memory, plan->order);

@@ -26,6 +26,9 @@ void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
 void ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model, double ground_height);
 /* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
 void ambulo__plan_place(ambulo__plan *plan);
+/* The lists of steps, from all of the above. Errors: E_MEMORY. */
+ambulo_status ambulo__plan_steps_build(ambulo__plan *plan);
+void ambulo__plan_steps_free(ambulo__plan *plan);
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
 /* The last part of the pattern: terms of the dense rows. Errors: E_MEMORY. */

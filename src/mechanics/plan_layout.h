@@ -1,35 +1,43 @@
-/* mechanics/plan_layout.h - the inside of a plan: what the kernels read.
+/* mechanics/plan_layout.h - the inside of a plan.
  *
- * Frames: frame 0 is the world, frame k + 1 moves with coordinate k. A frame is chosen so that a
- * joint only mixes two columns of its parent's orientation: its axis is a column of the parent
- * frame (columns are shared, not copied), unless the axis is oblique, when a constant rotation
- * ("turn") is put between. Frames along which the origin does not move share the origin.
+ * Frames: frame 0 is the world, frame k + 1 moves with coordinate k. A frame is
+ * chosen so that a joint only mixes two columns of its parent's orientation:
+ * its axis is a column of the parent frame (columns are shared, not copied),
+ * unless the axis is oblique, when a constant rotation
+ * ("turn") is put between. Frames along which the origin does not move share
+ * the origin.
  *
- * Scratch holds vectors and matrices of lanes; every member named *_at is the offset in doubles
- * of its first entry. A matrix is stored by rows, a symmetric one as xx yy zz xy xz yz.
+ * Scratch holds vectors and matrices of lanes; every member named *_at is the
+ * offset in doubles of its first entry. A matrix is stored by rows, a symmetric
+ * one as xx yy zz xy xz yz.
+ *
+ * Kernels do not walk the tree: they run lists of equal steps (plan_steps.h).
  */
 #ifndef AMBULO_MECHANICS_PLAN_LAYOUT_H
 #define AMBULO_MECHANICS_PLAN_LAYOUT_H
 
-#include "mechanics/plan.h"
+#include "mechanics/plan_steps.h"
 
 typedef struct ambulo__frame {
-  int column_at[3]; /* orientation, world components of the frame's axes */
-  int rate_at;      /* angular velocity and angular acceleration (6) */
-  int place_at;     /* origin, and acceleration of the origin less gravity (6) */
-  int spin_at; /* Omega, the matrix of r -> acceleration relative to the origin (9); -1: unused */
-  int load_at; /* wrench of the subtree about the world origin: moment, force (6) */
-  int virtual_at;          /* reverse: virtual angular velocity (3); by orientation */
-  int slide_at;            /* reverse: virtual velocity of the origin (3); by origin */
-  int adjoint_at;          /* reverse: adjoints of the chain (15), see kernel_reverse.h */
-  int spin_adjoint_at;     /* reverse: adjoint of Omega (9); -1 where spin_at is */
-  int moment_at;           /* moment of the load about the frame's origin (3) */
-  int body;                /* index, -1: none */
-  int zero_load;           /* 1: the load starts at zero (no body, not exactly one child) */
-  int zero_adjoint;        /* 1: the adjoints start at zero */
-  int starts_spin_adjoint; /* 1: this frame owns an Omega, and writes its adjoint first */
-  int velocity_at;         /* Jacobian: velocity of the origin (3); by origin */
-  int composite_at;        /* Jacobian: composite inertia of the load's subtree (21) */
+  int column_at[3];    /* orientation, world components of the frame's axes */
+  int rate_at;         /* angular velocity and angular acceleration (6) */
+  int place_at;        /* origin, and acceleration of the origin less gravity (6) */
+  int spin_at;         /* Omega, the matrix of r -> acceleration relative to the origin
+                          (9); -1: unused */
+  int load_at;         /* wrench of the subtree about the world origin: moment, force
+                          (6) */
+  int moment_at;       /* moment of the load about the frame's origin (3) */
+  int virtual_at;      /* reverse: virtual angular velocity (3); by orientation */
+  int slide_at;        /* reverse: virtual velocity of the origin (3); by origin */
+  int adjoint_at;      /* reverse: adjoints of the chain (15), see kernel_reverse.h
+                        */
+  int spin_adjoint_at; /* reverse: adjoint of Omega (9); -1 where spin_at is */
+  int velocity_at;     /* Jacobian: velocity of the origin (3); by origin */
+  int composite_at;    /* Jacobian: composite inertia of the load's subtree (21) */
+  int body;            /* index, -1: none */
+  int own_spin;        /* spin_at belongs to this frame */
+  int zero_load;       /* the load starts at zero (no body, not exactly one child) */
+  int zero_adjoint;    /* the adjoints start at zero */
   double subtree_mass;
 } ambulo__frame;
 
@@ -41,36 +49,23 @@ typedef struct ambulo__joint {
   double shift;   /* angle = sign * (q + shift) */
   int has_offset; /* the origin moves by `offset` (parent frame) */
   double offset[3];
-  int turned;      /* the axis is oblique: columns of the turned frame are computed first */
-  double turn[9];  /* rows; turned frame in parent frame */
-  int turn_at[3];  /* columns of the turned frame */
-  int axis;        /* which column of the (turned) frame is the axis */
-  int axis_at;     /* that column */
-  int from_at[2];  /* columns that the rotation mixes, in cyclic order after the axis ... */
-  int to_at[2];    /* ... and where they go */
-  int own_origin;  /* place_at differs from the parent's */
-  int new_spin;    /* Omega is computed in this frame */
-  int new_moment;  /* the moment is computed at this joint */
-  int own_load;    /* load_at differs from the parent's */
-  int own_adjoint; /* adjoint_at differs from the parent's */
-  int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
-  int torque_row;  /* ambulo__torque_row of a grounded plan */
-  int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (14) */
-  int motion_at;   /* Jacobian: S and its first and second derivative (18) */
+  int turned;        /* the axis is oblique: columns of the turned frame are computed first */
+  double turn[9];    /* rows; turned frame in parent frame */
+  int turn_at[3];    /* columns of the turned frame */
+  int axis;          /* which column of the (turned) frame is the axis */
+  int axis_at;       /* that column */
+  int from_at[2];    /* columns that the rotation mixes, in cyclic order after the axis ... */
+  int to_at[2];      /* ... and where they go */
+  int own_origin;    /* place_at differs from the parent's */
+  int new_moment;    /* the moment is computed at this joint */
+  int correction_at; /* reverse: change of rho across the joint (3) */
+  int own_load;      /* load_at differs from the parent's */
+  int own_adjoint;   /* adjoint_at differs from the parent's */
+  int feet;          /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
+  int torque_row;    /* ambulo__torque_row of a grounded plan */
+  int reaction_at;   /* Jacobian: rows that meet the changes of the root wrench (14) */
+  int motion_at;     /* Jacobian: S and its first and second derivative (18) */
 } ambulo__joint;
-
-typedef struct ambulo__body {
-  int frame;
-  int at; /* c (3), force (3), rate of angular momentum (3), angular momentum (3),
-             inertia about c (6), all world axes */
-  double mass;
-  double com[3]; /* in the frame */
-  /* inertia about the centre of mass = base 1 + first u u' + second w w', with
-   * u = (1, lower[0], lower[1]), w = (0, 1, lower[2]) in the frame's axes in this order */
-  double base, first, second, lower[3];
-  int order[3];
-  int diagonal; /* lower = 0 */
-} ambulo__body;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint, all coordinates (what
  * it carries stands on the ground), or none (it carries the whole body: tau = 0). */
@@ -95,12 +90,15 @@ struct ambulo__plan {
   int coordinates, points, bodies;
   ambulo__frame *frames; /* [coordinates + 1] */
   ambulo__joint *joints; /* [coordinates] */
-  int *order;            /* [coordinates]: by depth, so that neighbours do not wait for another */
+  int *order;            /* [coordinates]: by depth, so that neighbours do not wait for
+                            another */
   ambulo__body *body;    /* [bodies] */
   ambulo__plan_point *point;
   double gravity[3];
   double fixed_load[6]; /* wrench that holds the bodies fixed to the world */
   int angle_at;         /* sine and cosine of the joint angles (2 per coordinate) */
+  int nowhere_at;       /* reverse: what nobody reads (3) */
+  int positions_at;     /* Jacobian: positions of the points (3 per point) */
   size_t scratch;       /* doubles */
 
   /* Ground reaction, see kernel_ground.h. */
@@ -123,6 +121,8 @@ struct ambulo__plan {
    * term_fresh[k] of them are written, the others are added to what stands there. */
   int dense_count, *term_fresh;
   ambulo__reaction_term *term;
+
+  ambulo__steps steps;
 };
 
 #endif

@@ -106,7 +106,6 @@ static void place_spins(ambulo__plan *plan, size_t *used) {
   for (int f = 1; f <= plan->coordinates; f++) {
     int bearer = owner(plan, f, 0);
     plan->frames[f].spin_at = plan->frames[bearer].spin_at;
-    plan->joints[f - 1].new_spin = bearer == f && plan->frames[f].spin_at >= 0;
   }
 }
 
@@ -129,27 +128,40 @@ static void place_loads(ambulo__plan *plan, size_t *used) {
   plan->frames[0].load_at = take(used, 6);
 }
 
-static void place_reverse(ambulo__plan *plan, size_t *used) {
+static void place_virtual(ambulo__plan *plan, size_t *used) {
   for (int f = 0; f <= plan->coordinates; f++) {
     ambulo__frame *frame = &plan->frames[f];
-    frame->virtual_at = owner(plan, f, 0) == f ? take(used, 3) : 0;
-    frame->slide_at = owner(plan, f, 1) == f ? take(used, 3) : 0;
-    frame->virtual_at = plan->frames[owner(plan, f, 0)].virtual_at;
-    frame->slide_at = plan->frames[owner(plan, f, 1)].slide_at;
-    frame->spin_adjoint_at = -1;
-    if (frame->spin_at < 0) continue;
-    frame->starts_spin_adjoint = owner(plan, f, 0) == f;
-    if (frame->starts_spin_adjoint) frame->spin_adjoint_at = take(used, 9);
-    frame->spin_adjoint_at = plan->frames[owner(plan, f, 0)].spin_adjoint_at;
+    int turner = owner(plan, f, 0), mover = owner(plan, f, 1);
+    frame->virtual_at = turner == f ? take(used, 3) : plan->frames[turner].virtual_at;
+    frame->slide_at = mover == f ? take(used, 3) : plan->frames[mover].slide_at;
+    frame->own_spin = turner == f && frame->spin_at >= 0;
+    frame->spin_adjoint_at = frame->own_spin ? take(used, 9) : plan->frames[turner].spin_adjoint_at;
+    if (frame->spin_at < 0) frame->spin_adjoint_at = -1;
   }
+}
+
+/* The child whose adjoints a frame's are, or 0: nothing else may be added to
+ * them here. */
+static int heir(const ambulo__plan *plan, int f) {
+  const ambulo__frame *frame = &plan->frames[f];
+  int only = 0, children = child_count(plan, f, &only);
+  if (children != 1 || frame->body >= 0 || frame->own_spin || has_point(plan, f)) return 0;
+  const ambulo__joint *joint = &plan->joints[only - 1];
+  return joint->revolute || joint->still ? only : 0;
+}
+
+static void place_reverse(ambulo__plan *plan, size_t *used) {
+  place_virtual(plan, used);
+  plan->nowhere_at = take(used, 3);
   for (int f = plan->coordinates; f >= 1; f--) {
     ambulo__frame *frame = &plan->frames[f];
-    int only = 0, children = child_count(plan, f, &only);
-    int shared = frame->body < 0 && children == 1 && !has_point(plan, f);
-    frame->adjoint_at = shared ? plan->frames[only].adjoint_at : take(used, 15);
-    frame->zero_adjoint = frame->body < 0 && !shared;
-    plan->joints[f - 1].own_adjoint = plan->joints[f - 1].parent != 0;
-    if (shared) plan->joints[only - 1].own_adjoint = 0;
+    ambulo__joint *joint = &plan->joints[f - 1];
+    int child = heir(plan, f);
+    frame->adjoint_at = child ? plan->frames[child].adjoint_at : take(used, 15);
+    frame->zero_adjoint = frame->body < 0 && !child;
+    joint->own_adjoint = joint->parent != 0;
+    joint->correction_at = take(used, 3);
+    if (child) plan->joints[child - 1].own_adjoint = 0;
   }
 }
 
@@ -170,6 +182,7 @@ static void place_jacobian(ambulo__plan *plan, size_t *used) {
     joint->motion_at = take(used, 18);
     if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 14);
   }
+  plan->positions_at = take(used, 3 * plan->points);
 }
 
 static int depth_of(const ambulo__plan *plan, int frame) {
