@@ -53,6 +53,9 @@ void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
     read_corners(reader, ambulo__yaml_require(item, "toe"), foot->toe);
     foot->heel_center = read_center(reader, item, "heel_center", foot->heel);
     foot->toe_center = read_center(reader, item, "toe_center", foot->toe);
+    const ambulo__yaml_node *tip = ambulo__yaml_get(item, "tip");
+    foot->has_tip = tip != NULL;
+    foot->tip = tip ? point_at(reader, tip) : -1;
     ambulo__yaml_expect(item, "mirror");
     ambulo__yaml_close(item);
   }

@@ -17,9 +17,9 @@ enum { FORMAT_VERSION = 1 };
 
 /* "solver.algorithm=slsqp" must also work in a file without a section `solver`: adds it empty */
 static ambulo_status add_section(ambulo__yaml *document, const char *path) {
-  static const char *const sections[] = {"subject",     "time", "trajectory", "gait",
-                                         "constraints", "ends", "solver"};
-  for (int i = 0; i < 7; i++) {
+  static const char *const sections[] = {"subject", "time",   "trajectory", "gait",  "constraints",
+                                         "ends",    "solver", "ground",     "ground_reaction"};
+  for (int i = 0; i < 9; i++) {
     size_t length = strlen(sections[i]);
     if (strncmp(path, sections[i], length) != 0 || path[length] != '.') continue;
     if (ambulo__yaml_get(ambulo__yaml_root(document), sections[i])) return AMBULO_OK;
@@ -123,11 +123,13 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   read_model(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
   ambulo__read_constraints(reader, ambulo__reader_section(root, "constraints"));
-  static const char *const others[] = {"trajectory", "contacts", "ends", "objective"};
-  for (int i = 0; i < 4; i++) ambulo__yaml_expect(root, others[i]);
+  static const char *const others[] = {"trajectory", "contacts", "ends",           "objective",
+                                       "ground",     "load",     "ground_reaction"};
+  for (int i = 0; i < 7; i++) ambulo__yaml_expect(root, others[i]);
   reader->gait = ambulo__reader_section(root, "gait");
   ambulo__read_time(reader, root);
   if (reader->model) {
+    ambulo__read_ground(reader, root);
     ambulo__read_schedule(reader, root);
     ambulo__read_trajectory(reader, root);
     ambulo__read_ends(reader, ambulo__reader_section(root, "ends"));

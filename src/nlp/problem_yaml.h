@@ -48,6 +48,13 @@ void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *
 void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* The rows' tolerances and the clearance, keys of `constraints`. */
+void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
+/* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
+void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* An angle that belongs to no coordinate, in the file's unit. */
+double ambulo__read_plain_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                double fallback);
 void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);

@@ -36,6 +36,7 @@ void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml
   d->joint_limits = (ambulo_limit_mode)joint_limits;
   d->speed_limits = ambulo__yaml_boolean(ambulo__yaml_get(section, "speed_limits"), 0);
   d->torque_limits = ambulo__yaml_boolean(ambulo__yaml_get(section, "torque_limits"), 0);
+  ambulo__read_contact_rows(reader, section);
   ambulo__yaml_close(section);
 }
 

@@ -1,0 +1,17 @@
+/* model/conditions.h - under which conditions a model moves: load it carries, slope it climbs.
+ *
+ * Applied to a model of one's own between loading and first use; a model that others may
+ * already read never changes. */
+#ifndef AMBULO_MODEL_CONDITIONS_H
+#define AMBULO_MODEL_CONDITIONS_H
+
+#include "model/model.h"
+
+/* Fixes a body of `mass` (kg) without extent at `position` (link frame, m). */
+void ambulo__model_carry(ambulo_model *model, int link, double mass, const double position[3]);
+
+/* Tilts the ground: the world's axes stay with it (up is its normal, forward points uphill for
+ * slope > 0, rad) and gravity is turned instead. */
+void ambulo__model_tilt(ambulo_model *model, double slope);
+
+#endif
