@@ -6,8 +6,8 @@
  * toe centre straight ahead, l . r_toe - place_l = 0: the heading. Rows along left are
  * left out where no coordinate can move the point sideways.
  */
+#include "gait/band.h"
 #include "gait/foot_outline.h"
-#include "gait/gait.h"
 
 static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,
                       const double direction[3], double place, ambulo__row_table *table) {
@@ -39,7 +39,7 @@ void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < frame->nodes; node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
     for (int foot = 0; foot < feet; foot++) {
       int contact = frame->active[node * feet + foot];
       if (contact < 0) continue;

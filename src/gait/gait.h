@@ -46,6 +46,18 @@ void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table
  * E_PROBLEM with the time when a support polygon is empty. */
 ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_table *table,
                                ambulo_diagnostics *diagnostics);
+/* One side of a region of the ZMP, or of a point that is the ZMP shifted by a constant (m). */
+typedef struct ambulo__half_plane ambulo__half_plane;
+void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char *family,
+                          const char *subject, const ambulo__half_plane *side,
+                          ambulo__row_table *table);
+/* "contact": a loaded foot within the tolerances of its place and direction (m, rad). */
+void ambulo__contact_tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* "clearance": heights, directions and track of a foot in the air (m, rad). */
+void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* "pressure": centre of pressure of each loaded foot (m); "friction" (body weights);
+ * "free_moment" (m). Needs ground reaction. */
+void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "joint_limit", "speed_limit", "torque_limit". */
 void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "initial_state", "final_state", "periodic", "mirrored". */

@@ -2,11 +2,12 @@
  *
  *     height = n . r - h  = 0 (corner in contact)  or >= 0 (otherwise),  m
  *
- * at every node. The four corners of a flat spatial sole are coplanar, so one of its
+ * at every node; a loaded foot that is held within a tolerance has none (gait/contact_tube.c).
+ * The four corners of a flat spatial sole are coplanar, so one of its
  * four rows depends on the others; the solver's rank check drops it.
  */
+#include "gait/band.h"
 #include "gait/foot_outline.h"
-#include "gait/gait.h"
 
 static void height_row(const ambulo__gait_frame *frame, int node, int point,
                        ambulo_relation relation, ambulo__row_table *table) {
@@ -20,6 +21,7 @@ static void height_row(const ambulo__gait_frame *frame, int node, int point,
 
 static void foot_rows(const ambulo__gait_frame *frame, int node, int contact,
                       const ambulo__foot_outline *outline, ambulo__row_table *table) {
+  if (contact >= 0 && frame->definition->contact_tolerance > 0.0) return;
   for (int c = 0; c < outline->count; c++) {
     int down = contact >= 0 && ambulo__corner_in_contact(frame->definition->contacts[contact].mode,
                                                          outline->is_heel[c]);
@@ -34,7 +36,7 @@ void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *tab
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < frame->nodes; node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
     for (int foot = 0; foot < feet; foot++) {
       foot_rows(frame, node, frame->active[node * feet + foot], &outlines[foot], table);
     }

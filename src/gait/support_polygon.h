@@ -5,7 +5,7 @@
 #ifndef AMBULO_GAIT_SUPPORT_POLYGON_H
 #define AMBULO_GAIT_SUPPORT_POLYGON_H
 
-#include "ambulo/problem.h"
+#include "gait/gait.h"
 #include "model/model.h"
 
 enum { AMBULO__POLYGON_CAPACITY = 64 };
@@ -17,11 +17,11 @@ typedef struct ambulo__polygon {
 } ambulo__polygon;
 
 /* One side: the ZMP z satisfies normal . z - offset >= 0. */
-typedef struct ambulo__half_plane {
+struct ambulo__half_plane {
   double normal[2];   /* unit, inwards */
   double offset;      /* m; includes the margin */
   const char *detail; /* static: "back", "front", "right", "left", "edge" */
-} ambulo__half_plane;
+};
 
 typedef struct ambulo__support_region {
   int count;

@@ -15,7 +15,7 @@
  * (a, b) = n x (v_k+1 - v_k) / |v_k+1 - v_k|, c = (a, b) . v_k + margin.
  * The sign of n . F is held by its own row: n.F / mg - minimum_force >= 0.
  */
-#include "gait/gait.h"
+#include "gait/band.h"
 #include "gait/neutral_pose.h"
 #include "gait/support_polygon.h"
 
@@ -29,12 +29,13 @@ static double body_weight(const ambulo_model *model) {
   return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
-static void side_row(const ambulo__gait_frame *frame, int node, const ambulo__half_plane *side,
-                     ambulo__row_table *table) {
+void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char *family,
+                          const char *subject, const ambulo__half_plane *side,
+                          ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   double a = side->normal[0], b = side->normal[1], c = side->offset;
   double h = frame->definition->ground_height, mg = body_weight(model);
-  ambulo__row_begin(table, "zmp", "support", side->detail, "m", AMBULO_NOT_NEGATIVE, node,
+  ambulo__row_begin(table, family, subject, side->detail, "m", AMBULO_NOT_NEGATIVE, node,
                     frame->times[node], 0.0);
   for (int i = 0; i < 3; i++) {
     double f = model->forward[i], l = model->left[i], n = model->up[i];
@@ -117,13 +118,14 @@ ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_tabl
                                ambulo_diagnostics *diagnostics) {
   int planar = !ambulo__model_moves_sideways(frame->model);
   ambulo__support_region region = {.count = 0};
-  for (int node = 0; node < frame->nodes; node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
     if (frame->definition->support != AMBULO_SUPPORT_OFF) {
       if (!same_contacts(frame, node)) {
         ambulo_status status = region_at(frame, node, planar, &region, diagnostics);
         if (status) return status;
       }
-      for (int k = 0; k < region.count; k++) side_row(frame, node, &region.side[k], table);
+      for (int k = 0; k < region.count; k++)
+        ambulo__zmp_side_row(frame, node, "zmp", "support", &region.side[k], table);
     }
     if (frame->definition->minimum_force >= 0.0) force_row(frame, node, table);
   }

@@ -217,9 +217,15 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   ambulo__gait_frame frame = {d, p->model, p->basis, p->channels, p->times, p->nodes, p->active};
   ambulo_status status = AMBULO_OK;
   if (d->ground_penetration) ambulo__ground_rows(&frame, &p->table);
-  if (d->foot_strike) ambulo__foot_strike_rows(&frame, &p->table);
+  if (d->contact_tolerance > 0.0) {
+    ambulo__contact_tube_rows(&frame, &p->table);
+  } else if (d->foot_strike) {
+    ambulo__foot_strike_rows(&frame, &p->table);
+  }
+  if (d->clearance.height >= 0.0) ambulo__clearance_rows(&frame, &p->table);
   status = ambulo__zmp_rows(&frame, &p->table, diagnostics);
   if (status) return status;
+  if (p->channels.feet) ambulo__reaction_rows(&frame, &p->table);
   ambulo__limit_rows(&frame, &p->table);
   ambulo__end_rows(&frame, &p->table);
   add_user_rows(p);

@@ -1,0 +1,37 @@
+/* gait/band.c - pairs of inequality rows (band.h). */
+#include "gait/band.h"
+
+#include <math.h>
+
+void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3],
+                        double factor) {
+  for (int axis = 0; axis < 3; axis++) {
+    if (direction[axis] == 0.0 || form->count == AMBULO__FORM_TERMS) continue;
+    form->channel[form->count] = first + axis;
+    form->coefficient[form->count++] = factor * direction[axis];
+  }
+}
+
+static void side(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
+                 const ambulo__linear *form, double sign, double bound, ambulo__row_table *table) {
+  if (!isfinite(bound)) return;
+  ambulo__row_begin(table, name->family, name->subject, sign > 0.0 ? name->lower : name->upper,
+                    name->unit, AMBULO_NOT_NEGATIVE, node, frame->times[node],
+                    sign * (form->constant - bound));
+  for (int t = 0; t < form->count; t++)
+    ambulo__row_term_add(table, node, form->channel[t], sign * form->coefficient[t]);
+}
+
+void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
+                       const ambulo__linear *form, double low, double high,
+                       ambulo__row_table *table) {
+  side(frame, node, name, form, 1.0, low, table);
+  side(frame, node, name, form, -1.0, high, table);
+}
+
+int ambulo__distinct_nodes(const ambulo__gait_frame *frame) {
+  const ambulo_problem_definition *d = frame->definition;
+  int repeats = d->ends != AMBULO_ENDS_FREE && (d->ground_reaction.kind != AMBULO_REACTION_NONE ||
+                                                d->contact_tolerance > 0.0);
+  return repeats ? frame->nodes - 1 : frame->nodes;
+}

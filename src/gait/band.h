@@ -1,0 +1,34 @@
+/* gait/band.h - a linear form of one node's channels between two bounds: a pair of rows. */
+#ifndef AMBULO_GAIT_BAND_H
+#define AMBULO_GAIT_BAND_H
+
+#include "gait/gait.h"
+
+enum { AMBULO__FORM_TERMS = 12 };
+
+/* constant + sum coefficient * channel */
+typedef struct ambulo__linear {
+  double constant;
+  int count;
+  int channel[AMBULO__FORM_TERMS];
+  double coefficient[AMBULO__FORM_TERMS];
+} ambulo__linear;
+
+/* What a pair of rows is called. All static text, except the subject, which lives in the model. */
+typedef struct ambulo__band_name {
+  const char *family, *subject, *lower, *upper, *unit;
+} ambulo__band_name;
+
+/* Adds factor times the components first, first + 1, first + 2 along `direction`. */
+void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3], double factor);
+
+/* form - low >= 0 and high - form >= 0; an infinite bound has no row. */
+void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
+                       const ambulo__linear *form, double low, double high,
+                       ambulo__row_table *table);
+
+/* Number of nodes that have rows of contact and force: with ground reaction or tolerances and
+ * ends that match, the last node is the first one again and has none. */
+int ambulo__distinct_nodes(const ambulo__gait_frame *frame);
+
+#endif

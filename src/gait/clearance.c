@@ -1,0 +1,105 @@
+/* gait/clearance.c - a foot in the air clears the ground and stays in its track ("clearance").
+ *
+ * With s from 0 at toe-off to 1 at the next strike (gait/loading.h) and h the clearance height,
+ *
+ *     c = h min(1, 4 s, 6 (1 - s))
+ *     ball >= c,   heel >= c / 2,   tip >= c where s >= tip_from,   all <= ceiling     m
+ *     |yaw|, |roll| <= turn                                                             rad
+ *     heel at most `outward` beside its next foothold, `inward` towards the other foot  m
+ *
+ * A rigid foot turns about its ball at push-off, and its tip dips where people's toes bend:
+ * asking the tip to clear at once forces a jump. The ball is the toe centre, or the corner ahead.
+ */
+#include "gait/foot_frame.h"
+#include "gait/loading.h"
+
+#include <math.h>
+
+typedef struct swing {
+  const ambulo__gait_frame *frame;
+  int node, foot;
+  double phase; /* s */
+  ambulo__row_table *table;
+} swing;
+
+static void height_band(const swing *w, int point, double low) {
+  const ambulo__gait_frame *frame = w->frame;
+  ambulo__linear form = {.constant = -frame->definition->ground_height};
+  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), frame->model->up,
+                     1.0);
+  ambulo__band_name name = {"clearance", frame->model->points[point].name, "low", "high", "m"};
+  double ceiling = frame->definition->clearance.ceiling;
+  ambulo__band_rows(frame, w->node, &name, &form, low, ceiling, w->table);
+}
+
+static void turn_band(const swing *w, const ambulo__linear *form, const char *lower,
+                      const char *upper) {
+  if (form->count == 0) return;
+  double turn = w->frame->definition->clearance.turn;
+  ambulo__band_name name = {"clearance", w->frame->model->feet[w->foot].name, lower, upper, "rad"};
+  ambulo__band_rows(w->frame, w->node, &name, form, -turn, turn, w->table);
+}
+
+/* Lateral place of the foot's nearest contact, the next one first; 0 if it has none. */
+static int track_of(const ambulo__gait_frame *frame, int foot, double time, double *track) {
+  const ambulo_problem_definition *d = frame->definition;
+  double nearest = INFINITY;
+  for (int i = 0; i < d->contact_count; i++) {
+    const ambulo_contact *c = &d->contacts[i];
+    if (c->foot != foot) continue;
+    double wait = c->from >= time ? c->from - time : d->duration + time - c->from;
+    if (wait >= nearest) continue;
+    nearest = wait;
+    *track = c->place[1];
+  }
+  return isfinite(nearest);
+}
+
+static void track_band(const swing *w) {
+  const ambulo__gait_frame *frame = w->frame;
+  const ambulo_clearance *c = &frame->definition->clearance;
+  int heel = frame->model->feet[w->foot].heel_center;
+  double track, other;
+  if (!track_of(frame, w->foot, frame->times[w->node], &track)) return;
+  int is_left = track >= 0.0;
+  if (frame->model->foot_count == 2 &&
+      track_of(frame, 1 - w->foot, frame->times[w->node], &other) && other != track)
+    is_left = track > other;
+  ambulo__linear form = {.constant = -track};
+  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, heel, 0), frame->model->left,
+                     1.0);
+  ambulo__band_name name = {"clearance", frame->model->points[heel].name, "to the right",
+                            "to the left", "m"};
+  ambulo__band_rows(frame, w->node, &name, &form, is_left ? -c->inward : -c->outward,
+                    is_left ? c->outward : c->inward, w->table);
+}
+
+static void swing_rows(const swing *w) {
+  const ambulo_clearance *c = &w->frame->definition->clearance;
+  const ambulo_foot *foot = &w->frame->model->feet[w->foot];
+  double s = w->phase;
+  double low = c->height * fmax(0.0, fmin(1.0, fmin(4.0 * s, 6.0 * (1.0 - s))));
+  height_band(w, foot->heel_center, 0.5 * low);
+  height_band(w, foot->toe_center, low);
+  if (foot->has_tip && s >= c->tip_from) height_band(w, foot->tip, low);
+  if (!ambulo__foot_outline_of(w->frame->model, w->foot).moves_sideways) return;
+  ambulo__linear yaw = ambulo__foot_yaw(w->frame, w->foot);
+  ambulo__linear roll = ambulo__foot_roll(w->frame, w->foot);
+  turn_band(w, &yaw, "turned right", "turned left");
+  turn_band(w, &roll, "left side low", "left side high");
+  track_band(w);
+}
+
+void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+  int feet = frame->model->foot_count;
+  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
+    for (int foot = 0; foot < feet; foot++) {
+      if (frame->active[node * feet + foot] >= 0) continue;
+      double time = frame->times[node];
+      ambulo__span air = ambulo__air_span(frame->definition, foot, time);
+      double length = air.to - air.from;
+      swing w = {frame, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, table};
+      swing_rows(&w);
+    }
+  }
+}

@@ -1,0 +1,105 @@
+/* gait/contact_tube.c - contacts that hold within a tolerance ("contact").
+ *
+ * On a loaded foot, with e the contact tolerance, o the orientation tolerance, r the point that the
+ * contact holds and p its place (gait/foot_outline.h), x, y the axes of gait/foot_frame.h:
+ *
+ *     -e <= f.r - p_f <= e,   -e <= l.r - p_l <= e,   -e <= n.r - h <= e           m
+ *     -o <= yaw, roll <= o      (twice that on the toes)                             rad
+ *     heel   0 <= pitch <= sin 30 deg;  at the first node strike_pitch               rad
+ *     flat   -o <= pitch <= o                toe   -0.95 <= pitch <= 0
+ *
+ * A body that rolls over its feet with fewer control points than nodes cannot hold every contact
+ * exactly at every node; two millimetres leave it the room that soft tissue leaves people.
+ * Rows along left, yaw and roll are left out for planar feet.
+ */
+#include "gait/foot_frame.h"
+#include "gait/loading.h"
+
+#include <math.h>
+
+static const double most_toes_up = 0.5, most_heel_up = 0.95; /* sines */
+
+typedef struct tube {
+  const ambulo__gait_frame *frame;
+  const ambulo__foot_outline *outline;
+  const ambulo_contact *contact;
+  int node;
+  ambulo__row_table *table;
+} tube;
+
+static void place_band(const tube *t, int point, const double direction[3], double place,
+                       const char *lower, const char *upper) {
+  const ambulo__gait_frame *frame = t->frame;
+  double e = frame->definition->contact_tolerance;
+  ambulo__linear form = {.constant = -place};
+  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), direction, 1.0);
+  ambulo__band_name name = {"contact", frame->model->points[point].name, lower, upper, "m"};
+  ambulo__band_rows(frame, t->node, &name, &form, -e, e, t->table);
+}
+
+static void angle_band(const tube *t, const ambulo__linear *form, const char *lower,
+                       const char *upper, double low, double high) {
+  if (form->count == 0) return;
+  const char *foot = t->frame->model->feet[t->contact->foot].name;
+  ambulo__band_name name = {"contact", foot, lower, upper, "rad"};
+  ambulo__band_rows(t->frame, t->node, &name, form, low, high, t->table);
+}
+
+/* 1 at the first node of a loaded foot's contact */
+static int is_strike(const tube *t) {
+  const ambulo_problem_definition *d = t->frame->definition;
+  ambulo__span span;
+  double time = t->frame->times[t->node], step = d->duration / d->intervals;
+  return ambulo__loaded_span(d, t->contact->foot, time, &span) &&
+         time - span.from < step * (1.0 - 1e-6);
+}
+
+static void pitch_band(const tube *t) {
+  const ambulo_problem_definition *d = t->frame->definition;
+  double o = d->orientation_tolerance, low = -o, high = o;
+  ambulo__linear pitch = ambulo__foot_pitch(t->frame, t->contact->foot);
+  if (t->contact->mode == AMBULO_CONTACT_TOE) {
+    low = -most_heel_up;
+    high = 0.0;
+  } else if (t->contact->mode == AMBULO_CONTACT_HEEL) {
+    int strike = d->strike_pitch[0] < d->strike_pitch[1] && is_strike(t);
+    low = strike ? sin(d->strike_pitch[0]) : 0.0;
+    high = strike ? sin(d->strike_pitch[1]) : most_toes_up;
+  }
+  angle_band(t, &pitch, "toes low", "toes high", low, high);
+}
+
+static void contact_rows(const tube *t) {
+  const ambulo_model *model = t->frame->model;
+  const ambulo_problem_definition *d = t->frame->definition;
+  double place[2];
+  int point = ambulo__contact_point(model, t->outline, t->contact, place);
+  place_band(t, point, model->forward, place[0], "behind", "ahead");
+  place_band(t, point, model->up, d->ground_height, "below", "above");
+  pitch_band(t);
+  if (!t->outline->moves_sideways) return;
+  place_band(t, point, model->left, place[1], "to the right", "to the left");
+  double o = d->orientation_tolerance * (t->contact->mode == AMBULO_CONTACT_TOE ? 2.0 : 1.0);
+  ambulo__linear yaw = ambulo__foot_yaw(t->frame, t->contact->foot);
+  ambulo__linear roll = ambulo__foot_roll(t->frame, t->contact->foot);
+  angle_band(t, &yaw, "turned right", "turned left", -o, o);
+  angle_band(t, &roll, "left side low", "left side high", -o, o);
+}
+
+void ambulo__contact_tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+  int feet = frame->model->foot_count;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);
+  if (!outlines) {
+    table->status = AMBULO_E_MEMORY;
+    return;
+  }
+  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
+    for (int foot = 0; foot < feet; foot++) {
+      int contact = frame->active[node * feet + foot];
+      if (contact < 0) continue;
+      tube t = {frame, &outlines[foot], &frame->definition->contacts[contact], node, table};
+      contact_rows(&t);
+    }
+  }
+  ambulo__free(&table->allocator, outlines);
+}

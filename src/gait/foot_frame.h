@@ -1,0 +1,22 @@
+/* gait/foot_frame.h - how a foot is turned, as linear forms of its points.
+ *
+ * x points from the heel centre to the toe centre, y from the right to the left heel corner;
+ * with forward f, left l and up n
+ *
+ *     yaw   = l . x        (turned to the left)
+ *     pitch = n . x        (toes up)
+ *     roll  = n . y        (left side up)
+ *
+ * sines of the angles, of a foot whose heel and toe centre are a constant distance apart. */
+#ifndef AMBULO_GAIT_FOOT_FRAME_H
+#define AMBULO_GAIT_FOOT_FRAME_H
+
+#include "gait/band.h"
+#include "gait/foot_outline.h"
+
+ambulo__linear ambulo__foot_yaw(const ambulo__gait_frame *frame, int foot);
+ambulo__linear ambulo__foot_pitch(const ambulo__gait_frame *frame, int foot);
+/* No terms for a foot with a single heel corner. */
+ambulo__linear ambulo__foot_roll(const ambulo__gait_frame *frame, int foot);
+
+#endif

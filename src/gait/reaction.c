@@ -1,0 +1,147 @@
+/* gait/reaction.c - what the ground can supply ("pressure", "friction", "free_moment").
+ *
+ * Root wrench (M, F) about the world origin, F_n = n.F, W = m g. All rows are linear in the
+ * channels; none divides by F_n.
+ *
+ * Centre of pressure of loaded foot j: the ZMP shifted by s_j = a_1 D (foot 0) or -a_0 D (foot 1),
+ * gait/loading.h. A side `normal . c_j >= offset` of the foot's box is the side
+ * `normal . zmp >= offset - normal . s_j` of zmp.c. The box, from the heel centre's foothold, along
+ * forward, with L the distance of heel and toe centre:
+ *
+ *     heel   [b_0, b_1 + roll p]    p from 0 at the strike to 1 when the foot is flat
+ *     flat   [b_0, L + b_1]
+ *     toe    [L + b_0, L + b_1]     and the width to either side of the track
+ *
+ * Friction, per direction e = f, l:  mu F_n -+ e.F >= 0, of the total and of each loaded foot; in
+ * body weights. Free moment: |T_0 + T_1| <= bound W, in m when divided by W. The sum of the feet's
+ * free moments is that of the whole, T = M.F / F_n.
+ */
+#include "gait/band.h"
+#include "gait/loading.h"
+#include "gait/neutral_pose.h"
+#include "gait/support_polygon.h"
+
+#include <math.h>
+
+static const double smallest_share = 1e-6;
+
+typedef struct node_frame {
+  const ambulo__gait_frame *frame;
+  const ambulo__foot_outline *outlines;
+  int node, planar;
+  double weight; /* m g, N */
+  ambulo__load load;
+  ambulo__row_table *table;
+} node_frame;
+
+/* ------------------------------------------------------- centres of pressure */
+
+/* ends of the box along forward, from the heel's foothold */
+static void box_of(const node_frame *n, const ambulo_contact *contact, double box[2]) {
+  const ambulo_problem_definition *d = n->frame->definition;
+  const ambulo_ground_reaction *r = &d->ground_reaction;
+  double length = n->outlines[contact->foot].length, time = n->frame->times[n->node];
+  if (contact->mode == AMBULO_CONTACT_FLAT) {
+    box[0] = r->flat_pressure[0];
+    box[1] = length + r->flat_pressure[1];
+  } else if (contact->mode == AMBULO_CONTACT_TOE) {
+    box[0] = length + r->toe_pressure[0];
+    box[1] = length + r->toe_pressure[1];
+  } else {
+    ambulo__span span = {contact->from, contact->to};
+    (void)ambulo__loaded_span(d, contact->foot, time, &span);
+    double rolling = contact->to - span.from;
+    double progress = rolling > 0.0 ? (time - span.from) / rolling : 0.0;
+    box[0] = r->heel_pressure[0];
+    box[1] = r->heel_pressure[1] + r->heel_roll * progress;
+  }
+}
+
+static void pressure_rows(const node_frame *n, int foot) {
+  const ambulo__gait_frame *frame = n->frame;
+  int index = frame->active[2 * n->node + foot];
+  if (index < 0 || n->load.share[foot] <= smallest_share) return;
+  const ambulo_contact *contact = &frame->definition->contacts[index];
+  double shift[2], box[2], factor = foot == 0 ? n->load.share[1] : -n->load.share[0];
+  for (int i = 0; i < 2; i++) shift[i] = factor * n->load.apart[i];
+  box_of(n, contact, box);
+  double x = contact->place[0] - shift[0], y = contact->place[1] - shift[1];
+  double width = frame->definition->ground_reaction.pressure_width;
+  ambulo__half_plane sides[4] = {{{1.0, 0.0}, x + box[0], "back"},
+                                 {{-1.0, 0.0}, -(x + box[1]), "front"},
+                                 {{0.0, 1.0}, y - width, "right"},
+                                 {{0.0, -1.0}, -(y + width), "left"}};
+  const char *name = frame->model->feet[foot].name;
+  for (int k = 0; k < (n->planar ? 2 : 4); k++)
+    ambulo__zmp_side_row(frame, n->node, "pressure", name, &sides[k], n->table);
+}
+
+/* ------------------------------------------------------------------- friction */
+
+static void friction_band(const node_frame *n, int first, const char *subject,
+                          const double direction[3], const char *lower, const char *upper) {
+  const ambulo_model *model = n->frame->model;
+  double mu = n->frame->definition->ground_reaction.friction;
+  ambulo__band_name name = {"friction", subject, lower, upper, "body weights"};
+  for (int sign = -1; sign <= 1; sign += 2) {
+    ambulo__linear form = {.count = 0};
+    ambulo__linear_add(&form, first, model->up, mu / n->weight);
+    ambulo__linear_add(&form, first, direction, -sign / n->weight);
+    ambulo__band_name one = name;
+    one.lower = sign > 0 ? upper : lower;
+    ambulo__band_rows(n->frame, n->node, &one, &form, 0.0, INFINITY, n->table);
+  }
+}
+
+static void friction_rows(const node_frame *n, int first, const char *subject) {
+  const ambulo_model *model = n->frame->model;
+  friction_band(n, first, subject, model->forward, "backward", "forward");
+  if (!n->planar) friction_band(n, first, subject, model->left, "to the right", "to the left");
+}
+
+/* ---------------------------------------------------------------- free moment */
+
+static void free_moment_rows(const node_frame *n) {
+  double bound = n->frame->definition->ground_reaction.free_moment;
+  ambulo__linear form = {.count = 2};
+  for (int foot = 0; foot < 2; foot++) {
+    form.channel[foot] = ambulo__channel_free_moment(&n->frame->channels, foot);
+    form.coefficient[foot] = 1.0 / n->weight;
+  }
+  ambulo__band_name name = {"free_moment", "ground", "to the right", "to the left", "m"};
+  ambulo__band_rows(n->frame, n->node, &name, &form, -bound, bound, n->table);
+}
+
+static void node_rows(const node_frame *n) {
+  const ambulo__gait_frame *frame = n->frame;
+  const ambulo_ground_reaction *r = &frame->definition->ground_reaction;
+  for (int foot = 0; r->pressure && foot < 2; foot++) pressure_rows(n, foot);
+  if (r->friction >= 0.0) {
+    friction_rows(n, ambulo__channel_force(&frame->channels, 0), "total");
+    for (int foot = 0; foot < 2; foot++) {
+      double share = n->load.share[foot];
+      if (share <= smallest_share || share >= 1.0) continue;
+      friction_rows(n, ambulo__channel_foot_force(&frame->channels, foot, 0),
+                    frame->model->feet[foot].name);
+    }
+  }
+  if (r->free_moment >= 0.0 && !n->planar) free_moment_rows(n);
+}
+
+void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+  const ambulo_model *model = frame->model;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(model, &table->allocator);
+  if (!outlines) {
+    table->status = AMBULO_E_MEMORY;
+    return;
+  }
+  const double *g = model->gravity;
+  node_frame n = {.frame = frame, .outlines = outlines, .table = table};
+  n.planar = !ambulo__model_moves_sideways(model);
+  n.weight = model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  for (n.node = 0; n.node < ambulo__distinct_nodes(frame); n.node++) {
+    n.load = ambulo__load_at(frame->definition, outlines, frame->times[n.node]);
+    node_rows(&n);
+  }
+  ambulo__free(&table->allocator, outlines);
+}
