@@ -1,7 +1,8 @@
 /* solver/audit.c - see audit.h.
  *
  * First-order conditions. With g = grad J, the rows with |c| within the active tolerance
- * or below count as active, A. The nearest direction to -g that keeps the active rows to first order,
+ * or below count as active, A. The nearest direction to -g that keeps the active rows to first
+ * order,
  *
  *     minimize |d + g|^2 / 2   subject to   J_e d = 0, C d = 0, J_A d >= 0
  *
@@ -16,9 +17,9 @@
 #include <string.h>
 
 enum { MULTIPLIER_PASSES = 12 };
-static const double active_factor = 10.0;      /* times the feasibility tolerance */
+static const double active_factor = 10.0; /* times the feasibility tolerance */
 static const double cone_penalty = 1e4;
-static const double far_away = -1e30;          /* excess of a row that is not active */
+static const double far_away = -1e30; /* excess of a row that is not active */
 static const double cone_tolerance = 1e-9;
 
 double ambulo__row_violation(const ambulo_problem *p, int row, double value) {
@@ -140,8 +141,7 @@ static ambulo_status audit_rank(ambulo__engine *e, ambulo_result *result) {
   status = ambulo__rank_sort(&rows, value, &e->pool, rank);
   if (status) return status;
   result->audit.active_rows = count;
-  for (int i = 0; i < count; i++)
-    result->audit.rank += rank[list[i]] == AMBULO__ROW_INDEPENDENT;
+  for (int i = 0; i < count; i++) result->audit.rank += rank[list[i]] == AMBULO__ROW_INDEPENDENT;
   return AMBULO_OK;
 }
 

@@ -59,8 +59,7 @@ ambulo_status ambulo__audit_dense(const ambulo_problem *p, const double *x, int 
   ambulo_status status = ambulo_problem_create(&d, allocator, NULL, &dense);
   if (status) return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
   status = ambulo_workspace_create(dense, allocator, &workspace);
-  if (!status && dense->variables == p->variables &&
-      ambulo__evaluate(workspace, x) == AMBULO_OK)
+  if (!status && dense->variables == p->variables && ambulo__evaluate(workspace, x) == AMBULO_OK)
     *worst = worst_of(dense, p, workspace->row_value);
   ambulo_workspace_free(workspace);
   ambulo_problem_free(dense);

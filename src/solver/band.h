@@ -12,7 +12,7 @@
 
 typedef struct ambulo__band {
   int n, kd, ld;
-  double *a;         /* [n][ld] */
+  double *a; /* [n][ld] */
 } ambulo__band;
 
 /* n unknowns, kd diagonals below the main one, zero. */

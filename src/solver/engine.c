@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double usual_cap = 1.0;     /* rad, m: unit of ambulo__engine_step_limit */
+static const double usual_cap = 1.0; /* rad, m: unit of ambulo__engine_step_limit */
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
 static double cap_of(const ambulo_coordinate *c) {
@@ -25,8 +25,8 @@ static ambulo_status create_trial(ambulo__engine *e, ambulo__trial *trial) {
 static void create_vectors(ambulo__engine *e) {
   ambulo__pool *pool = &e->pool;
   size_t n = (size_t)e->n, m = (size_t)e->inequalities, q = (size_t)e->equalities;
-  double **long_vectors[] = {&e->center,       &e->gradient, &e->step,           &e->total,
-                             &e->curved,       &e->previous, &e->previous_right, &e->w,
+  double **long_vectors[] = {&e->center,       &e->gradient,   &e->step,           &e->total,
+                             &e->curved,       &e->previous,   &e->previous_right, &e->w,
                              &e->curved_total, &e->w_gradient, &e->iterate};
   for (size_t i = 0; i < sizeof long_vectors / sizeof *long_vectors; i++)
     *long_vectors[i] = ambulo__pool_doubles(pool, n);
@@ -60,8 +60,7 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   status = ambulo__metric_create(p, pool, &e->metric);
   if (!status) status = ambulo__band_create(pool, e->n, kd, &e->base);
   if (!status) status = ambulo__band_create(pool, e->n, kd, &e->whitener);
-  if (!status)
-    status = ambulo__kkt_create(&e->rows.equality, &e->rows.border, kd, pool, &e->kkt);
+  if (!status) status = ambulo__kkt_create(&e->rows.equality, &e->rows.border, kd, pool, &e->kkt);
   if (!status) status = ambulo__mixing_create(pool, e->n, e->equalities, &e->retraction);
   if (!status) status = ambulo__mixing_create(pool, e->equalities, e->equalities, &e->adjoint);
   if (status) return status;

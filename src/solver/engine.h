@@ -18,13 +18,13 @@
 
 /* A point of the augmented Lagrangian and what belongs to it. */
 typedef struct ambulo__trial {
-  double value;         /* augmented Lagrangian; HUGE_VAL: none */
-  double objective;     /* f, scaled */
-  double violation;     /* worst inequality, row's own unit */
-  double gradient_norm; /* of the reduced, whitened gradient; < 0: not computed */
-  double *x;            /* [n] */
-  double *excess;       /* [inequalities] */
-  double *multiplier;   /* [inequalities]: max(0, lambda + rho v) */
+  double value;                /* augmented Lagrangian; HUGE_VAL: none */
+  double objective;            /* f, scaled */
+  double violation;            /* worst inequality, row's own unit */
+  double gradient_norm;        /* of the reduced, whitened gradient; < 0: not computed */
+  double *x;                   /* [n] */
+  double *excess;              /* [inequalities] */
+  double *multiplier;          /* [inequalities]: max(0, lambda + rho v) */
   double *equality_multiplier; /* [equalities] */
 } ambulo__trial;
 
@@ -36,23 +36,23 @@ typedef struct ambulo__engine {
   int n, equalities, inequalities, borders;
   ambulo__rows_split rows;
   ambulo__metric metric;
-  ambulo__band base;           /* H0 + mu I at the centre */
-  ambulo__band whitener;       /* L of H0 + mu I + rho J_A' J_A */
-  ambulo__kkt kkt;             /* the same H with the equalities' gradients at the centre */
+  ambulo__band base;     /* H0 + mu I at the centre */
+  ambulo__band whitener; /* L of H0 + mu I + rho J_A' J_A */
+  ambulo__kkt kkt;       /* the same H with the equalities' gradients at the centre */
   ambulo__mixing retraction, adjoint;
   double objective_scale, mu, rho;
-  double *cap;                 /* [coordinates]: largest change in one step, rad or m */
-  double *center;              /* [n] */
-  double *lambda;              /* [inequalities] */
-  double *equality_multiplier; /* [equalities]: G + J' l + C' m = 0 at a solution */
-  double *border_multiplier;   /* [borders]: m, after a model step */
-  double *h, *b, *dual, *balanced;      /* [equalities], [borders], [equalities] twice */
-  double *row_weight;          /* [rows of the problem] */
-  int *active, *active_next;   /* [inequalities] */
-  double *along, *linear;      /* [inequalities] */
+  double *cap;                     /* [coordinates]: largest change in one step, rad or m */
+  double *center;                  /* [n] */
+  double *lambda;                  /* [inequalities] */
+  double *equality_multiplier;     /* [equalities]: G + J' l + C' m = 0 at a solution */
+  double *border_multiplier;       /* [borders]: m, after a model step */
+  double *h, *b, *dual, *balanced; /* [equalities], [borders], [equalities] twice */
+  double *row_weight;              /* [rows of the problem] */
+  int *active, *active_next;       /* [inequalities] */
+  double *along, *linear;          /* [inequalities] */
   double *gradient, *step, *total, *curved, *curved_total, *previous, *previous_right; /* [n] */
-  double *iterate;             /* [n]: whitened point that NLopt works on */
-  double *w, *w_gradient;      /* [n]: whitened point held in `held`, gradient there */
+  double *iterate;        /* [n]: whitened point that NLopt works on */
+  double *w, *w_gradient; /* [n]: whitened point held in `held`, gradient there */
   int has_held, has_held_gradient;
   ambulo__trial held, best;
 } ambulo__engine;

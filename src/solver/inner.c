@@ -33,7 +33,7 @@ typedef struct inner {
   nlopt_opt outer;
   int auglag, bare_calls;
   double offset;
-  double seconds;       /* spent in callbacks */
+  double seconds; /* spent in callbacks */
 } inner;
 
 /* rho |max(0, v + lambda/rho)|^2 / 2 at the point held */
@@ -71,8 +71,7 @@ static nlopt_opt create_lbfgs(unsigned n, int evaluations) {
   nlopt_opt opt = nlopt_create(NLOPT_LD_LBFGS, n);
   if (!opt) return NULL;
   int failed = nlopt_set_maxeval(opt, evaluations) < 0 ||
-               nlopt_set_ftol_rel(opt, value_tolerance) < 0 ||
-               nlopt_set_xtol_rel(opt, 1e-14) < 0 ||
+               nlopt_set_ftol_rel(opt, value_tolerance) < 0 || nlopt_set_xtol_rel(opt, 1e-14) < 0 ||
                nlopt_set_vector_storage(opt, STORED_VECTORS) < 0;
   if (!failed) return opt;
   nlopt_destroy(opt);
@@ -86,15 +85,13 @@ static nlopt_opt create_auglag(unsigned n, nlopt_opt local, inner *s, int evalua
   int failed = nlopt_set_local_optimizer(opt, local) < 0 ||
                nlopt_add_inequality_constraint(opt, constraint, s, 0.0) < 0 ||
                nlopt_set_maxeval(opt, 4 * evaluations + 16) < 0 ||
-               nlopt_set_ftol_rel(opt, value_tolerance) < 0 ||
-               nlopt_set_xtol_rel(opt, 1e-14) < 0;
+               nlopt_set_ftol_rel(opt, value_tolerance) < 0 || nlopt_set_xtol_rel(opt, 1e-14) < 0;
   if (!failed) return opt;
   nlopt_destroy(opt);
   return NULL;
 }
 
-int ambulo__inner_minimize(ambulo__engine *e, ambulo__inner_kind kind, double *w,
-                           int evaluations) {
+int ambulo__inner_minimize(ambulo__engine *e, ambulo__inner_kind kind, double *w, int evaluations) {
   inner s = {.engine = e, .auglag = kind == AMBULO__INNER_AUGLAG && e->inequalities > 0};
   unsigned n = (unsigned)e->n;
   double begin = ambulo__seconds_now(), least;

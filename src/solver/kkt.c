@@ -28,7 +28,7 @@
 enum { MAX_PASSES = 8 };
 static const double stiffness_start = 1e4, stiffness_largest = 1e8, stiffness_factor = 100.0;
 static const double pass_tolerance = 1e-11;
-static const double slow = 1e-7;      /* error after all passes that asks for more stiffness */
+static const double slow = 1e-7; /* error after all passes that asks for more stiffness */
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
                                  const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,

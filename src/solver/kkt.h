@@ -13,14 +13,14 @@
 typedef struct ambulo__kkt {
   int n, borders, equalities;
   const ambulo__sparse_rows *equality, *border;
-  ambulo__band factor;      /* L of M = H + J' S J */
-  double stiffness;         /* S_r |J_r|^2 relative to the largest diagonal element of H */
-  double *penalty;          /* [equalities]: diagonal of S */
-  double *wing;             /* [borders][n]: L^-1 C' */
-  double *schur;            /* [borders][borders]: Cholesky factor of C M^-1 C' */
-  double *rest;             /* [borders] */
-  double *residual;         /* [equalities] */
-  double *right;            /* [n] */
+  ambulo__band factor; /* L of M = H + J' S J */
+  double stiffness;    /* S_r |J_r|^2 relative to the largest diagonal element of H */
+  double *penalty;     /* [equalities]: diagonal of S */
+  double *wing;        /* [borders][n]: L^-1 C' */
+  double *schur;       /* [borders][borders]: Cholesky factor of C M^-1 C' */
+  double *rest;        /* [borders] */
+  double *residual;    /* [equalities] */
+  double *right;       /* [n] */
 } ambulo__kkt;
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,

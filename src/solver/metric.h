@@ -14,11 +14,11 @@
 typedef struct ambulo__metric {
   const ambulo_problem *problem;
   int channels;
-  int *channel;          /* [channels]: those with a weight in some simple term, ascending */
-  int composites;        /* terms whose residuals stand on several channels */
-  double *rows;          /* [row_capacity][widest window]: one node's weighted gradients */
+  int *channel;   /* [channels]: those with a weight in some simple term, ascending */
+  int composites; /* terms whose residuals stand on several channels */
+  double *rows;   /* [row_capacity][widest window]: one node's weighted gradients */
   int row_capacity;
-  double *one;           /* [widest window]: gradient of one channel */
+  double *one; /* [widest window]: gradient of one channel */
 } ambulo__metric;
 
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,

@@ -7,8 +7,8 @@
 #define AMBULO__MIXING_DEPTH 5
 
 typedef struct ambulo__mixing {
-  int points, residuals;   /* lengths */
-  int count, next;         /* pairs held; where the next goes */
+  int points, residuals; /* lengths */
+  int count, next;       /* pairs held; where the next goes */
   double *point[AMBULO__MIXING_DEPTH];
   double *residual[AMBULO__MIXING_DEPTH];
 } ambulo__mixing;

@@ -24,7 +24,9 @@ enum { MAX_NEWTON = 15, MAX_HALVINGS = 12 };
 static const double armijo = 0.1;
 static const double decrease_floor = 1e-8;
 
-static double square(double x) { return x * x; }
+static double square(double x) {
+  return x * x;
+}
 
 static double dot(const double *a, const double *b, int n) {
   double sum = 0.0;

@@ -168,18 +168,30 @@ static int add_sets(ambulo__direct *d, nlopt_opt opt, callback *rows_of) {
 
 static const char *name_of(int result) {
   switch (result) {
-  case NLOPT_FAILURE: return "FAILURE";
-  case NLOPT_INVALID_ARGS: return "INVALID_ARGS";
-  case NLOPT_OUT_OF_MEMORY: return "OUT_OF_MEMORY";
-  case NLOPT_ROUNDOFF_LIMITED: return "ROUNDOFF_LIMITED";
-  case NLOPT_FORCED_STOP: return "FORCED_STOP";
-  case NLOPT_SUCCESS: return "SUCCESS";
-  case NLOPT_STOPVAL_REACHED: return "STOPVAL_REACHED";
-  case NLOPT_FTOL_REACHED: return "FTOL_REACHED";
-  case NLOPT_XTOL_REACHED: return "XTOL_REACHED";
-  case NLOPT_MAXEVAL_REACHED: return "MAXEVAL_REACHED";
-  case NLOPT_MAXTIME_REACHED: return "MAXTIME_REACHED";
-  default: return "unknown result";
+  case NLOPT_FAILURE:
+    return "FAILURE";
+  case NLOPT_INVALID_ARGS:
+    return "INVALID_ARGS";
+  case NLOPT_OUT_OF_MEMORY:
+    return "OUT_OF_MEMORY";
+  case NLOPT_ROUNDOFF_LIMITED:
+    return "ROUNDOFF_LIMITED";
+  case NLOPT_FORCED_STOP:
+    return "FORCED_STOP";
+  case NLOPT_SUCCESS:
+    return "SUCCESS";
+  case NLOPT_STOPVAL_REACHED:
+    return "STOPVAL_REACHED";
+  case NLOPT_FTOL_REACHED:
+    return "FTOL_REACHED";
+  case NLOPT_XTOL_REACHED:
+    return "XTOL_REACHED";
+  case NLOPT_MAXEVAL_REACHED:
+    return "MAXEVAL_REACHED";
+  case NLOPT_MAXTIME_REACHED:
+    return "MAXTIME_REACHED";
+  default:
+    return "unknown result";
   }
 }
 

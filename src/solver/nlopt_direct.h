@@ -15,16 +15,16 @@ typedef struct ambulo__direct {
   const ambulo_problem *problem;
   ambulo_workspace *workspace;
   ambulo__run *run;
-  const ambulo__band *whitener;                 /* NULL: none */
+  const ambulo__band *whitener; /* NULL: none */
   ambulo__sparse_rows *set[AMBULO__DIRECT_SETS];
   int is_equality[AMBULO__DIRECT_SETS];
   int sets;
   double objective_scale;
-  double *center, *x, *w, *gradient;            /* [n] */
-  double *values;                               /* [largest set] */
-  double *best_x;                               /* [n] */
-  double best_objective, best_violation;        /* HUGE_VAL: none yet */
-  const char *message;                          /* NLopt's name of its result */
+  double *center, *x, *w, *gradient;     /* [n] */
+  double *values;                        /* [largest set] */
+  double *best_x;                        /* [n] */
+  double best_objective, best_violation; /* HUGE_VAL: none yet */
+  const char *message;                   /* NLopt's name of its result */
   int result;
 } ambulo__direct;
 
@@ -40,8 +40,7 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *direct, ambulo_algorithm a
 /* presolve: off - the problem as it is, from x (in and out). */
 ambulo_status ambulo__solve_plain(const ambulo_problem *problem, ambulo_algorithm algorithm,
                                   const ambulo_allocator *allocator, ambulo__run *run,
-                                  ambulo_diagnostics *diagnostics, double *x,
-                                  const char **message);
+                                  ambulo_diagnostics *diagnostics, double *x, const char **message);
 
 /* SLSQP in whitened coordinates on independent rows, restored and re-whitened in rounds,
  * from x (in and out): the way for small problems. */

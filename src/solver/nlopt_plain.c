@@ -20,8 +20,7 @@ static ambulo_status create_sets(const ambulo_problem *p, const double *x, ambul
     status = ambulo__sparse_rows_create(p, list[s], counts[s], pool, &sets[s]);
     if (status) break;
     ambulo__sparse_rows_fill(&sets[s], d->workspace, 1);
-    for (int i = 0; s == 1 && i < counts[s]; i++)
-      ambulo__sparse_rows_set_scale(&sets[s], i, -1.0);
+    for (int i = 0; s == 1 && i < counts[s]; i++) ambulo__sparse_rows_set_scale(&sets[s], i, -1.0);
     d->set[s] = &sets[s];
     d->is_equality[s] = s == 0;
     d->sets = s + 1;

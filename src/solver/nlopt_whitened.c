@@ -10,8 +10,8 @@
 #include <string.h>
 
 enum { MAX_ROUNDS = 8, ROUND_EVALUATIONS = 300 };
-static const double mu_factor = 0.3;      /* times T/K, as in pipeline.c */
-static const double settled = 1e-8;       /* relative change of the objective */
+static const double mu_factor = 0.3; /* times T/K, as in pipeline.c */
+static const double settled = 1e-8;  /* relative change of the objective */
 
 static ambulo_status prepare(ambulo__engine *e, ambulo__direct *d) {
   d->problem = e->problem;
@@ -65,8 +65,8 @@ ambulo_status ambulo__solve_whitened(ambulo__engine *e, ambulo_algorithm algorit
   }
   if (status == AMBULO_E_LIMIT)
     (void)ambulo__error(diagnostics, status, nowhere, "use solver.algorithm: auto",
-                        "%d unknowns and %d rows need more memory than 4 GB in dense form",
-                        e->n, e->problem->rows);
+                        "%d unknowns and %d rows need more memory than 4 GB in dense form", e->n,
+                        e->problem->rows);
   if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->n * sizeof *x);
   *message = d.message;
   return status;

@@ -43,7 +43,6 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
                          options->feasibility_tolerance, options->optimality_tolerance);
   if (options->dense_samples < 1 || options->dense_samples > 1000)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
-                         "solver.dense_samples is %d; expected 1 to 1000",
-                         options->dense_samples);
+                         "solver.dense_samples is %d; expected 1 to 1000", options->dense_samples);
   return AMBULO_OK;
 }

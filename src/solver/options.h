@@ -6,7 +6,6 @@
 #include "base/diagnostics.h"
 
 /* E_ARGUMENT with the option's name and its range. */
-ambulo_status ambulo__options_check(const ambulo_options *options,
-                                    ambulo_diagnostics *diagnostics);
+ambulo_status ambulo__options_check(const ambulo_options *options, ambulo_diagnostics *diagnostics);
 
 #endif

@@ -20,17 +20,18 @@
 #include <string.h>
 
 enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 10, MAX_BACKTRACKS = 6, STALL = 15 };
-static const double mu_start = 0.3;                  /* times T/K */
+static const double mu_start = 0.3; /* times T/K */
 static const double rho_start = 10.0, rho_largest = 3000.0, rho_factor = 2.0;
-static const double rho_last = 3e5;                 /* when the rows do not give way */
-static const double step_cap = 0.5;                 /* rad, m */
+static const double rho_last = 3e5; /* when the rows do not give way */
+static const double step_cap = 0.5; /* rad, m */
 static const double restored = 1e-6;
-static const double value_change = 1e-5;            /* relative */
-static const double moving = 1e-3;                  /* relative change of f that is progress */
+static const double value_change = 1e-5; /* relative */
+static const double value_floor = 1e-9;  /* scaled objective */
+static const double moving = 1e-3;       /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
-static const double polishable = 1e-5;              /* excess, row's own unit */
-static const double polish_reach = 1e-2;            /* the same, when nothing else helps */
-static const double loose_violation = 1e-3, loose_change = 1e-3;   /* on coarse grids */
+static const double polishable = 1e-5;   /* excess, row's own unit */
+static const double polish_reach = 1e-2; /* the same, when nothing else helps */
+static const double loose_violation = 1e-3, loose_change = 1e-3; /* on coarse grids */
 
 typedef struct progress {
   double objective, measure, least_violation;
@@ -88,7 +89,7 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   double change = fabs(best->objective - p->objective), violation = best->violation;
   double tolerance = p->loose ? loose_violation : e->run->options->feasibility_tolerance;
   double relative = p->loose ? loose_change : value_change;
-  int steady = change <= relative * fabs(best->objective) || best->objective == 0.0;
+  int steady = change <= fmax(relative * fabs(best->objective), value_floor);
   int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
   int near = violation <= fmax(tolerance, polishable);
   p->settled = near && steady ? p->settled + 1 : 0;
@@ -120,13 +121,12 @@ static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, doub
   memcpy(x, e->best.x, (size_t)e->n * sizeof *x);
   update_multipliers(e, p);
   e->run->iterations++;
-  int stop = ambulo__run_progress(e->run, e->best.objective / e->objective_scale,
-                                  e->best.violation);
+  int stop =
+      ambulo__run_progress(e->run, e->best.objective / e->objective_scale, e->best.violation);
   return finished(e, p, x) || stop;
 }
 
-ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose,
-                               double *x) {
+ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose, double *x) {
   const ambulo_problem *p = e->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose, rho_largest};

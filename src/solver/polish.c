@@ -17,8 +17,8 @@
 #include <string.h>
 
 enum { MAX_STEPS = 6 };
-static const double stiff = 1e7;          /* penalty */
-static const double share = 0.2;          /* of the feasibility tolerance */
+static const double stiff = 1e7; /* penalty */
+static const double share = 0.2; /* of the feasibility tolerance */
 
 /* one step from engine->center into y; 0 on success */
 static int step(ambulo__engine *e, double *y) {

@@ -13,7 +13,7 @@ typedef struct ambulo__pool {
   ambulo_allocator allocator;
   void *block[AMBULO__POOL_CAPACITY];
   int count;
-  int failed;      /* sticky: some block could not be had */
+  int failed; /* sticky: some block could not be had */
 } ambulo__pool;
 
 void ambulo__pool_init(ambulo__pool *pool, const ambulo_allocator *allocator);

@@ -26,19 +26,19 @@
 #include <string.h>
 
 enum { SMALL_PROBLEM = 200, SWEEPS = 500 };
-static const double shift_size = 0.1;          /* rad, m */
-static const double dependence = 1e-8;         /* relative */
-static const double contradiction = 1e-7;      /* row unit, relative to 1 + |value| */
+static const double shift_size = 0.1;     /* rad, m */
+static const double dependence = 1e-8;    /* relative */
+static const double contradiction = 1e-7; /* row unit, relative to 1 + |value| */
 
 typedef struct group {
   const ambulo__sparse_rows *rows;
-  const double *value;   /* [rows] */
-  int *member, members;  /* indices into rows, in order of priority */
-  int *position;         /* [variables]: place of an unknown among the group's, or -1 */
+  const double *value;  /* [rows] */
+  int *member, members; /* indices into rows, in order of priority */
+  int *position;        /* [variables]: place of an unknown among the group's, or -1 */
   int width;
-  double *vector;        /* [capacity][width]: orthonormal */
-  double *level;         /* [capacity] */
-  double *candidate;     /* [width] */
+  double *vector;    /* [capacity][width]: orthonormal */
+  double *level;     /* [capacity] */
+  double *candidate; /* [width] */
   int basis;
 } group;
 
@@ -74,8 +74,7 @@ static void satisfy_border(const ambulo__sparse_rows *s, const double *at0, cons
       worst = fmax(worst, fabs(value));
       if (norm == 0.0) continue;
       double factor = value / (norm * norm);
-      for (int e = s->start[i]; e < s->start[i + 1]; e++)
-        x[s->column[e]] -= factor * s->value[e];
+      for (int e = s->start[i]; e < s->start[i + 1]; e++) x[s->column[e]] -= factor * s->value[e];
     }
     if (worst < 1e-14) break;
   }
@@ -138,7 +137,7 @@ static void sort_group(group *g, int *rank) {
   g->basis = 0;
   for (int m = 0; m < g->members; m++) {
     int row = g->rows->row[g->member[m]];
-    if (rank[row] == AMBULO__ROW_INDEPENDENT) rank[row] = add_member(g, g->member[m]);
+    if (rank[row] == AMBULO__ROW_INDEPENDENT) rank[row] = (int)add_member(g, g->member[m]);
   }
 }
 

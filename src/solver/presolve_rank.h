@@ -7,8 +7,8 @@
 
 typedef enum ambulo__row_rank {
   AMBULO__ROW_INDEPENDENT,
-  AMBULO__ROW_DEPENDENT,      /* follows from the rows before it */
-  AMBULO__ROW_CONTRADICTORY   /* its gradient follows from theirs, its value does not */
+  AMBULO__ROW_DEPENDENT,    /* follows from the rows before it */
+  AMBULO__ROW_CONTRADICTORY /* its gradient follows from theirs, its value does not */
 } ambulo__row_rank;
 
 /* Sorts the equality rows: rank[rows] (inequalities are left independent). The check is

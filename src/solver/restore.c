@@ -14,9 +14,9 @@
 #include <string.h>
 
 enum { MAX_STEPS = 60, MAX_HALVINGS = 12 };
-static const double step_cap = 0.3;     /* rad, m */
+static const double step_cap = 0.3; /* rad, m */
 static const double target = 1e-9;
-static const double damping = 10.0;     /* times mu */
+static const double damping = 10.0; /* times mu */
 
 static int direction(ambulo__engine *e, double *d) {
   double begin = ambulo__seconds_now();

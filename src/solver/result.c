@@ -49,21 +49,45 @@ void ambulo_result_free(ambulo_result *r) {
   ambulo__free(&a, r);
 }
 
-ambulo_verdict ambulo_result_verdict(const ambulo_result *r) { return r->verdict; }
-const double *ambulo_result_x(const ambulo_result *r) { return r->x; }
-double ambulo_result_objective(const ambulo_result *r) { return r->objective; }
-const double *ambulo_result_terms(const ambulo_result *r) { return r->term; }
-const double *ambulo_result_rows(const ambulo_result *r) { return r->row; }
-const double *ambulo_result_multipliers(const ambulo_result *r) { return r->multiplier; }
-const ambulo_audit *ambulo_result_audit(const ambulo_result *r) { return &r->audit; }
-int ambulo_result_family_count(const ambulo_result *r) { return r->families; }
+ambulo_verdict ambulo_result_verdict(const ambulo_result *r) {
+  return r->verdict;
+}
+const double *ambulo_result_x(const ambulo_result *r) {
+  return r->x;
+}
+double ambulo_result_objective(const ambulo_result *r) {
+  return r->objective;
+}
+const double *ambulo_result_terms(const ambulo_result *r) {
+  return r->term;
+}
+const double *ambulo_result_rows(const ambulo_result *r) {
+  return r->row;
+}
+const double *ambulo_result_multipliers(const ambulo_result *r) {
+  return r->multiplier;
+}
+const ambulo_audit *ambulo_result_audit(const ambulo_result *r) {
+  return &r->audit;
+}
+int ambulo_result_family_count(const ambulo_result *r) {
+  return r->families;
+}
 
 const ambulo_violation *ambulo_result_family(const ambulo_result *r, int index) {
   if (index < 0 || index >= r->families) return NULL;
   return &r->family[index];
 }
 
-int ambulo_result_iterations(const ambulo_result *r) { return r->iterations; }
-int ambulo_result_evaluations(const ambulo_result *r) { return r->evaluations; }
-const ambulo_timing *ambulo_result_timing(const ambulo_result *r) { return &r->timing; }
-const char *ambulo_result_ending(const ambulo_result *r) { return r->ending; }
+int ambulo_result_iterations(const ambulo_result *r) {
+  return r->iterations;
+}
+int ambulo_result_evaluations(const ambulo_result *r) {
+  return r->evaluations;
+}
+const ambulo_timing *ambulo_result_timing(const ambulo_result *r) {
+  return &r->timing;
+}
+const char *ambulo_result_ending(const ambulo_result *r) {
+  return r->ending;
+}

@@ -11,11 +11,11 @@ struct ambulo_result {
   ambulo_verdict verdict;
   int variables, rows, terms, families;
   double objective;
-  double *x;                  /* [variables] */
-  double *term;               /* [terms], weighted */
-  double *row;                /* [rows], physical units */
-  double *multiplier;         /* [rows]: stationarity is grad J = sum multiplier grad c */
-  ambulo_violation *family;   /* [families], in the order in which they first appear */
+  double *x;                /* [variables] */
+  double *term;             /* [terms], weighted */
+  double *row;              /* [rows], physical units */
+  double *multiplier;       /* [rows]: stationarity is grad J = sum multiplier grad c */
+  ambulo_violation *family; /* [families], in the order in which they first appear */
   ambulo_audit audit;
   ambulo_timing timing;
   int iterations, evaluations;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double usual_speed = 10.0;   /* rad/s, m/s: what a speed row is measured against */
+static const double usual_speed = 10.0; /* rad/s, m/s: what a speed row is measured against */
 
 /* size of an inequality's unit: see rows_split.h */
 static double size_of(const ambulo_problem *p, const ambulo__sparse_rows *s, int i) {
@@ -47,8 +47,7 @@ ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspac
              .border = ambulo__pool_ints(pool, rows),
              .inequality = ambulo__pool_ints(pool, rows)};
   if (pool->failed) return AMBULO_E_MEMORY;
-  ambulo_status status =
-      ambulo__presolve_rank(p, workspace, start, pool, diagnostics, out->rank);
+  ambulo_status status = ambulo__presolve_rank(p, workspace, start, pool, diagnostics, out->rank);
   if (status) return status;
   classify(p, out->rank, &l, out);
   status = ambulo__sparse_rows_create(p, l.equality, l.equalities, pool, &out->equality);

@@ -18,9 +18,9 @@
 
 typedef struct ambulo__rows_split {
   ambulo__sparse_rows equality, border, inequality;
-  int *rank;        /* [rows]: ambulo__row_rank */
+  int *rank; /* [rows]: ambulo__row_rank */
   int dropped;
-  int regular;      /* 0: some row fits none of the roles; the banded pipeline cannot serve */
+  int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */
 } ambulo__rows_split;
 
 /* Classifies, creates the three sets and fills their gradients at the start. */

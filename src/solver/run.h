@@ -7,9 +7,9 @@
 
 typedef struct ambulo__run {
   const ambulo_options *options;
-  double started;              /* s, monotonic clock */
+  double started; /* s, monotonic clock */
   int evaluations, iterations;
-  int stopped;                 /* a limit was met or the caller said stop */
+  int stopped; /* a limit was met or the caller said stop */
   ambulo__ending_kind ending;
   double seconds_evaluate, seconds_linear, seconds_nlopt;
 } ambulo__run;

@@ -123,8 +123,8 @@ static ambulo_status solve_problem(solve *s) {
 /* -------------------------------------------------------------------- ending */
 
 static void describe(const solve *s) {
-  static const char *const reasons[] = {"converged or no progress left",
-                                        "time or evaluation limit", "stopped by the caller"};
+  static const char *const reasons[] = {"converged or no progress left", "time or evaluation limit",
+                                        "stopped by the caller"};
   ambulo_result *r = s->result;
   const char *reason = s->nlopt && !s->run.stopped ? s->nlopt : reasons[s->run.ending];
   (void)snprintf(r->ending, sizeof r->ending, "NLopt %s: %s after %d evaluations", s->method,

@@ -166,8 +166,8 @@ void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d,
   }
 }
 
-void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor,
-                                       const double *w, double *y) {
+void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor, const double *w,
+                                       double *y) {
   for (int i = 0; i < s->count; i++) {
     double f = factor * w[i];
     if (f == 0.0) continue;

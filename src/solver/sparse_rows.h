@@ -21,10 +21,10 @@ typedef struct ambulo__sparse_rows {
   int count;
   int *row, *host, *constant;
   double *scale;
-  int *start;        /* [count + 1] */
+  int *start; /* [count + 1] */
   int *column;
   double *value;
-  double *dense;     /* [variables + one window]: scratch for one gradient */
+  double *dense; /* [variables + one window]: scratch for one gradient */
 } ambulo__sparse_rows;
 
 /* The node whose window holds every unknown that the row depends on; -1: none. */

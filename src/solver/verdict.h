@@ -6,8 +6,8 @@
 
 typedef enum ambulo__ending_kind {
   AMBULO__ENDED_BY_ITSELF,
-  AMBULO__ENDED_BY_LIMIT,   /* time or evaluations */
-  AMBULO__ENDED_BY_CALLER   /* the progress callback said stop */
+  AMBULO__ENDED_BY_LIMIT, /* time or evaluations */
+  AMBULO__ENDED_BY_CALLER /* the progress callback said stop */
 } ambulo__ending_kind;
 
 /* A point that is a feasible KKT point is optimal however the solver ended. */

@@ -65,8 +65,8 @@ static void multipliers_explain_the_gradient(void **state) {
     weights[i] = -ambulo_result_multipliers(r)[i];
     if (row.relation == AMBULO_NOT_NEGATIVE) assert_true(weights[i] <= 0.0);
   }
-  assert_int_equal(
-      ambulo_problem_gradient(problem, workspace, ambulo_result_x(r), 1.0, NULL, g), AMBULO_OK);
+  assert_int_equal(ambulo_problem_gradient(problem, workspace, ambulo_result_x(r), 1.0, NULL, g),
+                   AMBULO_OK);
   assert_int_equal(
       ambulo_problem_gradient(problem, workspace, ambulo_result_x(r), 1.0, weights, rest),
       AMBULO_OK);

@@ -11,8 +11,7 @@ static double solve(const char *name, ambulo_algorithm algorithm, int presolve) 
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
   ambulo_verdict verdict = ambulo_result_verdict(result);
   if (verdict != AMBULO_OPTIMAL)
-    print_error("%s: %s, %s\n", name, ambulo_verdict_name(verdict),
-                ambulo_result_ending(result));
+    print_error("%s: %s, %s\n", name, ambulo_verdict_name(verdict), ambulo_result_ending(result));
   assert_int_equal(verdict, AMBULO_OPTIMAL);
   double objective = ambulo_result_objective(result);
   ambulo_result_free(result);

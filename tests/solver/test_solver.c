@@ -134,7 +134,8 @@ static void threads_give_the_bits_of_serial_runs(void **state) {
   job parallel[2] = {{"yardstick_12", NULL}, {"two_link_reach", NULL}};
   pthread_t thread[2];
   for (int i = 0; i < 2; i++) (void)work(&serial[i]);
-  for (int i = 0; i < 2; i++) assert_int_equal(pthread_create(&thread[i], NULL, work, &parallel[i]), 0);
+  for (int i = 0; i < 2; i++)
+    assert_int_equal(pthread_create(&thread[i], NULL, work, &parallel[i]), 0);
   for (int i = 0; i < 2; i++) assert_int_equal(pthread_join(thread[i], NULL), 0);
   for (int i = 0; i < 2; i++) {
     assert_non_null(serial[i].result);

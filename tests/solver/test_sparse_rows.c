@@ -4,9 +4,9 @@
 static void compare(engine_fixture *f, const ambulo__sparse_rows *rows) {
   double *want = calloc((size_t)f->n, sizeof *want), *got = calloc((size_t)f->n, sizeof *got);
   for (int i = 0; i < rows->count; i += 7) {
-    assert_int_equal(ambulo_problem_row_gradient(f->problem, f->engine->workspace, f->x,
-                                                 rows->row[i], want),
-                     AMBULO_OK);
+    assert_int_equal(
+        ambulo_problem_row_gradient(f->problem, f->engine->workspace, f->x, rows->row[i], want),
+        AMBULO_OK);
     memset(got, 0, (size_t)f->n * sizeof *got);
     for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
       got[rows->column[e]] += rows->value[e] / rows->scale[i];

@@ -30,8 +30,8 @@ static inline void engine_open(engine_fixture *f, const char *name) {
   f->n = ambulo_problem_variable_count(f->problem);
   f->x = calloc((size_t)f->n, sizeof *f->x);
   ambulo__run_begin(&f->run, &f->options);
-  assert_int_equal(
-      ambulo__engine_create(f->problem, f->x, NULL, &f->run, NULL, &f->engine), AMBULO_OK);
+  assert_int_equal(ambulo__engine_create(f->problem, f->x, NULL, &f->run, NULL, &f->engine),
+                   AMBULO_OK);
   f->engine->mu = 0.05;
   f->engine->rho = 10.0;
 }
