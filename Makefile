@@ -144,7 +144,7 @@ $(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
 
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
-	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests))
+	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
 
 $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
