@@ -24,11 +24,12 @@
 extern "C" {
 #endif
 
-typedef struct ambulo_mechanics ambulo_mechanics;   /* workspace */
+typedef struct ambulo_mechanics ambulo_mechanics; /* workspace */
 
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_create(
-    const ambulo_model *model, const ambulo_allocator *allocator, ambulo_mechanics **mechanics);
-AMBULO_API void ambulo_mechanics_free(ambulo_mechanics *mechanics);  /* accepts NULL */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_create(const ambulo_model *model,
+                                                                  const ambulo_allocator *allocator,
+                                                                  ambulo_mechanics **mechanics);
+AMBULO_API void ambulo_mechanics_free(ambulo_mechanics *mechanics); /* accepts NULL */
 
 /* Inverse dynamics of `nodes` states. tau, wrench, points may each be NULL.
  * Errors: E_ARGUMENT, E_NUMERIC (an input or a result is not finite). */
@@ -48,13 +49,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_gradient(
  * is the mass matrix), of the wrench [n][6][d] likewise, and of the points
  * [n][3 p][d] with respect to q. Each output may be NULL. */
 typedef struct ambulo_jacobians {
-  double *tau_q, *tau_qd, *tau_qdd;           /* [n][d][d] */
-  double *wrench_q, *wrench_qd, *wrench_qdd;  /* [n][6][d] */
-  double *points_q;                           /* [n][3 p][d] */
+  double *tau_q, *tau_qd, *tau_qdd;          /* [n][d][d] */
+  double *wrench_q, *wrench_qd, *wrench_qdd; /* [n][6][d] */
+  double *points_q;                          /* [n][3 p][d] */
 } ambulo_jacobians;
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_jacobians(
-    ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
-    const ambulo_jacobians *jacobians);
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_mechanics_jacobians(ambulo_mechanics *mechanics, int nodes, const double *q,
+                           const double *qd, const double *qdd, const ambulo_jacobians *jacobians);
 
 /* Instruction set the kernels run on: "avx512", "avx2", "baseline". */
 AMBULO_API const char *ambulo_instruction_set(void);
@@ -76,9 +77,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_inverse_dynamics_com
 
 /* Kinetic and potential energy of one state (J); potential is zero at the world
  * origin. Energy balance: dE/dt = qd . tau. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_energy(
-    const ambulo_model *model, const double *q, const double *qd, double *kinetic,
-    double *potential, void *scratch);
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_lagrangian_energy(const ambulo_model *model, const double *q, const double *qd,
+                         double *kinetic, double *potential, void *scratch);
 
 #ifdef __cplusplus
 }
