@@ -131,6 +131,20 @@ static void describe(const solve *s) {
                  reason, s->run.evaluations);
 }
 
+/* every family that could not be satisfied, by how much it would have to give */
+static void explain(const solve *s) {
+  const ambulo_result *r = s->result;
+  double tolerance = s->run.options->feasibility_tolerance;
+  if (r->verdict != AMBULO_INFEASIBLE) return;
+  for (int f = 0; f < r->families; f++) {
+    const ambulo_violation *v = &r->family[f];
+    if (!(v->worst > tolerance)) continue;
+    ambulo__warning(s->diagnostics, nowhere, NULL,
+                    "no point was found that satisfies %s: %s (%s) at t = %.6g s is off by %.3g %s",
+                    v->family, v->subject, v->detail, v->time, v->worst, v->unit);
+  }
+}
+
 static ambulo_status finish(solve *s) {
   ambulo_result *r = s->result;
   ambulo_status status = ambulo__audit(s->engine, s->run.options, r);
@@ -139,6 +153,7 @@ static ambulo_status finish(solve *s) {
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;
   describe(s);
+  explain(s);
   ambulo__engine_free(s->engine);
   s->engine = NULL;
   r->timing.evaluate = s->run.seconds_evaluate;

@@ -91,9 +91,18 @@ static void impossible_problem_is_called_infeasible(void **state) {
   assert_int_equal(
       ambulo_problem_load("models/yardstick_12.yaml", overrides, 1, NULL, NULL, &problem),
       AMBULO_OK);
-  ambulo_result *r = solve(problem, ambulo_options_default());
+  ambulo_options options = ambulo_options_default();
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_result *r = NULL;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, list, &r), AMBULO_OK);
   assert_int_equal(ambulo_result_verdict(r), AMBULO_INFEASIBLE);
-  assert_true(ambulo_result_audit(r)->violation.worst > 0.1);
+  const ambulo_violation *worst = &ambulo_result_audit(r)->violation;
+  assert_true(worst->worst > 0.1);
+  int named = 0;
+  for (size_t i = 0; i < ambulo_diagnostics_count(list); i++)
+    named |= strstr(ambulo_diagnostics_get(list, i)->message, worst->family) != NULL;
+  assert_int_equal(named, 1);
+  ambulo_diagnostics_free(list);
   ambulo_result_free(r);
   ambulo_problem_free(problem);
 }
