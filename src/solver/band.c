@@ -4,10 +4,12 @@
 
 #include <string.h>
 
+enum { BLOCK = 24 }; /* columns that ambulo__band_forward_many takes at once */
+
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
   band->n = n;
   band->kd = kd < n ? kd : n - 1;
-  band->ld = band->kd + 2;
+  band->ld = band->kd + 1 + BLOCK;
   band->a = ambulo__pool_doubles(pool, (size_t)n * (size_t)band->ld);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
@@ -86,6 +88,18 @@ void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
   dtbmv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
 }
 
+/* Block columns: X_1 = L_11^-1 X_1, X_2 -= L_21 X_1, the blocks read from the band with
+ * leading dimension ld - 1. */
 void ambulo__band_forward_many(const ambulo__band *l, int count, double *x) {
-  for (int k = 0; k < count; k++) ambulo__band_forward(l, x + (size_t)k * (size_t)l->n);
+  double one = 1.0, minus = -1.0;
+  int ld = l->ld - 1;
+  for (int j = 0; j < l->n; j += BLOCK) {
+    int columns = l->n - j < BLOCK ? l->n - j : BLOCK;
+    int below = l->n - j - columns < l->kd ? l->n - j - columns : l->kd;
+    const double *corner = l->a + (size_t)j * (size_t)l->ld;
+    dtrsm_("L", "L", "N", "N", &columns, &count, &one, corner, &ld, x + j, &l->n);
+    if (below == 0) continue;
+    dgemm_("N", "N", &below, &count, &columns, &minus, corner + columns, &ld, x + j, &l->n, &one,
+           x + j + columns, &l->n);
+  }
 }

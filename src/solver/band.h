@@ -1,9 +1,10 @@
 /* solver/band.h - symmetric banded matrices, lower triangle in LAPACK's band storage.
  *
- *     element (i, j), j <= i <= j + kd, stands at a[j * ld + i - j],   ld = kd + 2
+ *     element (i, j), j <= i <= j + kd, stands at a[j * ld + i - j]
  *
  * Read with leading dimension ld - 1, a square diagonal block of at most kd + 1 unknowns
- * is an ordinary column-major lower triangle: rank-k updates go straight into the band.
+ * is an ordinary column-major lower triangle: rank-k updates go straight into the band. The
+ * rows of a[] below the band stay zero, so that rectangles that reach past it can be read.
  */
 #ifndef AMBULO_SOLVER_BAND_H
 #define AMBULO_SOLVER_BAND_H
