@@ -2,7 +2,7 @@
 #include "solver/band.h"
 #include "support/engine_fixture.h"
 
-enum { N = 23, KD = 6 };
+enum { N = 71, KD = 6 }; /* several blocks of columns */
 
 typedef struct banded {
   ambulo__pool pool;

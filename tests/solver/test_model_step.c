@@ -26,8 +26,9 @@ static void multipliers_balance_the_gradient(void **state) {
   ambulo__engine *e = f.engine;
   assert_int_equal(ambulo__model_step(e, &predicted), 0);
   double *r = calloc((size_t)e->n, sizeof *r);
+  ambulo__band_multiply(&e->base, e->total, r);
   for (int j = 0; j < e->n; j++) {
-    r[j] = e->gradient[j] + e->curved_total[j];
+    r[j] += e->gradient[j];
     size = fmax(size, fabs(e->gradient[j]));
   }
   for (int i = 0; i < e->inequalities; i++)
