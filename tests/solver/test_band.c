@@ -15,7 +15,7 @@ static void fill(banded *m, unsigned seed) {
   ambulo__pool_init(&m->pool, NULL);
   assert_int_equal(ambulo__band_create(&m->pool, N, KD, &m->band), AMBULO_OK);
   memset(m->dense, 0, sizeof m->dense);
-  for (int first = 0; first + KD < N; first += 2) {
+  for (int first = 0; first + KD < N; first++) {
     double rows[3][KD + 1];
     for (int r = 0; r < 3; r++) {
       for (int j = 0; j <= KD; j++) rows[r][j] = random_number(&seed);
