@@ -53,6 +53,62 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_file(
     const ambulo_model *model, const char *motion, const char *output,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, char **text);
 
+/* ------------------------------------------------ comparison with people */
+
+/* How a result folder is scored against normative curves (docs/compare.md). */
+typedef struct ambulo_compare_options {
+  int cookie;           /* set by ambulo_compare_options_default() */
+  const char *map;      /* column map file; NULL: the built-in one of the layout */
+  const char *curves;   /* names separated by commas: only these; NULL: all */
+  const char *foot;     /* "left" or "right": this one alone; NULL: the mean of both where
+                           they are alike */
+  double pelvic_tilt;   /* rad, added to hip flexion and anterior tilt where the reference's
+                           pelvis is tilted; 11.4 degrees */
+  double strike;        /* s, heel strike of `foot` (left when NULL); NaN: from the folder */
+  double mass;          /* kg; 0: from the folder */
+} ambulo_compare_options;
+AMBULO_API ambulo_compare_options ambulo_compare_options_default(void);
+
+/* One curve over the cycle. Strings belong to the comparison. */
+typedef struct ambulo_curve_score {
+  const char *name;       /* "knee_flexion" */
+  const char *unit;       /* "deg", "N m/kg", "N/kg", "W/kg" */
+  int points;             /* of the reference */
+  double rmse;            /* in the unit */
+  double r;               /* Pearson's; NaN for a constant curve */
+  double within_2sd;      /* share of the points, 0 to 1; NaN: the reference has no deviation */
+  double peak, peak_time; /* largest value, and where: percent of the cycle */
+  double reference_peak, reference_peak_time;
+} ambulo_curve_score;
+
+/* A number that gait tables quote: "knee swing peak", "vertical force valley". */
+typedef struct ambulo_landmark {
+  const char *name, *unit;
+  double value;
+  double time;            /* percent of the cycle; NaN: not tied to one */
+} ambulo_landmark;
+
+typedef struct ambulo_comparison ambulo_comparison;
+
+/* Scores motion.csv of a result folder against a CSV of normative curves. Curves that only one
+ * of the two has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line
+ * and column; also when no curve is left), E_LIMIT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(
+    const char *directory, const char *reference, const ambulo_compare_options *options,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+    ambulo_comparison **comparison);
+AMBULO_API void ambulo_comparison_free(ambulo_comparison *comparison); /* accepts NULL */
+AMBULO_API int ambulo_comparison_curve_count(const ambulo_comparison *comparison);
+AMBULO_API const ambulo_curve_score *ambulo_comparison_curve(const ambulo_comparison *comparison,
+                                                             int index); /* NULL: out of range */
+AMBULO_API int ambulo_comparison_landmark_count(const ambulo_comparison *comparison);
+AMBULO_API const ambulo_landmark *ambulo_comparison_landmark(const ambulo_comparison *comparison,
+                                                             int index);
+/* {"curves": {name: {"rmse", "r", "within_2sd", "peak", "peak_time"}}}; free with
+ * ambulo_text_free. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_comparison_json(
+    const ambulo_comparison *comparison, const ambulo_allocator *allocator, char **text);
+
 /* What a YAML file is, by its key `kind`. */
 typedef enum ambulo_file_kind { AMBULO_FILE_MODEL, AMBULO_FILE_PROBLEM } ambulo_file_kind;
 /* Errors: E_IO, E_PARSE, E_SCHEMA (another kind, or none), E_LIMIT, E_MEMORY. */

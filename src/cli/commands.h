@@ -9,5 +9,6 @@ extern const ambulo__cli_command ambulo__cli_evaluate;
 extern const ambulo__cli_command ambulo__cli_check;
 extern const ambulo__cli_command ambulo__cli_info;
 extern const ambulo__cli_command ambulo__cli_inverse;
+extern const ambulo__cli_command ambulo__cli_compare;
 
 #endif

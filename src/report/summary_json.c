@@ -5,6 +5,8 @@
 #include "report/summary_json.h"
 
 #include "report/json_text.h"
+#include "report/stride.h"
+#include "report/strikes.h"
 
 static void objective(ambulo__json *json, const ambulo_problem *problem,
                       const ambulo_result *result) {
@@ -16,6 +18,35 @@ static void objective(ambulo__json *json, const ambulo_problem *problem,
     ambulo__json_number(json, ambulo_problem_term_name(problem, i), terms[i]);
   ambulo__json_close(json, '}');
   ambulo__json_close(json, '}');
+}
+
+/* per foot: impulse of the ground's force over the stride, N s, along forward, up and left, and
+ * the largest normal force in body weights; nothing without ground reaction or memory */
+static void ground_reaction(ambulo__json *json, const ambulo_problem *problem,
+                            const ambulo_result *result) {
+  ambulo__stride stride = {.samples = 0};
+  const ambulo_model *model = ambulo_problem_model(problem);
+  if (!problem->channels.feet ||
+      ambulo__stride_create(problem, ambulo_result_x(result), 0, NULL, &stride))
+    return;
+  ambulo__json_open(json, "ground_reaction", '{');
+  for (int foot = 0; foot < stride.feet; foot++) {
+    double impulse[3], along[3] = {0.0, 0.0, 0.0};
+    ambulo__stride_impulse(&stride, foot, impulse);
+    for (int i = 0; i < 3; i++) {
+      along[0] += impulse[i] * model->forward[i];
+      along[1] += impulse[i] * model->up[i];
+      along[2] += impulse[i] * model->left[i];
+    }
+    ambulo__json_open(json, model->feet[foot].name, '{');
+    ambulo__json_number(json, "impulse_forward", along[0]);
+    ambulo__json_number(json, "impulse_up", along[1]);
+    ambulo__json_number(json, "impulse_left", along[2]);
+    ambulo__json_number(json, "peak", ambulo__stride_peak(&stride, foot));
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, '}');
+  ambulo__stride_free(&stride);
 }
 
 static void violation(ambulo__json *json, const char *key, const ambulo_violation *v) {
@@ -59,6 +90,39 @@ static void sizes(ambulo__json *json, const ambulo_problem *problem) {
   ambulo__json_close(json, '}');
 }
 
+static void vector(ambulo__json *json, const char *key, const double value[3]) {
+  ambulo__json_open(json, key, '[');
+  for (int i = 0; i < 3; i++) ambulo__json_number(json, NULL, value[i]);
+  ambulo__json_close(json, ']');
+}
+
+static void body(ambulo__json *json, const ambulo_model *model) {
+  const double *gravity = ambulo_model_gravity(model), *up = ambulo_model_up(model);
+  double size = 0.0;
+  for (int i = 0; i < 3; i++) size -= gravity[i] * up[i];
+  ambulo__json_open(json, "body", '{');
+  ambulo__json_number(json, "mass", ambulo_model_mass(model));
+  ambulo__json_number(json, "gravity", size);
+  vector(json, "up", up);
+  vector(json, "forward", ambulo_model_forward(model));
+  ambulo__json_close(json, '}');
+}
+
+static void foot_strikes(ambulo__json *json, const ambulo_problem *problem) {
+  enum { MOST = 64 };
+  ambulo__strike strikes[MOST];
+  int count = ambulo__strikes(problem, strikes, MOST);
+  ambulo__json_open(json, "strikes", '[');
+  for (int i = 0; i < count && i < MOST; i++) {
+    const ambulo_foot *foot = ambulo_model_foot(ambulo_problem_model(problem), strikes[i].foot);
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_text(json, "foot", foot->name);
+    ambulo__json_number(json, "time", strikes[i].time);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+}
+
 static void effort(ambulo__json *json, const ambulo_result *result) {
   const ambulo_timing *timing = ambulo_result_timing(result);
   ambulo__json_integer(json, "iterations", ambulo_result_iterations(result));
@@ -99,7 +163,10 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json_text(json, "verdict", ambulo_verdict_name(verdict));
   ambulo__json_text(json, "ending", ambulo_result_ending(result));
   ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
+  body(json, ambulo_problem_model(problem));
+  foot_strikes(json, problem);
   objective(json, problem, result);
+  ground_reaction(json, problem, result);
   audit(json, result);
   sizes(json, problem);
   effort(json, result);

@@ -1,0 +1,118 @@
+/* cli/cmd_compare.c - ambulo compare: a result folder against normative curves. */
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+
+static const double radians_per_degree = 0.017453292519943295;
+
+static int read_options(const ambulo__cli_input *input, ambulo_compare_options *options) {
+  double tilt = options->pelvic_tilt / radians_per_degree;
+  options->map = ambulo__cli_value(input, "map");
+  options->curves = ambulo__cli_value(input, "columns");
+  options->foot = ambulo__cli_value(input, "foot");
+  if (!ambulo__cli_number(input, "pelvic-tilt", -90.0, 90.0, &tilt) ||
+      !ambulo__cli_number(input, "strike", -1e6, 1e6, &options->strike) ||
+      !ambulo__cli_number(input, "mass", 1e-3, 1e6, &options->mass))
+    return 2;
+  options->pelvic_tilt = tilt * radians_per_degree;
+  if (!options->foot) return 0;
+  static const char *const feet[] = {"left", "right"};
+  for (int i = 0; i < 2; i++) {
+    const char *a = feet[i], *b = options->foot;
+    while (*a && *a == *b) a++, b++;
+    if (*a == *b) return 0;
+  }
+  return ambulo__cli_usage_error("compare", NULL, "--foot is '%s'; expected left or right",
+                                 options->foot);
+}
+
+/* a number in a column of its own, or a dash */
+static void print_number(double value, int decimals) {
+  if (isnan(value)) {
+    printf(" %9s", "-");
+  } else {
+    printf(" %9.*f", decimals, value);
+  }
+}
+
+static void print_curves(const ambulo_comparison *comparison) {
+  printf("%-28s %-7s %9s %9s %9s %9s %9s %9s %9s\n", "curve", "unit", "rmse", "r", "in 2 SD %",
+         "peak", "at %", "people", "at %");
+  for (int i = 0; i < ambulo_comparison_curve_count(comparison); i++) {
+    const ambulo_curve_score *s = ambulo_comparison_curve(comparison, i);
+    int decimals = s->unit[0] == 'd' ? 1 : 2;
+    printf("%-28s %-7s", s->name, s->unit);
+    print_number(s->rmse, decimals);
+    print_number(s->r, 3);
+    print_number(100.0 * s->within_2sd, 0);
+    print_number(s->peak, decimals);
+    print_number(s->peak_time, 1);
+    print_number(s->reference_peak, decimals);
+    print_number(s->reference_peak_time, 1);
+    printf("\n");
+  }
+}
+
+static void print_landmarks(const ambulo_comparison *comparison) {
+  int count = ambulo_comparison_landmark_count(comparison);
+  if (count > 0) printf("\n%-28s %-7s %9s %9s\n", "landmark", "unit", "value", "at %");
+  for (int i = 0; i < count; i++) {
+    const ambulo_landmark *l = ambulo_comparison_landmark(comparison, i);
+    printf("%-28s %-7s", l->name, l->unit);
+    print_number(l->value, l->unit[0] == 'd' ? 1 : 3);
+    print_number(l->time, 1);
+    printf("\n");
+  }
+}
+
+static int run(const ambulo__cli_input *input) {
+  ambulo_compare_options options = ambulo_compare_options_default();
+  int code = read_options(input, &options);
+  if (code) return code;
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo_comparison *comparison = NULL;
+  char *text = NULL;
+  ambulo_status status = ambulo_compare(input->arguments[0], input->arguments[1], &options, NULL,
+                                        diagnostics, &comparison);
+  if (!status && ambulo__cli_flag(input, "json"))
+    status = ambulo_comparison_json(comparison, NULL, &text);
+  code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[1]);
+  if (text) {
+    fputs(text, stdout);
+  } else if (!status) {
+    print_curves(comparison);
+    print_landmarks(comparison);
+  }
+  ambulo_text_free(text, NULL);
+  ambulo_comparison_free(comparison);
+  ambulo_diagnostics_free(diagnostics);
+  return code;
+}
+
+static const ambulo__cli_option options[] = {
+    {"json", 0, NULL, "print the scores as JSON"},
+    {"map", 0, "FILE", "column map (CSV) instead of the built-in one"},
+    {"columns", 0, "NAMES", "only these curves, separated by commas"},
+    {"foot", 0, "left|right", "one foot alone (default: the mean of both where alike)"},
+    {"pelvic-tilt", 0, "DEG", "anterior tilt of the reference's pelvis (default 11.4)"},
+    {"strike", 0, "S", "time of heel strike (default: from the folder)"},
+    {"mass", 0, "KG", "body mass (default: from the folder)"},
+};
+
+const ambulo__cli_command ambulo__cli_compare = {
+    .name = "compare",
+    .arguments = "DIR REFERENCE.csv",
+    .summary = "scores a result folder against normative curves",
+    .description =
+        "Per curve: root mean square error, Pearson's r, share of the cycle within two standard\n"
+        "deviations, peak and its time in percent of the cycle from heel strike to heel strike;\n"
+        "then the landmarks that gait tables quote. Layouts and conventions: docs/compare.md.",
+    .example = "ambulo compare walk normal_walking.csv",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum = 2,
+    .maximum = 2,
+    .run = run,
+};
