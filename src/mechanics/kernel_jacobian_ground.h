@@ -13,6 +13,12 @@
  *   e = -gain / z (u . V - F_n s . D)
  * For i above j or i = j, dtau_i/dq_j = (S_i - R_i) . t_j - e_i dz; for i on another limb
  * -R_i . t_j - e_i dz; for i below j that is added to what the pair of i and j has stored.
+ * A joint j that carries the whole body has t1_j = I(S_j) with the inertia of the whole body, etc.,
+ * and with R = (rho, sigma), (M, F) the root wrench, m the mass, h, P, E of the whole body
+ *   R . t1_j = I(R) . S_j,     R . t2_j = I(R) . 2 Sd_j + 2 b . z_j,     b = E^T rho + P x sigma
+ *   R . t3_j = I(R) . Sdd_j + b . 2 zd_j + (M x rho + F x sigma, F x rho) . S_j
+ *   dz       = (h x n / m, n) . S_j
+ * so that I(R), b etc. are taken off t1_i, t4_i once for all of these j, whose own rows vanish.
  * The centre of mass: c / dq_j is the linear part of t1_j over the mass, dz = n . dc. Feet:
  *   dF_0 = a_0 dF - gain (dF_n - F_n dz / z) D,   dF_1 = dF - dF_0
  *   dT   = (F . dM + M . dF - T dF_n) / F_n,      dT_f = a_f dT
@@ -60,6 +66,26 @@ static void ground_reaction_rows(const ambulo__plan *plan, const ground_shares *
   }
 }
 
+/* A displacement along an axis that stands still: it adds no rates, and turns nothing. */
+AMBULO__INLINE int ground_is_straight(const ambulo__joint *joint) {
+  return !joint->revolute && joint->still;
+}
+
+/* The changes of kernel_jacobian.h for such a joint. */
+AMBULO__INLINE subtree_changes ground_straight_changes(const ambulo__plan *plan, int k, wide_pair f,
+                                                       const double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  const ambulo__frame *frame = &plan->frames[k + 1];
+  wide3 s = load3(scratch + plan->joints[k].motion_at + three);
+  wide3 h = load3(scratch + frame->composite_at + composite_first);
+  subtree_changes t = {{zero, zero}, {zero, zero}, {zero, zero}, zero};
+  t.q.angular = cross3(s, f.linear);
+  t.qdd.angular = cross3(h, s);
+  t.qdd.linear = scale3(spread(frame->subtree_mass), s);
+  t.turned = cross3(load3(scratch + frame->composite_at + composite_momentum), s);
+  return t;
+}
+
 /* Wrench of the feet that a joint carries. */
 AMBULO__INLINE wide_pair ground_carried(const ambulo__plan *plan, int feet, const double *scratch) {
   const double *at = scratch + plan->ground_at;
@@ -68,23 +94,86 @@ AMBULO__INLINE wide_pair ground_carried(const ambulo__plan *plan, int feet, cons
   return (wide_pair){{{0}, {0}, {0}}, {{0}, {0}, {0}}};
 }
 
+/* -(S x* W), the turn of the feet's wrenches. */
+AMBULO__INLINE wide_pair turn_of(wide_pair w, wide_pair s) {
+  return (wide_pair){add_cross3(cross3(w.angular, s.angular), w.linear, s.linear),
+                     cross3(w.linear, s.angular)};
+}
+
+/* What a row of tau meets in the motion of a joint above: t1, t4, and the turn of the wrenches. */
+typedef struct row_changes {
+  wide_pair force, turn;
+  wide3 turned;
+} row_changes;
+
+/* Adds -R_i . t_j and -e_i dz of joints j that carry the whole body, `row` = (-R, -e). */
+AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_changes c,
+                                            const double *row, const double *scratch) {
+  const double *whole = scratch + plan->frames[plan->whole].composite_at;
+  wide mass = spread(plan->mass), change = load(row + 2 * three) / mass;
+  wide3 h = load3(whole + composite_first), p = load3(whole + composite_momentum);
+  wide6 inertia = load6(whole + composite_inertia);
+  wide33 e = load33(whole + composite_coriolis);
+  wide_pair r = load_pair(row), w = load_pair(scratch + plan->ground_at + ground_wrench);
+  wide3 up = scale3(change, ground_up(plan));
+  c.force.angular = add_cross3(add3(c.force.angular, multiply6(inertia, r.angular)), h, r.linear);
+  c.force.linear = add_cross3(axpy3(c.force.linear, mass, r.linear), r.angular, h);
+  c.turned = add_multiply33_transposed(add_cross3(c.turned, p, r.linear), e, r.angular);
+  c.turn.angular = add_cross3(add_cross3(c.turn.angular, w.angular, r.angular), w.linear, r.linear);
+  c.turn.angular = add_cross3(c.turn.angular, h, up);
+  c.turn.linear = add_cross3(axpy3(c.turn.linear, mass, up), w.linear, r.angular);
+  return c;
+}
+
+/* Columns of a row that stand for the joints that carry the whole body. */
+AMBULO__INLINE void ground_root_pairs(const ambulo__plan *plan, int first, const row_changes *row,
+                                      double *jq, double *jqd, double *jqdd,
+                                      const double *scratch) {
+  const row_changes c = *row;
+  wide3 turned2 = scale3(spread(2), c.turned);
+  for (int i = first; i < first + plan->vanishing; i++) {
+    const ambulo__joint *joint = &plan->joints[plan->ancestor[i]];
+    const double *motion = scratch + joint->motion_at;
+    int entry = plan->lower[i] * AMBULO__LANES;
+    wide_pair s = load_pair(motion);
+    if (ground_is_straight(joint)) {
+      store(jq + entry, dot3(c.turn.linear, s.linear));
+      store(jqd + entry, (wide){0});
+      store(jqdd + entry, dot3(c.force.linear, s.linear));
+      continue;
+    }
+    wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
+    store(jq + entry, dot3(c.turned, sd.angular) + dot_pair(c.force, sdd) + dot_pair(c.turn, s));
+    store(jqd + entry, dot3(turned2, s.angular) + dot_pair(c.force, sd));
+    store(jqdd + entry, dot_pair(c.force, s));
+  }
+}
+
 /* Entries in the row and, where that row is sparse, in the column of joint k. */
 static void ground_pairs(const ambulo__plan *plan, int k, const subtree_changes *changes,
                          wide_pair carried, double *jq, double *jqd, double *jqdd,
                          const double *scratch) {
   const subtree_changes t = *changes;
   const double *own = scratch + plan->joints[k].motion_at;
-  wide3 z = load3(own), slide = load3(own + three), turned2 = scale3(spread(2), t.turned);
-  wide_pair turn = {add_cross3(cross3(carried.angular, z), carried.linear, slide),
-                    cross3(carried.linear, z)};
+  const int dense = plan->joints[k].torque_row == AMBULO__ROW_DENSE;
   int first = plan->ancestor_start[k], last = plan->ancestor_start[k + 1];
+  int self = (plan->start[k] + last - first) * AMBULO__LANES;
+  wide3 turned2 = scale3(spread(2), t.turned);
+  wide_pair z = load_pair(own);
+  row_changes row = {t.qdd, turn_of(carried, z), t.turned};
+  if (dense && plan->vanishing > 0) {
+    const double *reaction = scratch + plan->joints[k].reaction_at + 7 * AMBULO__LANES;
+    row_changes to_root = ground_add_whole(plan, row, reaction, scratch);
+    ground_root_pairs(plan, first, &to_root, jq, jqd, jqdd, scratch);
+    first += plan->vanishing;
+  }
   for (int i = first; i < last; i++) {
     const double *motion = scratch + plan->joints[plan->ancestor[i]].motion_at;
     int lower = plan->lower[i] * AMBULO__LANES, upper = plan->upper[i] * AMBULO__LANES;
     wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
     wide_pair sdd = load_pair(motion + 4 * three);
     wide mass = dot_pair(t.qdd, s);
-    store(jq + lower, dot3(t.turned, sd.angular) + dot_pair(t.qdd, sdd) + dot_pair(turn, s));
+    store(jq + lower, dot3(t.turned, sd.angular) + dot_pair(t.qdd, sdd) + dot_pair(row.turn, s));
     store(jqd + lower, dot3(turned2, s.angular) + dot_pair(t.qdd, sd));
     store(jqdd + lower, mass);
     if (upper < 0) continue;
@@ -92,12 +181,10 @@ static void ground_pairs(const ambulo__plan *plan, int k, const subtree_changes 
     store(jqd + upper, dot_pair(t.qd, s));
     store(jqdd + upper, mass);
   }
-  if (plan->joints[k].torque_row != AMBULO__ROW_SPARSE) return;
-  int self = (plan->start[k] + last - first) * AMBULO__LANES;
-  wide_pair s = load_pair(own);
-  store(jq + self, dot_pair(t.q, s));
-  store(jqd + self, dot_pair(t.qd, s));
-  store(jqdd + self, dot_pair(t.qdd, s));
+  if (dense) return;
+  store(jq + self, dot_pair(t.q, z));
+  store(jqd + self, dot_pair(t.qd, z));
+  store(jqdd + self, dot_pair(t.qdd, z));
 }
 
 /* Column k of the dense rows. */
@@ -170,8 +257,8 @@ static void jacobian_ground_part(const ambulo__plan *plan, const double *qd, con
     wide dz = dot3(slopes.shares.up, dc);
     if (joint->torque_row != AMBULO__ROW_VANISHES) {
       ground_pairs(plan, k, &t, carried, jq, jqd, jqdd, scratch);
+      ground_column(plan, k, &t, dz, jq, jqd, jqdd, scratch);
     }
-    ground_column(plan, k, &t, dz, jq, jqd, jqdd, scratch);
     jacobian_wrench(plan, k, t.q, jq);
     jacobian_wrench(plan, k, t.qd, jqd);
     jacobian_wrench(plan, k, t.qdd, jqdd);

@@ -120,6 +120,8 @@ struct ambulo__plan {
   /* Column k of the dense rows: terms [k dense_count] to [(k + 1) dense_count]; the first
    * term_fresh[k] of them are written, the others are added to what stands there. */
   int dense_count, *term_fresh;
+  int vanishing; /* rows of tau that vanish: the first ancestors of every joint with a dense row */
+  int whole;     /* a frame that carries the whole body, where `vanishing` is not zero */
   ambulo__reaction_term *term;
 
   ambulo__steps steps;
