@@ -22,6 +22,7 @@ typedef struct rig {
   ambulo__plan *plan;
   ambulo_mechanics *mechanics;
   const ambulo__kernels *kernels;
+  double *ground;                 /* NULL: no ground reaction */
   double *q, *qd, *qdd, *weights; /* [blocks][d or rows][lanes] */
   double *out, *gradient, *jacobian, *scratch;
 } rig;
@@ -30,14 +31,14 @@ typedef void (*task)(rig *rig, int block);
 
 static void run_forward(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
-  r->kernels->forward(r->plan, r->q + at, r->qd + at, r->qdd + at, NULL, r->out, r->scratch);
+  r->kernels->forward(r->plan, r->q + at, r->qd + at, r->qdd + at, r->ground, r->out, r->scratch);
 }
 
 static void run_gradient(rig *r, int block) {
   int d = ambulo__plan_coordinates(r->plan), n = d * AMBULO__LANES;
   size_t at = (size_t)(block * d) * AMBULO__LANES;
   run_forward(r, block);
-  r->kernels->reverse(r->plan, r->qd + at, r->qdd + at, NULL, r->weights, r->gradient,
+  r->kernels->reverse(r->plan, r->qd + at, r->qdd + at, r->ground, r->weights, r->gradient,
                       r->gradient + n, r->gradient + 2 * n, r->scratch);
 }
 
@@ -46,7 +47,7 @@ static void run_jacobian(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
   double *jqd = r->jacobian + pattern.count * AMBULO__LANES;
   run_forward(r, block);
-  r->kernels->jacobian(r->plan, r->qd + at, r->qdd + at, NULL, r->jacobian, jqd,
+  r->kernels->jacobian(r->plan, r->qd + at, r->qdd + at, r->ground, r->jacobian, jqd,
                        jqd + pattern.dynamic_count * AMBULO__LANES, r->scratch);
 }
 
@@ -88,11 +89,26 @@ static double *doubles(size_t count) {
   return at;
 }
 
-static rig rig_create(const ambulo_model *model) {
+/* Both feet loaded, the left one by 0.3 to 0.7. */
+static double *ground_shares(random_source *source) {
+  double *ground = doubles(AMBULO__GROUND_ENTRIES * AMBULO__LANES);
+  for (int i = 0; i < AMBULO__GROUND_ENTRIES * AMBULO__LANES; i++) {
+    static const double middle[AMBULO__GROUND_ENTRIES] = {0.5, 0.6, 0.2, 0, 1};
+    static const double range[AMBULO__GROUND_ENTRIES] = {0.2, 0.1, 0.1, 0, 0.1};
+    int entry = i / AMBULO__LANES;
+    ground[i] = middle[entry] + range[entry] * random_between(source, -1, 1);
+  }
+  return ground;
+}
+
+static rig rig_create(const ambulo_model *model, int grounded) {
   rig r = {0};
   random_source source = {7};
   r.model = model;
-  if (ambulo__plan_create(model, NULL, &r.plan) != AMBULO_OK) exit(1);
+  if (grounded ? ambulo__plan_create_grounded(model, -10, NULL, &r.plan)
+               : ambulo__plan_create(model, NULL, &r.plan))
+    exit(1);
+  if (grounded) r.ground = ground_shares(&source);
   if (ambulo_mechanics_create(model, NULL, &r.mechanics) != AMBULO_OK) exit(1);
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(r.plan);
   size_t n = (size_t)ambulo__plan_coordinates(r.plan) * AMBULO__LANES;
@@ -115,8 +131,8 @@ static rig rig_create(const ambulo_model *model) {
 }
 
 static void rig_free(rig *r) {
-  double *const arrays[] = {r->q,   r->qd,       r->qdd,      r->weights,
-                            r->out, r->gradient, r->jacobian, r->scratch};
+  double *const arrays[] = {r->ground, r->q,        r->qd,       r->qdd,    r->weights,
+                            r->out,    r->gradient, r->jacobian, r->scratch};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
   ambulo_mechanics_free(r->mechanics);
   ambulo__plan_free(r->plan);
@@ -187,7 +203,7 @@ typedef struct subject {
 
 static void add_tree(subject *s, const char *kind, const random_tree *tree) {
   if (ambulo_model_create(&tree->definition, NULL, NULL, &s->model) != AMBULO_OK) exit(1);
-  s->rig = rig_create(s->model);
+  s->rig = rig_create(s->model, 0);
   (void)snprintf(s->name, sizeof s->name, "%s_%d", kind, ambulo_model_coordinate_count(s->model));
 }
 
@@ -199,7 +215,7 @@ static int collect(subject *subjects, const char *path) {
     (void)fprintf(stderr, "bench_mechanics: cannot load %s\n", path);
     return 0;
   }
-  subjects->rig = rig_create(subjects->model);
+  subjects->rig = rig_create(subjects->model, 0);
   (void)snprintf(subjects->name, sizeof subjects->name, "%.20s",
                  ambulo_model_name(subjects->model));
   for (int limbs = 0; limbs <= 8; limbs += 2) {
@@ -213,6 +229,18 @@ static int collect(subject *subjects, const char *path) {
   return count;
 }
 
+/* The body on its feet, over the body in the air. */
+static void report_ground(bench_table *table, const rig *air, const double times[tasks]) {
+  char quantity[bench_key];
+  rig r = rig_create(air->model, 1);
+  r.kernels = air->kernels;
+  for (int k = 0; k < tasks; k++) {
+    (void)snprintf(quantity, sizeof quantity, "%s with ground reaction over without", task_name[k]);
+    bench_put(table, quantity, "ratio", measure(&r, task_run[k]) / times[k]);
+  }
+  rig_free(&r);
+}
+
 /* All quantities of one instruction set; `best` holds those of the first set. */
 static void report_set(const char *set, subject *subjects, int count, double best[tasks]) {
   bench_table table;
@@ -221,8 +249,9 @@ static void report_set(const char *set, subject *subjects, int count, double bes
   for (int i = 0; i < count; i++) {
     rig *r = &subjects[i].rig;
     r->kernels = ambulo__kernels_by_name(set);
+    double times[tasks];
     for (int k = 0; k < tasks; k++) {
-      double time = measure(r, task_run[k]);
+      double time = times[k] = measure(r, task_run[k]);
       if (i == 0) {
         if (best[k] == 0) best[k] = time;
         (void)snprintf(quantity, sizeof quantity, "%s %s", task_name[k], subjects[i].name);
@@ -235,6 +264,7 @@ static void report_set(const char *set, subject *subjects, int count, double bes
       bench_put(&table, quantity, "ns/node", time / ambulo__plan_coordinates(r->plan));
     }
     if (i == 0) {
+      if (ambulo_model_foot_count(r->model) == 2) report_ground(&table, r, times);
       double reference = measure_reference(r);
       bench_put(&table, "reference recursion", "ns/node", reference);
       bench_put(&table, "reference recursion over tau", "ratio",

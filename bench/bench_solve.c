@@ -51,8 +51,9 @@ static double solve(bench_table *table, const char *name, const char *path,
     put(table, name, "time", "s", best);
     put(table, name, "evaluations", "-", ambulo_result_evaluations(result));
     put(table, name, "objective", "-", ambulo_result_objective(result));
-    put(table, name, "worst violation", "mixed", ambulo_result_audit(result)->violation.worst);
-    put(table, name, "KKT residual", "-", ambulo_result_audit(result)->kkt);
+    printf("%-44s %s, violation %.1e, KKT residual %.1e\n", "",
+           ambulo_verdict_name(ambulo_result_verdict(result)),
+           ambulo_result_audit(result)->violation.worst, ambulo_result_audit(result)->kkt);
     if (rounds > 1 || best > 0.5) {
       put(table, name, "share of evaluation", "-", timing->evaluate / timing->total);
       put(table, name, "share of linear algebra", "-", timing->linear_algebra / timing->total);
