@@ -47,7 +47,6 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
   kkt->schur = ambulo__pool_doubles(pool, b * b);
   kkt->rest = ambulo__pool_doubles(pool, b);
   kkt->residual = ambulo__pool_doubles(pool, e);
-  kkt->right = ambulo__pool_doubles(pool, n);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 

@@ -20,7 +20,6 @@ typedef struct ambulo__kkt {
   double *schur;       /* [borders][borders]: Cholesky factor of C M^-1 C' */
   double *rest;        /* [borders] */
   double *residual;    /* [equalities] */
-  double *right;       /* [n] */
 } ambulo__kkt;
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
