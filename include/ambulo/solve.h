@@ -85,6 +85,44 @@ typedef struct ambulo_timing {
   double total, evaluate, linear_algebra, nlopt;   /* s */
 } ambulo_timing;
 
+/* ------------------------------------------------- why there is no solution */
+
+/* A family of rows that cannot hold together with the others. */
+typedef struct ambulo_conflict {
+  ambulo_violation shared; /* its worst row where every family gives way a little */
+  int alone;               /* 1: giving way alone it makes the rest feasible; 0: it does not;
+                              -1: not tried, time was up */
+  ambulo_violation relaxation; /* alone = 1: by how much, at its worst row: a bound known to
+                                  suffice, from a point found by descent */
+  ambulo_violation others[3];  /* alone = 1: further rows of it, other subjects or details */
+  int other_count;
+} ambulo_conflict;
+
+/* Joint, speed and torque limits that the least violated motion rests on. */
+typedef struct ambulo_on_limit {
+  const char *family, *subject, *detail, *unit;
+  double bound;    /* the limit, in unit */
+  double from, to; /* first and last time, s */
+  int nodes;       /* how many nodes */
+} ambulo_on_limit;
+
+/* What stands in the way, found by bringing the sum of all squared violations to a local
+ * minimum. Costs about as much time as the failed solve, within its time limit. */
+typedef struct ambulo_explanation {
+  int complete;       /* 0: cut short by the time limit or the caller */
+  int feasible_point; /* 1: a point that satisfies every row was found on the way: the
+                         problem has solutions, the solver missed them */
+  const ambulo_violation *contradictory; /* equalities at odds with equalities before them */
+  int contradictory_count;
+  const ambulo_conflict *conflicts; /* worst first; relative to the size of each row */
+  int conflict_count;
+  const ambulo_on_limit *on_limits;
+  int on_limit_count;
+  const char *const *lines; /* all of it in words, the suggestion last */
+  int line_count;
+  const char *suggestion; /* "" when there is none */
+} ambulo_explanation;
+
 typedef struct ambulo_result ambulo_result;
 
 /* Solves from `start` [variable_count] (NULL: zero). A point is returned whatever
@@ -116,6 +154,9 @@ AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
 /* Why the solver ended, in words ("NLopt: FTOL_REACHED after 138 evaluations"). */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
+/* Of an infeasible problem or one that met a limit; NULL for every other verdict and for
+ * points that were only audited. */
+AMBULO_API const ambulo_explanation *ambulo_result_explanation(const ambulo_result *result);
 
 #ifdef __cplusplus
 }

@@ -60,6 +60,13 @@ static void print_families(const ambulo_result *result) {
   }
 }
 
+static void print_explanation(const ambulo_result *result) {
+  const ambulo_explanation *e = ambulo_result_explanation(result);
+  if (!e) return;
+  printf("why there is no solution\n");
+  for (int i = 0; i < e->line_count; i++) printf("  %s\n", e->lines[i]);
+}
+
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   const ambulo_timing *timing = ambulo_result_timing(result);
@@ -68,6 +75,7 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
   print_objective(problem, result);
   print_audit(result);
   print_families(result);
+  print_explanation(result);
   printf("size         %d unknowns, %d rows (%d equalities), %d nodes\n",
          ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem),
          ambulo_problem_equality_count(problem), ambulo_problem_node_count(problem));

@@ -77,6 +77,55 @@ static void audit(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_close(json, ']');
 }
 
+static void conflict(ambulo__json *json, const ambulo_conflict *c) {
+  static const char *const answers[] = {"not tried", "no", "yes"};
+  ambulo__json_open(json, NULL, '{');
+  violation(json, "shared", &c->shared);
+  ambulo__json_text(json, "alone", answers[c->alone + 1]);
+  if (c->alone == 1) {
+    violation(json, "relaxation", &c->relaxation);
+    ambulo__json_open(json, "others", '[');
+    for (int i = 0; i < c->other_count; i++) violation(json, NULL, &c->others[i]);
+    ambulo__json_close(json, ']');
+  }
+  ambulo__json_close(json, '}');
+}
+
+static void on_limit(ambulo__json *json, const ambulo_on_limit *l) {
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_text(json, "family", l->family);
+  ambulo__json_text(json, "row", l->subject);
+  ambulo__json_text(json, "detail", l->detail);
+  ambulo__json_number(json, "bound", l->bound);
+  ambulo__json_text(json, "unit", l->unit);
+  ambulo__json_number(json, "from", l->from);
+  ambulo__json_number(json, "to", l->to);
+  ambulo__json_integer(json, "nodes", l->nodes);
+  ambulo__json_close(json, '}');
+}
+
+static void explanation(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_explanation *e = ambulo_result_explanation(result);
+  if (!e) return;
+  ambulo__json_open(json, "explanation", '{');
+  ambulo__json_integer(json, "complete", e->complete);
+  ambulo__json_integer(json, "feasible_point", e->feasible_point);
+  ambulo__json_text(json, "suggestion", e->suggestion);
+  ambulo__json_open(json, "lines", '[');
+  for (int i = 0; i < e->line_count; i++) ambulo__json_text(json, NULL, e->lines[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_open(json, "contradictory", '[');
+  for (int i = 0; i < e->contradictory_count; i++) violation(json, NULL, &e->contradictory[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_open(json, "conflicts", '[');
+  for (int i = 0; i < e->conflict_count; i++) conflict(json, &e->conflicts[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_open(json, "on_limits", '[');
+  for (int i = 0; i < e->on_limit_count; i++) on_limit(json, &e->on_limits[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
+}
+
 static void sizes(ambulo__json *json, const ambulo_problem *problem) {
   int rows = ambulo_problem_row_count(problem);
   int equalities = ambulo_problem_equality_count(problem);
@@ -168,6 +217,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   objective(json, problem, result);
   ground_reaction(json, problem, result);
   audit(json, result);
+  explanation(json, result);
   sizes(json, problem);
   effort(json, result);
   versions(json);

@@ -6,6 +6,8 @@
 
 #define AMBULO__ENDING_SIZE 160
 
+struct ambulo__explanation; /* solver/explain.h */
+
 struct ambulo_result {
   ambulo_allocator allocator;
   ambulo_verdict verdict;
@@ -19,6 +21,7 @@ struct ambulo_result {
   ambulo_audit audit;
   ambulo_timing timing;
   int iterations, evaluations;
+  struct ambulo__explanation *explanation; /* NULL: none */
   char ending[AMBULO__ENDING_SIZE];
 };
 

@@ -8,6 +8,7 @@
  * Whatever happened, the result's numbers are those of the audit (audit.c).
  */
 #include "solver/audit.h"
+#include "solver/explain.h"
 #include "solver/nlopt_direct.h"
 #include "solver/options.h"
 #include "solver/refine.h"
@@ -26,7 +27,7 @@ typedef struct solve {
   ambulo__run run;
   ambulo__engine *engine;
   ambulo_result *result;
-  int from_zero;
+  int from_zero, explains;
   const char *method, *nlopt;
 } solve;
 
@@ -154,6 +155,8 @@ static ambulo_status finish(solve *s) {
   r->evaluations = s->run.evaluations;
   describe(s);
   explain(s);
+  if (s->explains) status = ambulo__explain(s->engine, r);
+  if (status) return status;
   ambulo__engine_free(s->engine);
   s->engine = NULL;
   r->timing.evaluate = s->run.seconds_evaluate;
@@ -195,6 +198,7 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   if (!problem || !result) return AMBULO_E_ARGUMENT;
   ambulo_options own = options ? *options : problem->file_options;
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  s.explains = 1;
   ambulo_status status = begin(&s, &own, start);
   if (!status) status = solve_problem(&s);
   if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */

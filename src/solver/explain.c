@@ -1,0 +1,133 @@
+/* solver/explain.c - see explain.h.
+ *
+ * Time: from the end of the solve as long again as the solve took, at least 0.3 s so that
+ * solves that fail at once are explained too, and never past the time limit of the solve.
+ */
+#include "solver/explain.h"
+#include "solver/audit.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double least_time = 0.3;    /* s */
+static const double on_limit_gap = 1e-4; /* relative to the row's size */
+
+static ambulo_violation violation_of(const ambulo_problem *p, int row, double worst) {
+  const ambulo__table_row *r = &p->table.rows[row];
+  ambulo_violation v = {r->family, r->subject, r->detail, r->unit, r->time, worst};
+  return v;
+}
+
+static void list_contradictions(const ambulo__engine *e, const ambulo_result *result,
+                                ambulo__explanation *out) {
+  double tolerance = e->run->options->feasibility_tolerance;
+  for (int r = 0; r < e->problem->rows; r++) {
+    if (e->rows.rank[r] != AMBULO__ROW_CONTRADICTORY) continue;
+    double worst = ambulo__row_violation(e->problem, r, result->row[r]);
+    if (!(worst > tolerance)) continue;
+    if (out->view.contradictory_count >= AMBULO__MOST_CONTRADICTIONS) break;
+    out->contradictory[out->view.contradictory_count++] = violation_of(e->problem, r, worst);
+  }
+}
+
+/* ----------------------------------------------------------------- on limits */
+
+static int is_limit(const char *family) {
+  return !strcmp(family, "joint_limit") || !strcmp(family, "speed_limit") ||
+         !strcmp(family, "torque_limit");
+}
+
+/* entry of the row's limit, made if need be; NULL when there is no room */
+static ambulo_on_limit *entry_of(const ambulo__table_row *row, ambulo__explanation *out) {
+  for (int i = 0; i < out->view.on_limit_count; i++) {
+    ambulo_on_limit *l = &out->on_limit[i];
+    if (!strcmp(l->family, row->family) && !strcmp(l->subject, row->subject) &&
+        !strcmp(l->detail, row->detail))
+      return l;
+  }
+  if (out->view.on_limit_count >= AMBULO__MOST_ON_LIMITS) return NULL;
+  ambulo_on_limit *l = &out->on_limit[out->view.on_limit_count++];
+  l->family = row->family;
+  l->subject = row->subject;
+  l->detail = row->detail;
+  l->unit = row->unit;
+  l->bound = strcmp(row->detail, "upper") ? -row->constant : row->constant;
+  l->from = l->to = row->time;
+  l->nodes = 0;
+  return l;
+}
+
+/* at the point that the workspace holds */
+static void list_on_limits(const ambulo__elastic *e, ambulo__explanation *out) {
+  const ambulo_problem *p = e->problem;
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    if (row->relation != AMBULO_NOT_NEGATIVE || !is_limit(row->family)) continue;
+    if (!(e->workspace->row_value[r] <= on_limit_gap * e->size[r])) continue;
+    ambulo_on_limit *l = entry_of(row, out);
+    if (!l) continue;
+    l->from = fmin(l->from, row->time);
+    l->to = fmax(l->to, row->time);
+    l->nodes++;
+  }
+}
+
+/* --------------------------------------------------------------------- all */
+
+static double deadline_of(const ambulo__run *run) {
+  const ambulo_options *o = run->options;
+  double now = ambulo__seconds_now(), deadline = now + fmax(least_time, now - run->started);
+  return o->time_limit > 0.0 ? fmin(deadline, run->started + o->time_limit) : deadline;
+}
+
+/* the point to start from: the result, or zero where that has no finite values */
+static ambulo_status start_point(const ambulo__engine *e, const ambulo_result *result, double *x) {
+  memcpy(x, result->x, (size_t)e->n * sizeof *x);
+  if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return AMBULO_OK;
+  memset(x, 0, (size_t)e->n * sizeof *x);
+  return ambulo__evaluate(e->workspace, x);
+}
+
+static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, ambulo__pool *pool,
+                             ambulo__explanation *out) {
+  ambulo__elastic elastic;
+  ambulo__remedy remedy = {-1, -1, NULL};
+  double *x = ambulo__pool_doubles(pool, (size_t)e->n);
+  double deadline = deadline_of(e->run);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  list_contradictions(e, result, out);
+  ambulo_status status = start_point(e, result, x);
+  if (!status) status = ambulo__elastic_create(e->problem, e->workspace, e->run, pool, &elastic);
+  if (status == AMBULO_E_MEMORY) return status;
+  if (!status) {
+    elastic.deadline = deadline;
+    status = ambulo__relax(&elastic, e->run->options->feasibility_tolerance, x, pool, out, &remedy);
+    if (status) return status;
+    list_on_limits(&elastic, out);
+    ambulo__suggest(e->problem, &remedy, out);
+  }
+  ambulo__explain_lines(result, out);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__explain(ambulo__engine *e, ambulo_result *result) {
+  if (result->verdict != AMBULO_INFEASIBLE && result->verdict != AMBULO_LIMIT_REACHED)
+    return AMBULO_OK;
+  ambulo__pool pool;
+  ambulo__explanation *out = ambulo__alloc(&result->allocator, 1, sizeof *out);
+  if (!out) return AMBULO_E_MEMORY;
+  result->explanation = out; /* from here on the result frees it */
+  out->view.contradictory = out->contradictory;
+  out->view.conflicts = out->conflict;
+  out->view.on_limits = out->on_limit;
+  out->view.lines = out->line;
+  out->view.suggestion = out->suggestion;
+  ambulo__pool_init(&pool, &result->allocator);
+  ambulo_status status = explain(e, result, &pool, out);
+  ambulo__pool_clear(&pool);
+  return status;
+}
+
+const ambulo_explanation *ambulo_result_explanation(const ambulo_result *result) {
+  return result->explanation ? &result->explanation->view : NULL;
+}

@@ -1,0 +1,55 @@
+/* solver/explain.h - why a solve ended without a solution.
+ *
+ * Parts: relax.c (which families are in conflict, what each would have to give), suggest.c
+ * (one suggestion), explain_lines.c (words), explain.c (everything else).
+ */
+#ifndef AMBULO_SOLVER_EXPLAIN_H
+#define AMBULO_SOLVER_EXPLAIN_H
+
+#include "solver/elastic.h"
+#include "solver/engine.h"
+#include "solver/result.h"
+
+enum {
+  AMBULO__MOST_CONTRADICTIONS = 6,
+  AMBULO__MOST_CONFLICTS = 8,
+  AMBULO__MOST_ON_LIMITS = 12,
+  AMBULO__MOST_LINES = 48,
+  AMBULO__LINE_SIZE = 360
+};
+
+/* The public view and the memory it points into. */
+typedef struct ambulo__explanation {
+  ambulo_explanation view;
+  ambulo_violation contradictory[AMBULO__MOST_CONTRADICTIONS];
+  ambulo_conflict conflict[AMBULO__MOST_CONFLICTS];
+  ambulo_on_limit on_limit[AMBULO__MOST_ON_LIMITS];
+  const char *line[AMBULO__MOST_LINES];
+  char text[AMBULO__MOST_LINES][AMBULO__LINE_SIZE];
+  char suggestion[AMBULO__LINE_SIZE];
+} ambulo__explanation;
+
+/* What relax.c leaves for suggest.c: the family that gives way most easily. */
+typedef struct ambulo__remedy {
+  int conflict;  /* index, -1: no family suffices alone */
+  int row;       /* worst row of it */
+  double *value; /* [rows] of the problem where it gives way */
+} ambulo__remedy;
+
+/* Fills result->explanation for the verdicts infeasible and limit; nothing for others.
+ * `engine`'s workspace is used. E_MEMORY. */
+ambulo_status ambulo__explain(ambulo__engine *engine, ambulo_result *result);
+
+/* relax.c: x is moved to a minimum of all violations; conflicts, feasible_point, complete are
+ * filled; the workspace ends at x. E_MEMORY. */
+ambulo_status ambulo__relax(ambulo__elastic *elastic, double tolerance, double *x,
+                            ambulo__pool *pool, ambulo__explanation *out, ambulo__remedy *remedy);
+
+/* suggest.c: writes out->suggestion. */
+void ambulo__suggest(const ambulo_problem *problem, const ambulo__remedy *remedy,
+                     ambulo__explanation *out);
+
+/* explain_lines.c: writes the lines from everything else. */
+void ambulo__explain_lines(const ambulo_result *result, ambulo__explanation *out);
+
+#endif

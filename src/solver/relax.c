@@ -1,0 +1,241 @@
+/* solver/relax.c - families of rows in conflict, and what each alone would have to give.
+ *
+ * 1. Every row gives way (elastic.h, all weights 1). The families that stay violated at the
+ *    minimum are in conflict: their forces hold each other in balance.
+ * 2. For each of these, the others are made stiff (weight 1000) and the family alone gives
+ *    way. When the others then hold, it suffices to relax this family, by its worst violation:
+ *    the point itself shows that this much is enough. Least squares spreads a violation over
+ *    many rows; to lower the worst one the weights of its rows are multiplied by their share
+ *    of the worst (Lawson's iteration for minimax problems), and the best point is kept.
+ */
+#include "solver/explain.h"
+#include "solver/audit.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LAWSON_PASSES = 5 };
+static const double stiff = 1e3;        /* weight of the other families */
+static const double holds = 1e-4;       /* violation of the others that counts as none */
+static const double share = 1e-3;       /* of the worst: what still counts as in conflict */
+static const double least_share = 0.03; /* of a weight that Lawson's iteration leaves */
+static const double main_part = 0.5;    /* of the time, for the first solve */
+
+typedef struct relaxing {
+  ambulo__elastic *elastic;
+  const char *family;    /* that gives way */
+  double *x, *candidate; /* [n] */
+  double *value;         /* [rows] of the best point so far */
+  double worst, others;  /* there; relative to the rows' sizes */
+  int row;
+} relaxing;
+
+static const char *family_of(const ambulo__elastic *e, int row) {
+  return e->problem->table.rows[row].family;
+}
+
+static ambulo_violation violation_of(const ambulo_problem *p, int row, double value) {
+  const ambulo__table_row *r = &p->table.rows[row];
+  double worst = ambulo__row_violation(p, row, value);
+  ambulo_violation v = {r->family, r->subject, r->detail, r->unit, r->time, worst};
+  return v;
+}
+
+/* worst row of the family at `value`; -1 when all hold */
+static int worst_row(const ambulo__elastic *e, const char *family, const double *value) {
+  int row = -1;
+  double worst = 0.0;
+  for (int r = 0; r < e->problem->rows; r++) {
+    if (strcmp(family_of(e, r), family) != 0) continue;
+    double excess = ambulo__elastic_excess(e, r, value[r]);
+    if (excess > worst) {
+      worst = excess;
+      row = r;
+    }
+  }
+  return row;
+}
+
+static double worst_outside(const ambulo__elastic *e, const char *family, const double *value) {
+  double worst = 0.0;
+  for (int r = 0; r < e->problem->rows; r++) {
+    if (strcmp(family_of(e, r), family) != 0)
+      worst = fmax(worst, ambulo__elastic_excess(e, r, value[r]));
+  }
+  return worst;
+}
+
+/* ------------------------------------------------------------- all give way */
+
+static int known(const ambulo__explanation *out, const char *family) {
+  for (int i = 0; i < out->view.conflict_count; i++) {
+    if (!strcmp(out->conflict[i].shared.family, family)) return 1;
+  }
+  return 0;
+}
+
+/* families by their worst excess at the point held, worst first */
+static void list_conflicts(const ambulo__elastic *e, double floor, ambulo__explanation *out) {
+  const double *value = e->workspace->row_value;
+  for (double limit = floor; out->view.conflict_count < AMBULO__MOST_CONFLICTS;) {
+    int next = -1;
+    double worst = limit;
+    for (int r = 0; r < e->problem->rows; r++) {
+      double excess = ambulo__elastic_excess(e, r, value[r]);
+      if (!(excess > worst) || known(out, family_of(e, r))) continue;
+      worst = excess;
+      next = r;
+    }
+    if (next < 0) return;
+    ambulo_conflict *c = &out->conflict[out->view.conflict_count++];
+    c->shared = violation_of(e->problem, next, value[next]);
+    c->alone = -1;
+    limit = fmax(limit, share * ambulo__elastic_excess(e, next, value[next]));
+  }
+}
+
+static double worst_violation(const ambulo__elastic *e) {
+  double worst = 0.0;
+  for (int r = 0; r < e->problem->rows; r++)
+    worst = fmax(worst, ambulo__row_violation(e->problem, r, e->workspace->row_value[r]));
+  return worst;
+}
+
+/* ------------------------------------------------------- one family gives way */
+
+static void set_weights(const relaxing *s) {
+  ambulo__elastic *e = s->elastic;
+  for (int r = 0; r < e->problem->rows; r++)
+    e->weight[r] = strcmp(family_of(e, r), s->family) ? stiff : 1.0;
+}
+
+/* Lawson's step, from the excesses at the point held */
+static void shift_weights(const relaxing *s) {
+  ambulo__elastic *e = s->elastic;
+  const double *value = e->workspace->row_value;
+  int worst = worst_row(e, s->family, value);
+  if (worst < 0) return;
+  double largest = ambulo__elastic_excess(e, worst, value[worst]), top = 0.0;
+  for (int r = 0; r < e->problem->rows; r++) {
+    if (strcmp(family_of(e, r), s->family) != 0) continue;
+    double part = ambulo__elastic_excess(e, r, value[r]) / largest;
+    e->weight[r] *= sqrt(fmax(least_share, part));
+    top = fmax(top, e->weight[r]);
+  }
+  for (int r = 0; r < e->problem->rows; r++) {
+    if (strcmp(family_of(e, r), s->family) == 0)
+      e->weight[r] = fmax(least_share, e->weight[r] / top);
+  }
+}
+
+/* keeps the point held when it is better */
+static void keep(relaxing *s) {
+  const ambulo__elastic *e = s->elastic;
+  const double *value = e->workspace->row_value;
+  double others = worst_outside(e, s->family, value);
+  int row = worst_row(e, s->family, value);
+  double worst = row < 0 ? 0.0 : ambulo__elastic_excess(e, row, value[row]);
+  if (s->row >= -1 && (others > holds || worst >= s->worst)) return;
+  s->worst = worst;
+  s->others = others;
+  s->row = row;
+  memcpy(s->value, value, (size_t)e->problem->rows * sizeof *value);
+}
+
+/* 1 when the family alone suffices, 0 when not, -1 when time was up before that was clear */
+static int relax_alone(relaxing *s) {
+  ambulo__elastic *e = s->elastic;
+  memcpy(s->candidate, s->x, (size_t)e->n * sizeof *s->x);
+  set_weights(s);
+  s->row = -2; /* nothing kept yet */
+  int settled = ambulo__elastic_minimize(e, s->candidate);
+  if (ambulo__evaluate(e->workspace, s->candidate)) return -1;
+  keep(s);
+  if (s->others > holds) return settled ? 0 : -1;
+  for (int pass = 0; pass < LAWSON_PASSES && settled; pass++) {
+    shift_weights(s);
+    settled = ambulo__elastic_minimize(e, s->candidate);
+    if (ambulo__evaluate(e->workspace, s->candidate)) break;
+    keep(s);
+  }
+  return 1;
+}
+
+/* further subjects and details of the family that have to give way */
+static void list_others(const relaxing *s, ambulo_conflict *c) {
+  const ambulo__elastic *e = s->elastic;
+  for (int r = 0; r < e->problem->rows; r++) {
+    const ambulo__table_row *row = &e->problem->table.rows[r];
+    double excess = ambulo__elastic_excess(e, r, s->value[r]);
+    if (strcmp(row->family, s->family) != 0 || excess <= 0.01 * s->worst) continue;
+    ambulo_violation v = violation_of(e->problem, r, s->value[r]), *place = NULL;
+    if (!strcmp(v.subject, c->relaxation.subject) && !strcmp(v.detail, c->relaxation.detail))
+      continue;
+    for (int i = 0; i < c->other_count && !place; i++) {
+      if (!strcmp(v.subject, c->others[i].subject) && !strcmp(v.detail, c->others[i].detail))
+        place = &c->others[i];
+    }
+    if (place) {
+      if (v.worst > place->worst) *place = v;
+    } else if (c->other_count < (int)(sizeof c->others / sizeof *c->others)) {
+      c->others[c->other_count++] = v;
+    }
+  }
+}
+
+/* how hard it is for a person to change what the family stands for */
+static double reluctance(const char *family) {
+  static const char *const choices[] = {"foot_strike", "initial_state", "final_state", "periodic",
+                                        "mirrored"};
+  if (!strcmp(family, "ground_penetration") || !strcmp(family, "normal_force")) return 30.0;
+  for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+    if (!strcmp(family, choices[i])) return 3.0;
+  }
+  return 1.0;
+}
+
+static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
+                         ambulo__remedy *remedy) {
+  double least = HUGE_VAL;
+  int count = out->view.conflict_count;
+  for (int i = 0; i < count; i++) {
+    ambulo_conflict *c = &out->conflict[i];
+    double now = ambulo__seconds_now();
+    if (now >= deadline || s->elastic->cancelled) break;
+    s->elastic->deadline = now + (deadline - now) / (double)(count - i);
+    s->family = c->shared.family;
+    c->alone = relax_alone(s);
+    if (c->alone != 1 || s->row < 0) continue;
+    c->relaxation = violation_of(s->elastic->problem, s->row, s->value[s->row]);
+    list_others(s, c);
+    double cost = s->worst * reluctance(s->family);
+    if (cost >= least) continue;
+    least = cost;
+    remedy->conflict = i;
+    remedy->row = s->row;
+    memcpy(remedy->value, s->value, (size_t)s->elastic->problem->rows * sizeof *s->value);
+  }
+}
+
+ambulo_status ambulo__relax(ambulo__elastic *e, double tolerance, double *x, ambulo__pool *pool,
+                            ambulo__explanation *out, ambulo__remedy *remedy) {
+  double now = ambulo__seconds_now(), deadline = e->deadline;
+  relaxing s = {.elastic = e, .x = x};
+  s.candidate = ambulo__pool_doubles(pool, (size_t)e->n);
+  s.value = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
+  remedy->value = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
+  remedy->conflict = remedy->row = -1;
+  if (pool->failed) return AMBULO_E_MEMORY;
+  e->deadline = now + main_part * (deadline - now);
+  out->view.complete = ambulo__elastic_minimize(e, x);
+  if (ambulo__evaluate(e->workspace, x)) return AMBULO_OK;
+  out->view.feasible_point = worst_violation(e) <= tolerance;
+  if (out->view.feasible_point) return AMBULO_OK;
+  list_conflicts(e, 10.0 * tolerance, out);
+  try_families(&s, deadline, out, remedy);
+  for (int i = 0; i < out->view.conflict_count; i++) {
+    if (out->conflict[i].alone < 0) out->view.complete = 0;
+  }
+  (void)ambulo__evaluate(e->workspace, x); /* was finite before */
+  return AMBULO_OK;
+}
