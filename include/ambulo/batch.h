@@ -1,0 +1,116 @@
+/* ambulo/batch.h - many problems: a sweep file, worker processes, one table.
+ *
+ * A sweep is a base problem and values for some of its keys; its case list is a pure
+ * function of the file. Each case is solved by a process of its own and leaves a result
+ * folder and a record, both whole or absent, so that a run may be killed at any time and
+ * resumed. Formats: docs/batch-format.md.
+ */
+#ifndef AMBULO_BATCH_H
+#define AMBULO_BATCH_H
+
+#include "ambulo/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ambulo_sweep ambulo_sweep; /* immutable */
+
+/* One case. Strings belong to the sweep. */
+typedef struct ambulo_case {
+  const char *id;                /* "000012-1f3a9c04": place in the list, hash of the overrides */
+  const char *name;              /* from `case_name`, or the id */
+  const char *const *overrides;  /* [override_count] "path=value", as `--set` takes them */
+  int override_count;
+  int previous;                  /* case whose solution starts this one; -1: zero */
+  unsigned long long key;        /* of everything its result depends on */
+} ambulo_case;
+
+/* Loads a sweep file and its base problem, and builds the case list.
+ * Errors: as ambulo_problem_load; E_LIMIT (more than ten million cases). */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_sweep_load(const char *path,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics,
+                                                            ambulo_sweep **sweep);
+AMBULO_API void ambulo_sweep_free(ambulo_sweep *sweep); /* accepts NULL */
+
+AMBULO_API const char *ambulo_sweep_name(const ambulo_sweep *sweep);
+AMBULO_API const char *ambulo_sweep_base(const ambulo_sweep *sweep); /* path of the base problem */
+AMBULO_API int ambulo_sweep_case_count(const ambulo_sweep *sweep);
+/* E_ARGUMENT when out of range. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_sweep_case(const ambulo_sweep *sweep, int index,
+                                                            ambulo_case *one);
+AMBULO_API int ambulo_sweep_axis_count(const ambulo_sweep *sweep);
+AMBULO_API const char *ambulo_sweep_axis_name(const ambulo_sweep *sweep, int axis);
+/* Text of axis `axis` in case `index`; "" where the case does not set it. */
+AMBULO_API const char *ambulo_sweep_value(const ambulo_sweep *sweep, int index, int axis);
+
+/* ----------------------------------------------------------------------- run */
+
+/* State of a run, for progress. */
+typedef struct ambulo_batch_progress {
+  int cases;               /* of this shard */
+  int done, failed;        /* finished cases; failed: without a valid solution */
+  int running;
+  int resumed;             /* of done: found finished at the start */
+  double seconds;          /* since the start */
+  double seconds_left;     /* < 0: unknown */
+  double worst_violation;  /* over the cases solved in this run */
+  const char *last;        /* name of the case that ended last; NULL: none yet */
+  const char *last_state;  /* "optimal", "infeasible", "crashed", "timeout", ... */
+} ambulo_batch_progress;
+
+typedef struct ambulo_batch_options {
+  int cookie;              /* set by ambulo_batch_options_default() */
+  const char *program;     /* the ambulo program; NULL: /proc/self/exe */
+  int workers;             /* processes at once; 0: usable processors, limited by memory */
+  int shard, shards;       /* this is shard 1 .. shards */
+  double case_seconds;     /* kill a case after this; 0: as the sweep file says, or no limit */
+  int case_megabytes;      /* address space of a case; 0: as the sweep file says, or no limit */
+  double grace;            /* s that running cases get after a first stop; 30 */
+  int force;               /* 1: recompute cases whose inputs changed */
+  /* Called a few times a second. 0: go on; 1: start no new case; 2: stop now. NULL: none. */
+  int (*progress)(void *user, const ambulo_batch_progress *progress);
+  void *user;
+} ambulo_batch_options;
+AMBULO_API ambulo_batch_options ambulo_batch_options_default(void);
+
+/* Solves every case of the shard that has no valid record in `directory` yet. AMBULO_OK when
+ * every case has one at the end or the caller stopped; *progress (may be NULL) is the final
+ * state. Errors: E_IO (folder not writable, locked by another run: named), E_PROBLEM (the
+ * inputs changed since the folder was filled and force is 0: what changed), E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *sweep,
+                                                           const char *directory,
+                                                           const ambulo_batch_options *options,
+                                                           const ambulo_allocator *allocator,
+                                                           ambulo_diagnostics *diagnostics,
+                                                           ambulo_batch_progress *progress);
+
+/* What stands in a folder, from its records alone. Errors: E_IO, E_PARSE, E_MEMORY. */
+typedef struct ambulo_batch_census {
+  int cases, done, failed, missing, stale, corrupt;
+} ambulo_batch_census;
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_status(const char *directory,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics,
+                                                              ambulo_batch_census *census);
+
+/* Writes results.csv and results.jsonl into `directory`: one line per case, sorted by id, the
+ * axes and the outputs the sweep file asks for. Idempotent; the same bytes whatever the order
+ * in which cases were solved. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *directory,
+                                                               const ambulo_allocator *allocator,
+                                                               ambulo_diagnostics *diagnostics,
+                                                               ambulo_batch_census *census);
+
+/* Draws a collected output over one axis (curves) or two (a heat map) as SVG: plot is
+ * "X:OUTPUT" or "X,Y:OUTPUT". Errors: E_ARGUMENT (no such axis or output), E_IO, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory,
+                                                            const char *plot, const char *file,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,213 @@
+/* batch/sweep.c - reading a sweep file. */
+#include "batch/sweep.h"
+#include "ambulo/mechanics.h"
+#include "ambulo/report.h"
+#include "batch/paths.h"
+
+#include <string.h>
+
+static char *copy_scalar(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  const char *text = node ? ambulo__yaml_text(node) : NULL;
+  return text ? ambulo__strdup(&s->allocator, text) : NULL;
+}
+
+static ambulo_status read_texts(ambulo_sweep *s, const ambulo__yaml_node *node, char ***texts,
+                                int *count) {
+  int items = ambulo__yaml_count(node);
+  if (items == 0) return AMBULO_OK;
+  *texts = ambulo__alloc(&s->allocator, (size_t)items, sizeof **texts);
+  if (!*texts) return AMBULO_E_MEMORY;
+  for (int i = 0; i < items; i++) {
+    char *text = copy_scalar(s, ambulo__yaml_item(node, i));
+    if (!text) return AMBULO_E_SCHEMA;
+    (*texts)[(*count)++] = text;
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  const char *key_text = key ? ambulo__yaml_text(key) : NULL;
+  if (!key_text) return AMBULO_E_SCHEMA;
+  ambulo__axis *axis =
+      ambulo__sweep_add_axis(s, name ? ambulo__yaml_text(name) : NULL, key_text);
+  if (!axis)
+    return ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "more than %d axes", AMBULO__SWEEP_AXES);
+  ambulo_status status = ambulo__sweep_read_values(s, axis, node);
+  ambulo__yaml_close(node);
+  return status;
+}
+
+/* one group an axis, or one for all */
+static ambulo_status group_axes(ambulo_sweep *s, const ambulo__yaml_node *node, int zip) {
+  for (int i = 0; i < s->axes; i++) {
+    if (zip && i > 0) {
+      if (s->axis[i].count != s->axis[0].count)
+        return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                                  "combine: zip needs axes of one length; '%s' has %d values, "
+                                  "'%s' has %d",
+                                  s->axis[i].name, s->axis[i].count, s->axis[0].name,
+                                  s->axis[0].count);
+      s->group[0].axes++;
+      continue;
+    }
+    ambulo__axis_group group = {i, 1, s->axis[i].count};
+    s->group[s->groups++] = group;
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status read_axes(ambulo_sweep *s, const ambulo__yaml_node *root) {
+  static const char *const ways[] = {"grid", "zip"};
+  const ambulo__yaml_node *axes = ambulo__yaml_get(root, "axes");
+  int zip = ambulo__yaml_choice(ambulo__yaml_get(root, "combine"), ways, 2, 0);
+  ambulo_status status = AMBULO_OK;
+  if (axes && ambulo__yaml_kind_of(axes) != AMBULO__YAML_SEQUENCE)
+    return ambulo__yaml_error(axes, AMBULO_E_SCHEMA, NULL, "'axes' is not a list; expected axes");
+  for (int i = 0; i < ambulo__yaml_count(axes) && !status; i++)
+    status = read_axis(s, ambulo__yaml_item(axes, i));
+  if (!status) status = group_axes(s, axes, zip);
+  const ambulo__yaml_node *table = ambulo__yaml_get(root, "table");
+  const ambulo__yaml_node *latin = ambulo__yaml_get(root, "latin_hypercube");
+  const ambulo__yaml_node *random = ambulo__yaml_get(root, "random");
+  if (!status && table) status = ambulo__sweep_read_table(s, table);
+  if (!status && latin) status = ambulo__sweep_read_samples(s, latin, 1);
+  if (!status && random) status = ambulo__sweep_read_samples(s, random, 0);
+  return status;
+}
+
+static ambulo_status read_limits(ambulo_sweep *s, const ambulo__yaml_node *root) {
+  const ambulo__yaml_node *limits = ambulo__yaml_get(root, "limits");
+  s->case_seconds = ambulo__yaml_number_in(ambulo__yaml_get(limits, "seconds"), 0.0, 1e9, 0.0);
+  s->case_megabytes = ambulo__yaml_integer(ambulo__yaml_get(limits, "megabytes"), 0, 10000000, 0);
+  if (limits) ambulo__yaml_close(limits);
+  const ambulo__yaml_node *chain = ambulo__yaml_get(root, "start_from_neighbour_along");
+  s->chain_axis = -1;
+  const char *name = chain ? ambulo__yaml_text(chain) : NULL;
+  if (!name) return AMBULO_OK;
+  s->chain_axis = ambulo__sweep_find_axis(s, name);
+  if (s->chain_axis < 0)
+    return ambulo__yaml_error(chain, AMBULO_E_SCHEMA, NULL,
+                              "unknown axis (got '%s'); expected the name of an axis", name);
+  return AMBULO_OK;
+}
+
+/* the base problem is loaded once: a fault in it is told now, and its hash enters every key */
+static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  const char *name = node ? ambulo__yaml_text(node) : NULL;
+  if (!name) return AMBULO_E_SCHEMA;
+  s->base = ambulo__sibling_path(&s->allocator, s->path, name);
+  if (!s->base) return AMBULO_E_MEMORY;
+  ambulo_problem *problem = NULL;
+  ambulo_status status =
+      ambulo_problem_load(s->base, NULL, 0, &s->allocator, s->diagnostics, &problem);
+  if (status) return status;
+  ambulo_versions versions;
+  ambulo_versions_get(&versions);
+  unsigned long long hash = ambulo__hash_word(AMBULO__HASH_START, ambulo_problem_hash(problem));
+  hash = ambulo__hash_text(hash, versions.ambulo);
+  hash = ambulo__hash_text(hash, versions.nlopt);
+  s->base_hash = ambulo__hash_text(hash, versions.instruction_set);
+  ambulo_problem_free(problem);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) {
+  const ambulo__yaml_node *root = ambulo__yaml_root(document);
+  (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
+  static const char *const kinds[] = {"sweep"};
+  (void)ambulo__yaml_choice(ambulo__yaml_require(root, "kind"), kinds, 1, 0);
+  s->name = copy_scalar(s, ambulo__yaml_require(root, "name"));
+  s->case_name = copy_scalar(s, ambulo__yaml_get(root, "case_name"));
+  const ambulo__yaml_node *base = ambulo__yaml_require(root, "base");
+  const ambulo__yaml_node *cases = ambulo__yaml_get(root, "cases");
+  ambulo_status status = read_axes(s, root);
+  if (!status) status = read_texts(s, ambulo__yaml_get(root, "filters"), &s->filter, &s->filters);
+  if (!status) status = read_texts(s, ambulo__yaml_get(root, "outputs"), &s->output, &s->outputs);
+  if (!status) status = read_limits(s, root);
+  ambulo__yaml_close(root);
+  if (!status) status = ambulo__yaml_finish(document);
+  if (!status) status = read_base(s, base);
+  if (!status) status = ambulo__sweep_build_cases(s, cases);
+  if (!status) status = ambulo__yaml_finish(document);
+  return status;
+}
+
+ambulo_status ambulo_sweep_load(const char *path, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo_sweep **sweep) {
+  if (!path || !sweep) return AMBULO_E_ARGUMENT;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_sweep *s = ambulo__alloc(&own, 1, sizeof *s);
+  if (!s) return AMBULO_E_MEMORY;
+  s->allocator = own;
+  s->diagnostics = diagnostics;
+  s->path = ambulo__strdup(&own, path);
+  ambulo__yaml *document = NULL;
+  ambulo_status status = s->path ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) status = ambulo__yaml_load(path, &own, diagnostics, &document);
+  if (!status) status = ambulo__sweep_read(s, document);
+  ambulo__yaml_free(document);
+  s->diagnostics = NULL;
+  if (status) {
+    ambulo_sweep_free(s);
+    return status;
+  }
+  *sweep = s;
+  return AMBULO_OK;
+}
+
+static void free_texts(const ambulo_allocator *a, char **texts, int count) {
+  for (int i = 0; texts && i < count; i++) ambulo__free(a, texts[i]);
+  ambulo__free(a, texts);
+}
+
+void ambulo_sweep_free(ambulo_sweep *s) {
+  if (!s) return;
+  ambulo_allocator a = s->allocator;
+  for (int i = 0; i < s->axes; i++) {
+    free_texts(&a, s->axis[i].value, s->axis[i].count);
+    ambulo__free(&a, s->axis[i].name);
+    ambulo__free(&a, s->axis[i].key);
+  }
+  for (int i = 0; i < s->case_count; i++) {
+    free_texts(&a, s->cases[i].override, s->cases[i].overrides);
+    ambulo__free(&a, s->cases[i].id);
+    ambulo__free(&a, s->cases[i].name);
+  }
+  free_texts(&a, s->filter, s->filters);
+  free_texts(&a, s->output, s->outputs);
+  ambulo__free(&a, s->cases);
+  ambulo__free(&a, s->value);
+  ambulo__free(&a, s->name);
+  ambulo__free(&a, s->case_name);
+  ambulo__free(&a, s->base);
+  ambulo__free(&a, s->path);
+  ambulo__free(&a, s);
+}
+
+/* ------------------------------------------------------------------ queries */
+
+const char *ambulo_sweep_name(const ambulo_sweep *s) { return s->name; }
+const char *ambulo_sweep_base(const ambulo_sweep *s) { return s->base; }
+int ambulo_sweep_case_count(const ambulo_sweep *s) { return s->case_count; }
+int ambulo_sweep_axis_count(const ambulo_sweep *s) { return s->axes; }
+
+const char *ambulo_sweep_axis_name(const ambulo_sweep *s, int axis) {
+  return axis >= 0 && axis < s->axes ? s->axis[axis].name : NULL;
+}
+
+const char *ambulo_sweep_value(const ambulo_sweep *s, int index, int axis) {
+  if (index < 0 || index >= s->case_count || axis < 0 || axis >= s->axes) return "";
+  int value = s->value[(size_t)index * AMBULO__SWEEP_AXES + (size_t)axis];
+  return value < 0 ? "" : s->axis[axis].value[value];
+}
+
+ambulo_status ambulo_sweep_case(const ambulo_sweep *s, int index, ambulo_case *one) {
+  if (!s || !one || index < 0 || index >= s->case_count) return AMBULO_E_ARGUMENT;
+  const ambulo__sweep_case *c = &s->cases[index];
+  ambulo_case view = {c->id,        c->name,     (const char *const *)c->override,
+                      c->overrides, c->previous, c->key};
+  *one = view;
+  return AMBULO_OK;
+}

@@ -1,0 +1,76 @@
+/* batch/sweep.h - the inside of a sweep: axes, groups, cases.
+ *
+ * An axis is one key of the problem and the texts it takes. A group is a set of axes that
+ * advance together (a table's columns, the dimensions of a sample, `combine: zip`). The case
+ * list is the product of the groups, the last one fastest, less what the filters take away,
+ * then the explicit cases. */
+#ifndef AMBULO_BATCH_SWEEP_H
+#define AMBULO_BATCH_SWEEP_H
+
+#include "ambulo/batch.h"
+#include "base/alloc.h"
+#include "base/yaml_node.h"
+
+enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEXT = 256 };
+
+typedef struct ambulo__axis {
+  char *name, *key;
+  char **value; /* [count] */
+  int count, capacity;
+} ambulo__axis;
+
+typedef struct ambulo__axis_group {
+  int first, axes; /* axes [first, first + axes) */
+  int count;       /* values they have, all the same number */
+} ambulo__axis_group;
+
+typedef struct ambulo__sweep_case {
+  char *id, *name;
+  char **override; /* [overrides] */
+  int overrides;
+  int previous;
+  unsigned long long key;
+} ambulo__sweep_case;
+
+struct ambulo_sweep {
+  ambulo_allocator allocator;
+  ambulo_diagnostics *diagnostics; /* while loading */
+  char *name, *path, *base, *case_name;
+  ambulo__axis axis[AMBULO__SWEEP_AXES];
+  int axes;
+  ambulo__axis_group group[AMBULO__SWEEP_AXES];
+  int groups;
+  char **filter, **output; /* [filters], [outputs] */
+  int filters, outputs;
+  int chain_axis;      /* neighbours along it start from each other; -1: none */
+  double case_seconds; /* 0: no limit */
+  int case_megabytes;  /* 0: no limit */
+  ambulo__sweep_case *cases;
+  int *value;          /* [cases][axes]: index into the axis's values; -1: not set */
+  int case_count, case_capacity;
+  unsigned long long base_hash;
+};
+
+/* Each reports its own faults; E_MEMORY or what the reader found. */
+ambulo_status ambulo__sweep_read(ambulo_sweep *sweep, const ambulo__yaml *document);
+ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep, const ambulo__yaml_node *explicit_cases);
+ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_node *node);
+/* Fills axes of a sampled group: samples values each, uniform in the axis's range. */
+ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml_node *node,
+                                         int latin);
+ambulo_status ambulo__sweep_read_values(ambulo_sweep *sweep, ambulo__axis *axis,
+                                        const ambulo__yaml_node *node);
+
+/* A fresh axis, or NULL (too many, no memory). Names default to the key. */
+ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key);
+ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
+                                    size_t length);
+ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value);
+int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
+
+/* 1 if "a OP b" holds, 0 if not, -1 if the text is no comparison of axis names, numbers and
+ * words. OP: < <= > >= == !=. `text_of` gives the text of an axis name (NULL: no axis). */
+int ambulo__filter_holds(const char *filter, const char *(*text_of)(void *user, const char *name),
+                         void *user);
+
+#endif

@@ -1,0 +1,222 @@
+/* batch/sweep_cases.c - the case list: product, filters, explicit cases, names, ids, chains.
+ *
+ * Everything here follows from the file alone. An id is the place in the list before filters
+ * (so that adding a filter renames nothing) and a hash of the overrides; a key is a hash of all
+ * that a result depends on: the base problem, the overrides, the solution it starts from. */
+#include "batch/paths.h"
+#include "batch/sweep.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct builder {
+  ambulo_sweep *sweep;
+  int value[AMBULO__SWEEP_AXES]; /* of the case at hand */
+  long long place;               /* in the list before filters */
+} builder;
+
+static const char *text_of_axis(void *user, const char *name) {
+  const builder *b = user;
+  int axis = ambulo__sweep_find_axis(b->sweep, name);
+  if (axis < 0) return NULL;
+  return b->value[axis] < 0 ? "" : b->sweep->axis[axis].value[b->value[axis]];
+}
+
+static ambulo_status passes(builder *b, int *pass) {
+  *pass = 1;
+  for (int i = 0; i < b->sweep->filters && *pass; i++) {
+    int holds = ambulo__filter_holds(b->sweep->filter[i], text_of_axis, b);
+    if (holds < 0) {
+      ambulo__place place = {b->sweep->path, 0, 0, "filters"};
+      return ambulo__error(b->sweep->diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                           "filter '%s' is no comparison; expected NAME < VALUE with < <= > >= "
+                           "== !=, numbers on both sides of an order",
+                           b->sweep->filter[i]);
+    }
+    *pass = holds;
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status grow(ambulo_sweep *s) {
+  if (s->case_count < s->case_capacity) return AMBULO_OK;
+  if (s->case_count >= AMBULO__SWEEP_CASES) {
+    ambulo__place place = {s->path, 0, 0, NULL};
+    return ambulo__error(s->diagnostics, AMBULO_E_LIMIT, place, NULL,
+                         "more than %d cases; expected fewer: split the sweep",
+                         AMBULO__SWEEP_CASES);
+  }
+  int capacity = s->case_capacity ? 2 * s->case_capacity : 64;
+  ambulo__sweep_case *cases =
+      ambulo__realloc(&s->allocator, s->cases, (size_t)capacity, sizeof *cases);
+  if (cases) s->cases = cases;
+  int *value = ambulo__realloc(&s->allocator, s->value,
+                               (size_t)capacity * AMBULO__SWEEP_AXES, sizeof *value);
+  if (value) s->value = value;
+  if (!cases || !value) return AMBULO_E_MEMORY;
+  s->case_capacity = capacity;
+  return AMBULO_OK;
+}
+
+static char *make_override(const ambulo_sweep *s, int axis, int value) {
+  const char *key = s->axis[axis].key, *text = s->axis[axis].value[value];
+  size_t size = strlen(key) + strlen(text) + 2;
+  char *override = ambulo__alloc(&s->allocator, size, 1);
+  if (override) (void)snprintf(override, size, "%s=%s", key, text);
+  return override;
+}
+
+static ambulo_status fill_overrides(builder *b, ambulo__sweep_case *one) {
+  const ambulo_sweep *s = b->sweep;
+  one->override = ambulo__alloc(&s->allocator, (size_t)s->axes, sizeof *one->override);
+  if (!one->override) return AMBULO_E_MEMORY;
+  for (int i = 0; i < s->axes; i++) {
+    if (b->value[i] < 0) continue;
+    one->override[one->overrides] = make_override(s, i, b->value[i]);
+    if (!one->override[one->overrides]) return AMBULO_E_MEMORY;
+    one->overrides++;
+  }
+  return AMBULO_OK;
+}
+
+/* `case_name` with {axis} replaced by the axis's text */
+static char *expand_name(builder *b, const char *pattern) {
+  char name[AMBULO__SWEEP_TEXT];
+  size_t length = 0;
+  for (const char *c = pattern; *c && length + 1 < sizeof name;) {
+    const char *end = *c == '{' ? strchr(c, '}') : NULL;
+    if (!end || (size_t)(end - c) >= sizeof name) {
+      name[length++] = *c++;
+      continue;
+    }
+    char axis[AMBULO__SWEEP_TEXT];
+    memcpy(axis, c + 1, (size_t)(end - c) - 1);
+    axis[end - c - 1] = '\0';
+    const char *text = text_of_axis(b, axis);
+    for (text = text ? text : axis; *text && length + 1 < sizeof name; text++)
+      name[length++] = *text;
+    c = end + 1;
+  }
+  name[length] = '\0';
+  return ambulo__strdup(&b->sweep->allocator, name);
+}
+
+static ambulo_status add_case(builder *b, const char *pattern) {
+  ambulo_sweep *s = b->sweep;
+  ambulo_status status = grow(s);
+  if (status) return status;
+  ambulo__sweep_case *one = &s->cases[s->case_count];
+  memset(one, 0, sizeof *one);
+  memcpy(s->value + (size_t)s->case_count * AMBULO__SWEEP_AXES, b->value, sizeof b->value);
+  s->case_count++;
+  one->previous = -1;
+  status = fill_overrides(b, one);
+  if (status) return status;
+  unsigned long long hash = AMBULO__HASH_START;
+  for (int i = 0; i < one->overrides; i++) hash = ambulo__hash_text(hash, one->override[i]);
+  one->key = ambulo__hash_word(hash, s->base_hash);
+  char id[40];
+  (void)snprintf(id, sizeof id, "%07lld-%08llx", b->place, hash & 0xffffffffULL);
+  one->id = ambulo__strdup(&s->allocator, id);
+  one->name = pattern ? expand_name(b, pattern) : ambulo__strdup(&s->allocator, id);
+  return one->id && one->name ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+/* ----------------------------------------------------------------- product */
+
+static ambulo_status product(builder *b) {
+  ambulo_sweep *s = b->sweep;
+  double total = s->groups > 0 ? 1.0 : 0.0;
+  for (int g = 0; g < s->groups; g++) total *= s->group[g].count;
+  if (total > 100.0 * AMBULO__SWEEP_CASES) {
+    ambulo__place place = {s->path, 0, 0, NULL};
+    return ambulo__error(s->diagnostics, AMBULO_E_LIMIT, place, NULL,
+                         "%.0f combinations; expected at most %d", total, AMBULO__SWEEP_CASES);
+  }
+  ambulo_status status = AMBULO_OK;
+  for (; b->place < (long long)total && !status; b->place++) {
+    long long rest = b->place;
+    int pass = 1;
+    for (int i = 0; i < AMBULO__SWEEP_AXES; i++) b->value[i] = -1;
+    for (int g = s->groups - 1; g >= 0; g--) {
+      const ambulo__axis_group *group = &s->group[g];
+      for (int i = 0; i < group->axes; i++) b->value[group->first + i] = (int)(rest % group->count);
+      rest /= group->count;
+    }
+    status = passes(b, &pass);
+    if (!status && pass) status = add_case(b, s->case_name);
+  }
+  return status;
+}
+
+static ambulo_status set_value(builder *b, const char *key, const char *text) {
+  ambulo_sweep *s = b->sweep;
+  int axis = -1;
+  for (int i = 0; i < s->axes; i++)
+    if (strcmp(s->axis[i].key, key) == 0) axis = i;
+  if (axis < 0) {
+    if (!ambulo__sweep_add_axis(s, NULL, key)) return AMBULO_E_MEMORY;
+    axis = s->axes - 1;
+  }
+  ambulo_status status = ambulo__axis_add_text(s, &s->axis[axis], text, strlen(text));
+  if (!status) b->value[axis] = s->axis[axis].count - 1;
+  return status;
+}
+
+static ambulo_status explicit_case(builder *b, const ambulo__yaml_node *node) {
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  const ambulo__yaml_node *set = ambulo__yaml_require(node, "set");
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < AMBULO__SWEEP_AXES; i++) b->value[i] = -1;
+  for (int i = 0; i < ambulo__yaml_count(set) && !status; i++) {
+    const char *key = ambulo__yaml_key(set, i);
+    const char *text = ambulo__yaml_text(ambulo__yaml_value(set, i));
+    ambulo__yaml_expect(set, key);
+    status = text ? set_value(b, key, text) : AMBULO_E_SCHEMA;
+  }
+  ambulo__yaml_close(node);
+  if (!status) status = add_case(b, name ? ambulo__yaml_text(name) : b->sweep->case_name);
+  b->place++;
+  return status;
+}
+
+/* ------------------------------------------------------------------ chains */
+
+static int same_but(const ambulo_sweep *s, int a, int b, int axis) {
+  const int *x = s->value + (size_t)a * AMBULO__SWEEP_AXES;
+  const int *y = s->value + (size_t)b * AMBULO__SWEEP_AXES;
+  for (int i = 0; i < s->axes; i++)
+    if (i != axis && x[i] != y[i]) return 0;
+  return 1;
+}
+
+/* each case starts from the nearest earlier one that differs along the chain's axis only */
+static void link_chains(ambulo_sweep *s) {
+  for (int k = 0; s->chain_axis >= 0 && k < s->case_count; k++) {
+    int place = s->value[(size_t)k * AMBULO__SWEEP_AXES + (size_t)s->chain_axis];
+    for (int j = k - 1; j >= 0 && place > 0; j--) {
+      if (s->value[(size_t)j * AMBULO__SWEEP_AXES + (size_t)s->chain_axis] != place - 1) continue;
+      if (!same_but(s, j, k, s->chain_axis)) continue;
+      s->cases[k].previous = j;
+      s->cases[k].key = ambulo__hash_word(s->cases[k].key, s->cases[j].key);
+      break;
+    }
+  }
+}
+
+ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
+                                        const ambulo__yaml_node *explicit_cases) {
+  builder b = {.sweep = sweep};
+  ambulo_status status = product(&b);
+  for (int i = 0; i < ambulo__yaml_count(explicit_cases) && !status; i++)
+    status = explicit_case(&b, ambulo__yaml_item(explicit_cases, i));
+  if (status) return status;
+  if (sweep->case_count == 0) {
+    ambulo__place place = {sweep->path, 0, 0, NULL};
+    return ambulo__error(sweep->diagnostics, AMBULO_E_PROBLEM, place, NULL,
+                         "the sweep has no case left; expected at least one%s",
+                         sweep->filters ? " that passes the filters" : "");
+  }
+  link_chains(sweep);
+  return AMBULO_OK;
+}

@@ -1,0 +1,168 @@
+/* batch/sweep_values.c - what an axis takes: lists, ranges, samples.
+ *
+ * Samples come from a generator of our own, so that a seed means the same everywhere: a 64-bit
+ * linear congruential generator (Knuth, The Art of Computer Programming 2, 3.3.4; constants of
+ * MMIX), its upper 53 bits as a fraction. Latin hypercube: every axis is cut into as many equal
+ * strata as there are samples, each used once, in an order shuffled by axis (McKay, Beckman &
+ * Conover, Technometrics 21, 1979). */
+#include "base/numtext.h"
+#include "batch/sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_VALUES = 1000000 };
+
+ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key) {
+  if (sweep->axes == AMBULO__SWEEP_AXES) return NULL;
+  ambulo__axis *axis = &sweep->axis[sweep->axes];
+  axis->key = ambulo__strdup(&sweep->allocator, key);
+  axis->name = ambulo__strdup(&sweep->allocator, name ? name : key);
+  sweep->axes++;
+  return axis->key && axis->name ? axis : NULL;
+}
+
+int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name) {
+  for (int i = 0; i < sweep->axes; i++)
+    if (strcmp(sweep->axis[i].name, name) == 0) return i;
+  return -1;
+}
+
+ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
+                                    size_t length) {
+  const ambulo_allocator *a = &sweep->allocator;
+  if (axis->count == MOST_VALUES) return AMBULO_E_LIMIT;
+  if (axis->count == axis->capacity) {
+    int capacity = axis->capacity ? 2 * axis->capacity : 8;
+    char **grown = ambulo__realloc(a, axis->value, (size_t)capacity, sizeof *grown);
+    if (!grown) return AMBULO_E_MEMORY;
+    axis->value = grown;
+    axis->capacity = capacity;
+  }
+  char *copy = ambulo__alloc(a, length + 1, 1);
+  if (!copy) return AMBULO_E_MEMORY;
+  memcpy(copy, text, length);
+  axis->value[axis->count++] = copy;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value) {
+  char text[AMBULO__NUMTEXT_SIZE];
+  size_t length = ambulo__print_double(text, value);
+  return ambulo__axis_add_text(sweep, axis, text, length);
+}
+
+/* [first, last, step], both ends included where a step lands on them */
+static ambulo_status add_range(ambulo_sweep *sweep, ambulo__axis *axis,
+                               const ambulo__yaml_node *node) {
+  double r[3];
+  if (!ambulo__yaml_numbers(node, 3, r)) return AMBULO_E_SCHEMA;
+  double steps = floor((r[1] - r[0]) / r[2] + 1e-9);
+  if (r[2] == 0.0 || !(steps >= 0.0) || steps > MOST_VALUES)
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                              "range [%g, %g, %g] has no values; expected [first, last, step]",
+                              r[0], r[1], r[2]);
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i <= (int)steps && !status; i++) {
+    /* rounded to what a person would have written: 0.8 + 2 * 0.1 is 1 */
+    double value = r[0] + i * r[2];
+    status = ambulo__axis_add_number(sweep, axis, round(value * 1e12) / 1e12);
+  }
+  return status;
+}
+
+static ambulo_status add_linspace(ambulo_sweep *sweep, ambulo__axis *axis,
+                                  const ambulo__yaml_node *node) {
+  double r[3];
+  if (!ambulo__yaml_numbers(node, 3, r)) return AMBULO_E_SCHEMA;
+  int count = r[2] >= 1.0 && r[2] <= MOST_VALUES ? (int)r[2] : 0;
+  if (count < 1 || (double)count != r[2])
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                              "linspace asks for %g values; expected [first, last, count]", r[2]);
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < count && !status; i++) {
+    double fraction = count > 1 ? (double)i / (count - 1) : 0.0;
+    status = ambulo__axis_add_number(sweep, axis, r[0] + fraction * (r[1] - r[0]));
+  }
+  return status;
+}
+
+static ambulo_status add_list(ambulo_sweep *sweep, ambulo__axis *axis,
+                              const ambulo__yaml_node *node) {
+  int count = ambulo__yaml_count(node);
+  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || count < 1)
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                              "'values' of '%s' is not a list; expected one or more values",
+                              axis->name);
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < count && !status; i++) {
+    const char *text = ambulo__yaml_text(ambulo__yaml_item(node, i));
+    status = text ? ambulo__axis_add_text(sweep, axis, text, strlen(text)) : AMBULO_E_SCHEMA;
+  }
+  return status;
+}
+
+ambulo_status ambulo__sweep_read_values(ambulo_sweep *sweep, ambulo__axis *axis,
+                                        const ambulo__yaml_node *node) {
+  const ambulo__yaml_node *values = ambulo__yaml_get(node, "values");
+  const ambulo__yaml_node *range = ambulo__yaml_get(node, "range");
+  const ambulo__yaml_node *linspace = ambulo__yaml_get(node, "linspace");
+  if ((values != NULL) + (range != NULL) + (linspace != NULL) != 1)
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                              "axis '%s' needs one of 'values', 'range', 'linspace'", axis->name);
+  if (values) return add_list(sweep, axis, values);
+  return range ? add_range(sweep, axis, range) : add_linspace(sweep, axis, linspace);
+}
+
+/* ----------------------------------------------------------------- samples */
+
+typedef unsigned long long generator;
+
+static double fraction(generator *g) {
+  *g = *g * 6364136223846793005ULL + 1442695040888963407ULL;
+  return (double)(*g >> 11) / 9007199254740992.0;
+}
+
+static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *node, int samples,
+                                 int latin, generator *g) {
+  const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  double range[2];
+  if (!key || !ambulo__yaml_numbers(ambulo__yaml_require(node, "range"), 2, range))
+    return AMBULO_E_SCHEMA;
+  ambulo__axis *axis =
+      ambulo__sweep_add_axis(sweep, name ? ambulo__yaml_text(name) : NULL, ambulo__yaml_text(key));
+  int *order = ambulo__alloc(&sweep->allocator, (size_t)samples, sizeof *order);
+  ambulo_status status = axis && order ? AMBULO_OK : AMBULO_E_MEMORY;
+  for (int i = 0; order && i < samples; i++) order[i] = i;
+  for (int i = samples - 1; order && latin && i > 0; i--) {
+    int j = (int)(fraction(g) * (i + 1)), kept = order[i];
+    order[i] = order[j];
+    order[j] = kept;
+  }
+  for (int i = 0; i < samples && !status; i++) {
+    double u = fraction(g), place = latin ? (order[i] + u) / samples : u;
+    status = ambulo__axis_add_number(sweep, axis, range[0] + place * (range[1] - range[0]));
+  }
+  ambulo__free(&sweep->allocator, order);
+  ambulo__yaml_close(node);
+  return status;
+}
+
+ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml_node *node,
+                                         int latin) {
+  int samples = ambulo__yaml_integer(ambulo__yaml_require(node, "samples"), 1, MOST_VALUES, 1);
+  int seed = ambulo__yaml_integer(ambulo__yaml_require(node, "seed"), 0, 2000000000, 0);
+  const ambulo__yaml_node *axes = ambulo__yaml_require(node, "axes");
+  ambulo__axis_group *group = &sweep->group[sweep->groups];
+  group->first = sweep->axes;
+  group->count = samples;
+  generator g = (generator)seed * 2862933555777941757ULL + 3037000493ULL;
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < ambulo__yaml_count(axes) && !status; i++)
+    status = sample_axis(sweep, ambulo__yaml_item(axes, i), samples, latin, &g);
+  group->axes = sweep->axes - group->first;
+  if (group->axes > 0) sweep->groups++;
+  ambulo__yaml_close(node);
+  return status;
+}
