@@ -34,21 +34,16 @@ static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, co
   }
 }
 
-/* The sum of the magnitudes is what is compared to the limit: a NaN or an
- * infinity shows, too. */
-static void forward_angles(const ambulo__steps *steps, const double *q, double *scratch) {
+/* Whether all angles are within the range of sincos_wide. The sum of the magnitudes is what is
+ * compared to the limit: a NaN or an infinity shows, too. */
+static int angles_inside(const ambulo__steps *steps, const double *q) {
   wide total = {0};
   for (int i = 0; i < steps->angle_count; i++) {
-    const ambulo__angle_step *step = &steps->angles[i];
-    wide sine, cosine, angle = step->sign * (load(q + step->input) + step->shift);
-    total += magnitude(angle);
-    sincos_wide(angle, &sine, &cosine);
-    store(scratch + step->output, sine);
-    store(scratch + step->output + AMBULO__LANES, cosine);
+    total += magnitude(load(q + steps->angles[i].input) + steps->angles[i].shift);
   }
   int inside = 1;
   for (int lane = 0; lane < AMBULO__WIDTH; lane++) inside &= total[lane] <= AMBULO__SINCOS_LIMIT;
-  if (!inside) libm_angles(steps, q, scratch);
+  return inside;
 }
 
 static void forward_world(const ambulo__plan *plan, double *scratch) {
@@ -75,22 +70,28 @@ AMBULO__INLINE void forward_turn(const ambulo__turn_step *step, double *scratch)
   }
 }
 
-/* Orientations and their rates. */
-static void forward_hinges(const ambulo__steps *steps, const double *qd, const double *qdd,
-                           double *scratch) {
+/* Orientations and their rates; sines and cosines from the table that libm_angles has made, or
+ * on the way. */
+AMBULO__INLINE void forward_hinges(const ambulo__steps *steps, const double *q, const double *qd,
+                                   const double *qdd, int from_table, double *scratch) {
   for (int i = 0; i < steps->angle_count; i++) {
     const ambulo__hinge_step *step = &steps->hinges[i];
     if (step->turn >= 0) forward_turn(&steps->turns[step->turn], scratch);
-    wide s = load(scratch + step->angle), c = load(scratch + step->angle + AMBULO__LANES);
+    wide s, c;
+    if (from_table) {
+      s = load(scratch + step->angle);
+      c = load(scratch + step->angle + AMBULO__LANES);
+    } else {
+      sincos_wide(step->sign * (load(q + step->input) + step->shift), &s, &c);
+    }
     wide3 u = load3(scratch + step->from[0]), v = load3(scratch + step->from[1]);
     store3(scratch + step->to[0], axpy3(scale3(c, u), s, v));
     store3(scratch + step->to[1], (wide3){c * v.x - s * u.x, c * v.y - s * u.y, c * v.z - s * u.z});
     wide3 z = load3(scratch + step->axis), w = load3(scratch + step->rate_from);
     wide3 turn = scale3(step->sign * load(qd + step->input), z);
-    wide3 alpha = load3(scratch + step->rate_from + three);
-    alpha = axpy3(alpha, step->sign * load(qdd + step->input), z);
+    wide3 gain = add_cross3(scale3(step->sign * load(qdd + step->input), z), w, turn);
     store3(scratch + step->rate_to, add3(w, turn));
-    store3(scratch + step->rate_to + three, add_cross3(alpha, w, turn));
+    store3(scratch + step->rate_to + three, add3(load3(scratch + step->rate_from + three), gain));
   }
   for (int i = steps->late_turn; i < steps->turn_count; i++) {
     forward_turn(&steps->turns[i], scratch);
@@ -110,26 +111,27 @@ static void forward_spins(const ambulo__steps *steps, double *scratch) {
   }
 }
 
-/* Origins that move, and their accelerations. */
+/* Origins that move, and their accelerations. What comes from the parent is added last: the next
+ * step waits for it. */
 static void forward_origins(const ambulo__steps *steps, const double *q, const double *qd,
                             const double *qdd, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   for (int i = 0; i < steps->origin_count; i++) {
     const ambulo__origin_step *step = &steps->origins[i];
-    wide3 a = load3(scratch + step->place_from + three);
-    wide3 r = add_rotated(zero, scratch, step->columns, step->offset);
+    wide3 r = add_rotated(zero, scratch, step->columns, step->offset), gain = zero;
     if (step->prismatic) {
       wide3 z = load3(scratch + step->axis);
       r = axpy3(r, step->sign * load(q + step->input), z);
-      a = axpy3(a, step->sign * load(qdd + step->input), z);
+      gain = scale3(step->sign * load(qdd + step->input), z);
       if (!step->still) {
         wide3 twice = scale3(2 * step->sign * load(qd + step->input), z);
-        a = add_cross3(a, load3(scratch + step->rate), twice);
+        gain = add_cross3(gain, load3(scratch + step->rate), twice);
       }
     }
-    if (!step->still) a = add_multiply33(a, load33(scratch + step->spin), r);
+    if (!step->still) gain = add_multiply33(gain, load33(scratch + step->spin), r);
     store3(scratch + step->place_to, add3(load3(scratch + step->place_from), r));
-    store3(scratch + step->place_to + three, a);
+    wide3 a = load3(scratch + step->place_from + three);
+    store3(scratch + step->place_to + three, add3(a, gain));
   }
 }
 
@@ -237,9 +239,13 @@ static void forward_part(const ambulo__plan *plan, const double *q, const double
                          const double *qdd, const double *ground, double *out, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   const ambulo__steps *steps = &plan->steps;
-  forward_angles(steps, q, scratch);
   forward_world(plan, scratch);
-  forward_hinges(steps, qd, qdd, scratch);
+  if (angles_inside(steps, q)) {
+    forward_hinges(steps, q, qd, qdd, 0, scratch);
+  } else {
+    libm_angles(steps, q, scratch);
+    forward_hinges(steps, q, qd, qdd, 1, scratch);
+  }
   forward_spins(steps, scratch);
   forward_origins(steps, q, qd, qdd, scratch);
   for (int i = 0; i < steps->zero_load_count; i++) {

@@ -73,15 +73,30 @@ ambulo_status ambulo_mechanics_create(const ambulo_model *model, const ambulo_al
   return AMBULO_OK;
 }
 
-/* The largest magnitude; infinite if anything is not finite. NULL counts as zeros. */
-static double largest(const double *values, size_t count) {
-  double most = 0;
-  for (size_t i = 0; values && i < count; i++) {
-    double size = fabs(values[i]);
-    if (!(size <= 1.7976931348623157e308)) return INFINITY;
-    if (size > most) most = size;
+static double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+/* The largest magnitude; infinite if anything is not finite. NULL counts as zeros. Four sums run
+ * side by side, without branches: x - x is zero, or NaN if x is not finite. */
+static double largest(const double *x, size_t count) {
+  double a = 0, b = 0, c = 0, d = 0, odd_a = 0, odd_b = 0, odd_c = 0, odd_d = 0;
+  if (!x) return 0;
+  for (; count >= 4; x += 4, count -= 4) {
+    a = larger(fabs(x[0]), a);
+    b = larger(fabs(x[1]), b);
+    c = larger(fabs(x[2]), c);
+    d = larger(fabs(x[3]), d);
+    odd_a += x[0] - x[0];
+    odd_b += x[1] - x[1];
+    odd_c += x[2] - x[2];
+    odd_d += x[3] - x[3];
   }
-  return most;
+  for (; count > 0; x++, count--) {
+    a = larger(fabs(*x), a);
+    odd_a += *x - *x;
+  }
+  return odd_a + odd_b + odd_c + odd_d == 0 ? larger(larger(a, b), larger(c, d)) : INFINITY;
 }
 
 static double largest_input(const ambulo_mechanics *m, const batch *motion) {
@@ -102,23 +117,39 @@ static int run_count(double most) {
 }
 
 /* lanes[entry][lane] = values[node][entry] for the block that starts at `first`. */
-static void gather(double *lanes, const double *values, int entries, int first, int nodes) {
+static void gather(double *restrict lanes, const double *values, int entries, int first,
+                   int nodes) {
+  const double *from[AMBULO__LANES];
+  if (!values) {
+    memset(lanes, 0, (size_t)entries * AMBULO__LANES * sizeof *lanes);
+    return;
+  }
   for (int lane = 0; lane < AMBULO__LANES; lane++) {
     int node = first + lane < nodes ? first + lane : nodes - 1;
-    const double *from = values ? values + (size_t)node * (size_t)entries : NULL;
-    for (int e = 0; e < entries; e++) lanes[e * AMBULO__LANES + lane] = from ? from[e] : 0;
+    from[lane] = values + (size_t)node * (size_t)entries;
+  }
+  for (int e = 0; e < entries; e++, lanes += AMBULO__LANES) {
+    for (int lane = 0; lane < AMBULO__LANES; lane++) lanes[lane] = from[lane][e];
   }
 }
 
-static void scatter(double *values, const double *lanes, int entries, int first, int nodes) {
+static void scatter(double *restrict values, const double *restrict lanes, int entries, int first,
+                    int nodes) {
   for (int lane = 0; values && lane < AMBULO__LANES && first + lane < nodes; lane++) {
     double *to = values + (size_t)(first + lane) * (size_t)entries;
     for (int e = 0; e < entries; e++) to[e] = lanes[e * AMBULO__LANES + lane];
   }
 }
 
-static int all_finite(const double *values, size_t entries) {
-  return !isinf(largest(values, entries * AMBULO__LANES));
+static int all_finite(const double *lanes, size_t entries) {
+  double a = 0, b = 0, c = 0, d = 0;
+  for (size_t i = 0; i < entries * AMBULO__LANES; i += 4) {
+    a += lanes[i] - lanes[i];
+    b += lanes[i + 1] - lanes[i + 1];
+    c += lanes[i + 2] - lanes[i + 2];
+    d += lanes[i + 3] - lanes[i + 3];
+  }
+  return a + b + c + d == 0;
 }
 
 static void run_forward(ambulo_mechanics *m, const batch *motion, int first) {

@@ -42,6 +42,7 @@ static void add_hinge(ambulo__plan *plan, int k) {
       .rate_from = parent->rate_at,
       .rate_to = frame->rate_at,
       .sign = joint->sign,
+      .shift = joint->shift,
       .virtual_from = parent->virtual_at,
       .virtual_to = frame->virtual_at,
       .moment = frame->moment_at,

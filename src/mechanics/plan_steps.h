@@ -31,7 +31,7 @@ typedef struct ambulo__hinge_step {
   int angle, input, axis;
   int from[2], to[2]; /* columns */
   int rate_from, rate_to;
-  double sign;
+  double sign, shift;
   int virtual_from, virtual_to, moment, adjoint;
   int correction_from, correction; /* reverse: what the offset adds, or zero */
   int place, velocity, motion;
