@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3],
-                        double factor) {
+void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3], double factor) {
   for (int axis = 0; axis < 3; axis++) {
     if (direction[axis] == 0.0 || form->count == AMBULO__FORM_TERMS) continue;
     form->channel[form->count] = first + axis;
@@ -31,7 +30,7 @@ void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__
 
 int ambulo__distinct_nodes(const ambulo__gait_frame *frame) {
   const ambulo_problem_definition *d = frame->definition;
-  int repeats = d->ends != AMBULO_ENDS_FREE && (d->ground_reaction.kind != AMBULO_REACTION_NONE ||
-                                                d->contact_tolerance > 0.0);
+  int repeats = d->ends != AMBULO_ENDS_FREE &&
+                (d->ground_reaction.kind != AMBULO_REACTION_NONE || d->contact_tolerance > 0.0);
   return repeats ? frame->nodes - 1 : frame->nodes;
 }

@@ -135,7 +135,8 @@ ambulo__load ambulo__load_at(const ambulo_problem_definition *d,
                              const ambulo__foot_outline *outlines, double time) {
   ambulo__span span[2];
   int loaded[2];
-  for (int foot = 0; foot < 2; foot++) loaded[foot] = ambulo__loaded_span(d, foot, time, &span[foot]);
+  for (int foot = 0; foot < 2; foot++)
+    loaded[foot] = ambulo__loaded_span(d, foot, time, &span[foot]);
   if (loaded[0] && loaded[1]) {
     const ambulo_contact *contact[2] = {ambulo__contact_of(d, 0, time),
                                         ambulo__contact_of(d, 1, time)};

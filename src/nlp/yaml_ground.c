@@ -41,8 +41,7 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   double position[3] = {0.0, 0.0, 0.0};
   const ambulo__yaml_node *node = ambulo__yaml_require(section, "link");
   const char *name = node ? ambulo__yaml_name(node) : NULL;
-  double mass =
-      ambulo__yaml_number_in(ambulo__yaml_require(section, "mass"), 1e-6, 1000.0, 1.0);
+  double mass = ambulo__yaml_number_in(ambulo__yaml_require(section, "mass"), 1e-6, 1000.0, 1.0);
   int placed = ambulo__yaml_numbers(ambulo__yaml_require(section, "position"), 3, position);
   ambulo__yaml_close(section);
   int link = name ? ambulo_model_find_link(reader->model, name) : -1;

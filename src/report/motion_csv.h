@@ -11,9 +11,12 @@ typedef struct ambulo__motion_table {
   const char *name;
   int samples;
   const double *times, *q, *qd, *qdd, *tau, *zmp;
+  int feet;                              /* 0: no forces on the feet */
+  const double *grf, *cop, *free_moment; /* [samples][feet][3], ..., [samples][feet] */
 } ambulo__motion_table;
 
-/* "# ..." comment, header, one line a time: time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; a value
+/* "# ..." comment, header, one line a time: time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z, and with
+ * ground reaction for each foot grf.<foot>.x|y|z, cop.<foot>.x|y|z, free_moment.<foot>; a value
  * that does not exist (the ZMP in flight) is "nan". */
 void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text);
 

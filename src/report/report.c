@@ -68,6 +68,10 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
       .qdd = stride.qdd,
       .tau = stride.tau,
       .zmp = stride.zmp,
+      .feet = stride.feet,
+      .grf = stride.grf,
+      .cop = stride.cop,
+      .free_moment = stride.free_moment,
   };
   ambulo__motion_csv(&table, text);
   status = write_text(folder, "motion.csv", text, diagnostics);

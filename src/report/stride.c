@@ -72,6 +72,7 @@ static void mirror_second_step(ambulo__stride *s, const sampling *sample, double
     mirror_row(s->model, s->qdd + at, NULL, scratch);
     mirror_row(s->model, s->tau + at, NULL, scratch);
     mirror_point(s->model, s->problem->definition.travel, s->zmp + 3 * (size_t)k);
+    ambulo__stride_feet_mirror(s, k);
   }
 }
 
@@ -90,7 +91,7 @@ static ambulo_status allocate(ambulo__stride *s, sampling *sample, double **scra
   sample->mirrored = ambulo__alloc(a, n, 1);
   *scratch = ambulo__alloc(a, 2 * d, sizeof(double));
   failed |= !s->times || !s->zmp || !sample->base || !sample->mirrored || !*scratch;
-  return failed ? AMBULO_E_MEMORY : AMBULO_OK;
+  return failed ? AMBULO_E_MEMORY : ambulo__stride_feet_allocate(s);
 }
 
 ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double *x, int samples,
@@ -100,6 +101,7 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   ambulo__stride s = {.allocator = ambulo__allocator_or_default(allocator), .problem = problem};
   s.model = ambulo_problem_model(problem);
   s.coordinates = ambulo_model_coordinate_count(s.model);
+  s.feet = problem->channels.feet;
   s.mirrored = ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED;
   s.duration = (s.mirrored ? 2.0 : 1.0) * ambulo_problem_duration(problem);
   s.samples = samples ? samples : (s.mirrored ? 2 : 1) * intervals + 1;
@@ -110,7 +112,14 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   if (!status) status = ambulo_workspace_create(problem, allocator, &workspace);
   if (!status) {
     choose_times(&s, samples, &sample);
-    ambulo_motion motion = {.q = s.q, .qd = s.qd, .qdd = s.qdd, .tau = s.tau, .zmp = s.zmp};
+    ambulo_motion motion = {.q = s.q,
+                            .qd = s.qd,
+                            .qdd = s.qdd,
+                            .tau = s.tau,
+                            .zmp = s.zmp,
+                            .grf = s.grf,
+                            .cop = s.cop,
+                            .free_moment = s.free_moment};
     status = ambulo_problem_motion(problem, workspace, x, s.samples, sample.base, &motion);
     /* a motion that blew up is still shown, holes and all */
     if (status == AMBULO_E_NUMERIC) status = AMBULO_OK;
@@ -135,6 +144,9 @@ void ambulo__stride_free(ambulo__stride *s) {
   ambulo__free(&s->allocator, s->qdd);
   ambulo__free(&s->allocator, s->tau);
   ambulo__free(&s->allocator, s->zmp);
+  ambulo__free(&s->allocator, s->grf);
+  ambulo__free(&s->allocator, s->cop);
+  ambulo__free(&s->allocator, s->free_moment);
 }
 
 int ambulo__stride_contact(const ambulo__stride *s, int foot, double t, ambulo_contact_mode *mode) {

@@ -24,6 +24,9 @@ typedef struct ambulo__stride {
   double *q, *qd, *qdd, *tau; /* [samples][coordinates], rad, m, N m, N; not finite where the
                                  motion is not */
   double *zmp;                /* [samples][3], m; NaN where the body does not press down */
+  int feet;                   /* 0 without ground reaction */
+  double *grf, *cop;          /* [samples][feet][3], N, m; no centre of pressure (NaN) in the air */
+  double *free_moment;        /* [samples][feet], about the normal, N m */
 } ambulo__stride;
 
 /* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced
@@ -35,5 +38,16 @@ void ambulo__stride_free(ambulo__stride *stride); /* accepts a zero-filled one *
 /* Mode of the contact of `foot` at time t in the stride; 0 if it is in the air. */
 int ambulo__stride_contact(const ambulo__stride *stride, int foot, double t,
                            ambulo_contact_mode *mode);
+
+/* Its parts for the feet (stride_feet.c): arrays, and the mirror image of sample k in place. */
+ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
+void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);
+
+/* Integral of the force on a foot over the stride, N s, world axes (trapezoidal rule). */
+void ambulo__stride_impulse(const ambulo__stride *stride, int foot, double impulse[3]);
+/* Force on a foot along `direction` at sample k, in body weights; its largest along the normal. */
+double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
+                            const double direction[3]);
+double ambulo__stride_peak(const ambulo__stride *stride, int foot);
 
 #endif
