@@ -1,28 +1,32 @@
 /* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after the forward pass.
  *
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
- * RA-L 2022; here from mass points). Spatial vectors are referred to the world origin. The unit
- * motion of joint i is the velocity field  s + beta x r,  S_i = (beta, s) = (z, o x z) or (0, z).
- * It is fixed in the parent frame, so with zd = w_p x z, zdd = alpha_p x z + w_p x zd
- *   S  = (z,   o x z),   Sd  = (zd,  od x z + o x zd),
- *   Sdd = (zdd, odd x z + 2 od x zd + o x zdd)     or   (0, z), (0, zd), (0, zdd).
- * A step of q_i moves the subtree by S_i, adds Sd_i to its velocity field and Sdd_i to its
- * acceleration field, the fields being carried along rigidly; a step of qd_i adds S_i to the
- * velocity and 2 Sd_i to the acceleration; a step of qdd_i adds S_i to the acceleration. A field
- * (beta, s) added to the velocity v(r) of a mass point adds 2 beta x v(r) to its acceleration
- * beyond the rigid terms (as in Coriolis' theorem). With the force f = (N, F) of the subtree, its
- * inertia and its momentum P = sum m v, h = sum m r, I = inertia about the origin,
- * K = sum m v r^T, E = tr(K) 1 - K, so that sum m r x (beta x v) = E beta:
- *   t1 = df/dqdd = I(S)                    = (I z + h x s,        m s + z x h)
- *   t2 = df/dqd  = 2 I(Sd) + B(S)          with B(beta, s) = 2 (E beta, beta x P)
- *   t3 = df/dq   = I(Sdd) + B(Sd) + S x* f,  S x* f = (z x N + s x F, z x F)
- * These are the columns of the root wrench. A step of joint i changes tau of an ancestor j by
- * S_j . t; and a step of the ancestor j changes tau_i by the same fields, S_i . (...) turned over:
- *   dtau_j/dq_i = S_j . t3,               dtau_j/dqd_i = S_j . t2,               j above i
+ * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =
+ * S_i(r) = s + z x r, with the unit motion of joint i about the world origin, S_i = (z, s) =
+ * (z, o x z), or (0, z) if prismatic. It is fixed in the parent frame, so that with od, odd the
+ * velocity and acceleration of the origin, zd = w_p x z, zdd = alpha_p x z + w_p x zd,
+ *   Sd  = (zd,  od x z + o x zd),   Sdd = (zdd, odd x z + 2 od x zd + o x zdd)
+ * or (0, zd), (0, zdd). For any motion r(t) of a mechanism d rdd/dqdd = dr/dq, d rdd/dqd =
+ * 2 d/dt (dr/dq), d rdd/dq = d2/dt2 (dr/dq); here
+ *   d rdd/dqdd = S(r),  d rdd/dqd = 2 Sd(r) + 2 z x rd,  d rdd/dq = Sdd(r) + 2 zd x rd + z x rdd
+ * Summed over the mass points with their moments r x, where a field (z, s) gives the wrench
+ *   I(z, s) = (I z + h x s, m s + z x h),   h = sum m r,  I the inertia about the origin,
+ * 2 z x rd gives B(z) = 2 (E z, z x P),   P = sum m rd, K = sum m rd r^T, E = tr(K) 1 - K,
+ * and z x rdd together with the change of r in r x m (rdd - g) gives S x* f, f = (N, F) the force
+ * of the subtree (odd - g, which the forward pass has stored, stands for odd in Sdd: that turns
+ * z x rdd into z x (rdd - g)):
+ *   t1 = df/dqdd = I(S)
+ *   t2 = df/dqd  = I(2 Sd) + B(z)
+ *   t3 = df/dq   = I(Sdd) + B(zd) + S x* f,   S x* f = (z x N + s x F, z x F)
+ * These are the columns of the root wrench. A step of joint i changes tau of an ancestor j, whose
+ * S_j stays, by S_j . t. A step of the ancestor j moves, turns and accelerates the subtree of i by
+ * the same three fields, but S_i turns along with it and S x* f drops out; what is left is turned
+ * over to act on the fields of j, with t4 = E^T z_i + P x s_i:
+ *   dtau_j/dq_i = S_j . t3,                   dtau_j/dqd_i = S_j . t2,           j above i
  *   dtau_i/dq_j = t4 . 2 zd_j + t1 . Sdd_j,   dtau_i/dqd_j = 2 t4 . z_j + t1 . 2 Sd_j,
- *   dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,   t4 = E^T z + P x s,              j above or = i
- * (the turn of S_i with a step of q_j cancels against the turn of f). E, P, h, I are sums over
- * the subtree; those of one body with centre of mass x, velocity v, inertia J about x are
+ *   dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,                                    j above or = i
+ * E, P, h, I are sums over the subtree; those of one body with centre of mass x, velocity v and
+ * inertia J about x are
  *   h = m x,  P = m v,  I = J + (h.x) 1 - h x^T,  K = v h^T + [w x] (tr(J)/2 1 - J).
  * Point p:  dp/dq_j = s_j + z_j x p.
  * Stored per joint: S, 2 Sd, Sdd; per load: h, P, I, E.
