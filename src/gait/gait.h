@@ -37,6 +37,12 @@ ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *defi
                                            const double *times, int nodes, const int *active,
                                            ambulo_diagnostics *diagnostics);
 
+/* End values against limits, against each other (periodic, mirrored) and against the ground;
+ * speeds that the ends demand against speed limits. Errors: E_PROBLEM, E_MEMORY. */
+ambulo_status ambulo__ends_check(const ambulo_problem_definition *definition, int nodes,
+                                 const int *active, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics);
+
 /* "ground_penetration": corner heights, = 0 in contact, >= 0 otherwise (m). */
 void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "foot_strike": horizontal place of the contact point, and the heading of a flat foot (m).

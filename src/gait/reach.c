@@ -15,6 +15,7 @@
 #include "gait/gait.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const double time_tolerance = 1e-9;   /* s */
 static const double length_tolerance = 1e-9; /* m */
@@ -77,7 +78,9 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
   double distance = hypot(place_a[0] - place_b[0], place_a[1] - place_b[1]);
   double reach = reach_between(model, point_a, point_b);
   if (distance <= reach + length_tolerance) return AMBULO_OK;
-  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, "shorten the step",
+  char hint[80];
+  (void)snprintf(hint, sizeof hint, "shorten the step by %.3g m or more", distance - reach);
+  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, hint,
                        "contacts[%d] (foot '%s') and contacts[%d] (foot '%s') are out of reach at "
                        "t = %.6g s: %.4g m apart; expected at most %.4g m, the legs' length",
                        i, model->feet[a->foot].name, j, model->feet[b->foot].name, time, distance,

@@ -242,7 +242,9 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   if (!p->active) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__schedule_fill(d, p->times, p->nodes, p->active, diagnostics);
   if (status) return status;
-  return ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
+  status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
+  ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
+  return status ? status : ends;
 }
 
 static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnostics) {

@@ -154,8 +154,10 @@ static ambulo_status finish(solve *s) {
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;
   describe(s);
-  explain(s);
-  if (s->explains) status = ambulo__explain(s->engine, r);
+  if (s->explains) {
+    explain(s);
+    status = ambulo__explain(s->engine, r);
+  }
   if (status) return status;
   ambulo__engine_free(s->engine);
   s->engine = NULL;
