@@ -71,14 +71,15 @@ static void tell_sides_apart(comparing *c, const char *curve) {
 static ambulo_status sample(comparing *c, const ambulo__map_entry *entry, const double *percents,
                             int count, double *values, int *found) {
   const char *foot = c->options->foot;
-  ambulo__side first = foot && foot[0] == 'r' ? AMBULO__RIGHT : AMBULO__LEFT;
+  ambulo__cycle_side first = foot && foot[0] == 'r' ? AMBULO__CYCLE_RIGHT : AMBULO__CYCLE_LEFT;
   double *other = c->right;
   int both = 0;
   ambulo_status status =
       ambulo__cycle_curve(&c->cycle, entry, first, percents, count, values, found);
   if (status || !*found) return status;
   if (!foot) {
-    status = ambulo__cycle_curve(&c->cycle, entry, AMBULO__RIGHT, percents, count, other, &both);
+    status =
+        ambulo__cycle_curve(&c->cycle, entry, AMBULO__CYCLE_RIGHT, percents, count, other, &both);
     if (status) return status;
   }
   if (both && difference(values, other, count) > alike) {

@@ -102,7 +102,7 @@ static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
 /* -------------------------------------------------------------- foot strikes */
 
 /* the last time without load before the foot takes load, if there is a force column */
-static ambulo_status find_onset(ambulo__cycle *c, ambulo__side side, int have[2]) {
+static ambulo_status find_onset(ambulo__cycle *c, ambulo__cycle_side side, int have[2]) {
   double *force = c->scratch, peak = 0.0;
   int found = 0;
   ambulo_status status = ambulo__cycle_samples(c, "grf.{foot}.up", side, force, &found);
@@ -119,7 +119,7 @@ static ambulo_status find_onset(ambulo__cycle *c, ambulo__side side, int have[2]
 static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options *options,
                                   int have[2]) {
   double whole = c->time[c->rows - 1] - c->time[0];
-  int first = options->foot && strcmp(options->foot, feet[AMBULO__RIGHT]) == 0;
+  int first = options->foot && strcmp(options->foot, feet[AMBULO__CYCLE_RIGHT]) == 0;
   for (int side = 0; side < 2; side++) {
     if (c->length[side] == 0.0) c->length[side] = whole;
   }
@@ -129,7 +129,7 @@ static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options
     return AMBULO_OK;
   }
   for (int side = 0; side < 2; side++) {
-    ambulo_status status = have[side] ? AMBULO_OK : find_onset(c, (ambulo__side)side, have);
+    ambulo_status status = have[side] ? AMBULO_OK : find_onset(c, (ambulo__cycle_side)side, have);
     if (status) return status;
   }
   if (!have[0] && !have[1]) {
@@ -219,7 +219,7 @@ static void warn_if_open(ambulo__cycle *c, const double *y, const char *curve) {
 }
 
 ambulo_status ambulo__cycle_curve(ambulo__cycle *c, const ambulo__map_entry *entry,
-                                  ambulo__side side, const double *percents, int count,
+                                  ambulo__cycle_side side, const double *percents, int count,
                                   double *values, int *found) {
   double *y = c->scratch + c->rows, *slope = y + c->rows;
   ambulo_status status = ambulo__cycle_samples(c, entry->result, side, y, found);
@@ -229,7 +229,7 @@ ambulo_status ambulo__cycle_curve(ambulo__cycle *c, const ambulo__map_entry *ent
   if (!*found) return AMBULO_OK;
   warn_if_open(c, y, entry->curve);
   double factor = entry->factor * (is_angle ? 57.295779513082321 : 1.0 / c->mass);
-  if (entry->opposite && side == AMBULO__RIGHT) factor = -factor;
+  if (entry->opposite && side == AMBULO__CYCLE_RIGHT) factor = -factor;
   double start = c->time[0], whole = c->time[c->rows - 1] - start;
   fill_slopes(c, y, slope);
   for (int i = 0; i < count; i++) {

@@ -9,7 +9,7 @@
 #include "ambulo/report.h"
 #include "report/compare_map.h"
 
-typedef enum ambulo__side { AMBULO__LEFT, AMBULO__RIGHT } ambulo__side;
+typedef enum ambulo__cycle_side { AMBULO__CYCLE_LEFT, AMBULO__CYCLE_RIGHT } ambulo__cycle_side;
 
 typedef struct ambulo__cycle {
   ambulo_allocator allocator;
@@ -37,11 +37,11 @@ void ambulo__cycle_close(ambulo__cycle *cycle); /* accepts a zero-filled one */
  * *found = 0 (values untouched) when the motion has no such column, or the mass is not known but
  * needed. Errors: E_SCHEMA (a cell is no number). */
 ambulo_status ambulo__cycle_curve(ambulo__cycle *cycle, const ambulo__map_entry *entry,
-                                  ambulo__side side, const double *percents, int count,
+                                  ambulo__cycle_side side, const double *percents, int count,
                                   double *values, int *found);
 
 /* The samples of a result expression for one side, [rows], SI units. */
-ambulo_status ambulo__cycle_samples(ambulo__cycle *cycle, const char *expression, ambulo__side side,
-                                    double *values, int *found);
+ambulo_status ambulo__cycle_samples(ambulo__cycle *cycle, const char *expression,
+                                    ambulo__cycle_side side, double *values, int *found);
 
 #endif

@@ -8,14 +8,14 @@ enum { NAME_SIZE = 256 };
 static const char *const feet[] = {"left", "right"};
 
 /* copies from[0..length) and puts the side in place of {side} and {foot}; 0 if it is too long */
-static int expand(const char *from, size_t length, ambulo__side side, char name[NAME_SIZE]) {
+static int expand(const char *from, size_t length, ambulo__cycle_side side, char name[NAME_SIZE]) {
   size_t used = 0, i = 0;
   while (i < length) {
     char letter[2] = {from[i], '\0'};
     const char *piece = letter;
     size_t step = 1;
     if (length - i >= 6 && memcmp(from + i, "{side}", 6) == 0) {
-      letter[0] = side == AMBULO__LEFT ? 'l' : 'r';
+      letter[0] = side == AMBULO__CYCLE_LEFT ? 'l' : 'r';
       step = 6;
     } else if (length - i >= 6 && memcmp(from + i, "{foot}", 6) == 0) {
       piece = feet[side];
@@ -82,8 +82,8 @@ static int ends_with(const char *text, const char *end) {
   return length >= size && strcmp(text + length - size, end) == 0;
 }
 
-ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression, ambulo__side side,
-                                    double *values, int *found) {
+ambulo_status ambulo__cycle_samples(ambulo__cycle *c, const char *expression,
+                                    ambulo__cycle_side side, double *values, int *found) {
   double *scratch = c->scratch + 3 * (size_t)c->rows;
   int any = 0;
   memset(values, 0, (size_t)c->rows * sizeof *values);

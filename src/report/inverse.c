@@ -13,6 +13,7 @@
 
 #include "base/atomic_file.h"
 #include "model/model.h"
+#include "report/ground_load.h"
 #include "report/motion_csv.h"
 #include "trajectory/motion_fit.h"
 
@@ -166,6 +167,56 @@ static ambulo_status deliver(inverse *v, const char *output, char **text) {
   return status;
 }
 
+/* -------------------------------------------------------- forces on the feet */
+
+static void tell(const inverse *v, const char *forces, const ambulo__ground_load *load,
+                 const ambulo_ground_residual *r) {
+  ambulo__place place = {.file = forces};
+  if (!load->has_points)
+    ambulo__warning(
+        v->diagnostics, place, NULL,
+        "neither points nor torques; the forces are applied at the zero-moment point of "
+        "the motion, which makes torques rough while both feet are loaded");
+  ambulo__note(v->diagnostics, place,
+               "left over at the root: forward %.4f, up %.4f, left %.4f body weights (rms)",
+               r->force_rms[0], r->force_rms[1], r->force_rms[2]);
+  if (load->has_points)
+    ambulo__note(v->diagnostics, place, "moment left over: %.4f body weights m (rms)",
+                 r->moment_rms);
+  ambulo__note(v->diagnostics, place, "vertical impulse %.2f N s; the motion needs %.2f N s",
+               r->given_vertical_impulse, r->vertical_impulse);
+}
+
+static ambulo_status apply_forces(inverse *v, const char *forces,
+                                  ambulo_ground_residual *residual) {
+  ambulo__ground_load load;
+  ambulo_ground_residual r;
+  ambulo_status status = ambulo__ground_load_read(
+      v->model, forces, v->motion->time, v->motion->rows, &v->allocator, v->diagnostics, &load);
+  if (status) return status;
+  ambulo__ground_load_place(&load, v->zmp);
+  status = ambulo__ground_load_apply(&load, v->model, v->q, v->tau);
+  if (!status) {
+    ambulo__ground_load_residual(&load, v->model, v->motion->time, v->wrench, v->zmp, &r);
+    tell(v, forces, &load, &r);
+    if (residual) *residual = r;
+  }
+  ambulo__ground_load_free(&load);
+  return status;
+}
+
+static ambulo_status run(inverse *v, const char *forces, const char *output,
+                         ambulo_ground_residual *residual, char **text) {
+  ambulo_ground_residual r;
+  ambulo_status status = read_motion(v);
+  if (!status) status = compute(v);
+  if (!status && forces) status = apply_forces(v, forces, &r);
+  if (!status) status = deliver(v, output, text);
+  if (!status && forces && residual) *residual = r;
+  clear(v);
+  return status;
+}
+
 ambulo_status ambulo_inverse_dynamics_file(const ambulo_model *model, const char *motion,
                                            const char *output, const ambulo_allocator *allocator,
                                            ambulo_diagnostics *diagnostics, char **text) {
@@ -174,9 +225,18 @@ ambulo_status ambulo_inverse_dynamics_file(const ambulo_model *model, const char
                .model = model,
                .diagnostics = diagnostics,
                .file = motion};
-  ambulo_status status = read_motion(&v);
-  if (!status) status = compute(&v);
-  if (!status) status = deliver(&v, output, text);
-  clear(&v);
-  return status;
+  return run(&v, NULL, output, NULL, text);
+}
+
+ambulo_status ambulo_inverse_dynamics_loaded(const ambulo_model *model, const char *motion,
+                                             const char *forces, const char *output,
+                                             const ambulo_allocator *allocator,
+                                             ambulo_diagnostics *diagnostics,
+                                             ambulo_ground_residual *residual, char **text) {
+  if (!model || !motion || !forces || (!output && !text)) return AMBULO_E_ARGUMENT;
+  inverse v = {.allocator = ambulo__allocator_or_default(allocator),
+               .model = model,
+               .diagnostics = diagnostics,
+               .file = motion};
+  return run(&v, forces, output, residual, text);
 }
