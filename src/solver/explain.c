@@ -91,7 +91,7 @@ static ambulo_status start_point(const ambulo__engine *e, const ambulo_result *r
 static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, ambulo__pool *pool,
                              ambulo__explanation *out) {
   ambulo__elastic elastic;
-  ambulo__remedy remedy = {-1, -1, NULL};
+  ambulo__remedy remedy = {.conflict = -1, .row = -1};
   double *x = ambulo__pool_doubles(pool, (size_t)e->n);
   double deadline = deadline_of(e->run);
   if (pool->failed) return AMBULO_E_MEMORY;

@@ -34,6 +34,7 @@ typedef struct ambulo__remedy {
   int conflict;  /* index, -1: no family suffices alone */
   int row;       /* worst row of it */
   double *value; /* [rows] of the problem where it gives way */
+  int single;    /* 1: only rows like this one give way there, not the rest of the family */
 } ambulo__remedy;
 
 /* Fills result->explanation for the verdicts infeasible and limit; nothing for others.

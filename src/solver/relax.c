@@ -7,6 +7,8 @@
  *    the point itself shows that this much is enough. Least squares spreads a violation over
  *    many rows; to lower the worst one the weights of its rows are multiplied by their share
  *    of the worst (Lawson's iteration for minimax problems), and the best point is kept.
+ * 3. Of the family that gives way most easily, only one limit, or only the travel of periodic
+ *    and mirrored ends, is tried: one number is better advice than three.
  */
 #include "solver/explain.h"
 #include "solver/audit.h"
@@ -15,18 +17,21 @@
 #include <string.h>
 
 enum { LAWSON_PASSES = 5 };
-static const double stiff = 1e3;        /* weight of the other families */
-static const double holds = 1e-4;       /* violation of the others that counts as none */
-static const double share = 1e-3;       /* of the worst: what still counts as in conflict */
-static const double least_share = 0.03; /* of a weight that Lawson's iteration leaves */
-static const double main_part = 0.5;    /* of the time, for the first solve */
+static const double stiff = 1e3;         /* weight of the other families */
+static const double holds = 1e-4;        /* violation of the others that counts as none */
+static const double share = 1e-3;        /* of the worst: what still counts as in conflict */
+static const double least_share = 0.03;  /* of a weight that Lawson's iteration leaves */
+static const double narrowed_most = 4.0; /* how much more one limit may give than a family */
+static const double main_part = 0.5;     /* of the time, for the first solve */
 
 typedef struct relaxing {
   ambulo__elastic *elastic;
-  const char *family;    /* that gives way */
-  double *x, *candidate; /* [n] */
-  double *value;         /* [rows] of the best point so far */
-  double worst, others;  /* there; relative to the rows' sizes */
+  const char *family;            /* that gives way */
+  const ambulo__table_row *only; /* NULL, or: only rows that say the same of another time */
+  double *x, *candidate;         /* [n] */
+  double *value;                 /* [rows] of the best point so far */
+  double worst, others;          /* there; relative to the rows' sizes */
+  double family_worst;           /* of the remedy, where its whole family gives way */
   int row;
 } relaxing;
 
@@ -41,12 +46,26 @@ static ambulo_violation violation_of(const ambulo_problem *p, int row, double va
   return v;
 }
 
-/* worst row of the family at `value`; -1 when all hold */
-static int worst_row(const ambulo__elastic *e, const char *family, const double *value) {
+static int is_ends(const char *family) {
+  return !strcmp(family, "periodic") || !strcmp(family, "mirrored");
+}
+
+/* does row r give way? */
+static int gives(const relaxing *s, int r) {
+  const ambulo__table_row *row = &s->elastic->problem->table.rows[r], *only = s->only;
+  if (strcmp(row->family, s->family) != 0) return 0;
+  if (!only) return 1;
+  if (is_ends(s->family)) return row->constant != 0.0; /* the travel */
+  return !strcmp(row->subject, only->subject) && !strcmp(row->detail, only->detail);
+}
+
+/* worst row that gives way at `value`; -1 when all hold */
+static int worst_row(const relaxing *s, const double *value) {
+  const ambulo__elastic *e = s->elastic;
   int row = -1;
   double worst = 0.0;
   for (int r = 0; r < e->problem->rows; r++) {
-    if (strcmp(family_of(e, r), family) != 0) continue;
+    if (!gives(s, r)) continue;
     double excess = ambulo__elastic_excess(e, r, value[r]);
     if (excess > worst) {
       worst = excess;
@@ -56,11 +75,10 @@ static int worst_row(const ambulo__elastic *e, const char *family, const double 
   return row;
 }
 
-static double worst_outside(const ambulo__elastic *e, const char *family, const double *value) {
+static double worst_outside(const relaxing *s, const double *value) {
   double worst = 0.0;
-  for (int r = 0; r < e->problem->rows; r++) {
-    if (strcmp(family_of(e, r), family) != 0)
-      worst = fmax(worst, ambulo__elastic_excess(e, r, value[r]));
+  for (int r = 0; r < s->elastic->problem->rows; r++) {
+    if (!gives(s, r)) worst = fmax(worst, ambulo__elastic_excess(s->elastic, r, value[r]));
   }
   return worst;
 }
@@ -105,26 +123,24 @@ static double worst_violation(const ambulo__elastic *e) {
 
 static void set_weights(const relaxing *s) {
   ambulo__elastic *e = s->elastic;
-  for (int r = 0; r < e->problem->rows; r++)
-    e->weight[r] = strcmp(family_of(e, r), s->family) ? stiff : 1.0;
+  for (int r = 0; r < e->problem->rows; r++) e->weight[r] = gives(s, r) ? 1.0 : stiff;
 }
 
 /* Lawson's step, from the excesses at the point held */
 static void shift_weights(const relaxing *s) {
   ambulo__elastic *e = s->elastic;
   const double *value = e->workspace->row_value;
-  int worst = worst_row(e, s->family, value);
+  int worst = worst_row(s, value);
   if (worst < 0) return;
   double largest = ambulo__elastic_excess(e, worst, value[worst]), top = 0.0;
   for (int r = 0; r < e->problem->rows; r++) {
-    if (strcmp(family_of(e, r), s->family) != 0) continue;
+    if (!gives(s, r)) continue;
     double part = ambulo__elastic_excess(e, r, value[r]) / largest;
     e->weight[r] *= sqrt(fmax(least_share, part));
     top = fmax(top, e->weight[r]);
   }
   for (int r = 0; r < e->problem->rows; r++) {
-    if (strcmp(family_of(e, r), s->family) == 0)
-      e->weight[r] = fmax(least_share, e->weight[r] / top);
+    if (gives(s, r)) e->weight[r] = fmax(least_share, e->weight[r] / top);
   }
 }
 
@@ -132,8 +148,8 @@ static void shift_weights(const relaxing *s) {
 static void keep(relaxing *s) {
   const ambulo__elastic *e = s->elastic;
   const double *value = e->workspace->row_value;
-  double others = worst_outside(e, s->family, value);
-  int row = worst_row(e, s->family, value);
+  double others = worst_outside(s, value);
+  int row = worst_row(s, value);
   double worst = row < 0 ? 0.0 : ambulo__elastic_excess(e, row, value[row]);
   if (s->row >= -1 && (others > holds || worst >= s->worst)) return;
   s->worst = worst;
@@ -185,13 +201,51 @@ static void list_others(const relaxing *s, ambulo_conflict *c) {
 
 /* how hard it is for a person to change what the family stands for */
 static double reluctance(const char *family) {
-  static const char *const choices[] = {"foot_strike", "initial_state", "final_state", "periodic",
-                                        "mirrored"};
+  static const char *const choices[] = {"foot_strike", "initial_state", "final_state",
+                                        "periodic",    "mirrored",      "contact"};
   if (!strcmp(family, "ground_penetration") || !strcmp(family, "normal_force")) return 30.0;
   for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
     if (!strcmp(family, choices[i])) return 3.0;
   }
   return 1.0;
+}
+
+/* keeps what the remedy needs of the best point */
+static void take_remedy(const relaxing *s, int conflict, ambulo__remedy *remedy) {
+  remedy->conflict = conflict;
+  remedy->row = s->row;
+  memcpy(remedy->value, s->value, (size_t)s->elastic->problem->rows * sizeof *s->value);
+}
+
+/* a row that stands for subject and detail of v */
+static const ambulo__table_row *row_like(const ambulo_problem *p, const ambulo_violation *v) {
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    if (!strcmp(row->family, v->family) && !strcmp(row->subject, v->subject) &&
+        !strcmp(row->detail, v->detail))
+      return row;
+  }
+  return NULL;
+}
+
+/* one limit, or the travel alone, instead of the whole family: a remedy of one number */
+static void narrow(relaxing *s, double deadline, const ambulo__explanation *out,
+                   ambulo__remedy *remedy) {
+  if (remedy->conflict < 0) return;
+  const ambulo_conflict *c = &out->conflict[remedy->conflict];
+  int tries = c->other_count == 0 ? 0 : is_ends(c->shared.family) ? 1 : 1 + c->other_count;
+  double most = is_ends(c->shared.family) ? HUGE_VAL : narrowed_most * s->family_worst;
+  s->family = c->shared.family;
+  for (int i = 0; i < tries && !s->elastic->cancelled; i++) {
+    double now = ambulo__seconds_now();
+    if (now >= deadline) break;
+    s->elastic->deadline = now + (deadline - now) / (double)(tries - i);
+    s->only = row_like(s->elastic->problem, i == 0 ? &c->relaxation : &c->others[i - 1]);
+    if (relax_alone(s) != 1 || s->row < 0 || s->worst >= most) continue;
+    most = s->worst;
+    remedy->single = 1;
+    take_remedy(s, remedy->conflict, remedy);
+  }
 }
 
 static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
@@ -202,18 +256,18 @@ static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
     ambulo_conflict *c = &out->conflict[i];
     double now = ambulo__seconds_now();
     if (now >= deadline || s->elastic->cancelled) break;
-    s->elastic->deadline = now + (deadline - now) / (double)(count - i);
+    s->elastic->deadline = now + (deadline - now) / (double)(count - i + 1);
     s->family = c->shared.family;
     c->alone = relax_alone(s);
     if (c->alone != 1 || s->row < 0) continue;
     c->relaxation = violation_of(s->elastic->problem, s->row, s->value[s->row]);
     list_others(s, c);
     double cost = s->worst * reluctance(s->family);
+    if (strstr(s->family, "_limit")) cost *= (double)(1 + c->other_count);
     if (cost >= least) continue;
+    s->family_worst = s->worst;
     least = cost;
-    remedy->conflict = i;
-    remedy->row = s->row;
-    memcpy(remedy->value, s->value, (size_t)s->elastic->problem->rows * sizeof *s->value);
+    take_remedy(s, i, remedy);
   }
 }
 
@@ -233,6 +287,7 @@ ambulo_status ambulo__relax(ambulo__elastic *e, double tolerance, double *x, amb
   if (out->view.feasible_point) return AMBULO_OK;
   list_conflicts(e, 10.0 * tolerance, out);
   try_families(&s, deadline, out, remedy);
+  narrow(&s, deadline, out, remedy);
   for (int i = 0; i < out->view.conflict_count; i++) {
     if (out->conflict[i].alone < 0) out->view.complete = 0;
   }

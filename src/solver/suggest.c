@@ -8,7 +8,7 @@
  *   foot strike  footholds are missed by c: the spacing that can be reached while two feet are
  *                down is (place_b + c_b) - (place_a + c_a)
  *
- * These numbers suffice by themselves: a point that meets them has been found. Lengths,
+ * These numbers suffice: a point that meets them has been found. Lengths,
  * torques and angles are in SI units and radians, as everywhere in results.
  */
 #include "solver/explain.h"
@@ -27,6 +27,11 @@ typedef struct wording {
 
 static int is(const wording *w, const char *family) {
   return !strcmp(w->row->family, family);
+}
+
+/* what is left of zero after a descent */
+static double clean(double value) {
+  return fabs(value) < 1e-5 ? 0.0 : value;
 }
 
 static double degrees(double angle) {
@@ -53,7 +58,7 @@ static void limit(const wording *w, const char *what) {
 
 static void end_value(const wording *w) {
   char a[32], b[32];
-  double asked = -w->row->constant, reached = asked + w->value;
+  double asked = -w->row->constant, reached = clean(asked + w->value);
   (void)snprintf(
       w->text, AMBULO__LINE_SIZE,
       "ask for another %s %s of %s at t = %.4g s: %.4g %s%s instead of %.4g %s%s, or give "
@@ -69,7 +74,7 @@ static void matching_ends(const wording *w) {
     double sign = -w->row->constant / travel;
     (void)snprintf(w->text, AMBULO__LINE_SIZE,
                    "change ends.travel from %.4g m to %.4g m, which the other rows allow (%s)",
-                   travel, travel + sign * w->value, w->row->subject);
+                   travel, clean(travel + sign * w->value), w->row->subject);
   } else {
     (void)snprintf(w->text, AMBULO__LINE_SIZE,
                    "the two ends of %s (%s) stay %.4g %s apart: use 'ends: {kind: free}', or drop "
@@ -163,6 +168,19 @@ static void other(const wording *w) {
                  w->row->time);
 }
 
+/* the rest of the family that has to give way with it */
+static void mention_others(const ambulo_conflict *c, char *text) {
+  size_t used = strlen(text), room = AMBULO__LINE_SIZE - used;
+  if (c->other_count == 0) return;
+  const ambulo_violation *v = &c->others[0];
+  if (c->other_count == 1) {
+    (void)snprintf(text + used, room, "; likewise %s %s by %.4g %s", v->subject, v->detail,
+                   v->worst, v->unit);
+  } else {
+    (void)snprintf(text + used, room, "; likewise the other rows named under %s", c->shared.family);
+  }
+}
+
 void ambulo__suggest(const ambulo_problem *p, const ambulo__remedy *remedy,
                      ambulo__explanation *out) {
   if (remedy->conflict < 0) return;
@@ -186,4 +204,5 @@ void ambulo__suggest(const ambulo_problem *p, const ambulo__remedy *remedy,
   } else {
     other(&w);
   }
+  if (!remedy->single) mention_others(&out->conflict[remedy->conflict], out->suggestion);
 }
