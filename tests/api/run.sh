@@ -116,7 +116,7 @@ check 'links of the pages' links_lead_somewhere
 # what was built is what gets installed: "all" counts as made
 check 'make install' make --no-print-directory -o all VARIANT="$variant" CC="$cc" install \
   DESTDIR="$work/root" PREFIX=/usr
-if [ ! -x "$work/root/usr/bin/ambulo" ]; then
+if [ ! -f "$work/root/usr/lib/pkgconfig/ambulo.pc" ]; then
   echo "$passed passed, $failed failed"
   exit 1
 fi
