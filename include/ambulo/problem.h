@@ -63,6 +63,9 @@ typedef struct ambulo_gait {
   int first_foot;                                   /* foot that strikes at t = 0 */
   double step_length, step_time, step_width, start; /* m, s, m, m */
   double heel_strike, foot_flat, heel_off, toe_off; /* e.g. 0, 0.08, 0.38, 0.62 */
+  /* Steps that differ: the steps to odd strikes take step_length and step_time, those to even
+   * ones these. 0: the same as the first. A stride lasts their sum. */
+  double other_step_length, other_step_time; /* m, s */
 } ambulo_gait;
 
 /* Writes at most `capacity` contacts that meet [0, steps * step_time] and sets

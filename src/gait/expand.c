@@ -1,14 +1,17 @@
 /* gait/expand.c - a regular walk as a list of contacts.
  *
- * Step s = ..., -1, 0, 1, ... strikes at s Ts with the foot that alternates from
- * `first_foot`; its foothold is (start + s L, +-W / 2), + for the foot that stands
- * further left at q = 0. With the stride S = 2 Ts the foot is
+ * Step s = ..., -1, 0, 1, ... strikes at t_s with the foot that alternates from
+ * `first_foot`; its foothold is (start + x_s, +-W / 2), + for the foot that stands
+ * further left at q = 0. Steps to odd strikes last Ts and are L long, those to even ones
+ * Ts' and L' (as long as the others unless told):
  *
- *     on its heel   from  s Ts + heel_strike S   to  s Ts + foot_flat S
- *     flat          from  s Ts + foot_flat S     to  s Ts + heel_off S
- *     on its toes   from  s Ts + heel_off S      to  s Ts + toe_off S
+ *     t_s = ceil(s / 2) Ts + floor(s / 2) Ts',   x_s likewise,   stride S = Ts + Ts'
  *
- * Spans are cut to [0, steps Ts]; empty ones are left out, except that a foot which comes
+ *     on its heel   from  t_s + heel_strike S   to  t_s + foot_flat S
+ *     flat          from  t_s + foot_flat S     to  t_s + heel_off S
+ *     on its toes   from  t_s + heel_off S      to  t_s + toe_off S
+ *
+ * Spans are cut to [0, t_steps]; empty ones are left out, except that a foot which comes
  * down exactly at the end is in contact at that instant.
  */
 #include "gait/gait.h"
@@ -21,15 +24,32 @@ static const double shortest_span = 1e-9; /* s */
 enum { MOST_STEPS = 1000 };
 
 static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
-  double lengths[] = {gait->step_length, gait->step_width, gait->start};
-  for (int i = 0; i < 3; i++) {
+  double lengths[] = {gait->step_length, gait->step_width, gait->start, gait->other_step_length};
+  for (int i = 0; i < 4; i++) {
     if (!isfinite(lengths[i])) return 0;
   }
   return model->foot_count == 2 && gait->first_foot >= 0 && gait->first_foot < 2 &&
          gait->steps >= 1 && gait->steps <= MOST_STEPS && gait->step_time > 0.0 &&
-         isfinite(gait->step_time) && gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
+         isfinite(gait->step_time) && gait->other_step_time >= 0.0 &&
+         isfinite(gait->other_step_time) && gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
          gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
          gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
+}
+
+/* sum of `odd` over the odd and `even` over the even steps up to step s; negative before step 0 */
+static double up_to_step(int s, double odd, double even) {
+  int evens = s >= 0 ? s / 2 : -((1 - s) / 2);
+  return (double)(s - evens) * odd + (double)evens * even;
+}
+
+double ambulo__gait_strike(const ambulo_gait *gait, int step) {
+  double other = gait->other_step_time > 0.0 ? gait->other_step_time : gait->step_time;
+  return up_to_step(step, gait->step_time, other);
+}
+
+double ambulo__gait_place(const ambulo_gait *gait, int step) {
+  double other = gait->other_step_length != 0.0 ? gait->other_step_length : gait->step_length;
+  return up_to_step(step, gait->step_length, other);
 }
 
 /* the foot that stands further left at q = 0 */
@@ -67,14 +87,14 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
                                  ambulo_contact *contacts, int capacity, int *count) {
   if (!model || !gait || !count || (!contacts && capacity > 0)) return AMBULO_E_ARGUMENT;
   if (!gait_is_legal(model, gait)) return AMBULO_E_ARGUMENT;
-  writer w = {contacts, capacity, 0, (double)gait->steps * gait->step_time};
-  double stride = 2.0 * gait->step_time;
+  writer w = {contacts, capacity, 0, ambulo__gait_strike(gait, gait->steps)};
+  double stride = ambulo__gait_strike(gait, 2);
   const double fraction[] = {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off};
   int left = left_foot(model);
   /* a foot is down for less than one stride and strikes at most half a stride early */
   for (int step = -3; step <= gait->steps + 1; step++) {
     int foot = step % 2 == 0 ? gait->first_foot : 1 - gait->first_foot;
-    double strike = (double)step * gait->step_time;
+    double strike = ambulo__gait_strike(gait, step);
     double side = foot == left ? 0.5 : -0.5;
     for (int mode = AMBULO_CONTACT_HEEL; mode <= AMBULO_CONTACT_TOE; mode++) {
       ambulo_contact contact = {
@@ -82,7 +102,7 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
           .mode = (ambulo_contact_mode)mode,
           .from = strike + fraction[mode] * stride,
           .to = strike + fraction[mode + 1] * stride,
-          .place = {gait->start + (double)step * gait->step_length, side * gait->step_width}};
+          .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width}};
       if (contact.to - contact.from > shortest_span) write_span(&w, contact);
     }
   }

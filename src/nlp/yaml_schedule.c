@@ -2,10 +2,15 @@
  *
  * Duration, number of steps, step time and speed say the same thing twice:
  *     step_time = step_length / speed,   duration = steps * step_time
- * What is missing is computed; what is given must agree.
+ * What is missing is computed; what is given must agree. Of a speed alone follow both: people keep
+ * the walk ratio of step length and cadence when they walk slower or faster (Sekiya et al. 1996;
+ * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute:
+ *     v = L C / 60,   L = W C      =>      L = sqrt(60 v W)
+ * Two unlike steps: lists of two lengths, of two times.
  */
 #include "nlp/problem_yaml.h"
 
+#include "gait/gait.h"
 #include "gait/neutral_pose.h"
 
 #include <math.h>
@@ -97,7 +102,8 @@ static double read_step_time(const ambulo__problem_reader *reader, const ambulo_
   const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
   const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
   double by_time = ambulo__yaml_number_in(time, 1e-3, 1e3, 1.0);
-  double by_speed = gait->step_length / ambulo__yaml_number_in(speed, 1e-3, 100.0, 1.0);
+  double velocity = ambulo__yaml_number_in(speed, 1e-3, 100.0, 1.0);
+  double by_speed = ambulo__gait_place(gait, gait->steps) / (velocity * (double)gait->steps);
   double by_duration = reader->definition.duration / (double)gait->steps;
   if (reader->has_duration) {
     check_agreement(time, "step_time", by_time, by_duration);
@@ -155,20 +161,65 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
   reader->definition.contact_count = count;
 }
 
+static int is_list(const ambulo__yaml_node *node) {
+  return node && ambulo__yaml_kind_of(node) == AMBULO__YAML_SEQUENCE;
+}
+
+/* two step times: 1 if the file gives them */
+static int read_two_times(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                          ambulo_gait *gait) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_time");
+  double times[2] = {1.0, 1.0};
+  if (!is_list(node)) return 0;
+  (void)ambulo__yaml_numbers(node, 2, times);
+  if (!(times[0] >= 1e-3 && times[1] >= 1e-3 && times[0] <= 1e3 && times[1] <= 1e3)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "step times %g s and %g s; expected 0.001 to 1000 s", times[0],
+                             times[1]);
+    times[0] = times[1] = 1.0;
+  }
+  gait->step_time = times[0];
+  gait->other_step_time = times[1];
+  double mean = ambulo__gait_strike(gait, gait->steps) / (double)gait->steps;
+  if (reader->has_duration)
+    check_agreement(node, "step_time", mean, reader->definition.duration / (double)gait->steps);
+  return 1;
+}
+
+/* one length, two, or that which people choose at the speed */
+static void read_step_lengths(const ambulo__problem_reader *reader,
+                              const ambulo__yaml_node *section, ambulo_gait *gait) {
+  const double walk_ratio = 0.0035; /* statures per (step / min) */
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
+  double stature = ambulo_model_stature(reader->model);
+  if (is_list(node)) {
+    double lengths[2] = {0.0, 0.0};
+    (void)ambulo__yaml_numbers(node, 2, lengths);
+    gait->step_length = lengths[0];
+    gait->other_step_length = lengths[1];
+  } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
+    double speed = ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, 1.0);
+    gait->step_length = sqrt(60.0 * speed * walk_ratio * stature);
+  } else {
+    gait->step_length =
+        ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
+  }
+}
+
 static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   ambulo_gait gait = {.steps = 1};
   gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
-  gait.step_length =
-      ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
+  read_step_lengths(reader, section, &gait);
   gait.step_width = ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0,
                                            neutral_width(reader->model));
   gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
   read_phases(section, &gait);
-  gait.step_time = read_step_time(reader, section, &gait);
+  if (!read_two_times(reader, section, &gait))
+    gait.step_time = read_step_time(reader, section, &gait);
   ambulo__yaml_close(section);
-  if (!reader->has_duration) reader->definition.duration = (double)gait.steps * gait.step_time;
-  reader->definition.travel = (double)gait.steps * gait.step_length;
+  if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
+  reader->definition.travel = ambulo__gait_place(&gait, gait.steps);
   expand(reader, section, &gait);
 }
 
