@@ -26,6 +26,11 @@ typedef struct ambulo__gait_frame {
  * ends at `duration` includes it. */
 int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time);
 
+/* When step `step` of a regular walk strikes (s), and how far its foothold is from that of step 0
+ * (m). */
+double ambulo__gait_strike(const ambulo_gait *gait, int step);
+double ambulo__gait_place(const ambulo_gait *gait, int step);
+
 /* Checks contacts (known feet, from < to, no overlap on one foot, inside [0, T]) and
  * fills active[nodes][feet]. Every node needs support when penetration, strike or ZMP
  * rows are asked for. Footholds further apart than the legs can span are refused.
@@ -66,6 +71,8 @@ void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *
 void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "joint_limit", "speed_limit", "torque_limit". */
 void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* "tracking_tube": distance from reference motions. */
+void ambulo__tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "initial_state", "final_state", "periodic", "mirrored". */
 void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 
