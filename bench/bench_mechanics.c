@@ -6,14 +6,14 @@
  * wrench, points), of outputs and vector-Jacobian product, of outputs and all Jacobians; the
  * same per coordinate, for bodies of limbs and for random trees of growing size. Times are the
  * median of repeated runs over 16 blocks of different states; ratios are against the reference
- * recursion and the fastest instruction set, in the same run. At last the batch calls of
+ * recursion and the instruction set in use, taken in turns. At last the batch calls of
  * ambulo/mechanics.h, which take and return one node after the other.
  */
 #include "bench_csv.h"
 #include "mechanics/plan.h"
 #include "support/random_model.h"
 
-enum { blocks = 16, repeats = 15, tasks = 3 };
+enum { blocks = 16, repeats = 11, tasks = 3 };
 
 static const char *const task_name[tasks] = {"tau", "tau_vjp", "tau_jacobians"};
 
@@ -70,7 +70,7 @@ static double measure(rig *r, task run) {
     double start = bench_seconds();
     for (long i = 0; i < rounds * blocks; i++) run(r, (int)(i % blocks));
     elapsed = bench_seconds() - start;
-    if (elapsed > 2e-3) break;
+    if (elapsed > 1e-3) break;
   }
   for (int t = 0; t < repeats; t++) {
     double start = bench_seconds();
@@ -229,49 +229,65 @@ static int collect(subject *subjects, const char *path) {
   return count;
 }
 
+/* Time of one over that of the other, taken in turns: the median of the quotients does not see
+ * how busy the machine is. */
+static double quotient(rig *above, rig *below, task run) {
+  enum { turns = 9 };
+  double ratio[turns];
+  for (int i = 0; i < turns; i++) {
+    double time = measure(above, run);
+    ratio[i] = time / measure(below, run);
+  }
+  return bench_median(ratio, turns);
+}
+
 /* The body on its feet, over the body in the air. */
-static void report_ground(bench_table *table, const rig *air, const double times[tasks]) {
+static void report_ground(bench_table *table, rig *air) {
   char quantity[bench_key];
   rig r = rig_create(air->model, 1);
   r.kernels = air->kernels;
   for (int k = 0; k < tasks; k++) {
     (void)snprintf(quantity, sizeof quantity, "%s with ground reaction over without", task_name[k]);
-    bench_put(table, quantity, "ratio", measure(&r, task_run[k]) / times[k]);
+    bench_put(table, quantity, "ratio", quotient(&r, air, task_run[k]));
   }
   rig_free(&r);
 }
 
-/* All quantities of one instruction set; `best` holds those of the first set. */
-static void report_set(const char *set, subject *subjects, int count, double best[tasks]) {
+static void report_ratios(bench_table *table, rig *r) {
+  char quantity[bench_key];
+  rig fastest = *r;
+  fastest.kernels = ambulo__kernels_select();
+  for (int k = 0; k < tasks; k++) {
+    (void)snprintf(quantity, sizeof quantity, "%s over %s", task_name[k], fastest.kernels->name);
+    bench_put(table, quantity, "ratio", quotient(r, &fastest, task_run[k]));
+  }
+  if (ambulo_model_foot_count(r->model) == 2) report_ground(table, r);
+  double reference = measure_reference(r);
+  bench_put(table, "reference recursion", "ns/node", reference);
+  bench_put(table, "reference recursion over tau", "ratio", reference / measure(r, run_forward));
+  if (r->kernels == fastest.kernels)
+    bench_put(table, "tau in a batch call", "ns/node", measure(r, run_batch));
+}
+
+/* All quantities of one instruction set. */
+static void report_set(const char *set, subject *subjects, int count) {
   bench_table table;
   char quantity[bench_key];
   bench_open(&table, set, "mechanics");
   for (int i = 0; i < count; i++) {
     rig *r = &subjects[i].rig;
     r->kernels = ambulo__kernels_by_name(set);
-    double times[tasks];
     for (int k = 0; k < tasks; k++) {
-      double time = times[k] = measure(r, task_run[k]);
+      double time = measure(r, task_run[k]);
       if (i == 0) {
-        if (best[k] == 0) best[k] = time;
         (void)snprintf(quantity, sizeof quantity, "%s %s", task_name[k], subjects[i].name);
         bench_put(&table, quantity, "ns/node", time);
-        (void)snprintf(quantity, sizeof quantity, "%s over the fastest set", task_name[k]);
-        bench_put(&table, quantity, "ratio", time / best[k]);
       }
       (void)snprintf(quantity, sizeof quantity, "%s %s per coordinate", task_name[k],
                      subjects[i].name);
       bench_put(&table, quantity, "ns/node", time / ambulo__plan_coordinates(r->plan));
     }
-    if (i == 0) {
-      if (ambulo_model_foot_count(r->model) == 2) report_ground(&table, r, times);
-      double reference = measure_reference(r);
-      bench_put(&table, "reference recursion", "ns/node", reference);
-      bench_put(&table, "reference recursion over tau", "ratio",
-                reference / measure(r, run_forward));
-      if (strcmp(set, ambulo_instruction_set()) == 0)
-        bench_put(&table, "tau in a batch call", "ns/node", measure(r, run_batch));
-    }
+    if (i == 0) report_ratios(&table, r);
   }
   bench_close(&table);
 }
@@ -279,12 +295,11 @@ static void report_set(const char *set, subject *subjects, int count, double bes
 int main(int argc, char **argv) {
   static const char *const sets[] = {"avx512", "avx2", "baseline", "scalar"};
   static subject subjects[most_models];
-  double best[tasks] = {0};
   int count =
       collect(subjects, argc > 1 ? argv[1] : AMBULO_SOURCE_DIR "/models/yardstick_body.yaml");
   if (!count) return 1;
   for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
-    if (ambulo__kernels_by_name(sets[i])) report_set(sets[i], subjects, count, best);
+    if (ambulo__kernels_by_name(sets[i])) report_set(sets[i], subjects, count);
   }
   for (int i = 0; i < count; i++) {
     rig_free(&subjects[i].rig);
