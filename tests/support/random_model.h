@@ -39,7 +39,7 @@ typedef struct random_tree {
   ambulo_link links[random_max_links];
   ambulo_coordinate coordinates[random_max_links];
   ambulo_point points[random_max_points];
-  char names[2 * random_max_links + random_max_points][16];
+  char names[2 * random_max_links + random_max_points][24];
   ambulo_model_definition definition;
 } random_tree;
 
