@@ -151,6 +151,13 @@ typedef struct ambulo_end_value {
   double value;
 } ambulo_end_value;
 
+/* The motion stays within half_width of a reference at every node. */
+typedef struct ambulo_tube {
+  int samples;              /* >= 2 */
+  const double *reference;  /* [samples][d], equally spaced over [0, T], linear in between */
+  const double *half_width; /* [d], rad or m, >= 0; INFINITY: the coordinate is free */
+} ambulo_tube;
+
 typedef enum ambulo_relation { AMBULO_EQUAL, AMBULO_NOT_NEGATIVE } ambulo_relation;
 
 /* ------------------------------------------------- what callbacks get to see */
@@ -262,6 +269,8 @@ typedef struct ambulo_problem_definition {
   double travel;  /* m along forward */
   const ambulo_end_value *end_values;
   int end_value_count;
+  const ambulo_tube *tubes; /* rows on the distance from reference motions */
+  int tube_count;
 
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;

@@ -71,6 +71,9 @@ void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *
 void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "joint_limit", "speed_limit", "torque_limit". */
 void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* Every tube has samples, a reference and widths >= 0; E_PROBLEM with its number otherwise. */
+ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
+                                  ambulo_diagnostics *diagnostics);
 /* "tracking_tube": distance from reference motions. */
 void ambulo__tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "initial_state", "final_state", "periodic", "mirrored". */

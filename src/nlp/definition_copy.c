@@ -47,6 +47,26 @@ static void copy_terms(const ambulo_problem_definition *from, const ambulo_alloc
   }
 }
 
+static void copy_tubes(const ambulo_problem_definition *from, const ambulo_allocator *a,
+                       ambulo_problem_definition *to, int *failed) {
+  size_t d = (size_t)ambulo_model_coordinate_count(from->model);
+  if (from->tube_count <= 0) return;
+  ambulo_tube *tubes = ambulo__alloc(a, (size_t)from->tube_count, sizeof *tubes);
+  if (!tubes) {
+    *failed = 1;
+    return;
+  }
+  to->tubes = tubes;
+  to->tube_count = from->tube_count;
+  for (int t = 0; t < from->tube_count; t++) {
+    const ambulo_tube *source = &from->tubes[t];
+    size_t count = (size_t)source->samples * d;
+    tubes[t].samples = source->samples;
+    tubes[t].reference = copy_array(a, source->reference, count, sizeof(double), failed);
+    tubes[t].half_width = copy_array(a, source->half_width, d, sizeof(double), failed);
+  }
+}
+
 static void copy_user_rows(const ambulo_problem_definition *from, const ambulo_allocator *a,
                            ambulo_problem_definition *to, int *failed) {
   if (from->user_row_count <= 0) return;
@@ -70,6 +90,8 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   *to = *from;
   to->terms = NULL;
   to->user_rows = NULL;
+  to->tubes = NULL;
+  to->tube_count = 0;
   to->term_count = to->user_row_count = 0;
   to->name = copy_text(a, from->name ? from->name : "problem", &failed);
   size_t breakpoints = from->breakpoints ? (size_t)from->spline_intervals + 1 : 0;
@@ -79,6 +101,7 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   to->end_values = copy_array(a, from->end_values, (size_t)from->end_value_count,
                               sizeof *from->end_values, &failed);
   copy_terms(from, a, to, &failed);
+  copy_tubes(from, a, to, &failed);
   copy_user_rows(from, a, to, &failed);
   return failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
@@ -101,11 +124,16 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->terms[t].strength);
     release(a, d->terms[t].reference);
   }
+  for (int t = 0; t < d->tube_count; t++) {
+    release(a, d->tubes[t].reference);
+    release(a, d->tubes[t].half_width);
+  }
   for (int i = 0; i < d->user_row_count; i++) {
     release(a, d->user_rows[i].name);
     release(a, d->user_rows[i].unit);
   }
   release(a, d->terms);
+  release(a, d->tubes);
   release(a, d->user_rows);
   release(a, d->name);
   release(a, d->breakpoints);

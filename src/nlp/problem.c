@@ -153,6 +153,7 @@ ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
   ambulo_status ends = check_ends(d, diagnostics);
   if (!status) status = terms;
   if (!status) status = ends;
+  if (!status) status = ambulo__tubes_check(d, diagnostics);
   if (d->support_margin < 0.0)
     status =
         REFUSE(diagnostics, "constraints.zmp_margin is %g m; expected >= 0", d->support_margin);
@@ -227,6 +228,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   if (status) return status;
   if (p->channels.feet) ambulo__reaction_rows(&frame, &p->table);
   ambulo__limit_rows(&frame, &p->table);
+  ambulo__tube_rows(&frame, &p->table);
   ambulo__end_rows(&frame, &p->table);
   add_user_rows(p);
   if (p->table.status) return p->table.status;

@@ -62,5 +62,11 @@ void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node
  * the coordinates it lacks set to 0. NULL when something was wrong. */
 const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, double *scale);
+/* The same at `samples` equally spaced times from 0 to the duration. */
+const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, int samples,
+                                          double *scale);
+/* `constraints.tubes`, a list. */
+void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
 
 #endif

@@ -1,4 +1,4 @@
-/* nlp/yaml_reference.c - the reference motion of a tracking term, at the time nodes.
+/* nlp/yaml_reference.c - the reference motion of a tracking term or tube, at equal time steps.
  *
  * The file's first time counts as t = 0 and it must last as long as the problem. Between
  * its rows the motion is interpolated linearly. Coordinates it does not have are not
@@ -40,11 +40,11 @@ static double sample(const ambulo__motion *motion, int column, double time) {
 }
 
 static const double *resample(ambulo__problem_reader *reader, const ambulo__motion *motion,
-                              const ambulo__yaml_node *node, double *scale) {
+                              const ambulo__yaml_node *node, int samples, double *scale) {
   const ambulo_problem_definition *d = &reader->definition;
   int coordinates = ambulo_model_coordinate_count(reader->model), found = 0;
-  double *reference = ambulo__reader_alloc(reader, (size_t)(d->intervals + 1) * (size_t)coordinates,
-                                           sizeof *reference);
+  double *reference =
+      ambulo__reader_alloc(reader, (size_t)samples * (size_t)coordinates, sizeof *reference);
   if (!reference) return NULL;
   for (int i = 0; i < coordinates; i++) {
     int column = ambulo__motion_coordinate(motion, ambulo_model_coordinate(reader->model, i)->name);
@@ -53,8 +53,8 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
       continue;
     }
     found++;
-    for (int k = 0; k <= d->intervals; k++) {
-      double time = motion->time[0] + (double)k * d->duration / (double)d->intervals;
+    for (int k = 0; k < samples; k++) {
+      double time = motion->time[0] + (double)k * d->duration / (double)(samples - 1);
       reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column, time);
     }
   }
@@ -66,6 +66,12 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
 
 const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, double *scale) {
+  return ambulo__read_sampled_motion(reader, node, reader->definition.intervals + 1, scale);
+}
+
+const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, int samples,
+                                          double *scale) {
   const char *name = ambulo__yaml_text(node);
   const char *path = name ? ambulo__reader_path(reader, name) : NULL;
   if (!path) return NULL;
@@ -86,7 +92,7 @@ const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
                              lasts, duration);
   } else {
     to_radians(reader, motion);
-    reference = resample(reader, motion, node, scale);
+    reference = resample(reader, motion, node, samples, scale);
   }
   ambulo__motion_free(motion);
   return reference;
