@@ -1,8 +1,9 @@
 /* objective/upright.c - the line from one point of a segment to another stays vertical.
  *
- *     u_j = (p_to - p_from) . e_j / L,   e_0 forward, e_1 left,
+ *     u_j = (p_to - p_from) . e_j / L,   e_0 = l x u,  e_1 = l,  u = -g / |g|, l left
  *
- * the horizontal direction cosines of the line; L its length, constant because both
+ * the horizontal direction cosines of the line (e_0 is the walking direction, level also where
+ * the ground is not); L its length, constant because both
  * points belong to one rigid segment (of the shipped bodies: hip centre and head).
  */
 #include "objective/term.h"
@@ -17,9 +18,20 @@ static double line_length(const ambulo_model *model, const int point[2]) {
               (a[2] - b[2]) * (a[2] - b[2]));
 }
 
+/* e_0 or e_1: both unit, since gravity is perpendicular to left */
+static void horizontal(const ambulo_model *model, int j, double e[3]) {
+  const double *g = ambulo_model_gravity(model), *l = ambulo_model_left(model);
+  double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  for (int i = 0; i < 3; i++) {
+    int a = (i + 1) % 3, b = (i + 2) % 3;
+    e[i] = j == 1 ? l[i] : (l[b] * g[a] - l[a] * g[b]) / size;
+  }
+}
+
 void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
                           ambulo__form *form) {
-  const double *e = j == 0 ? ambulo_model_forward(frame->model) : ambulo_model_left(frame->model);
+  double e[3];
+  horizontal(frame->model, j, e);
   double length = line_length(frame->model, term->point);
   for (int end = 0; end < 2; end++) {
     double sign = end ? 1.0 : -1.0;

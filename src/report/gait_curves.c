@@ -5,20 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "report/gait_svg.h"
-#include "report/skeleton.h"
+#include "report/gait_chart.h"
 #include "report/svg.h"
 
 enum { MOST_COLUMNS = 3 };
 static const double degrees = 57.295779513082321;
-
-typedef struct chart {
-  ambulo__panel box;
-  const ambulo__stride *stride;
-  const double *values; /* [samples][coordinates] */
-  double factor;        /* to the unit shown */
-  double low, high;     /* of the axis, in the unit shown */
-} chart;
 
 /* ----------------------------------------------------------------- selection */
 
@@ -92,68 +83,8 @@ static void pretty_name(const ambulo_model *model, int i, ambulo__text_buffer *o
 
 /* ------------------------------------------------------------------- drawing */
 
-static void find_range(chart *c, const int *coordinates, int count) {
-  double low = 0.0, high = 0.0;
-  for (int j = 0; j < count; j++) {
-    for (int k = 0; k < c->stride->samples; k++) {
-      size_t at = (size_t)k * (size_t)c->stride->coordinates + (size_t)coordinates[j];
-      double value = c->factor * c->values[at];
-      if (!isfinite(value)) continue;
-      low = fmin(low, value);
-      high = fmax(high, value);
-    }
-  }
-  if (high - low < 1e-9) high = low + 1.0;
-  c->low = low;
-  c->high = high;
-}
-
-static double chart_y(const chart *c, double value) {
-  return c->box.y + c->box.height * (c->high - value) / (c->high - c->low);
-}
-
-/* horizontal grid; the range grows to whole steps */
-static void draw_grid(chart *c, ambulo__text_buffer *text) {
-  int decimals;
-  double step = ambulo__nice_step(c->high - c->low, 4, &decimals);
-  c->low = floor(c->low / step + 1e-9) * step;
-  c->high = ceil(c->high / step - 1e-9) * step;
-  ambulo__text_buffer label;
-  ambulo__text_init(&label, &text->allocator);
-  int lines = (int)lround((c->high - c->low) / step);
-  for (int i = 0; i <= lines; i++) {
-    double value = c->low + (double)i * step, y = chart_y(c, value);
-    int zero = fabs(value) < 1e-6 * step;
-    ambulo__svg_line(text, zero ? "zero" : "grid", c->box.x, y, c->box.x + c->box.width, y);
-    ambulo__text_clear(&label);
-    ambulo__label_number(&label, value, decimals);
-    ambulo__svg_label(text, "end", c->box.x - 8.0, y + 4.0, ambulo__text_data(&label));
-  }
-  ambulo__text_free(&label);
-}
-
-static void draw_curve(const chart *c, int coordinate, ambulo__text_buffer *text) {
-  static const char *const styles[] = {"trunk curve", "left curve", "right curve"};
-  ambulo__side side = ambulo__coordinate_side(c->stride->model, coordinate);
-  int pen_down = 0;
-  ambulo__svg_path_begin(text, styles[side]);
-  for (int k = 0; k < c->stride->samples; k++) {
-    size_t at = (size_t)k * (size_t)c->stride->coordinates + (size_t)coordinate;
-    double value = c->factor * c->values[at];
-    double x = ambulo__panel_time(&c->box, c->stride->times[k]);
-    if (!isfinite(value)) {
-      pen_down = 0;
-    } else if (pen_down) {
-      ambulo__svg_path_line(text, x, chart_y(c, value));
-    } else {
-      ambulo__svg_path_move(text, x, chart_y(c, value));
-      pen_down = 1;
-    }
-  }
-  ambulo__svg_path_end(text);
-}
-
-static void draw_chart(chart *c, int coordinate, const char *quantity, ambulo__text_buffer *text) {
+static void draw_chart(ambulo__chart *c, int coordinate, const char *quantity,
+                       ambulo__text_buffer *text) {
   const ambulo_model *model = c->stride->model;
   int pair[2] = {coordinate, model->coordinates[coordinate].mirror};
   int count = pair[1] == coordinate ? 1 : 2;
@@ -163,9 +94,10 @@ static void draw_chart(chart *c, int coordinate, const char *quantity, ambulo__t
   ambulo__text_append(&title, quantity);
   ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0, ambulo__text_data(&title));
   ambulo__text_free(&title);
-  find_range(c, pair, count);
-  draw_grid(c, text);
-  for (int j = count - 1; j >= 0; j--) draw_curve(c, pair[j], text);
+  ambulo__chart_range(c, pair, count);
+  ambulo__chart_grid(c, text);
+  for (int j = count - 1; j >= 0; j--)
+    ambulo__chart_curve(c, pair[j], ambulo__coordinate_side(model, pair[j]), text);
   ambulo__panel axis = c->box;
   axis.y += c->box.height;
   ambulo__time_axis(&axis, 4, "s", text);
@@ -182,11 +114,12 @@ void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *pane
   for (int j = 0; j < count; j++) {
     int revolute = stride->model->coordinates[chosen[j]].type == AMBULO_REVOLUTE;
     double x = panel->x + (double)j * (width + label_room + gap) + label_room;
-    chart upper = {.box = {x, panel->y, width, height, stride->duration},
-                   .stride = stride,
-                   .values = stride->q,
-                   .factor = revolute ? degrees : 1.0};
-    chart lower = upper;
+    ambulo__chart upper = {.box = {x, panel->y, width, height, stride->duration},
+                           .stride = stride,
+                           .values = stride->q,
+                           .columns = stride->coordinates,
+                           .factor = revolute ? degrees : 1.0};
+    ambulo__chart lower = upper;
     lower.box.y += height + row_room;
     lower.values = stride->tau;
     lower.factor = 1.0;

@@ -85,7 +85,7 @@ static int has_sides(const ambulo_model *model) {
 
 /* picture below the heading; the height is known before anything is drawn */
 typedef struct layout {
-  ambulo__panel strip, bars, axis, curves;
+  ambulo__panel strip, bars, axis, curves, forces;
   double height;
 } layout;
 
@@ -102,7 +102,10 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x, layo
   ambulo__panel curves = {margin, page->axis.y + 78.0, page_width - 2.0 * margin, 430.0,
                           stride->duration};
   page->curves = curves;
-  page->height = curves.y + curves.height + 46.0;
+  page->forces = curves;
+  page->forces.y = curves.y + curves.height + 66.0;
+  page->forces.height = stride->feet ? 178.0 : 0.0;
+  page->height = curves.y + curves.height + 46.0 + (stride->feet ? 244.0 : 0.0);
   return status;
 }
 
@@ -119,6 +122,7 @@ static ambulo_status draw_page(const ambulo_problem *problem, const ambulo_resul
   ambulo__gait_bars(stride, &page.bars, text);
   ambulo__time_axis(&page.axis, 9, "s", text);
   ambulo__gait_curves(stride, &page.curves, text);
+  if (!status) status = ambulo__gait_forces(stride, &page.forces, text);
   ambulo__svg_end(text);
   return status ? status : ambulo__text_status(text);
 }

@@ -45,4 +45,9 @@ void ambulo__time_axis(const ambulo__panel *panel, int parts, const char *unit,
 void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
                          ambulo__text_buffer *text);
 
+/* Forces on the feet, upward and forward, side by side; nothing without ground reaction.
+ * Errors: E_MEMORY. */
+ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
+                                  ambulo__text_buffer *text);
+
 #endif
