@@ -1,0 +1,127 @@
+/* Each contradiction of end values is refused by name, and sound ones are not. */
+#include "support/messages.h"
+#include "support/planar_walker.h"
+#include "support/test.h"
+
+typedef struct fixture {
+  ambulo_model *model;
+  ambulo_problem_definition definition;
+  ambulo_contact contact;
+  ambulo_term term;
+} fixture;
+
+static void open_fixture(fixture *f) {
+  f->model = walker_create();
+  assert_non_null(f->model);
+  f->definition = ambulo_problem_definition_default();
+  f->term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  f->contact = (ambulo_contact){.foot = 0, .mode = AMBULO_CONTACT_FLAT, .from = 0.0, .to = 1.0};
+  f->definition.model = f->model;
+  f->definition.terms = &f->term;
+  f->definition.term_count = 1;
+}
+
+/* `phrase` NULL: accepted */
+static void expect(fixture *f, const char *phrase) {
+  ambulo_problem *problem = NULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_problem_create(&f->definition, NULL, list, &problem);
+  if (phrase) {
+    assert_int_equal(status, AMBULO_E_PROBLEM);
+    assert_message(list, 0, phrase);
+  } else {
+    if (status) assert_message(list, 0, "nothing");
+    assert_int_equal(status, AMBULO_OK);
+  }
+  ambulo_problem_free(problem);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(f->model);
+}
+
+static void one_value_an_end(void **state) {
+  (void)state;
+  fixture f;
+  const ambulo_end_value twice[2] = {{4, 0, 1, 0.2}, {4, 0, 1, 0.3}};
+  open_fixture(&f);
+  f.definition.end_values = twice;
+  f.definition.end_value_count = 2;
+  expect(&f, "the final value of knee_angle_r is prescribed twice: 0.2 rad and 0.3 rad");
+}
+
+static void mirrored_values_follow(void **state) {
+  (void)state;
+  const ambulo_end_value ends[2] = {{4, 0, 0, 0.2}, {7, 0, 1, 0.3}};
+  for (int good = 0; good < 2; good++) {
+    fixture f;
+    ambulo_end_value values[2] = {ends[0], ends[1]};
+    if (good) values[1].value = 0.2;
+    open_fixture(&f);
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.travel = 0.6;
+    f.definition.end_values = values;
+    f.definition.end_value_count = 2;
+    expect(&f, good ? NULL
+                    : "the final value of knee_angle_l is 0.3 rad, but mirrored ends with a travel "
+                      "of 0.6 m make it 0.2 rad from the initial value of knee_angle_r, 0.2 rad");
+  }
+}
+
+static void periodic_rates_follow(void **state) {
+  (void)state;
+  const ambulo_end_value values[2] = {{4, 1, 0, 1.0}, {4, 1, 1, -1.0}};
+  for (int order = 0; order < 2; order++) {
+    fixture f;
+    open_fixture(&f);
+    f.definition.ends = AMBULO_ENDS_PERIODIC;
+    f.definition.ends_order = order;
+    f.definition.end_values = values;
+    f.definition.end_value_count = 2;
+    expect(&f, order ? "the final rate of knee_angle_r is -1 rad/s, but periodic ends" : NULL);
+  }
+}
+
+/* q = 0 in all coordinates puts the pelvis on the ground: corners far below */
+static void a_prescribed_state_respects_the_ground(void **state) {
+  (void)state;
+  for (int lifted = 0; lifted < 2; lifted++) {
+    fixture f;
+    ambulo_end_value values[WALKER_COORDINATES];
+    open_fixture(&f);
+    for (int i = 0; i < WALKER_COORDINATES; i++) {
+      ambulo_end_value value = {i, 0, 0, 0.0};
+      values[i] = value;
+    }
+    values[1].value = lifted ? 0.9 : 0.85; /* legs of 0.41 + 0.43 m, soles 0.06 m lower */
+    f.definition.ground_penetration = 1;
+    f.definition.contacts = &f.contact;
+    f.definition.contact_count = 1;
+    f.definition.end_values = values;
+    f.definition.end_value_count = WALKER_COORDINATES;
+    expect(&f, lifted ? NULL
+                      : "the initial state puts right_heel (foot 'right') 0.05 m below the ground "
+                        "at t = 0 s, where the schedule has it in contact");
+  }
+}
+
+/* one coordinate left open: nothing can be said before solving */
+static void an_open_chain_is_left_to_the_solver(void **state) {
+  (void)state;
+  fixture f;
+  const ambulo_end_value value = {1, 0, 0, 3.0};
+  open_fixture(&f);
+  f.definition.ground_penetration = 1;
+  f.definition.contacts = &f.contact;
+  f.definition.contact_count = 1;
+  f.definition.end_values = &value;
+  f.definition.end_value_count = 1;
+  expect(&f, NULL);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_value_an_end),
+                                     cmocka_unit_test(mirrored_values_follow),
+                                     cmocka_unit_test(periodic_rates_follow),
+                                     cmocka_unit_test(a_prescribed_state_respects_the_ground),
+                                     cmocka_unit_test(an_open_chain_is_left_to_the_solver)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,214 @@
+/* Ten problems without a solution (tests/infeasible), each with what it has to be told: some are
+ * refused before solving, the others are explained afterwards. Where the suggestion changes the
+ * problem file, following it leads to a motion that satisfies every row. */
+#include "ambulo/ambulo.h"
+#include "support/engine_fixture.h"
+#include "support/test.h"
+
+typedef struct example {
+  const char *file;
+  const char *phrases[6]; /* every one has to stand in the messages or lines */
+  const char *cure;       /* override that makes it feasible; NULL: none is tried */
+} example;
+
+static const example refused[] = {
+    {"foothold_out_of_reach",
+     {"foot 'left'", "foot 'right'", "out of reach at t = 0 s", "2.02 m, the legs' length",
+      "shorten the step by 0.535 m or more"},
+     NULL},
+    {"no_support", {"no foot touches the ground from 0.3 s to 0.5 s"}, NULL},
+    {"empty_support",
+     {"the support polygon is empty at t = 0.068", "right flat, margin 0.15 m",
+      "lower constraints.zmp_margin"},
+     NULL},
+    {"end_outside_range",
+     {"the final value of elbow is 2.96706 rad", "expected -2.61799 to 2.61799 rad"},
+     NULL},
+    {"speed_limit_too_low",
+     {"swing has to move by 3.14159 rad in 1 s, at 3.14159 rad/s on average",
+      "its speed limit is 2.0944 rad/s"},
+     NULL},
+    {"travel_against_end_values",
+     {"the final value of pelvis_tx is 0.5 m",
+      "periodic ends with a travel of 0.6 m make it 0.6 m"},
+     NULL},
+    {"state_off_the_ground",
+     {"the initial state puts heel_r (foot 'right') 0.04 m above the ground at t = 0 s"},
+     NULL},
+};
+
+static const example explained[] = {
+    {"step_too_long",
+     {"foot_strike: ", "relaxing foot_strike alone is enough: by 0.0075", "m at ", "forward, t = ",
+      "0.015 m beyond reach: shorten the step (gait.step_length, ends.travel) from 1.75 m to 1.73"},
+     "gait.step_length=1.73"},
+    {"range_excludes_posture",
+     {"in conflict", "joint_limit: 0.037", "ground_penetration: 0.026",
+      "on its limit: joint_limit knee_angle lower, 1.047 rad, t = 0 to 0.5 s",
+      "suggestion: lower the lower end of the range of pelvis_ty by 0.06", "from -0.05 to -0.11"},
+     NULL},
+    {"torque_too_weak",
+     {"relaxing torque_limit alone is enough: by 3.4",
+      "N m at swing upper, t = ", "on its limit: torque_limit swing upper, 6 N m, t = ",
+      "suggestion: raise the upper torque limit of swing by 3.4", "from 6 to 9.4"},
+     NULL},
+    {"support_too_narrow",
+     {"relaxing zmp alone is enough: by 0.04", "m at support front, t = ",
+      "suggestion: lower constraints.zmp_margin by 0.04", "from 0.08 m to 0.03"},
+     "constraints.zmp_margin=0.02"},
+    {"equalities_contradict",
+     {"contradictory equality: foot_strike", "m at heel_r forward, t = 0.6 s",
+      "relaxing periodic alone is enough", "dropping ground_penetration alone does not",
+      "suggestion: change ends.travel from 0.3 m to 0 m"},
+     "ends.travel=0"},
+};
+
+static ambulo_status load(const char *file, const char *override, ambulo_diagnostics *list,
+                          ambulo_problem **problem) {
+  char path[160];
+  (void)snprintf(path, sizeof path, "tests/infeasible/%s.yaml", file);
+  return ambulo_problem_load(path, &override, override ? 1 : 0, NULL, list, problem);
+}
+
+static void assert_phrases(const example *e, const char *text) {
+  for (int i = 0; i < 6 && e->phrases[i]; i++) {
+    if (strstr(text, e->phrases[i])) continue;
+    print_error("%s says\n%s\nexpected it to contain\n  %s\n", e->file, text, e->phrases[i]);
+    fail();
+  }
+}
+
+static void are_refused_by_name(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+    char text[8000] = "";
+    ambulo_problem *problem = NULL;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    ambulo_status status = load(refused[i].file, NULL, list, &problem);
+    if (status != AMBULO_E_PROBLEM) print_error("%s is not refused\n", refused[i].file);
+    assert_int_equal(status, AMBULO_E_PROBLEM);
+    for (size_t m = 0; m < ambulo_diagnostics_count(list) && m < 3; m++) {
+      size_t used = strlen(text);
+      ambulo_diagnostics_format(list, m, text + used, sizeof text - used);
+    }
+    assert_phrases(&refused[i], text);
+    ambulo_diagnostics_free(list);
+  }
+}
+
+static void assert_consistent(const ambulo_explanation *e) {
+  for (int i = 0; i < e->conflict_count; i++) {
+    const ambulo_conflict *c = &e->conflicts[i];
+    assert_true(c->shared.worst > 0.0 && c->shared.family[0] && c->shared.unit[0]);
+    if (c->alone != 1) continue;
+    assert_string_equal(c->relaxation.family, c->shared.family);
+    assert_true(c->relaxation.worst > 0.0);
+  }
+  for (int i = 0; i < e->on_limit_count; i++) {
+    assert_true(e->on_limits[i].nodes > 0 && e->on_limits[i].from <= e->on_limits[i].to);
+  }
+  assert_true(e->line_count > 0);
+}
+
+static ambulo_result *solve(const ambulo_problem *problem, ambulo_options *options) {
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, options, NULL, NULL, NULL, &result), AMBULO_OK);
+  return result;
+}
+
+static void cure(const example *e) {
+  ambulo_problem *problem = NULL;
+  if (!e->cure) return;
+  assert_int_equal(load(e->file, e->cure, NULL, &problem), AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  ambulo_result *result = solve(problem, &options);
+  if (ambulo_result_verdict(result) > AMBULO_FEASIBLE)
+    print_error("%s with %s is %s\n", e->file, e->cure,
+                ambulo_verdict_name(ambulo_result_verdict(result)));
+  assert_true(ambulo_result_verdict(result) <= AMBULO_FEASIBLE);
+  assert_null(ambulo_result_explanation(result));
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static void are_explained(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof explained / sizeof *explained; i++) {
+    char text[12000] = "";
+    ambulo_problem *problem = NULL;
+    assert_int_equal(load(explained[i].file, NULL, NULL, &problem), AMBULO_OK);
+    ambulo_options options = ambulo_problem_options(problem);
+    ambulo_result *result = solve(problem, &options);
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_INFEASIBLE);
+    const ambulo_explanation *e = ambulo_result_explanation(result);
+    assert_non_null(e);
+    assert_consistent(e);
+    for (int k = 0; k < e->line_count; k++) {
+      size_t used = strlen(text);
+      (void)snprintf(text + used, sizeof text - used, "%s\n", e->lines[k]);
+    }
+    assert_phrases(&explained[i], text);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+    cure(&explained[i]);
+  }
+}
+
+static void good_ends_and_audits_need_no_explanation(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("pendulum_swing");
+  ambulo_options options = ambulo_problem_options(problem);
+  ambulo_result *result = solve(problem, &options), *audit = NULL;
+  assert_null(ambulo_result_explanation(result));
+  double *zero = calloc((size_t)ambulo_problem_variable_count(problem), sizeof *zero);
+  assert_int_equal(ambulo_audit_point(problem, &options, zero, NULL, NULL, &audit), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(audit), AMBULO_INFEASIBLE);
+  assert_null(ambulo_result_explanation(audit));
+  free(zero);
+  ambulo_result_free(audit);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+/* too few evaluations: a motion exists, and the explanation says so */
+static void a_missed_solution_is_named(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_options options = ambulo_problem_options(problem);
+  options.maximum_evaluations = 1;
+  ambulo_result *result = solve(problem, &options);
+  if (ambulo_result_verdict(result) == AMBULO_LIMIT_REACHED) {
+    const ambulo_explanation *e = ambulo_result_explanation(result);
+    assert_non_null(e);
+    assert_true(e->feasible_point);
+    assert_int_equal(e->conflict_count, 0);
+  } else {
+    assert_true(ambulo_result_verdict(result) <= AMBULO_FEASIBLE);
+  }
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static void a_spent_time_limit_is_kept(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(load("step_too_long", NULL, NULL, &problem), AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  options.time_limit = 0.02;
+  ambulo_result *result = solve(problem, &options);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_LIMIT_REACHED);
+  const ambulo_explanation *e = ambulo_result_explanation(result);
+  assert_non_null(e);
+  assert_false(e->complete);
+  assert_true(e->line_count >= 2);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(are_refused_by_name), cmocka_unit_test(are_explained),
+      cmocka_unit_test(good_ends_and_audits_need_no_explanation),
+      cmocka_unit_test(a_missed_solution_is_named), cmocka_unit_test(a_spent_time_limit_is_kept)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
