@@ -112,6 +112,16 @@ links_lead_somewhere() {
 }
 
 check 'README: map of src' map_is_true
+# shellcheck disable=SC2317
+pages_are_linked() {
+  local page lost=0
+  for page in docs/*.md; do
+    grep -q "]($page)" README.md || { echo "README.md does not lead to $page"; lost=1; }
+  done
+  return $lost
+}
+
+check 'README leads to every page' pages_are_linked
 check 'links of the pages' links_lead_somewhere
 # what was built is what gets installed: "all" counts as made
 check 'make install' make --no-print-directory -o all VARIANT="$variant" CC="$cc" install \
