@@ -22,7 +22,7 @@
  * The centre of mass: c / dq_j is the linear part of t1_j over the mass, dz = n . dc. Feet:
  *   dF_0 = a_0 dF - gain (dF_n - F_n dz / z) D,   dF_1 = dF - dF_0
  *   dT   = (F . dM + M . dF - T dF_n) / F_n,      dT_f = a_f dT
- * Stored per joint with a dense row: S - R, -e, -R, -e.
+ * Stored per joint with a dense row: S - R, -e / m, -R, -e / m; with it goes m dz = n . t1_j.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_GROUND_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_GROUND_H
@@ -33,7 +33,7 @@
 typedef struct ground_slopes {
   ground_shares shares;
   wide_pair twist; /* dT = twist . (dM, dF) */
-  wide fall;       /* F_n / z */
+  wide fall;       /* F_n / (m z) */
 } ground_slopes;
 
 /* R and e of the joints that carry feet. */
@@ -42,7 +42,7 @@ static void ground_reaction_rows(const ambulo__plan *plan, const ground_shares *
   const ground_shares g = *shares;
   wide_pair w = load_pair(scratch + plan->ground_at + ground_wrench);
   wide3 lever = ground_lever(plan, g.up, w);
-  wide normal = dot3(g.up, w.linear), fall = g.gain / g.height;
+  wide normal = dot3(g.up, w.linear), fall = g.gain / (g.height * plan->mass);
   wide slope = g.product + g.gain * plan->ground_height;
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__joint *joint = &plan->joints[k];
@@ -66,26 +66,6 @@ static void ground_reaction_rows(const ambulo__plan *plan, const ground_shares *
   }
 }
 
-/* A displacement along an axis that stands still: it adds no rates, and turns nothing. */
-AMBULO__INLINE int ground_is_straight(const ambulo__joint *joint) {
-  return !joint->revolute && joint->still;
-}
-
-/* The changes of kernel_jacobian.h for such a joint. */
-AMBULO__INLINE subtree_changes ground_straight_changes(const ambulo__plan *plan, int k, wide_pair f,
-                                                       const double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const ambulo__frame *frame = &plan->frames[k + 1];
-  wide3 s = load3(scratch + plan->joints[k].motion_at + three);
-  wide3 h = load3(scratch + frame->composite_at + composite_first);
-  subtree_changes t = {{zero, zero}, {zero, zero}, {zero, zero}, zero};
-  t.q.angular = cross3(s, f.linear);
-  t.qdd.angular = cross3(h, s);
-  t.qdd.linear = scale3(spread(frame->subtree_mass), s);
-  t.turned = cross3(load3(scratch + frame->composite_at + composite_momentum), s);
-  return t;
-}
-
 /* Wrench of the feet that a joint carries. */
 AMBULO__INLINE wide_pair ground_carried(const ambulo__plan *plan, int feet, const double *scratch) {
   const double *at = scratch + plan->ground_at;
@@ -106,16 +86,16 @@ typedef struct row_changes {
   wide3 turned;
 } row_changes;
 
-/* Adds -R_i . t_j and -e_i dz of joints j that carry the whole body, `row` = (-R, -e). */
+/* Adds -R_i . t_j and -e_i dz of joints j that carry the whole body, `row` = (-R, -e / m). */
 AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_changes c,
                                             const double *row, const double *scratch) {
   const double *whole = scratch + plan->frames[plan->whole].composite_at;
-  wide mass = spread(plan->mass), change = load(row + 2 * three) / mass;
+  wide mass = spread(plan->mass);
   wide3 h = load3(whole + composite_first), p = load3(whole + composite_momentum);
   wide6 inertia = load6(whole + composite_inertia);
   wide33 e = load33(whole + composite_coriolis);
   wide_pair r = load_pair(row), w = load_pair(scratch + plan->ground_at + ground_wrench);
-  wide3 up = scale3(change, ground_up(plan));
+  wide3 up = scale3(load(row + 2 * three), ground_up(plan));
   c.force.angular = add_cross3(add3(c.force.angular, multiply6(inertia, r.angular)), h, r.linear);
   c.force.linear = add_cross3(axpy3(c.force.linear, mass, r.linear), r.angular, h);
   c.turned = add_multiply33_transposed(add_cross3(c.turned, p, r.linear), e, r.angular);
@@ -126,25 +106,24 @@ AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_change
 }
 
 /* Columns of a row that stand for the joints that carry the whole body. */
-AMBULO__INLINE void ground_root_pairs(const ambulo__plan *plan, int first, const row_changes *row,
-                                      double *jq, double *jqd, double *jqdd,
+AMBULO__INLINE void ground_root_pairs(const ambulo__root_column *roots, int count, int start,
+                                      const row_changes *row, double *jq, double *jqd, double *jqdd,
                                       const double *scratch) {
   const row_changes c = *row;
-  wide3 turned2 = scale3(spread(2), c.turned);
-  for (int i = first; i < first + plan->vanishing; i++) {
-    const ambulo__joint *joint = &plan->joints[plan->ancestor[i]];
-    const double *motion = scratch + joint->motion_at;
-    int entry = plan->lower[i] * AMBULO__LANES;
+  for (int i = 0; i < count; i++) {
+    const double *motion = scratch + roots[i].motion;
+    int entry = start + roots[i].column;
     wide_pair s = load_pair(motion);
-    if (ground_is_straight(joint)) {
+    if (roots[i].straight) {
       store(jq + entry, dot3(c.turn.linear, s.linear));
       store(jqd + entry, (wide){0});
       store(jqdd + entry, dot3(c.force.linear, s.linear));
       continue;
     }
     wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
+    wide turned = dot3(c.turned, s.angular);
     store(jq + entry, dot3(c.turned, sd.angular) + dot_pair(c.force, sdd) + dot_pair(c.turn, s));
-    store(jqd + entry, dot3(turned2, s.angular) + dot_pair(c.force, sd));
+    store(jqd + entry, 2 * turned + dot_pair(c.force, sd));
     store(jqdd + entry, dot_pair(c.force, s));
   }
 }
@@ -154,28 +133,26 @@ static void ground_pairs(const ambulo__plan *plan, int k, const subtree_changes 
                          wide_pair carried, double *jq, double *jqd, double *jqdd,
                          const double *scratch) {
   const subtree_changes t = *changes;
-  const double *own = scratch + plan->joints[k].motion_at;
   const int dense = plan->joints[k].torque_row == AMBULO__ROW_DENSE;
+  const ambulo__ground_pair *pairs = plan->pairs;
+  const double *own = scratch + plan->joints[k].motion_at;
   int first = plan->ancestor_start[k], last = plan->ancestor_start[k + 1];
-  int self = (plan->start[k] + last - first) * AMBULO__LANES;
-  wide3 turned2 = scale3(spread(2), t.turned);
+  int start = plan->start[k] * AMBULO__LANES, self = start + (last - first) * AMBULO__LANES;
   wide_pair z = load_pair(own);
   row_changes row = {t.qdd, turn_of(carried, z), t.turned};
   if (dense && plan->vanishing > 0) {
     const double *reaction = scratch + plan->joints[k].reaction_at + 7 * AMBULO__LANES;
     row_changes to_root = ground_add_whole(plan, row, reaction, scratch);
-    ground_root_pairs(plan, first, &to_root, jq, jqd, jqdd, scratch);
+    ground_root_pairs(plan->roots, plan->vanishing, start, &to_root, jq, jqd, jqdd, scratch);
     first += plan->vanishing;
   }
   for (int i = first; i < last; i++) {
-    const double *motion = scratch + plan->joints[plan->ancestor[i]].motion_at;
-    int lower = plan->lower[i] * AMBULO__LANES, upper = plan->upper[i] * AMBULO__LANES;
-    wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
-    wide_pair sdd = load_pair(motion + 4 * three);
-    wide mass = dot_pair(t.qdd, s);
-    store(jq + lower, dot3(t.turned, sd.angular) + dot_pair(t.qdd, sdd) + dot_pair(row.turn, s));
-    store(jqd + lower, dot3(turned2, s.angular) + dot_pair(t.qdd, sd));
+    const double *motion = scratch + pairs[i].motion;
+    int lower = pairs[i].lower, upper = pairs[i].upper;
+    wide_pair s = load_pair(motion);
+    wide mass = jacobian_lower(&t, s, motion, lower, jq, jqd);
     store(jqdd + lower, mass);
+    if (dense) store(jq + lower, load(jq + lower) + dot_pair(row.turn, s));
     if (upper < 0) continue;
     store(jq + upper, dot_pair(t.q, s));
     store(jqd + upper, dot_pair(t.qd, s));
@@ -188,33 +165,34 @@ static void ground_pairs(const ambulo__plan *plan, int k, const subtree_changes 
 }
 
 /* Column k of the dense rows. */
-static void ground_column(const ambulo__plan *plan, int k, const subtree_changes *changes, wide dz,
-                          double *jq, double *jqd, double *jqdd, const double *scratch) {
-  const wide_pair q = changes->q, qd = changes->qd, qdd = changes->qdd;
-  const ambulo__reaction_term *term = plan->term + (size_t)k * (size_t)plan->dense_count;
-  for (int i = 0; i < plan->dense_count; i++) {
-    int entry = term[i].entry * AMBULO__LANES;
+AMBULO__INLINE void ground_column(const ambulo__reaction_term *term, int fresh, int count,
+                                  const subtree_changes *t, wide rise, double *jq, double *jqd,
+                                  double *jqdd, const double *scratch) {
+  const wide_pair q = t->q, qd = t->qd, qdd = t->qdd;
+  for (int i = 0; i < fresh; i++) {
+    int entry = term[i].entry;
     const double *row = scratch + term[i].row_at;
     wide_pair r = load_pair(row);
-    wide by_q = dot_pair(r, q) + load(row + 2 * three) * dz;
-    wide by_qd = dot_pair(r, qd), by_qdd = dot_pair(r, qdd);
-    if (i >= plan->term_fresh[k]) {
-      by_q += load(jq + entry);
-      by_qd += load(jqd + entry);
-      by_qdd += load(jqdd + entry);
-    }
-    store(jq + entry, by_q);
-    store(jqd + entry, by_qd);
-    store(jqdd + entry, by_qdd);
+    store(jq + entry, dot_pair(r, q) + load(row + 2 * three) * rise);
+    store(jqd + entry, dot_pair(r, qd));
+    store(jqdd + entry, dot_pair(r, qdd));
+  }
+  for (int i = fresh; i < count; i++) {
+    int entry = term[i].entry;
+    const double *row = scratch + term[i].row_at;
+    wide_pair r = load_pair(row);
+    store(jq + entry, load(jq + entry) + dot_pair(r, q) + load(row + 2 * three) * rise);
+    store(jqd + entry, load(jqd + entry) + dot_pair(r, qd));
+    store(jqdd + entry, load(jqdd + entry) + dot_pair(r, qdd));
   }
 }
 
-/* A column of the feet's rows, which are full: `out` is its entry in the first of them. */
-AMBULO__INLINE void ground_feet_column(const ambulo__plan *plan, const ground_slopes *slopes,
-                                       wide_pair t, wide dz, double *out) {
+/* A column of the feet's rows, which are full, of d doubles: `out` is its entry in the first of
+ * them, `rise` is m dz. */
+AMBULO__INLINE void ground_feet_column(int d, const ground_slopes *slopes, wide_pair t, wide rise,
+                                       double *out) {
   const ground_shares *s = &slopes->shares;
-  const int d = plan->coordinates * AMBULO__LANES;
-  wide shear = s->gain * (dot3(s->up, t.linear) - slopes->fall * dz);
+  wide shear = s->gain * (dot3(s->up, t.linear) - slopes->fall * rise);
   wide3 first = axpy3(scale3(s->share[0], t.linear), -shear, s->apart);
   wide3 second = sub3(t.linear, first);
   wide twist = dot_pair(slopes->twist, t);
@@ -236,39 +214,76 @@ static ground_slopes ground_slopes_of(const ambulo__plan *plan, const double *gr
   wide normal = dot3(slopes.shares.up, w.linear), inverse = 1 / normal;
   wide3 moment = axpy3(w.angular, -load(at + ground_twist), slopes.shares.up);
   slopes.twist = (wide_pair){scale3(inverse, w.linear), scale3(inverse, moment)};
-  slopes.fall = normal / slopes.shares.height;
+  slopes.fall = normal / (slopes.shares.height * plan->mass);
   return slopes;
+}
+
+/* What a column has for the root wrench, the feet and the centre of mass. */
+typedef struct ground_outputs {
+  double *jq, *jqd, *jqdd; /* the arrays */
+  int feet, rates, center; /* entries where the feet's rows begin, in jq and jqd, and those of c */
+  int row;                 /* doubles in a full row */
+  wide inverse_mass;
+} ground_outputs;
+
+/* Writes them for the column of joint k; returns m dz. */
+AMBULO__INLINE wide ground_outputs_of(const ambulo__plan *plan, const ground_slopes *slopes,
+                                      const ground_outputs *to, int k, const subtree_changes *t) {
+  const wide none = {0};
+  wide rise = dot3(slopes->shares.up, t->qdd.linear);
+  wide3 dc = scale3(to->inverse_mass, t->qdd.linear);
+  double *center = to->jq + (to->center + k) * AMBULO__LANES;
+  jacobian_wrench(plan, k, t->q, to->jq);
+  jacobian_wrench(plan, k, t->qd, to->jqd);
+  jacobian_wrench(plan, k, t->qdd, to->jqdd);
+  ground_feet_column(to->row, slopes, t->q, rise, to->jq + (to->feet + k) * AMBULO__LANES);
+  ground_feet_column(to->row, slopes, t->qd, none, to->jqd + (to->rates + k) * AMBULO__LANES);
+  ground_feet_column(to->row, slopes, t->qdd, none, to->jqdd + (to->rates + k) * AMBULO__LANES);
+  store(center, dc.x);
+  store(center + to->row, dc.y);
+  store(center + 2 * to->row, dc.z);
+  return rise;
+}
+
+/* Columns of the joints that carry the whole body. */
+static void ground_root_columns(const ambulo__plan *plan, const ground_slopes *slopes,
+                                const ground_outputs *to, const double *scratch) {
+  wide_pair w = load_pair(scratch + plan->ground_at + ground_wrench);
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->torque_row != AMBULO__ROW_VANISHES) continue;
+    subtree_changes t = jacobian_changes(&plan->steps.changes[k], w, scratch);
+    ground_outputs_of(plan, slopes, to, k, &t);
+  }
 }
 
 static void jacobian_ground_part(const ambulo__plan *plan, const double *qd, const double *ground,
                                  double *jq, double *jqd, double *jqdd, double *scratch) {
   const int row = ambulo__plan_first_foot_row(plan), d = plan->coordinates;
-  const int feet = plan->start[row], rates = plan->rate_start[row], center = plan->start[row + 8];
+  const ground_outputs to = {jq,
+                             jqd,
+                             jqdd,
+                             plan->start[row],
+                             plan->rate_start[row],
+                             plan->start[row + 8],
+                             d * AMBULO__LANES,
+                             spread(1 / plan->mass)};
   jacobian_motion(plan, qd, scratch);
   ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
   ground_reaction_rows(plan, &slopes.shares, scratch);
   for (int k = d - 1; k >= 0; k--) {
     const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1];
+    if (joint->torque_row == AMBULO__ROW_VANISHES) continue;
     wide_pair carried = ground_carried(plan, joint->feet, scratch);
-    wide_pair bodies = axpy_pair(load_pair(scratch + frame->load_at), spread(1), carried);
+    wide_pair bodies = load_pair(scratch + plan->frames[k + 1].load_at);
+    bodies = axpy_pair(bodies, spread(1), carried);
     subtree_changes t = jacobian_changes(&plan->steps.changes[k], bodies, scratch);
-    wide3 dc = scale3(spread(1 / plan->mass), t.qdd.linear);
-    wide dz = dot3(slopes.shares.up, dc);
-    if (joint->torque_row != AMBULO__ROW_VANISHES) {
-      ground_pairs(plan, k, &t, carried, jq, jqd, jqdd, scratch);
-      ground_column(plan, k, &t, dz, jq, jqd, jqdd, scratch);
-    }
-    jacobian_wrench(plan, k, t.q, jq);
-    jacobian_wrench(plan, k, t.qd, jqd);
-    jacobian_wrench(plan, k, t.qdd, jqdd);
-    ground_feet_column(plan, &slopes, t.q, dz, jq + (feet + k) * AMBULO__LANES);
-    ground_feet_column(plan, &slopes, t.qd, (wide){0}, jqd + (rates + k) * AMBULO__LANES);
-    ground_feet_column(plan, &slopes, t.qdd, (wide){0}, jqdd + (rates + k) * AMBULO__LANES);
-    store(jq + (center + k) * AMBULO__LANES, dc.x);
-    store(jq + (center + d + k) * AMBULO__LANES, dc.y);
-    store(jq + (center + 2 * d + k) * AMBULO__LANES, dc.z);
+    wide rise = ground_outputs_of(plan, &slopes, &to, k, &t);
+    ground_pairs(plan, k, &t, carried, jq, jqd, jqdd, scratch);
+    ground_column(plan->term + k * plan->dense_count, plan->term_fresh[k], plan->dense_count, &t,
+                  rise, jq, jqd, jqdd, scratch);
   }
+  ground_root_columns(plan, &slopes, &to, scratch);
   jacobian_points(plan, jq, scratch);
 }
 

@@ -271,7 +271,8 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->ancestor);
   ambulo__free(&memory, plan->upper);
   ambulo__free(&memory, plan->rate_start);
-  ambulo__free(&memory, plan->lower);
+  ambulo__free(&memory, plan->pairs);
+  ambulo__free(&memory, plan->roots);
   ambulo__free(&memory, plan->term_fresh);
   ambulo__free(&memory, plan->term);
   ambulo__free(&memory, plan);

@@ -52,11 +52,35 @@ static void fill_terms(ambulo__plan *plan, int k, ambulo__reaction_term *term) {
       const ambulo__joint *joint = &plan->joints[i];
       int above = carries(plan, i, k + 1), below = i != k && carries(plan, k, i + 1);
       if (joint->torque_row != AMBULO__ROW_DENSE || below != add) continue;
-      term->entry = plan->start[i] + k;
+      term->entry = (plan->start[i] + k) * AMBULO__LANES;
       term->row_at = joint->reaction_at + (above ? 0 : 7 * AMBULO__LANES);
       term++;
       plan->term_fresh[k] += !add;
     }
+  }
+}
+
+static void fill_pairs(ambulo__plan *plan, int k) {
+  const ambulo__joint *joint = &plan->joints[k];
+  int first = plan->ancestor_start[k];
+  for (int i = first; i < plan->ancestor_start[k + 1]; i++) {
+    int j = plan->ancestor[i], place = joint->torque_row == AMBULO__ROW_DENSE ? j : i - first;
+    ambulo__ground_pair *pair = &plan->pairs[i];
+    pair->motion = plan->joints[j].motion_at;
+    pair->lower = (plan->start[k] + place) * AMBULO__LANES;
+    pair->upper = plan->upper[i] < 0 ? -1 : plan->upper[i] * AMBULO__LANES;
+  }
+}
+
+static void fill_roots(ambulo__plan *plan) {
+  ambulo__root_column *root = plan->roots;
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->torque_row != AMBULO__ROW_VANISHES) continue;
+    root->motion = joint->motion_at;
+    root->column = k * AMBULO__LANES;
+    root->straight = !joint->revolute && joint->still;
+    root++;
   }
 }
 
@@ -66,16 +90,13 @@ ambulo_status ambulo__plan_ground_terms(ambulo__plan *plan) {
   size_t pairs = (size_t)plan->ancestor_start[d];
   plan->term_fresh = ambulo__alloc(allocator, d, sizeof *plan->term_fresh);
   plan->term = ambulo__alloc(allocator, d * dense, sizeof *plan->term);
-  plan->lower = ambulo__alloc(allocator, pairs, sizeof *plan->lower);
-  if (!plan->term_fresh || !plan->term || !plan->lower) return AMBULO_E_MEMORY;
+  plan->pairs = ambulo__alloc(allocator, pairs, sizeof *plan->pairs);
+  plan->roots = ambulo__alloc(allocator, (size_t)plan->vanishing, sizeof *plan->roots);
+  if (!plan->term_fresh || !plan->term || !plan->pairs || !plan->roots) return AMBULO_E_MEMORY;
   for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
     fill_terms(plan, k, plan->term + (size_t)k * dense);
-    for (int i = plan->ancestor_start[k]; i < plan->ancestor_start[k + 1]; i++) {
-      int place = i - plan->ancestor_start[k];
-      if (joint->torque_row == AMBULO__ROW_DENSE) place = plan->ancestor[i];
-      plan->lower[i] = plan->start[k] + place;
-    }
+    fill_pairs(plan, k);
   }
+  fill_roots(plan);
   return AMBULO_OK;
 }

@@ -75,10 +75,22 @@ typedef enum ambulo__torque_row {
   AMBULO__ROW_VANISHES
 } ambulo__torque_row;
 
-/* Part of a Jacobian column: where it goes, and the row that makes it. */
+/* Part of a Jacobian column: where it goes (doubles), and the row that makes it. */
 typedef struct ambulo__reaction_term {
   int entry, row_at;
 } ambulo__reaction_term;
+
+/* Column of a joint that carries the whole body: its motion, its place in a full row (doubles), and
+ * whether it is a displacement along an axis that stands still. */
+typedef struct ambulo__root_column {
+  int motion, column, straight;
+} ambulo__root_column;
+
+/* An ancestor's entries: its motion, its column in the joint's row, and the joint's column in its
+ * own row (doubles), -1 where that row is not sparse. */
+typedef struct ambulo__ground_pair {
+  int motion, lower, upper;
+} ambulo__ground_pair;
 
 typedef struct ambulo__plan_point {
   int frame;
@@ -114,14 +126,14 @@ struct ambulo__plan {
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */
   int *upper;          /* same length: position of column i in the row of that ancestor */
 
-  /* Grounded. Position of the ancestor's column in the row of i, if i has a row. `upper` is -1
-   * where the ancestor's row is not sparse. */
-  int *lower;
+  /* Grounded, for the Jacobians; pairs: as long as `ancestor`. */
+  ambulo__ground_pair *pairs;
   /* Column k of the dense rows: terms [k dense_count] to [(k + 1) dense_count]; the first
    * term_fresh[k] of them are written, the others are added to what stands there. */
   int dense_count, *term_fresh;
   int vanishing; /* rows of tau that vanish: the first ancestors of every joint with a dense row */
   int whole;     /* a frame that carries the whole body, where `vanishing` is not zero */
+  ambulo__root_column *roots; /* [vanishing] */
   ambulo__reaction_term *term;
 
   ambulo__steps steps;
