@@ -1,0 +1,69 @@
+/* Clearance of the right foot in the air from 0.1 to 0.9 s; nodes at 0.25, 0.5, 0.75 s:
+ * s = 0.1875, 0.5, 0.8125. At q = 0 its sole is on the ground, its heel at 0.09 m to the right. */
+#include "support/row_fixture.h"
+
+static const ambulo_contact contacts[] = {
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.1, {0.0, -0.08}},
+    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}},
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.9, 1.0, {0.6, -0.1}}};
+
+static void open_with(row_fixture *f, int planar) {
+  row_fixture_open(f, planar);
+  f->definition.contacts = contacts;
+  f->definition.contact_count = 3;
+  f->definition.clearance.height = 0.02;
+  for (int k = 0; k < ROW_NODES; k++) f->active[2 * k + WALKER_LEFT] = 1;
+  f->active[WALKER_RIGHT] = 0;
+  f->active[2 * (ROW_NODES - 1) + WALKER_RIGHT] = 2;
+  f->model->feet[WALKER_RIGHT].has_tip = 1;
+  f->model->feet[WALKER_RIGHT].tip = f->model->feet[WALKER_RIGHT].toe[0];
+  ambulo__clearance_rows(&f->frame, &f->table);
+}
+
+static void expect(row_fixture *f, const char *subject, const char *detail, double time,
+                   double value) {
+  int row = row_find(f, "clearance", subject, detail, time);
+  assert_int_equal(f->table.rows[row].relation, AMBULO_NOT_NEGATIVE);
+  assert_close(row_value(f, row), value, 1e-12);
+}
+
+static void heights_follow_the_swing(void **state) {
+  (void)state;
+  row_fixture f;
+  open_with(&f, 0);
+  expect(&f, "r_toe", "low", 0.25, -0.02 * 4.0 * 0.1875);
+  expect(&f, "r_heel", "low", 0.25, -0.01 * 4.0 * 0.1875);
+  expect(&f, "r_toe", "low", 0.5, -0.02);
+  expect(&f, "r_toe", "low", 0.75, -0.02); /* 6 (1 - s) is still above 1 */
+  expect(&f, "r_toe", "high", 0.5, 0.35);
+  expect(&f, "r_toe_in", "low", 0.5, -0.02);
+  /* not the tip before s = 0.3; 3 rows pairs of height, yaw, roll, track, and the tip twice */
+  assert_int_equal(f.table.row_count, 3 * 2 * 5 + 2 * 2);
+  row_fixture_close(&f);
+}
+
+static void the_track_is_that_of_the_next_foothold(void **state) {
+  (void)state;
+  row_fixture f;
+  open_with(&f, 0);
+  expect(&f, "r_heel", "to the left", 0.5, 0.03 - (-0.09 + 0.1));
+  expect(&f, "r_heel", "to the right", 0.5, 0.06 + (-0.09 + 0.1));
+  expect(&f, "right", "turned left", 0.5, 0.2);
+  expect(&f, "right", "left side low", 0.5, 0.2);
+  row_fixture_close(&f);
+}
+
+static void planar_feet_only_have_heights(void **state) {
+  (void)state;
+  row_fixture f;
+  open_with(&f, 1);
+  assert_int_equal(f.table.row_count, 3 * 2 * 2 + 2 * 2);
+  row_fixture_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(heights_follow_the_swing),
+                                     cmocka_unit_test(the_track_is_that_of_the_next_foothold),
+                                     cmocka_unit_test(planar_feet_only_have_heights)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

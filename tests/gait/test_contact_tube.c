@@ -1,0 +1,103 @@
+/* Contact tubes at q = 0: left heel at (-0.05, 0.09), left toe at (0.17, 0.09) m, sole level. */
+#include "gait/band.h"
+#include "support/row_fixture.h"
+
+static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, {0.6, 0.1}},
+                                          {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, {0.6, 0.1}},
+                                          {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, {0.6, 0.1}}};
+
+static void open_with(row_fixture *f, int planar) {
+  row_fixture_open(f, planar);
+  f->definition.contacts = contacts;
+  f->definition.contact_count = 3;
+  f->definition.contact_tolerance = 0.002;
+  f->definition.ground_height = 0.001;
+  f->definition.strike_pitch[0] = 0.2;
+  f->definition.strike_pitch[1] = 0.4;
+  for (int k = 0; k < 3; k++) f->active[2 * k + WALKER_LEFT] = k;
+  ambulo__contact_tube_rows(&f->frame, &f->table);
+}
+
+static void expect(row_fixture *f, const char *subject, const char *detail, double time,
+                   double value) {
+  int row = row_find(f, "contact", subject, detail, time);
+  assert_int_equal(f->table.rows[row].relation, AMBULO_NOT_NEGATIVE);
+  if (fabs(row_value(f, row) - value) > 1e-12) print_error("%s %s at %g s\n", subject, detail, time);
+  assert_close(row_value(f, row), value, 1e-12);
+}
+
+static void places_within_the_tolerance(void **state) {
+  (void)state;
+  row_fixture f;
+  open_with(&f, 0);
+  for (int k = 0; k < 2; k++) {
+    double t = 0.25 * k;
+    expect(&f, "l_heel", "behind", t, -0.05 - 0.6 + 0.002);
+    expect(&f, "l_heel", "ahead", t, 0.002 + 0.05 + 0.6);
+    expect(&f, "l_heel", "to the right", t, 0.09 - 0.1 + 0.002);
+    expect(&f, "l_heel", "to the left", t, 0.002 - 0.09 + 0.1);
+    expect(&f, "l_heel", "below", t, -0.001 + 0.002);
+    expect(&f, "l_heel", "above", t, 0.002 + 0.001);
+  }
+  expect(&f, "l_toe", "ahead", 0.5, 0.002 - 0.17 + 0.6 + 0.22);
+  row_fixture_close(&f);
+}
+
+/* raises the toe centre and one heel corner of every node by hand */
+static void directions_within_the_tolerance(void **state) {
+  (void)state;
+  row_fixture f;
+  open_with(&f, 0);
+  const ambulo_foot *foot = &f.model->feet[WALKER_LEFT];
+  double width = 0.08, length = 0.22;
+  for (int k = 0; k < 3; k++) {
+    *row_channel(&f, k, ambulo__channel_point(&f.frame.channels, foot->toe_center, 1)) += 0.022;
+    *row_channel(&f, k, ambulo__channel_point(&f.frame.channels, foot->toe_center, 2)) -= 0.0044;
+    *row_channel(&f, k, ambulo__channel_point(&f.frame.channels, foot->heel[0], 1)) += 0.0004;
+  }
+  double *corner = row_channel(&f, 0, ambulo__channel_point(&f.frame.channels, foot->heel[0], 2));
+  double sign = corner[0] < -0.09 ? 1.0 : -1.0; /* left is -z: is heel[0] the left corner? */
+  expect(&f, "left", "toes low", 0.0, 0.022 / length - sin(0.2)); /* the strike */
+  expect(&f, "left", "toes high", 0.0, sin(0.4) - 0.022 / length);
+  expect(&f, "left", "toes high", 0.25, 0.01 - 0.022 / length);
+  expect(&f, "left", "toes low", 0.25, 0.01 + 0.022 / length);
+  expect(&f, "left", "toes low", 0.5, 0.95 + 0.022 / length);
+  expect(&f, "left", "toes high", 0.5, -0.022 / length);
+  expect(&f, "left", "turned left", 0.25, 0.01 - 0.0044 / length);
+  expect(&f, "left", "turned right", 0.5, 0.02 + 0.0044 / length);
+  expect(&f, "left", "left side high", 0.25, 0.01 - sign * 0.0004 / width);
+  expect(&f, "left", "left side low", 0.5, 0.02 + sign * 0.0004 / width);
+  row_fixture_close(&f);
+}
+
+static void planar_feet_have_four_places_and_a_pitch(void **state) {
+  (void)state;
+  row_fixture f;
+  open_with(&f, 1);
+  assert_int_equal(f.table.row_count, 3 * 6);
+  row_fixture_close(&f);
+}
+
+/* ends that match make the last node the first one */
+static void the_last_node_of_a_repeating_motion_has_none(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  assert_int_equal(ambulo__distinct_nodes(&f.frame), ROW_NODES);
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  assert_int_equal(ambulo__distinct_nodes(&f.frame), ROW_NODES);
+  f.definition.contact_tolerance = 0.002;
+  assert_int_equal(ambulo__distinct_nodes(&f.frame), ROW_NODES - 1);
+  f.definition.ends = AMBULO_ENDS_FREE;
+  assert_int_equal(ambulo__distinct_nodes(&f.frame), ROW_NODES);
+  row_fixture_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(places_within_the_tolerance),
+      cmocka_unit_test(directions_within_the_tolerance),
+      cmocka_unit_test(planar_feet_have_four_places_and_a_pitch),
+      cmocka_unit_test(the_last_node_of_a_repeating_motion_has_none)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
