@@ -132,6 +132,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (reader->model) {
     ambulo__read_ground(reader, root);
     ambulo__read_schedule(reader, root);
+    ambulo__read_tubes(reader, root);
     ambulo__read_trajectory(reader, root);
     ambulo__read_ends(reader, ambulo__reader_section(root, "ends"));
     ambulo__read_objective(reader, ambulo__yaml_require(root, "objective"));

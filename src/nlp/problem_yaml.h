@@ -66,7 +66,7 @@ const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
 const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, int samples,
                                           double *scale);
-/* `constraints.tubes`, a list. */
-void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
+/* `constraints.tubes`; after the time and the schedule. */
+void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 
 #endif

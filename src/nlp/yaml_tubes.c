@@ -49,7 +49,10 @@ static void read_tube(ambulo__problem_reader *reader, const ambulo__yaml_node *i
   ambulo__yaml_close(item);
 }
 
-void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *list) {
+void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  const ambulo__yaml_node *section = ambulo__yaml_get(root, "constraints");
+  if (!section || ambulo__yaml_kind_of(section) != AMBULO__YAML_MAPPING) return;
+  const ambulo__yaml_node *list = ambulo__yaml_get(section, "tubes");
   if (!list) return;
   if (ambulo__yaml_kind_of(list) != AMBULO__YAML_SEQUENCE) {
     (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
