@@ -1,0 +1,144 @@
+/* `ground`, `load`, `ground_reaction`, tolerances and clearance. */
+#include "nlp/problem_text.h"
+
+#define HEAD "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
+#define REST                                                                                       \
+  "objective: none\ntime: {intervals: 4}\n"                                                        \
+  "gait: {steps: 2, first_foot: left, step_length: 0.6, step_time: 0.5}\n"
+
+static void everything_is_read(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of(
+      HEAD REST
+      "angles: degrees\n"
+      "ground_reaction: {kind: two_step, shear: 0.8, transfer: smooth, exponent: 1.2, "
+      "friction: 0.4, free_moment: off, minimum_force: 0.1, pressure: {heel: [-0.01, "
+      "0.02], roll: 0.05, flat: [0.01, 0.03], toe: [-0.03, 0.04], width: 0.03}}\n"
+      "constraints: {contact_tolerance: 0.003, orientation_tolerance: 0.02, strike_pitch: "
+      "[10, 20], clearance: {height: 0.01, tip_from: 0.4, ceiling: 0.3, turn: 0.1, "
+      "outward: 0.05, inward: 0.02}}\n");
+  const ambulo_problem_definition *d = &p->definition;
+  const ambulo_ground_reaction *r = ambulo_problem_ground_reaction(p);
+  assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
+  assert_int_equal(r->transfer, AMBULO_TRANSFER_SMOOTH);
+  const double got[] = {r->shear,
+                        r->exponent,
+                        r->friction,
+                        r->free_moment,
+                        d->minimum_force,
+                        r->heel_pressure[0],
+                        r->heel_pressure[1],
+                        r->heel_roll,
+                        r->flat_pressure[0],
+                        r->flat_pressure[1],
+                        r->toe_pressure[0],
+                        r->toe_pressure[1],
+                        r->pressure_width,
+                        d->contact_tolerance,
+                        d->orientation_tolerance,
+                        d->strike_pitch[0],
+                        d->strike_pitch[1],
+                        d->clearance.height,
+                        d->clearance.tip_from,
+                        d->clearance.ceiling,
+                        d->clearance.turn,
+                        d->clearance.outward,
+                        d->clearance.inward};
+  const double expected[] = {0.8,
+                             1.2,
+                             0.4,
+                             -1.0,
+                             0.1,
+                             -0.01,
+                             0.02,
+                             0.05,
+                             0.01,
+                             0.03,
+                             -0.03,
+                             0.04,
+                             0.03,
+                             0.003,
+                             0.02,
+                             0.17453292519943295,
+                             0.3490658503988659,
+                             0.01,
+                             0.4,
+                             0.3,
+                             0.1,
+                             0.05,
+                             0.02};
+  for (size_t i = 0; i < sizeof got / sizeof *got; i++) assert_close(got[i], expected[i], 1e-15);
+  ambulo_problem_free(p);
+}
+
+static void defaults(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of(HEAD REST "ground_reaction: {pressure: off}\n");
+  const ambulo_ground_reaction *r = ambulo_problem_ground_reaction(p);
+  assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
+  assert_int_equal(r->pressure, 0);
+  assert_close(p->definition.minimum_force, 0.2, 0.0);
+  assert_true(p->definition.clearance.height < 0.0);
+  assert_close(p->definition.contact_tolerance, 0.0, 0.0);
+  ambulo_problem_free(p);
+  p = problem_of(HEAD REST);
+  assert_int_equal(ambulo_problem_ground_reaction(p)->kind, AMBULO_REACTION_NONE);
+  ambulo_problem_free(p);
+}
+
+/* gravity (0, -g, 0) on ground that rises along x; the axes stay with the ground */
+static void slopes_turn_gravity(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of(HEAD REST "angles: degrees\nground: {slope: 30}\n");
+  const double *g = ambulo_model_gravity(p->model);
+  assert_close(g[0], -9.81 * 0.5, 1e-12);
+  assert_close(g[1], -9.81 * sqrt(0.75), 1e-12);
+  assert_close(g[2], 0.0, 1e-12);
+  assert_close(ambulo_model_up(p->model)[1], 1.0, 1e-15);
+  assert_close(ambulo_model_forward(p->model)[0], 1.0, 1e-15);
+  ambulo_problem_free(p);
+}
+
+static void loads_are_carried(void **state) {
+  (void)state;
+  ambulo_problem *p =
+      problem_of(HEAD REST "load: {link: pelvis, mass: 20, position: [-0.2, 0.3, 0]}\n");
+  ambulo_problem *free_handed = problem_of(HEAD REST);
+  int link = ambulo_model_find_link(p->model, "pelvis");
+  const ambulo_link *with = ambulo_model_link(p->model, link);
+  const ambulo_link *without = ambulo_model_link(free_handed->model, link);
+  assert_close(ambulo_model_mass(p->model), 95.0, 1e-9);
+  assert_close(with->mass, without->mass + 20.0, 1e-12);
+  assert_close(with->com[0] * with->mass, without->com[0] * without->mass - 4.0, 1e-9);
+  assert_close(with->com[1] * with->mass, without->com[1] * without->mass + 6.0, 1e-9);
+  ambulo_problem_free(p);
+  ambulo_problem_free(free_handed);
+}
+
+static void faults_are_placed(void **state) {
+  (void)state;
+  expect_refusal(HEAD REST "ground: {slope: 5}\n", AMBULO_E_SCHEMA,
+                 "does not state its unit; expected 'angles:");
+  expect_refusal(HEAD REST "angles: degrees\nground: {slope: 50}\n", AMBULO_E_SCHEMA,
+                 "p.yaml:8:17: error[E_SCHEMA]: a slope of");
+  expect_refusal(HEAD REST "load: {link: pelvs, mass: 20, position: [0, 0, 0]}\n", AMBULO_E_PROBLEM,
+                 "unknown link (got 'pelvs')");
+  expect_refusal(HEAD REST "ground_reaction: {kind: twostep}\n", AMBULO_E_SCHEMA, "two_step");
+  expect_refusal(HEAD REST "ground_reaction: {pressure: {toe: [0.1, 0]}}\n", AMBULO_E_PROBLEM,
+                 "expected lower < upper");
+  expect_refusal(HEAD REST "angles: degrees\nconstraints: {strike_pitch: [24, 12]}\n",
+                 AMBULO_E_PROBLEM, "expected two rising angles");
+  expect_refusal(HEAD REST "constraints: {clearance: {tip_from: 0.3}}\n", AMBULO_E_SCHEMA,
+                 "'height'");
+  expect_refusal(PENDULUM "objective: none\ntime: {duration: 1, intervals: 4}\n"
+                          "ground_reaction: {kind: two_step}\n",
+                 AMBULO_E_PROBLEM, "has 0 feet; expected 2");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(everything_is_read), cmocka_unit_test(defaults),
+      cmocka_unit_test(slopes_turn_gravity), cmocka_unit_test(loads_are_carried),
+      cmocka_unit_test(faults_are_placed)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
