@@ -48,6 +48,12 @@ ambulo_status ambulo__ends_check(const ambulo_problem_definition *definition, in
                                  const int *active, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics);
 
+/* With ground reaction and torque limits: a warning for each joint that could not carry the
+ * body standing still. E_MEMORY. */
+ambulo_status ambulo__strength_check(const ambulo_problem_definition *definition,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics);
+
 /* "ground_penetration": corner heights, = 0 in contact, >= 0 otherwise (m). */
 void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 /* "foot_strike": horizontal place of the contact point, and the heading of a flat foot (m).

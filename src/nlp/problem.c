@@ -246,7 +246,8 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   if (status) return status;
   status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
   ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
-  return status ? status : ends;
+  if (!status) status = ends;
+  return status ? status : ambulo__strength_check(d, &p->allocator, diagnostics);
 }
 
 static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
