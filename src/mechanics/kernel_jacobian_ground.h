@@ -12,7 +12,8 @@
  *   R = (a beta + gain u x n,   a s + (a_0 a_1 + gain height) u - gain (s . D) n)
  *   e = -gain / z (u . V - F_n s . D)
  * For i above j or i = j, dtau_i/dq_j = (S_i - R_i) . t_j - e_i dz; for i on another limb
- * -R_i . t_j - e_i dz; for i below j that is added to what the pair of i and j has stored.
+ * -R_i . t_j - e_i dz; for i below j that is added to what the pair of i and j has stored. The t_j
+ * are read where they stand, in the rows of the root wrench.
  * A joint j that carries the whole body has t1_j = I(S_j) with the inertia of the whole body, etc.,
  * and with R = (rho, sigma), (M, F) the root wrench, m the mass, h, P, E of the whole body
  *   R . t1_j = I(R) . S_j,     R . t2_j = I(R) . 2 Sd_j + 2 b . z_j,     b = E^T rho + P x sigma
@@ -22,12 +23,16 @@
  * The centre of mass: c / dq_j is the linear part of t1_j over the mass, dz = n . dc. Feet:
  *   dF_0 = a_0 dF - gain (dF_n - F_n dz / z) D,   dF_1 = dF - dF_0
  *   dT   = (F . dM + M . dF - T dF_n) / F_n,      dT_f = a_f dT
- * Stored per joint with a dense row: S - R, -e / m, -R, -e / m; with it goes m dz = n . t1_j.
+ * Stored per joint with a dense row: S - R, -e / m, -R, -e / m, t4; -e / m goes with m dz = n .
+ * t1_j.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_GROUND_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_GROUND_H
 
 #include "mechanics/kernel_jacobian.h"
+
+/* A step of its own keeps its constants in registers; inlined together they would not fit. */
+#define AMBULO__STEP static __attribute__((noinline))
 
 /* What a column needs of the split. */
 typedef struct ground_slopes {
@@ -37,8 +42,8 @@ typedef struct ground_slopes {
 } ground_slopes;
 
 /* R and e of the joints that carry feet. */
-static void ground_reaction_rows(const ambulo__plan *plan, const ground_shares *shares,
-                                 double *scratch) {
+AMBULO__STEP void ground_reaction_rows(const ambulo__plan *plan, const ground_shares *shares,
+                                       double *scratch) {
   const ground_shares g = *shares;
   wide_pair w = load_pair(scratch + plan->ground_at + ground_wrench);
   wide3 lever = ground_lever(plan, g.up, w);
@@ -105,6 +110,17 @@ AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_change
   return c;
 }
 
+/* Entries of a row in the column of a joint above, whose motion is given. */
+AMBULO__INLINE void ground_above(const row_changes *row, const double *motion, double *q,
+                                 double *qd, double *qdd) {
+  wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
+  wide_pair sdd = load_pair(motion + 4 * three);
+  wide turned = dot3(row->turned, s.angular);
+  store(q, dot3(row->turned, sd.angular) + dot_pair(row->force, sdd) + dot_pair(row->turn, s));
+  store(qd, 2 * turned + dot_pair(row->force, sd));
+  store(qdd, dot_pair(row->force, s));
+}
+
 /* Columns of a row that stand for the joints that carry the whole body. */
 AMBULO__INLINE void ground_root_pairs(const ambulo__root_column *roots, int count, int start,
                                       const row_changes *row, double *jq, double *jqd, double *jqdd,
@@ -113,97 +129,168 @@ AMBULO__INLINE void ground_root_pairs(const ambulo__root_column *roots, int coun
   for (int i = 0; i < count; i++) {
     const double *motion = scratch + roots[i].motion;
     int entry = start + roots[i].column;
-    wide_pair s = load_pair(motion);
     if (roots[i].straight) {
-      store(jq + entry, dot3(c.turn.linear, s.linear));
+      wide3 s = load3(motion + three);
+      store(jq + entry, dot3(c.turn.linear, s));
       store(jqd + entry, (wide){0});
-      store(jqdd + entry, dot3(c.force.linear, s.linear));
-      continue;
+      store(jqdd + entry, dot3(c.force.linear, s));
+    } else {
+      ground_above(&c, motion, jq + entry, jqd + entry, jqdd + entry);
     }
-    wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
-    wide turned = dot3(c.turned, s.angular);
-    store(jq + entry, dot3(c.turned, sd.angular) + dot_pair(c.force, sdd) + dot_pair(c.turn, s));
-    store(jqd + entry, 2 * turned + dot_pair(c.force, sd));
-    store(jqdd + entry, dot_pair(c.force, s));
   }
 }
 
-/* Entries in the row and, where that row is sparse, in the column of joint k. */
-static void ground_pairs(const ambulo__plan *plan, int k, const subtree_changes *changes,
-                         wide_pair carried, double *jq, double *jqd, double *jqdd,
-                         const double *scratch) {
-  const subtree_changes t = *changes;
-  const int dense = plan->joints[k].torque_row == AMBULO__ROW_DENSE;
-  const ambulo__ground_pair *pairs = plan->pairs;
-  const double *own = scratch + plan->joints[k].motion_at;
+/* Row and column of a joint that carries no foot; columns only where the row above is sparse. */
+AMBULO__INLINE void ground_sparse_pairs(const ambulo__plan *plan, int k, const subtree_changes *t,
+                                        double *jq, double *jqd, double *jqdd,
+                                        const double *scratch) {
   int first = plan->ancestor_start[k], last = plan->ancestor_start[k + 1];
-  int start = plan->start[k] * AMBULO__LANES, self = start + (last - first) * AMBULO__LANES;
-  wide_pair z = load_pair(own);
-  row_changes row = {t.qdd, turn_of(carried, z), t.turned};
-  if (dense && plan->vanishing > 0) {
-    const double *reaction = scratch + plan->joints[k].reaction_at + 7 * AMBULO__LANES;
-    row_changes to_root = ground_add_whole(plan, row, reaction, scratch);
-    ground_root_pairs(plan->roots, plan->vanishing, start, &to_root, jq, jqd, jqdd, scratch);
-    first += plan->vanishing;
-  }
+  int self = (plan->start[k] + last - first) * AMBULO__LANES;
+  const double *own = scratch + plan->joints[k].motion_at;
   for (int i = first; i < last; i++) {
-    const double *motion = scratch + pairs[i].motion;
-    int lower = pairs[i].lower, upper = pairs[i].upper;
+    const ambulo__ground_pair *pair = &plan->pairs[i];
+    const double *motion = scratch + pair->motion;
+    int upper = pair->upper;
     wide_pair s = load_pair(motion);
-    wide mass = jacobian_lower(&t, s, motion, lower, jq, jqd);
-    store(jqdd + lower, mass);
-    if (dense) store(jq + lower, load(jq + lower) + dot_pair(row.turn, s));
+    wide mass = jacobian_lower(t, s, motion, pair->lower, jq, jqd);
+    store(jqdd + pair->lower, mass);
     if (upper < 0) continue;
-    store(jq + upper, dot_pair(t.q, s));
-    store(jqd + upper, dot_pair(t.qd, s));
+    store(jq + upper, dot_pair(t->q, s));
+    store(jqd + upper, dot_pair(t->qd, s));
     store(jqdd + upper, mass);
   }
-  if (dense) return;
-  store(jq + self, dot_pair(t.q, z));
-  store(jqd + self, dot_pair(t.qd, z));
-  store(jqdd + self, dot_pair(t.qdd, z));
+  store(jqdd + self, jacobian_lower(t, load_pair(own), own, self, jq, jqd));
 }
 
-/* Column k of the dense rows. */
-AMBULO__INLINE void ground_column(const ambulo__reaction_term *term, int fresh, int count,
-                                  const subtree_changes *t, wide rise, double *jq, double *jqd,
-                                  double *jqdd, const double *scratch) {
-  const wide_pair q = t->q, qd = t->qd, qdd = t->qdd;
-  for (int i = 0; i < fresh; i++) {
-    int entry = term[i].entry;
-    const double *row = scratch + term[i].row_at;
-    wide_pair r = load_pair(row);
-    store(jq + entry, dot_pair(r, q) + load(row + 2 * three) * rise);
-    store(jqd + entry, dot_pair(r, qd));
-    store(jqdd + entry, dot_pair(r, qdd));
-  }
-  for (int i = fresh; i < count; i++) {
-    int entry = term[i].entry;
-    const double *row = scratch + term[i].row_at;
-    wide_pair r = load_pair(row);
-    store(jq + entry, load(jq + entry) + dot_pair(r, q) + load(row + 2 * three) * rise);
-    store(jqd + entry, load(jqd + entry) + dot_pair(r, qd));
-    store(jqdd + entry, load(jqdd + entry) + dot_pair(r, qdd));
+/* A column of the root wrench, as jacobian_wrench left it. */
+AMBULO__INLINE wide_pair ground_wrench_column(const double *at, int row) {
+  return (wide_pair){{load(at), load(at + row), load(at + 2 * row)},
+                     {load(at + 3 * row), load(at + 4 * row), load(at + 5 * row)}};
+}
+
+/* Column of the root wrench for a displacement s along an axis that stands still: no rates, no
+ * turning. */
+AMBULO__INLINE void ground_straight_changes(const ambulo__plan *plan, int k, wide_pair f,
+                                            double *jq, double *jqd, double *jqdd,
+                                            const double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  const ambulo__change_step *step = &plan->steps.changes[k];
+  wide3 s = load3(scratch + step->motion + three);
+  wide3 h = load3(scratch + step->composite + composite_first);
+  jacobian_wrench(plan, k, (wide_pair){cross3(s, f.linear), zero}, jq);
+  jacobian_wrench(plan, k, (wide_pair){zero, zero}, jqd);
+  jacobian_wrench(plan, k, (wide_pair){cross3(h, s), scale3(spread(step->mass), s)}, jqdd);
+}
+
+/* Changes of the subtrees: columns of the root wrench; and rows without feet. */
+AMBULO__STEP void ground_changes(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
+                                 double *scratch) {
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    const ambulo__change_step *step = &plan->steps.changes[k];
+    wide_pair carried = ground_carried(plan, joint->feet, scratch);
+    wide_pair bodies = axpy_pair(load_pair(scratch + step->load), spread(1), carried);
+    if (joint->torque_row == AMBULO__ROW_VANISHES && !joint->revolute && joint->still) {
+      ground_straight_changes(plan, k, bodies, jq, jqd, jqdd, scratch);
+      continue;
+    }
+    subtree_changes t = jacobian_changes(step, bodies, scratch);
+    jacobian_wrench(plan, k, t.q, jq);
+    jacobian_wrench(plan, k, t.qd, jqd);
+    jacobian_wrench(plan, k, t.qdd, jqdd);
+    if (joint->torque_row == AMBULO__ROW_SPARSE) {
+      ground_sparse_pairs(plan, k, &t, jq, jqd, jqdd, scratch);
+    } else if (joint->torque_row == AMBULO__ROW_DENSE) {
+      store3(scratch + joint->reaction_at + 14 * AMBULO__LANES, t.turned);
+    }
   }
 }
 
-/* A column of the feet's rows, which are full, of d doubles: `out` is its entry in the first of
- * them, `rise` is m dz. */
-AMBULO__INLINE void ground_feet_column(int d, const ground_slopes *slopes, wide_pair t, wide rise,
-                                       double *out) {
-  const ground_shares *s = &slopes->shares;
-  wide shear = s->gain * (dot3(s->up, t.linear) - slopes->fall * rise);
-  wide3 first = axpy3(scale3(s->share[0], t.linear), -shear, s->apart);
-  wide3 second = sub3(t.linear, first);
-  wide twist = dot_pair(slopes->twist, t);
-  store(out, first.x);
-  store(out + d, first.y);
-  store(out + 2 * d, first.z);
-  store(out + 3 * d, s->share[0] * twist);
-  store(out + 4 * d, second.x);
-  store(out + 5 * d, second.y);
-  store(out + 6 * d, second.z);
-  store(out + 7 * d, s->share[1] * twist);
+/* Entries of the dense rows in the columns of the joints above. */
+AMBULO__STEP void ground_rows_above(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
+                                    const double *scratch) {
+  const ambulo__root_column *roots = plan->roots;
+  const ambulo__ground_pair *pairs = plan->pairs;
+  const int full = plan->coordinates * AMBULO__LANES, vanishing = plan->vanishing;
+  const int wrench = plan->start[plan->coordinates] * AMBULO__LANES;
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->torque_row != AMBULO__ROW_DENSE) continue;
+    const double *reaction = scratch + joint->reaction_at;
+    const int first = plan->ancestor_start[k] + vanishing, last = plan->ancestor_start[k + 1];
+    wide_pair carried = ground_carried(plan, joint->feet, scratch);
+    row_changes row;
+    row.force = ground_wrench_column(jqdd + wrench + k * AMBULO__LANES, full);
+    row.turn = turn_of(carried, load_pair(scratch + joint->motion_at));
+    row.turned = load3(reaction + 14 * AMBULO__LANES);
+    for (int i = first; i < last; i++) {
+      int lower = pairs[i].lower;
+      ground_above(&row, scratch + pairs[i].motion, jq + lower, jqd + lower, jqdd + lower);
+    }
+    if (vanishing == 0) continue;
+    row = ground_add_whole(plan, row, reaction + 7 * AMBULO__LANES, scratch);
+    ground_root_pairs(roots, vanishing, plan->start[k] * AMBULO__LANES, &row, jq, jqd, jqdd,
+                      scratch);
+  }
+}
+
+/* What the dense rows have in all columns but those of the joints that carry the whole body. */
+AMBULO__STEP void ground_columns(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
+                                 const double *scratch) {
+  const int full = plan->coordinates * AMBULO__LANES, dense = plan->dense_count;
+  const int wrench = plan->start[plan->coordinates] * AMBULO__LANES;
+  const wide3 up = ground_up(plan);
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__reaction_term *term = plan->term + k * dense;
+    const int fresh = plan->term_fresh[k], at = wrench + k * AMBULO__LANES;
+    if (plan->joints[k].torque_row == AMBULO__ROW_VANISHES) continue;
+    const wide_pair q = ground_wrench_column(jq + at, full);
+    const wide_pair qd = ground_wrench_column(jqd + at, full);
+    const wide_pair qdd = ground_wrench_column(jqdd + at, full);
+    const wide rise = dot3(up, qdd.linear);
+    for (int i = 0; i < dense; i++) {
+      int entry = term[i].entry;
+      const double *row = scratch + term[i].row_at;
+      wide_pair r = load_pair(row);
+      wide by_q = dot_pair(r, q) + load(row + 2 * three) * rise;
+      wide by_qd = dot_pair(r, qd), by_qdd = dot_pair(r, qdd);
+      if (i >= fresh) {
+        by_q += load(jq + entry);
+        by_qd += load(jqd + entry);
+        by_qdd += load(jqdd + entry);
+      }
+      store(jq + entry, by_q);
+      store(jqd + entry, by_qd);
+      store(jqdd + entry, by_qdd);
+    }
+  }
+}
+
+/* The feet's rows from those of the root wrench: `wrench` and `out` are the first entries of
+ * both. The centre of mass rises by n . t1 / m with q, `masses` is the first entry of t1. */
+AMBULO__STEP void ground_feet(const ground_slopes *slopes, int d, const double *wrench,
+                              const double *masses, double *out) {
+  const ground_slopes g = *slopes;
+  const ground_shares *s = &g.shares;
+  const int row = d * AMBULO__LANES;
+  for (int k = 0; k < d; k++, wrench += AMBULO__LANES, out += AMBULO__LANES) {
+    wide_pair t = ground_wrench_column(wrench, row);
+    wide shear = dot3(s->up, t.linear), twist = dot_pair(g.twist, t);
+    if (masses) {
+      const double *force = masses + 3 * row + k * AMBULO__LANES;
+      wide3 rise = {load(force), load(force + row), load(force + 2 * row)};
+      shear -= g.fall * dot3(s->up, rise);
+    }
+    wide3 first = axpy3(scale3(s->share[0], t.linear), -s->gain * shear, s->apart);
+    store(out, first.x);
+    store(out + row, first.y);
+    store(out + 2 * row, first.z);
+    store(out + 3 * row, s->share[0] * twist);
+    store(out + 4 * row, t.linear.x - first.x);
+    store(out + 5 * row, t.linear.y - first.y);
+    store(out + 6 * row, t.linear.z - first.z);
+    store(out + 7 * row, s->share[1] * twist);
+  }
 }
 
 static ground_slopes ground_slopes_of(const ambulo__plan *plan, const double *ground,
@@ -218,72 +305,25 @@ static ground_slopes ground_slopes_of(const ambulo__plan *plan, const double *gr
   return slopes;
 }
 
-/* What a column has for the root wrench, the feet and the centre of mass. */
-typedef struct ground_outputs {
-  double *jq, *jqd, *jqdd; /* the arrays */
-  int feet, rates, center; /* entries where the feet's rows begin, in jq and jqd, and those of c */
-  int row;                 /* doubles in a full row */
-  wide inverse_mass;
-} ground_outputs;
-
-/* Writes them for the column of joint k; returns m dz. */
-AMBULO__INLINE wide ground_outputs_of(const ambulo__plan *plan, const ground_slopes *slopes,
-                                      const ground_outputs *to, int k, const subtree_changes *t) {
-  const wide none = {0};
-  wide rise = dot3(slopes->shares.up, t->qdd.linear);
-  wide3 dc = scale3(to->inverse_mass, t->qdd.linear);
-  double *center = to->jq + (to->center + k) * AMBULO__LANES;
-  jacobian_wrench(plan, k, t->q, to->jq);
-  jacobian_wrench(plan, k, t->qd, to->jqd);
-  jacobian_wrench(plan, k, t->qdd, to->jqdd);
-  ground_feet_column(to->row, slopes, t->q, rise, to->jq + (to->feet + k) * AMBULO__LANES);
-  ground_feet_column(to->row, slopes, t->qd, none, to->jqd + (to->rates + k) * AMBULO__LANES);
-  ground_feet_column(to->row, slopes, t->qdd, none, to->jqdd + (to->rates + k) * AMBULO__LANES);
-  store(center, dc.x);
-  store(center + to->row, dc.y);
-  store(center + 2 * to->row, dc.z);
-  return rise;
-}
-
-/* Columns of the joints that carry the whole body. */
-static void ground_root_columns(const ambulo__plan *plan, const ground_slopes *slopes,
-                                const ground_outputs *to, const double *scratch) {
-  wide_pair w = load_pair(scratch + plan->ground_at + ground_wrench);
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
-    if (joint->torque_row != AMBULO__ROW_VANISHES) continue;
-    subtree_changes t = jacobian_changes(&plan->steps.changes[k], w, scratch);
-    ground_outputs_of(plan, slopes, to, k, &t);
-  }
-}
-
 static void jacobian_ground_part(const ambulo__plan *plan, const double *qd, const double *ground,
                                  double *jq, double *jqd, double *jqdd, double *scratch) {
   const int row = ambulo__plan_first_foot_row(plan), d = plan->coordinates;
-  const ground_outputs to = {jq,
-                             jqd,
-                             jqdd,
-                             plan->start[row],
-                             plan->rate_start[row],
-                             plan->start[row + 8],
-                             d * AMBULO__LANES,
-                             spread(1 / plan->mass)};
+  const int wrench = plan->start[d] * AMBULO__LANES, feet = plan->start[row] * AMBULO__LANES;
+  const int rates = plan->rate_start[row] * AMBULO__LANES;
+  const int center = plan->start[row + 8] * AMBULO__LANES;
+  const wide inverse_mass = spread(1 / plan->mass);
   jacobian_motion(plan, qd, scratch);
-  ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
+  const ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
   ground_reaction_rows(plan, &slopes.shares, scratch);
-  for (int k = d - 1; k >= 0; k--) {
-    const ambulo__joint *joint = &plan->joints[k];
-    if (joint->torque_row == AMBULO__ROW_VANISHES) continue;
-    wide_pair carried = ground_carried(plan, joint->feet, scratch);
-    wide_pair bodies = load_pair(scratch + plan->frames[k + 1].load_at);
-    bodies = axpy_pair(bodies, spread(1), carried);
-    subtree_changes t = jacobian_changes(&plan->steps.changes[k], bodies, scratch);
-    wide rise = ground_outputs_of(plan, &slopes, &to, k, &t);
-    ground_pairs(plan, k, &t, carried, jq, jqd, jqdd, scratch);
-    ground_column(plan->term + k * plan->dense_count, plan->term_fresh[k], plan->dense_count, &t,
-                  rise, jq, jqd, jqdd, scratch);
+  ground_changes(plan, jq, jqd, jqdd, scratch);
+  ground_rows_above(plan, jq, jqd, jqdd, scratch);
+  ground_columns(plan, jq, jqd, jqdd, scratch);
+  ground_feet(&slopes, d, jq + wrench, jqdd + wrench, jq + feet);
+  ground_feet(&slopes, d, jqd + wrench, NULL, jqd + rates);
+  ground_feet(&slopes, d, jqdd + wrench, NULL, jqdd + rates);
+  for (int e = 0; e < 3 * d * AMBULO__LANES; e += AMBULO__LANES) {
+    store(jq + center + e, inverse_mass * load(jqdd + wrench + 3 * d * AMBULO__LANES + e));
   }
-  ground_root_columns(plan, &slopes, &to, scratch);
   jacobian_points(plan, jq, scratch);
 }
 

@@ -63,7 +63,7 @@ typedef struct ambulo__joint {
   int own_adjoint;   /* adjoint_at differs from the parent's */
   int feet;          /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
   int torque_row;    /* ambulo__torque_row of a grounded plan */
-  int reaction_at;   /* Jacobian: rows that meet the changes of the root wrench (14) */
+  int reaction_at;   /* Jacobian: rows that meet the changes of the root wrench (17) */
   int motion_at;     /* Jacobian: S and its first and second derivative (18) */
 } ambulo__joint;
 

@@ -180,7 +180,7 @@ static void place_jacobian(ambulo__plan *plan, size_t *used) {
     frame->composite_at = shared ? plan->frames[only].composite_at : take(used, 21);
     plan->frames[joint->parent].subtree_mass += frame->subtree_mass;
     joint->motion_at = take(used, 18);
-    if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 14);
+    if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 17);
   }
   plan->positions_at = take(used, 3 * plan->points);
 }
