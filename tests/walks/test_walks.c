@@ -1,0 +1,149 @@
+/* The shipped walks, from zero: all solve, and the two at normal speed move as people do.
+ *
+ * The bands are adults' (tests/support/shared_data.h finds them, the test is skipped without
+ * them). Bounds: what a study of this formulation reached with another solver. */
+#include "support/scratch.h"
+#include "support/shared_data.h"
+
+#include "ambulo/ambulo.h"
+
+static ambulo_problem *load_walk(const char *name) {
+  char path[SCRATCH_PATH];
+  snprintf(path, sizeof path, "%s/models/%s.yaml", AMBULO_SOURCE_DIR, name);
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem), AMBULO_OK);
+  return problem;
+}
+
+static ambulo_result *solve_from_zero(const ambulo_problem *problem) {
+  ambulo_options options = ambulo_problem_options(problem);
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  return result;
+}
+
+static void every_walk_is_solved_from_zero(void **state) {
+  (void)state;
+  static const char *const walks[] = {"walk_normal",    "walk_normal_21", "walk_slow",
+                                      "walk_fast",      "walk_loaded",    "walk_uphill",
+                                      "walk_asymmetric"};
+  for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
+    ambulo_problem *problem = load_walk(walks[i]);
+    ambulo_result *result = solve_from_zero(problem);
+    ambulo_verdict verdict = ambulo_result_verdict(result);
+    double violation = ambulo_result_audit(result)->violation.worst;
+    if (verdict != AMBULO_OPTIMAL || !(violation <= 1e-6))
+      print_error("%s: %s, violation %g\n", walks[i], ambulo_verdict_name(verdict), violation);
+    assert_true(verdict == AMBULO_OPTIMAL && violation <= 1e-6);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+  }
+}
+
+/* ------------------------------------------------- measured against people */
+
+typedef struct bound {
+  const char *curve;
+  double rmse, r, within_2sd; /* largest, smallest, smallest */
+} bound;
+
+typedef struct window {
+  const char *landmark;
+  double low, high;
+} window;
+
+static const bound angles[] = {{"hip_flexion", 5.5, 0.97, 0.95},
+                               {"knee_flexion", 6.0, 0.96, 0.88},
+                               {"ankle_dorsiflexion", 4.5, 0.90, 0.90}};
+static const bound loads[] = {{"hip_extension_moment", 0.24, 0.78, 0.0},
+                              {"knee_extension_moment", 0.17, 0.75, 0.0},
+                              {"ankle_plantarflexion_moment", 0.23, 0.92, 0.0},
+                              {"grf_vertical", 1.0, 0.97, 0.0},
+                              {"grf_forward", 1.0, 0.92, 0.0}};
+static const window windows[] = {{"knee at strike", 0.0, 8.0},
+                                 {"knee loading peak", 12.0, 24.0},
+                                 {"knee swing peak", 53.0, 68.0},
+                                 {"ankle dorsiflexion", 9.0, 16.0},
+                                 {"ankle push-off", -25.0, -14.0},
+                                 {"vertical force first peak", 0.98, 1.20},
+                                 {"vertical force second peak", 0.98, 1.20},
+                                 {"vertical force valley", 0.0, 0.84},
+                                 {"vertical force roughness", 0.0, 0.11},
+                                 {"forward force smallest", -2.6, 0.0},
+                                 {"forward force largest", 0.0, 2.6}};
+
+static void check_curves(const ambulo_comparison *scores, const bound *bounds, size_t count) {
+  for (size_t b = 0; b < count; b++) {
+    const ambulo_curve_score *score = NULL;
+    for (int i = 0; i < ambulo_comparison_curve_count(scores); i++)
+      if (strcmp(ambulo_comparison_curve(scores, i)->name, bounds[b].curve) == 0)
+        score = ambulo_comparison_curve(scores, i);
+    assert_non_null(score);
+    int good = score->rmse <= bounds[b].rmse && score->r >= bounds[b].r &&
+               !(score->within_2sd < bounds[b].within_2sd);
+    if (!good)
+      print_error("%s: RMSE %.3f (at most %.3f), r %.3f (at least %.3f), in 2 SD %.2f\n",
+                  score->name, score->rmse, bounds[b].rmse, score->r, bounds[b].r,
+                  score->within_2sd);
+    assert_true(good);
+  }
+}
+
+static void check_landmarks(const ambulo_comparison *scores) {
+  for (size_t w = 0; w < sizeof windows / sizeof *windows; w++) {
+    const ambulo_landmark *found = NULL;
+    for (int i = 0; i < ambulo_comparison_landmark_count(scores); i++)
+      if (strcmp(ambulo_comparison_landmark(scores, i)->name, windows[w].landmark) == 0)
+        found = ambulo_comparison_landmark(scores, i);
+    assert_non_null(found);
+    int good = found->value >= windows[w].low && found->value <= windows[w].high;
+    if (strcmp(windows[w].landmark, "knee swing peak") == 0)
+      good = good && found->time >= 70.0 && found->time <= 78.0;
+    if (!good)
+      print_error("%s: %.3f at %.1f %%, expected %.3f to %.3f\n", found->name, found->value,
+                  found->time, windows[w].low, windows[w].high);
+    assert_true(good);
+  }
+}
+
+static void compare_with_people(const char *walk, const char *scratch) {
+  char folder[SCRATCH_PATH + 64], band[SCRATCH_PATH], means[SCRATCH_PATH];
+  if (!shared_data_path("wbds2018_young_adult_kinematics.csv", band, sizeof band) ||
+      !shared_data_path("winter_normal_cadence.csv", means, sizeof means))
+    skip();
+  snprintf(folder, sizeof folder, "%s/%s", scratch, walk);
+  ambulo_problem *problem = load_walk(walk);
+  ambulo_result *result = solve_from_zero(problem);
+  ambulo_report_options report = ambulo_report_options_default();
+  assert_int_equal(ambulo_report_write(problem, result, folder, &report, NULL, NULL), AMBULO_OK);
+  ambulo_compare_options options = ambulo_compare_options_default();
+  ambulo_comparison *scores = NULL;
+  assert_int_equal(ambulo_compare(folder, band, &options, NULL, NULL, &scores), AMBULO_OK);
+  check_curves(scores, angles, sizeof angles / sizeof *angles);
+  check_landmarks(scores);
+  ambulo_comparison_free(scores);
+  assert_int_equal(ambulo_compare(folder, means, &options, NULL, NULL, &scores), AMBULO_OK);
+  check_curves(scores, loads, sizeof loads / sizeof *loads);
+  ambulo_comparison_free(scores);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static void the_body_with_18_coordinates_walks_as_people_do(void **state) {
+  compare_with_people("walk_normal", *state);
+}
+
+static void the_body_with_a_lumbar_joint_walks_as_people_do(void **state) {
+  compare_with_people("walk_normal_21", *state);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_walk_is_solved_from_zero),
+      cmocka_unit_test_setup_teardown(the_body_with_18_coordinates_walks_as_people_do, scratch_open,
+                                      scratch_close),
+      cmocka_unit_test_setup_teardown(the_body_with_a_lumbar_joint_walks_as_people_do, scratch_open,
+                                      scratch_close),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
