@@ -63,8 +63,8 @@ static inline ambulo_model *walker_create(void) {
                                               {"right_toe", 6, {0.16, -0.06, 0.0}},
                                               {"left_heel", 9, {-0.05, -0.06, 0.0}},
                                               {"left_toe", 9, {0.16, -0.06, 0.0}}};
-  const ambulo_foot feet[2] = {{"right", {1, -1}, {2, -1}, 1, 2, 1},
-                               {"left", {3, -1}, {4, -1}, 3, 4, 0}};
+  const ambulo_foot feet[2] = {{"right", {1, -1}, {2, -1}, 1, 2, 1, 0, -1},
+                               {"left", {3, -1}, {4, -1}, 3, 4, 0, 0, -1}};
   ambulo_model_definition definition = ambulo_model_definition_default();
   definition.name = "planar_walker";
   definition.links = links;
@@ -82,8 +82,12 @@ static inline ambulo_model *walker_create(void) {
 
 /* One mirrored step with contact rows; NULL if it is refused. */
 static inline ambulo_problem *walker_problem(const ambulo_model *model, int intervals) {
-  const ambulo_gait gait = {1,    0,   walker_step_length, walker_step_time, 0.0, 0.0, 0.0, 0.08,
-                            0.38, 0.62};
+  const ambulo_gait gait = {.steps = 1,
+                            .step_length = walker_step_length,
+                            .step_time = walker_step_time,
+                            .foot_flat = 0.08,
+                            .heel_off = 0.38,
+                            .toe_off = 0.62};
   ambulo_contact contacts[12];
   ambulo_problem_definition definition = ambulo_problem_definition_default();
   ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
