@@ -86,9 +86,42 @@ static void impossible_gaits_are_refused(void **state) {
   ambulo_model_free(model);
 }
 
+/* steps of 0.6 m in 0.5 s to the right and of 0.7 m in 0.6 s to the left: a stride of 1.1 s */
+static void steps_may_alternate(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create(0);
+  ambulo_gait gait = two_steps();
+  gait.first_foot = WALKER_LEFT;
+  gait.step_length = 0.6;
+  gait.step_time = 0.5;
+  gait.other_step_length = 0.7;
+  gait.other_step_time = 0.6;
+  gait.heel_strike = 0.0;
+  gait.foot_flat = 0.1;
+  static const double strikes[] = {-1.1, -0.6, 0.0, 0.5, 1.1, 1.6};
+  static const double places[] = {-1.3, -0.7, 0.0, 0.6, 1.3, 1.9};
+  for (int s = -2; s <= 3; s++) {
+    assert_close(ambulo__gait_strike(&gait, s), strikes[s + 2], 1e-12);
+    assert_close(ambulo__gait_place(&gait, s), places[s + 2], 1e-12);
+  }
+  ambulo_contact contacts[16];
+  int count = 0, found = 0;
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 16, &count), AMBULO_OK);
+  for (int i = 0; i < count; i++) {
+    const ambulo_contact *c = &contacts[i];
+    if (c->foot != WALKER_RIGHT || c->mode != AMBULO_CONTACT_HEEL || c->from < 0.2) continue;
+    assert_close(c->from, 0.5, 1e-12);
+    assert_close(c->to, 0.61, 1e-12);
+    assert_close(c->place[0] - gait.start, 0.6, 1e-12);
+    found = 1;
+  }
+  assert_true(found);
+  ambulo_model_free(model);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_table_is_as_written_by_hand),
-                                     cmocka_unit_test(the_last_instant_counts),
-                                     cmocka_unit_test(impossible_gaits_are_refused)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(steps_may_alternate), cmocka_unit_test(the_table_is_as_written_by_hand),
+      cmocka_unit_test(the_last_instant_counts), cmocka_unit_test(impossible_gaits_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,6 +60,26 @@ static void phases_and_places_are_read(void **state) {
   ambulo_problem_free(p);
 }
 
+/* L = sqrt(60 v W) with W = 0.0035 * 1.75 m; lists are two unlike steps */
+static void a_speed_alone_and_unlike_steps(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
+                                 "objective: none\ntime: {intervals: 4}\n"
+                                 "gait: {steps: 2, first_foot: left, speed: 1.4}\n");
+  double length = sqrt(60.0 * 1.4 * 0.0035 * 1.75);
+  assert_close(p->definition.travel, 2.0 * length, 1e-12);
+  assert_close(ambulo_problem_duration(p), 2.0 * length / 1.4, 1e-12);
+  ambulo_problem_free(p);
+  p = problem_of(HEAD "time: {intervals: 4}\ngait: {steps: 2, first_foot: left, step_length: "
+                      "[0.6, 0.7], step_time: [0.5, 0.6]}\n");
+  assert_close(p->definition.travel, 1.3, 1e-12);
+  assert_close(ambulo_problem_duration(p), 1.1, 1e-12);
+  ambulo_problem_free(p);
+  expect_refusal(HEAD "time: {intervals: 4}\ngait: {steps: 2, first_foot: left, step_length: "
+                      "[0.6, 0.7], step_time: [0.5, 0]}\n",
+                 AMBULO_E_SCHEMA, "step times 0.5 s and 0 s; expected 0.001 to 1000 s");
+}
+
 /* feet that stand apart at q = 0 walk that far apart by default: hips 2 * 0.048571 * 1.75 m */
 static void the_width_defaults_to_the_hips(void **state) {
   (void)state;
@@ -110,6 +130,7 @@ int main(void) {
                                      cmocka_unit_test(step_times_are_completed),
                                      cmocka_unit_test(phases_and_places_are_read),
                                      cmocka_unit_test(the_width_defaults_to_the_hips),
+                                     cmocka_unit_test(a_speed_alone_and_unlike_steps),
                                      cmocka_unit_test(faults_are_placed),
                                      cmocka_unit_test(expanded_contradictions_point_at_the_gait)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,8 +5,15 @@
 #include "trajectory/motion_file.h"
 
 static ambulo__motion_table table_of(const ambulo__stride *s) {
-  ambulo__motion_table table = {s->model, "a walk", s->samples, s->times, s->q,
-                                s->qd,    s->qdd,   s->tau,     s->zmp};
+  ambulo__motion_table table = {.model = s->model,
+                                .name = "a walk",
+                                .samples = s->samples,
+                                .times = s->times,
+                                .q = s->q,
+                                .qd = s->qd,
+                                .qdd = s->qdd,
+                                .tau = s->tau,
+                                .zmp = s->zmp};
   return table;
 }
 
