@@ -6,6 +6,37 @@
   "objective: none\ntime: {intervals: 4}\n"                                                        \
   "gait: {steps: 2, first_foot: left, step_length: 0.6, step_time: 0.5}\n"
 
+static void expect_reaction(const ambulo_ground_reaction *r) {
+  assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
+  assert_int_equal(r->transfer, AMBULO_TRANSFER_SMOOTH);
+  assert_close(r->shear, 0.8, 1e-15);
+  assert_close(r->exponent, 1.2, 1e-15);
+  assert_close(r->friction, 0.4, 1e-15);
+  assert_close(r->free_moment, -1.0, 1e-15);
+  assert_close(r->heel_pressure[0], -0.01, 1e-15);
+  assert_close(r->heel_pressure[1], 0.02, 1e-15);
+  assert_close(r->heel_roll, 0.05, 1e-15);
+  assert_close(r->flat_pressure[0], 0.01, 1e-15);
+  assert_close(r->flat_pressure[1], 0.03, 1e-15);
+  assert_close(r->toe_pressure[0], -0.03, 1e-15);
+  assert_close(r->toe_pressure[1], 0.04, 1e-15);
+  assert_close(r->pressure_width, 0.03, 1e-15);
+}
+
+static void expect_contacts(const ambulo_problem_definition *d) {
+  assert_close(d->minimum_force, 0.1, 1e-15);
+  assert_close(d->contact_tolerance, 0.003, 1e-15);
+  assert_close(d->orientation_tolerance, 0.02, 1e-15);
+  assert_close(d->strike_pitch[0], 0.17453292519943295, 1e-15);
+  assert_close(d->strike_pitch[1], 0.3490658503988659, 1e-15);
+  assert_close(d->clearance.height, 0.01, 1e-15);
+  assert_close(d->clearance.tip_from, 0.4, 1e-15);
+  assert_close(d->clearance.ceiling, 0.3, 1e-15);
+  assert_close(d->clearance.turn, 0.1, 1e-15);
+  assert_close(d->clearance.outward, 0.05, 1e-15);
+  assert_close(d->clearance.inward, 0.02, 1e-15);
+}
+
 static void everything_is_read(void **state) {
   (void)state;
   ambulo_problem *p = problem_of(
@@ -17,57 +48,8 @@ static void everything_is_read(void **state) {
       "constraints: {contact_tolerance: 0.003, orientation_tolerance: 0.02, strike_pitch: "
       "[10, 20], clearance: {height: 0.01, tip_from: 0.4, ceiling: 0.3, turn: 0.1, "
       "outward: 0.05, inward: 0.02}}\n");
-  const ambulo_problem_definition *d = &p->definition;
-  const ambulo_ground_reaction *r = ambulo_problem_ground_reaction(p);
-  assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
-  assert_int_equal(r->transfer, AMBULO_TRANSFER_SMOOTH);
-  const double got[] = {r->shear,
-                        r->exponent,
-                        r->friction,
-                        r->free_moment,
-                        d->minimum_force,
-                        r->heel_pressure[0],
-                        r->heel_pressure[1],
-                        r->heel_roll,
-                        r->flat_pressure[0],
-                        r->flat_pressure[1],
-                        r->toe_pressure[0],
-                        r->toe_pressure[1],
-                        r->pressure_width,
-                        d->contact_tolerance,
-                        d->orientation_tolerance,
-                        d->strike_pitch[0],
-                        d->strike_pitch[1],
-                        d->clearance.height,
-                        d->clearance.tip_from,
-                        d->clearance.ceiling,
-                        d->clearance.turn,
-                        d->clearance.outward,
-                        d->clearance.inward};
-  const double expected[] = {0.8,
-                             1.2,
-                             0.4,
-                             -1.0,
-                             0.1,
-                             -0.01,
-                             0.02,
-                             0.05,
-                             0.01,
-                             0.03,
-                             -0.03,
-                             0.04,
-                             0.03,
-                             0.003,
-                             0.02,
-                             0.17453292519943295,
-                             0.3490658503988659,
-                             0.01,
-                             0.4,
-                             0.3,
-                             0.1,
-                             0.05,
-                             0.02};
-  for (size_t i = 0; i < sizeof got / sizeof *got; i++) assert_close(got[i], expected[i], 1e-15);
+  expect_reaction(ambulo_problem_ground_reaction(p));
+  expect_contacts(&p->definition);
   ambulo_problem_free(p);
 }
 

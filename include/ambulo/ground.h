@@ -1,0 +1,61 @@
+/* ambulo/ground.h - the ground's force on the feet, and how far feet in the air stay off it.
+ *
+ * Parts of a problem definition (problem.h). Axes: up n, forward f, left l. */
+#ifndef AMBULO_GROUND_H
+#define AMBULO_GROUND_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ambulo_reaction_kind {
+  AMBULO_REACTION_NONE,    /* torques as if the root were carried by its own six forces */
+  AMBULO_REACTION_TWO_STEP /* the root wrench is shared between the two feet and subtracted along
+                              the legs: real joint torques */
+} ambulo_reaction_kind;
+
+/* Share a of the front foot in double support; u runs from its strike (0) to the toe-off of the
+ * rear foot (1). In single support the foot on the ground carries everything. */
+typedef enum ambulo_transfer {
+  AMBULO_TRANSFER_EARLY,  /* 1 - (1 - u)^exponent */
+  AMBULO_TRANSFER_LINEAR, /* u */
+  AMBULO_TRANSFER_SMOOTH  /* u^2 (3 - 2 u) */
+} ambulo_transfer;
+
+/* Two-step ground reaction, and the rows it makes possible. With D the nominal centre of pressure
+ * of the front foot (its heel) less that of the rear foot (0.02 m ahead of its ball), F the root
+ * force, F_n its normal part, z the height of the centre of mass:
+ *   force on the front foot   a F - h,    on the rear foot   (1 - a) F + h,
+ *   h = shear a (1 - a) F_n D / z
+ * and each foot's centre of pressure is the ZMP + (1 - a) D, the ZMP - a D. */
+typedef struct ambulo_ground_reaction {
+  ambulo_reaction_kind kind;
+  ambulo_transfer transfer;
+  double exponent;    /* >= 1 */
+  double shear;       /* 1: both feet push towards the centre of mass; 0: shares of F */
+  double friction;    /* |F_forward|, |F_left| <= friction F_n, in total and of each foot;
+                         negative: no rows */
+  double free_moment; /* |T| <= free_moment m g, m; negative: no rows */
+  int pressure;       /* 1: rows on the centre of pressure of each loaded foot: */
+  double heel_pressure[2]; /* on its heel: from the heel, along the foot, m; the front end moves
+                              on by heel_roll until the foot is flat */
+  double heel_roll;
+  double flat_pressure[2];  /* flat: behind from the heel, ahead from the ball (toe centre), m */
+  double toe_pressure[2];   /* on its toes: from the ball, m */
+  double pressure_width;    /* to either side, m */
+} ambulo_ground_reaction;
+
+/* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;
+ * c(s) = height min(1, 4 s, 6 (1 - s)). */
+typedef struct ambulo_clearance {
+  double height;   /* ball >= c, heel >= c / 2, tip >= c, m; negative: no rows at all */
+  double tip_from; /* the tip has to clear from this s on: toes bend at push-off */
+  double ceiling;  /* none of them higher, m */
+  double turn;     /* sine of yaw and roll of the foot, at most */
+  double outward, inward; /* how far the heel may leave its track, m */
+} ambulo_clearance;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
