@@ -104,7 +104,7 @@ submake = +@$(MAKE) --no-print-directory $(if $(filter -j% --jobserver%,$(MAKEFL
 
 help:
 	@echo 'make              build/ambulo, build/libambulo.a, build/libambulo.so'
-	@echo 'make demo         install what is missing, build, solve models/demo_walk.yaml'
+	@echo 'make demo         install what is missing, build, solve models/walk_normal.yaml'
 	@echo 'make check        install what is missing, build, run all tests'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
@@ -187,7 +187,7 @@ setup: build/.ready-test
 
 demo: build/.ready-build
 	$(submake) all
-	build/ambulo solve models/demo_walk.yaml -o build/demo --force
+	build/ambulo solve models/walk_normal.yaml -o build/demo --force
 
 check: build/.ready-test
 	$(submake) run-tests

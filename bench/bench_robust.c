@@ -110,10 +110,10 @@ static void variations(void) {
       {"yardstick_12.yaml", {"gait.step_length=0.8"}},
       {"yardstick_12.yaml", {"time.duration=2.0"}},
       {"yardstick_12.yaml", {"time.duration=3.2"}},
-      {"demo_walk.yaml", {"subject.mass=50", "subject.stature=1.55", "subject.sex=female"}},
-      {"demo_walk.yaml", {"subject.mass=110", "subject.stature=1.95"}},
-      {"demo_walk.yaml", {"gait.step_length=0.5", "time.duration=0.6"}},
-      {"demo_walk.yaml", {"gait.step_length=0.75", "time.duration=0.5"}},
+      {"walk_without_reaction.yaml", {"subject.mass=50", "subject.stature=1.55", "subject.sex=female"}},
+      {"walk_without_reaction.yaml", {"subject.mass=110", "subject.stature=1.95"}},
+      {"walk_without_reaction.yaml", {"gait.step_length=0.5", "time.duration=0.6"}},
+      {"walk_without_reaction.yaml", {"gait.step_length=0.75", "time.duration=0.5"}},
   };
   int count = (int)(sizeof cases / sizeof *cases), good = 0;
   for (int k = 0; k < count; k++) {
