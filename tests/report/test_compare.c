@@ -3,6 +3,7 @@
 #include "support/fail_alloc.h"
 #include "support/gait_folder.h"
 #include "support/messages.h"
+#include "support/shared_data.h"
 #include "support/wellformed.h"
 
 /* a band around the made-up gait: hip 11.4 + 2 degrees higher, knee 3 degrees lower, deviation 2 */
@@ -173,10 +174,9 @@ static void published_bands(void **state) {
   ambulo_compare_options options = ambulo_compare_options_default();
   folder(state, 0.0);
   for (int i = 0; i < 3; i++) {
-    char path[256];
+    char path[512];
     ambulo_comparison *c = NULL;
-    (void)snprintf(path, sizeof path, "%s/%s", "../shared/data", tables[i].name);
-    if (access(path, R_OK) != 0) skip();
+    if (!shared_data_path(tables[i].name, path, sizeof path)) skip();
     assert_int_equal(ambulo_compare(*state, path, &options, NULL, NULL, &c), AMBULO_OK);
     assert_int_equal(ambulo_comparison_curve_count(c), tables[i].curves);
     assert_true(curve(c, "hip_flexion")->r > 0.9);
