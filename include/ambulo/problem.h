@@ -221,8 +221,8 @@ typedef struct ambulo_problem_definition {
   double travel;  /* m along forward */
   const ambulo_end_value *end_values;
   int end_value_count;
-  const ambulo_tube *tubes; /* rows on the distance from reference motions */
   int tube_count;
+  const ambulo_tube *tubes; /* [tube_count]: rows on the distance from reference motions */
 
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;

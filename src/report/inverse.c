@@ -207,7 +207,7 @@ static ambulo_status apply_forces(inverse *v, const char *forces,
 
 static ambulo_status run(inverse *v, const char *forces, const char *output,
                          ambulo_ground_residual *residual, char **text) {
-  ambulo_ground_residual r;
+  ambulo_ground_residual r = {.moment_rms = (double)NAN};
   ambulo_status status = read_motion(v);
   if (!status) status = compute(v);
   if (!status && forces) status = apply_forces(v, forces, &r);
