@@ -12,7 +12,7 @@
 /* ------------------------------------------------------------------- reading */
 
 typedef struct foot_columns {
-  int force[3], point[3], torque[3]; /* -1: not in the file */
+  int force[3], point[3], torque[3], free_moment; /* -1: not in the file */
 } foot_columns;
 
 static int column(const ambulo__motion *motion, const char *pattern, const char *foot, char axis) {
@@ -25,6 +25,9 @@ static int column(const ambulo__motion *motion, const char *pattern, const char 
 }
 
 static void find_columns(const ambulo__motion *motion, const char *foot, foot_columns *columns) {
+  char name[AMBULO__MOTION_MAX_NAME];
+  snprintf(name, sizeof name, "free_moment.%s", foot);
+  columns->free_moment = ambulo__motion_column(motion, name);
   for (int i = 0; i < 3; i++) {
     char axis = "xyz"[i];
     columns->force[i] = column(motion, "ground_force_*_v", foot, axis);
@@ -51,6 +54,9 @@ static double value_at(const ambulo__motion *motion, int at, double time) {
   double a = values[(size_t)low * (size_t)motion->columns];
   double b = values[(size_t)high * (size_t)motion->columns];
   double s = (time - motion->time[low]) / (motion->time[high] - motion->time[low]);
+  /* a foot in the air has no point: that of the other end, as its force goes to zero */
+  if (isnan(a)) a = isnan(b) ? 0.0 : b;
+  if (isnan(b)) b = a;
   return a + fmin(fmax(s, 0.0), 1.0) * (b - a);
 }
 
@@ -71,14 +77,15 @@ static ambulo_status check(const ambulo__motion *motion, const char *path, const
 }
 
 static int fill(ambulo__ground_load *load, const ambulo__motion *motion, int foot,
-                const foot_columns *columns, const double *times) {
+                const foot_columns *columns, const double *up, const double *times) {
   int found = 0;
   for (int k = 0; k < load->rows; k++) {
     for (int i = 0; i < 3; i++) {
       size_t at = 3 * ((size_t)k * (size_t)load->feet + (size_t)foot) + (size_t)i;
       load->force[at] = value_at(motion, columns->force[i], times[k]);
       load->point[at] = value_at(motion, columns->point[i], times[k]);
-      load->torque[at] = value_at(motion, columns->torque[i], times[k]);
+      load->torque[at] = value_at(motion, columns->torque[i], times[k]) +
+                         value_at(motion, columns->free_moment, times[k]) * up[i];
       load->has_points |= load->point[at] != 0.0 || load->torque[at] != 0.0;
       found |= columns->force[i] >= 0;
     }
@@ -105,7 +112,7 @@ ambulo_status ambulo__ground_load_read(const ambulo_model *model, const char *pa
   for (int foot = 0; !status && foot < l.feet; foot++) {
     foot_columns columns;
     find_columns(motion, ambulo_model_foot(model, foot)->name, &columns);
-    found |= fill(&l, motion, foot, &columns, times);
+    found |= fill(&l, motion, foot, &columns, ambulo_model_up(model), times);
   }
   if (!status) status = check(motion, path, times, rows, found, diagnostics);
   ambulo__motion_free(motion);

@@ -24,9 +24,9 @@ typedef struct ambulo__ground_load {
 
 /* The file's forces at times[rows], linearly between its own. Columns of a foot whose name
  * begins with s (l or r): ground_force_s_vx|vy|vz, ground_force_s_px|py|pz,
- * ground_torque_s_x|y|z, or grf.NAME.x|y|z, cop.NAME.x|y|z; points and torques that are missing
- * count as zero. Errors: those of ambulo__motion_read, E_SCHEMA (no force column, times not
- * covered), E_MEMORY. Fills *load, which ambulo__ground_load_free releases. */
+ * ground_torque_s_x|y|z, or grf.NAME.x|y|z, cop.NAME.x|y|z, free_moment.NAME; points and torques
+ * that are missing count as zero. Errors: those of ambulo__motion_read, E_SCHEMA (no force column,
+ * times not covered), E_MEMORY. Fills *load, which ambulo__ground_load_free releases. */
 ambulo_status ambulo__ground_load_read(const ambulo_model *model, const char *path,
                                        const double *times, int rows,
                                        const ambulo_allocator *allocator,

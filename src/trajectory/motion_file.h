@@ -6,7 +6,8 @@
  *        separated by tabs or spaces; inDegrees=yes|no states the unit of angles. nRows and
  *        nColumns, where given, must agree with the table (a cut-off file is noticed).
  * A comment "# inDegrees=yes" says the same in a CSV. The first column is "time" (s),
- * strictly increasing; names are unique; every number is finite. CRLF, a byte-order mark,
+ * strictly increasing; names are unique; every number is finite, except that points of the
+ * ground that do not exist (columns "zmp.*", "cop.*") are "nan". CRLF, a byte-order mark,
  * empty lines and a missing final newline are accepted. */
 #ifndef AMBULO_TRAJECTORY_MOTION_FILE_H
 #define AMBULO_TRAJECTORY_MOTION_FILE_H

@@ -7,6 +7,7 @@
 #include "base/numtext.h"
 
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -203,10 +204,22 @@ static ambulo_status read_names(table_reader *reader) {
 
 /* ---------------------------------------------------------------------- rows */
 
+/* "nan" in a column of points that need not exist: no load on the foot, no weight on the ground */
+static int is_missing_point(const table_reader *reader, const ambulo__table_cell *cell,
+                            int column) {
+  if (column < 0 || !cell_is(cell, "nan")) return 0;
+  const char *name = reader->names[column];
+  return strncmp(name, "cop.", 4) == 0 || strncmp(name, "zmp.", 4) == 0;
+}
+
 /* 1 and *value, or 0 with a fault reported; column -1 is the time */
 static int read_number(table_reader *reader, const ambulo__table_cell *cell, int column,
                        double *value) {
   if (ambulo__parse_double(cell->start, cell->length, value)) return 1;
+  if (is_missing_point(reader, cell, column)) {
+    *value = (double)NAN;
+    return 1;
+  }
   fault(reader, ambulo__error(
                     reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
                     "column '%s': not a number (got '%.*s'); expected a finite number",

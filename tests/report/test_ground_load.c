@@ -37,6 +37,16 @@ static void columns_and_times(void **state) {
   assert_close(load.point[right], 0.3, 1e-14);
   assert_close(load.torque[right + 2], 1.5, 1e-14);
   ambulo__ground_load_free(&load);
+  const char *foot = ambulo_model_foot(model, foot_of(model, 'r'))->name;
+  char text[256];
+  (void)snprintf(text, sizeof text,
+                 "time,grf.%s.y,cop.%s.x,zmp.x,free_moment.%s\n0,8,0.2,nan,4\n1,0,nan,0,2\n", foot,
+                 foot, foot);
+  assert_int_equal(read_load(state, model, text, NULL, &load), AMBULO_OK);
+  assert_close(load.force[right + 1], 4.0, 1e-14);
+  assert_close(load.point[right], 0.2, 1e-14);
+  assert_close(load.torque[right + 1], 3.0, 1e-14);
+  ambulo__ground_load_free(&load);
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(read_load(state, model, "time,x\n0,1\n1,1\n", list, &load), AMBULO_E_SCHEMA);
   assert_message(list, 0, "no column of forces on a foot");

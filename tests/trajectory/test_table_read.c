@@ -83,6 +83,7 @@ static const struct {
      "a.csv:2:3: error[E_SCHEMA]: column 'q': not a number (got '1x')"},
     {"a.csv", "time,q\n0,\n", AMBULO_E_SCHEMA, "got ''"},
     {"a.csv", "time,q\n0,nan\n", AMBULO_E_SCHEMA, "got 'nan'); expected a finite number"},
+    {"a.csv", "time,cop.l.x,q.cop\n0,nan,nan\n", AMBULO_E_SCHEMA, "a.csv:2:7: error"},
     {"a.csv", "time,q\n0,1e999\n", AMBULO_E_SCHEMA, "got '1e999'"},
     {"a.csv", "time,q\n0,0x10\n", AMBULO_E_SCHEMA, "got '0x10'"},
     {"a.csv", "time;q\n0;1\n", AMBULO_E_SCHEMA, "the first column is 'time;q'"},
