@@ -145,8 +145,9 @@ typedef enum ambulo_term_kind {
   AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
   AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
-  AMBULO_UPRIGHT,     /* squared horizontal direction cosines of the line point[0] to point[1] */
-  AMBULO_GROUND_FORCE /* |F / (m g) - n|^2, F the root force, n up */
+  AMBULO_UPRIGHT,      /* squared horizontal direction cosines of the line point[0] to point[1] */
+  AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
+  AMBULO_CLEARANCE     /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
@@ -163,6 +164,7 @@ typedef struct ambulo_term {
                                     (1/rad), c3 (rad) of peak cos(c2 (q - c3)); peak 0: strength 1;
                                     NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
   int point[2];                  /* model points of AMBULO_UPRIGHT, on one link */
+  double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
   const double *reference;       /* [N + 1][d] for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;

@@ -52,8 +52,8 @@ static hash add_terms(hash h, const ambulo_problem *p) {
   size_t d = (size_t)p->coordinates;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    double constants[] = {term->weight, term->smoothing, term->power};
-    h = add_numbers(add_integer(add_text(h, term->name), (int)term->kind), constants, 3);
+    double constants[] = {term->weight, term->smoothing, term->power, term->height};
+    h = add_numbers(add_integer(add_text(h, term->name), (int)term->kind), constants, 4);
     h = add_numbers(add_numbers(h, term->scale, d), term->offset, d);
     h = add_numbers(add_numbers(h, term->passive, 4 * d), term->strength, 6 * d);
     h = add_integer(add_integer(h, term->point[0]), term->point[1]);

@@ -39,7 +39,7 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
 }
 
 ambulo_term ambulo_term_default(ambulo_term_kind kind) {
-  ambulo_term term = {.kind = kind, .weight = 1.0, .smoothing = 1.0, .power = 2.0};
+  ambulo_term term = {.kind = kind, .weight = 1.0, .smoothing = 1.0, .power = 2.0, .height = 0.02};
   if (kind == AMBULO_TORQUE_POWER) {
     term.power = 3.0;
     term.smoothing = 0.01;
@@ -99,6 +99,9 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
   if (term->kind == AMBULO_TORQUE_POWER && !(term->power >= 2.0 && term->power <= 8.0))
     return REFUSE(list, "objective[%d] (%s): power is %g; expected 2 to 8", t, info->name,
                   term->power);
+  if (term->kind == AMBULO_CLEARANCE && !(term->height > 0.0))
+    return REFUSE(list, "objective[%d] (%s): height is %g m; expected a positive length", t,
+                  info->name, term->height);
   if (term->kind == AMBULO_UPRIGHT && !is_line(d->model, term->point))
     return REFUSE(list, "objective[%d] (%s): points %d and %d; expected two points of one link", t,
                   info->name, term->point[0], term->point[1]);

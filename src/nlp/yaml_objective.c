@@ -156,6 +156,9 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:
     break;
+  case AMBULO_CLEARANCE:
+    term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
+    break;
   }
 }
 
@@ -165,17 +168,19 @@ static int has_smoothing(ambulo_term_kind kind) {
 }
 
 static int has_scale(ambulo_term_kind kind) {
-  return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE;
+  return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE &&
+         kind != AMBULO_CLEARANCE;
 }
 
 static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
-  static const char *const words[] = {
-      "torque_squared", "torque_absolute",  "acceleration", "tracking", "torque_power",
-      "torque_rate",    "mechanical_power", "posture",      "upright",  "ground_force"};
+  static const char *const words[] = {"torque_squared",   "torque_absolute", "acceleration",
+                                      "tracking",         "torque_power",    "torque_rate",
+                                      "mechanical_power", "posture",         "upright",
+                                      "ground_force",     "clearance"};
   static const ambulo_term_kind kinds[] = {
       AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
       AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
-      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE};
+      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE};
   return kinds[ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), 0)];
 }
 

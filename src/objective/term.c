@@ -16,6 +16,7 @@ const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
       [AMBULO_POSTURE] = {.name = "posture", .uses_q = 1},
       [AMBULO_UPRIGHT] = {.name = "upright", .uses_q = 1},
       [AMBULO_GROUND_FORCE] = {.name = "ground_force", .uses_tau = 1},
+      [AMBULO_CLEARANCE] = {.name = "clearance", .uses_q = 1},
   };
   int index = (int)kind;
   if (index < 0 || index >= (int)(sizeof infos / sizeof infos[0])) return NULL;
@@ -39,6 +40,7 @@ int ambulo__term_is_simple(const ambulo_term *term) {
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_UPRIGHT:
   case AMBULO_GROUND_FORCE:
+  case AMBULO_CLEARANCE:
     break;
   }
   return 0;
@@ -94,6 +96,8 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame,
     return 2;
   case AMBULO_GROUND_FORCE:
     return 3;
+  case AMBULO_CLEARANCE:
+    return ambulo__clearance_forms(frame);
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:
   case AMBULO_ACCELERATION:
@@ -124,6 +128,9 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_frame *frame,
     break;
   case AMBULO_GROUND_FORCE:
     ambulo__ground_force_form(frame, node, j, form);
+    break;
+  case AMBULO_CLEARANCE:
+    ambulo__clearance_form(term, frame, node, j, form);
     break;
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:

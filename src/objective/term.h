@@ -69,7 +69,9 @@ typedef struct ambulo__term_frame {
   int channel_count;
   const double *lanes; /* [blocks][channels][8], base/lanes.h */
   int nodes;
-  double step; /* time between nodes, s */
+  double step;       /* time between nodes, s */
+  const int *active; /* [nodes][feet]: contact, or -1 in the air */
+  double ground_height;
 } ambulo__term_frame;
 
 /* Residuals at one node (0 at nodes where the term says nothing). */
@@ -85,6 +87,9 @@ void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *fra
                           ambulo__form *form);
 void ambulo__ground_force_form(const ambulo__term_frame *frame, int node, int axis,
                                ambulo__form *form);
+int ambulo__clearance_forms(const ambulo__term_frame *frame);
+void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+                            int j, ambulo__form *form);
 void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
                               int i, ambulo__form *form);
 void ambulo__strength_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,

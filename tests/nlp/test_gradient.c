@@ -47,7 +47,7 @@ static void every_family_and_term_agrees_with_central_differences(void **state) 
   static const double passive[] = {0.2, 1.0, -0.1, -2.0, -0.3, -1.5, 0.2, 1.2};
   static const double strength[] = {20.0, 0.9, 0.4, 30.0, 0.7, -0.2,
                                     25.0, 0.8, 0.1, 15.0, 1.0, 0.3};
-  enum { KINDS = AMBULO_GROUND_FORCE + 1 };
+  enum { KINDS = AMBULO_CLEARANCE + 1 };
   ambulo_term terms[KINDS];
   for (int k = 0; k < KINDS; k++) {
     terms[k] = ambulo_term_default((ambulo_term_kind)k);

@@ -20,7 +20,8 @@ static inline void form_open(form_fixture *f) {
   for (int k = 0; k < AMBULO__LANES; k++)
     for (int c = 0; c < FORM_CHANNELS; c++)
       f->lanes[ambulo__lane_index(k, FORM_CHANNELS, c)] = 1.0 + 0.1 * c + 0.01 * k * c;
-  ambulo__term_frame frame = {f->model, {2, 2, 0}, FORM_CHANNELS, f->lanes, FORM_NODES, 0.1};
+  ambulo__term_frame frame = {f->model,   {2, 2, 0}, FORM_CHANNELS, f->lanes,
+                              FORM_NODES, 0.1,       NULL,          0.0};
   f->frame = frame;
 }
 

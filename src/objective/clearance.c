@@ -1,0 +1,41 @@
+/* objective/clearance.c - feet in the air keep a height.
+ *
+ *     u = max(0, 1 - (n . p - h) / height),   phi = u^2,
+ *
+ * for the heel centre, the toe centre and, where there is one, the tip of every foot that is
+ * in no contact at the node; n up, h the ground, height the one that is asked for. Zero, with
+ * zero slope, for a point that is high enough.
+ *     du/dp = -n / height   where u > 0
+ */
+#include "objective/term.h"
+
+enum { POINTS_OF_A_FOOT = 3 };
+
+int ambulo__clearance_forms(const ambulo__term_frame *frame) {
+  return POINTS_OF_A_FOOT * ambulo_model_foot_count(frame->model);
+}
+
+void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+                            int j, ambulo__form *form) {
+  int f = j / POINTS_OF_A_FOOT, which = j % POINTS_OF_A_FOOT;
+  const ambulo_foot *foot = ambulo_model_foot(frame->model, f);
+  int feet = ambulo_model_foot_count(frame->model);
+  if (frame->active[node * feet + f] >= 0 || (which == 2 && !foot->has_tip)) return;
+  int point = which == 0 ? foot->heel_center : which == 1 ? foot->toe_center : foot->tip;
+  const double *up = ambulo_model_up(frame->model);
+  double height = -frame->ground_height;
+  for (int axis = 0; axis < 3; axis++) {
+    int channel = ambulo__channel_point(&frame->channels, point, axis);
+    height += up[axis] * ambulo__frame_value(frame, node, channel);
+  }
+  form->u = 1.0 - height / term->height;
+  if (form->u <= 0.0) {
+    form->u = 0.0;
+    return;
+  }
+  for (int axis = 0; axis < 3; axis++) {
+    if (up[axis] == 0.0) continue;
+    ambulo__form_add(form, ambulo__channel_point(&frame->channels, point, axis), 0,
+                     -up[axis] / term->height);
+  }
+}
