@@ -125,7 +125,8 @@ typedef struct ambulo_explanation {
 
 typedef struct ambulo_result ambulo_result;
 
-/* Solves from `start` [variable_count] (NULL: zero). A point is returned whatever
+/* Solves from `start` [variable_count] (NULL: zero) with `options` (NULL: those of the problem's
+ * file, or the defaults). A point is returned whatever
  * the verdict; only E_ARGUMENT, E_PROBLEM (a row is not finite at the start, named
  * in diagnostics), E_LIMIT, E_MEMORY return none. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve(

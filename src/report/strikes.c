@@ -5,11 +5,11 @@
 
 static const double together = 1e-9; /* s: contacts that follow each other */
 
-/* a contact of `foot` that ends at `time` */
+/* a contact of `foot` that lasts until `time`; one that only begins there is the next strike */
 static int ends_at(const ambulo_problem *problem, int foot, double time) {
   for (int i = 0; i < ambulo_problem_contact_count(problem); i++) {
     const ambulo_contact *c = ambulo_problem_contact(problem, i);
-    if (c->foot == foot && fabs(c->to - time) <= together) return 1;
+    if (c->foot == foot && fabs(c->to - time) <= together && c->from < time - together) return 1;
   }
   return 0;
 }
