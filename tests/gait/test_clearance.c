@@ -53,6 +53,27 @@ static void the_track_is_that_of_the_next_foothold(void **state) {
   row_fixture_close(&f);
 }
 
+/* the other foot: outward is now to the left. Left heel at 0.09 m, next foothold at 0.1 m */
+static void the_left_foot_is_the_mirror_image(void **state) {
+  (void)state;
+  static const ambulo_contact mirrored[] = {
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.1, {0.0, 0.08}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, -0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.9, 1.0, {0.6, 0.1}}};
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.contacts = mirrored;
+  f.definition.contact_count = 3;
+  f.definition.clearance.height = 0.02;
+  for (int k = 0; k < ROW_NODES; k++) f.active[2 * k + WALKER_RIGHT] = 1;
+  f.active[WALKER_LEFT] = 0;
+  f.active[2 * (ROW_NODES - 1) + WALKER_LEFT] = 2;
+  ambulo__clearance_rows(&f.frame, &f.table);
+  expect(&f, "l_heel", "to the left", 0.5, 0.06 - (0.09 - 0.1));
+  expect(&f, "l_heel", "to the right", 0.5, 0.03 + (0.09 - 0.1));
+  row_fixture_close(&f);
+}
+
 static void planar_feet_only_have_heights(void **state) {
   (void)state;
   row_fixture f;
@@ -64,6 +85,7 @@ static void planar_feet_only_have_heights(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(heights_follow_the_swing),
                                      cmocka_unit_test(the_track_is_that_of_the_next_foothold),
+                                     cmocka_unit_test(the_left_foot_is_the_mirror_image),
                                      cmocka_unit_test(planar_feet_only_have_heights)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
