@@ -31,27 +31,27 @@ typedef enum ambulo_transfer {
 typedef struct ambulo_ground_reaction {
   ambulo_reaction_kind kind;
   ambulo_transfer transfer;
-  double exponent;    /* >= 1 */
-  double shear;       /* 1: both feet push towards the centre of mass; 0: shares of F */
-  double friction;    /* |F_forward|, |F_left| <= friction F_n, in total and of each foot;
-                         negative: no rows */
-  double free_moment; /* |T| <= free_moment m g, m; negative: no rows */
-  int pressure;       /* 1: rows on the centre of pressure of each loaded foot: */
+  double exponent;         /* >= 1 */
+  double shear;            /* 1: both feet push towards the centre of mass; 0: shares of F */
+  double friction;         /* |F_forward|, |F_left| <= friction F_n, in total and of each foot;
+                              negative: no rows */
+  double free_moment;      /* |T| <= free_moment m g, m; negative: no rows */
+  int pressure;            /* 1: rows on the centre of pressure of each loaded foot: */
   double heel_pressure[2]; /* on its heel: from the heel, along the foot, m; the front end moves
                               on by heel_roll until the foot is flat */
   double heel_roll;
-  double flat_pressure[2];  /* flat: behind from the heel, ahead from the ball (toe centre), m */
-  double toe_pressure[2];   /* on its toes: from the ball, m */
-  double pressure_width;    /* to either side, m */
+  double flat_pressure[2]; /* flat: behind from the heel, ahead from the ball (toe centre), m */
+  double toe_pressure[2];  /* on its toes: from the ball, m */
+  double pressure_width;   /* to either side, m */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;
  * c(s) = height min(1, 4 s, 6 (1 - s)). */
 typedef struct ambulo_clearance {
-  double height;   /* ball >= c, heel >= c / 2, tip >= c, m; negative: no rows at all */
-  double tip_from; /* the tip has to clear from this s on: toes bend at push-off */
-  double ceiling;  /* none of them higher, m */
-  double turn;     /* sine of yaw and roll of the foot, at most */
+  double height;          /* ball >= c, heel >= c / 2, tip >= c, m; negative: no rows at all */
+  double tip_from;        /* the tip has to clear from this s on: toes bend at push-off */
+  double ceiling;         /* none of them higher, m */
+  double turn;            /* sine of yaw and roll of the foot, at most */
   double outward, inward; /* how far the heel may leave its track, m */
 } ambulo_clearance;
 

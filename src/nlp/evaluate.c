@@ -205,8 +205,8 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     /* the scratch of a single block serves all: refill it for this one */
     compute_block(workspace, b);
     p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
-                         workspace->jq + all,
-                         workspace->jqd + dynamic, workspace->jqdd + dynamic, workspace->scratch);
+                         workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
+                         workspace->scratch);
   }
   workspace->jacobians++;
   workspace->has_jacobian = 1;
