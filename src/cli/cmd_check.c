@@ -13,7 +13,7 @@
 
 enum { MOST_FAMILIES = 64 };
 /* relative disagreement above which a gradient counts as wrong; see ambulo_derivative_error */
-static const double tolerance = 1e-6;
+static const double tolerance = 1e-7;
 
 /* a point without special structure, |x| <= 0.1 rad or m, that changes slowly from one control
  * point to the next: a body that does not fly has a zero-moment point */
