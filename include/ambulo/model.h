@@ -35,48 +35,48 @@ typedef enum ambulo_joint_type {
 
 /* One coordinate q_i. Ranges are +-INFINITY where unlimited. */
 typedef struct ambulo_coordinate {
-  const char *name;        /* e.g. "knee_angle_r" */
-  ambulo_joint_type type;  /* AMBULO_REVOLUTE (rad, N m) or AMBULO_PRISMATIC (m, N) */
-  double range[2];         /* [min, max], rad or m */
-  double speed[2];         /* [min, max], rad/s or m/s */
-  double torque[2];        /* [min, max] generalized force, N m or N */
-  int actuated;            /* 0: a global (root) coordinate that no muscle drives */
-  int mirror;              /* coordinate that takes its place in the mirror image; itself if
-                              unpaired (in a definition also -1) */
-  double mirror_sign;      /* +1 or -1: q_mirror = mirror_sign * q */
+  const char *name;       /* e.g. "knee_angle_r" */
+  ambulo_joint_type type; /* AMBULO_REVOLUTE (rad, N m) or AMBULO_PRISMATIC (m, N) */
+  double range[2];        /* [min, max], rad or m */
+  double speed[2];        /* [min, max], rad/s or m/s */
+  double torque[2];       /* [min, max] generalized force, N m or N */
+  int actuated;           /* 0: a global (root) coordinate that no muscle drives */
+  int mirror;             /* coordinate that takes its place in the mirror image; itself if
+                             unpaired (in a definition also -1) */
+  double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
 } ambulo_coordinate;
 
 /* One link as given (after scaling to the subject). */
 typedef struct ambulo_link {
   const char *name;
-  int parent;              /* index of the parent link; -1: the world */
+  int parent; /* index of the parent link; -1: the world */
   ambulo_joint_type type;
-  double theta, d, a, alpha;   /* DH constants: rad, m, m, rad */
-  int coordinate;          /* coordinate index; -1 for a fixed link */
-  double mass;             /* kg; 0: no body */
-  double com[3];           /* centre of mass in the link frame, m */
-  double inertia[6];       /* about the centre of mass, link axes: xx yy zz xy xz yz, kg m^2 */
+  double theta, d, a, alpha; /* DH constants: rad, m, m, rad */
+  int coordinate;            /* coordinate index; -1 for a fixed link */
+  double mass;               /* kg; 0: no body */
+  double com[3];             /* centre of mass in the link frame, m */
+  double inertia[6];         /* about the centre of mass, link axes: xx yy zz xy xz yz, kg m^2 */
 } ambulo_link;
 
 /* A named point fixed on a link. */
 typedef struct ambulo_point {
   const char *name;
   int link;
-  double position[3];      /* link frame, m */
+  double position[3]; /* link frame, m */
 } ambulo_point;
 
 /* A foot: which points touch the ground. Points are indices. A planar foot has
  * one heel and one toe point; a spatial one two of each. */
 typedef struct ambulo_foot {
-  const char *name;        /* "left", "right" */
-  int heel[2];             /* corner points at the heel; [1] = -1 if there is only one */
-  int toe[2];              /* corner points at the toe; [1] = -1 if there is only one */
-  int heel_center;         /* point placed on the foothold */
-  int toe_center;          /* point that fixes the heading, and the place in toe contact */
-  int mirror;              /* foot that takes its place in the mirror image (in a definition
-                              -1: itself) */
-  int has_tip;             /* 1: a tip reaches further ahead than the pivot of push-off */
-  int tip;                 /* its point: it only has to clear the ground late in swing */
+  const char *name; /* "left", "right" */
+  int heel[2];      /* corner points at the heel; [1] = -1 if there is only one */
+  int toe[2];       /* corner points at the toe; [1] = -1 if there is only one */
+  int heel_center;  /* point placed on the foothold */
+  int toe_center;   /* point that fixes the heading, and the place in toe contact */
+  int mirror;       /* foot that takes its place in the mirror image (in a definition
+                       -1: itself) */
+  int has_tip;      /* 1: a tip reaches further ahead than the pivot of push-off */
+  int tip;          /* its point: it only has to clear the ground late in swing */
 } ambulo_foot;
 
 /* ------------------------------------------------------------ build in code */
@@ -86,10 +86,10 @@ typedef struct ambulo_foot {
  * into these arrays; `links[i].coordinate` is ignored (numbered by order);
  * `coordinates[k]` describes the k-th link that has a coordinate. */
 typedef struct ambulo_model_definition {
-  int cookie;              /* set by ambulo_model_definition_default() */
+  int cookie; /* set by ambulo_model_definition_default() */
   const char *name;
-  double gravity[3];       /* m/s^2, world frame; up is -gravity/|gravity| */
-  double forward[3];       /* walking direction, world frame; must not be vertical */
+  double gravity[3]; /* m/s^2, world frame; up is -gravity/|gravity| */
+  double forward[3]; /* walking direction, world frame; must not be vertical */
   const ambulo_link *links;
   int link_count;
   const ambulo_coordinate *coordinates;
@@ -98,7 +98,7 @@ typedef struct ambulo_model_definition {
   int point_count;
   const ambulo_foot *feet;
   int foot_count;
-  double stature;          /* m; 0 if unknown */
+  double stature; /* m; 0 if unknown */
 } ambulo_model_definition;
 
 /* Gravity -9.81 along y, forward x, no links. */
@@ -110,9 +110,9 @@ AMBULO_API ambulo_coordinate ambulo_coordinate_default(void);
 /* Checks the definition (acyclic, masses positive, inertias physical, limits
  * ordered, names unique) and builds the model. `diagnostics` may be NULL.
  * Errors: E_ARGUMENT, E_MODEL, E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_create(
-    const ambulo_model_definition *definition, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics, ambulo_model **model);
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_model_create(const ambulo_model_definition *definition, const ambulo_allocator *allocator,
+                    ambulo_diagnostics *diagnostics, ambulo_model **model);
 
 /* ---------------------------------------------------------------- from YAML */
 
@@ -120,17 +120,19 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_create(
  * file says. */
 typedef enum ambulo_sex { AMBULO_SEX_FILE, AMBULO_FEMALE, AMBULO_MALE } ambulo_sex;
 typedef struct ambulo_subject {
-  double mass;             /* kg; 0: as in the file */
-  double stature;          /* m; 0: as in the file */
+  double mass;    /* kg; 0: as in the file */
+  double stature; /* m; 0: as in the file */
   ambulo_sex sex;
 } ambulo_subject;
 
 /* Loads a model file, or text that is already in memory (`name` then stands for
  * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.
  * Errors: E_IO, E_PARSE, E_SCHEMA, E_MODEL, E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load(
-    const char *path, const ambulo_subject *subject, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics, ambulo_model **model);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load(const char *path,
+                                                            const ambulo_subject *subject,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics,
+                                                            ambulo_model **model);
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
     const char *text, size_t length, const char *name, const ambulo_subject *subject,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_model **model);
@@ -155,12 +157,13 @@ AMBULO_API int ambulo_model_find_link(const ambulo_model *model, const char *nam
 AMBULO_API int ambulo_model_find_coordinate(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_point(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_foot(const ambulo_model *model, const char *name);
-AMBULO_API double ambulo_model_mass(const ambulo_model *model);       /* kg, whole body */
-AMBULO_API double ambulo_model_stature(const ambulo_model *model);    /* m; 0 if unknown */
-AMBULO_API const double *ambulo_model_gravity(const ambulo_model *model);  /* [3], m/s^2 */
-AMBULO_API const double *ambulo_model_up(const ambulo_model *model);       /* [3], unit */
-AMBULO_API const double *ambulo_model_forward(const ambulo_model *model);  /* [3], unit, horizontal */
-AMBULO_API const double *ambulo_model_left(const ambulo_model *model);     /* [3], unit: up x forward */
+AMBULO_API double ambulo_model_mass(const ambulo_model *model);           /* kg, whole body */
+AMBULO_API double ambulo_model_stature(const ambulo_model *model);        /* m; 0 if unknown */
+AMBULO_API const double *ambulo_model_gravity(const ambulo_model *model); /* [3], m/s^2 */
+AMBULO_API const double *ambulo_model_up(const ambulo_model *model);      /* [3], unit */
+AMBULO_API const double *
+ambulo_model_forward(const ambulo_model *model);                       /* [3], unit, horizontal */
+AMBULO_API const double *ambulo_model_left(const ambulo_model *model); /* [3], unit: up x forward */
 
 #ifdef __cplusplus
 }

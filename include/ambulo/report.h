@@ -13,36 +13,42 @@ extern "C" {
 #endif
 
 typedef struct ambulo_report_options {
-  int cookie;          /* set by ambulo_report_options_default() */
-  int samples;         /* times in motion.csv; 0: the nodes */
-  int overwrite;       /* 1: replace an existing result folder */
+  int cookie;    /* set by ambulo_report_options_default() */
+  int samples;   /* times in motion.csv; 0: the nodes */
+  int overwrite; /* 1: replace an existing result folder */
 } ambulo_report_options;
 AMBULO_API ambulo_report_options ambulo_report_options_default(void);
 
 /* E_IO now if ambulo_report_write could not write `directory` later (it exists
  * and overwrite is 0; its parent is missing or not writable). */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_check(
-    const char *directory, const ambulo_report_options *options, ambulo_diagnostics *diagnostics);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_check(const char *directory,
+                                                              const ambulo_report_options *options,
+                                                              ambulo_diagnostics *diagnostics);
 
 /* Writes summary.json, motion.csv, motion.sto, solution.yaml and gait.svg into
  * `directory`, all or nothing. Errors: E_IO, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(
-    const ambulo_problem *problem, const ambulo_result *result, const char *directory,
-    const ambulo_report_options *options, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(const ambulo_problem *problem,
+                                                              const ambulo_result *result,
+                                                              const char *directory,
+                                                              const ambulo_report_options *options,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics);
 
 /* The text of summary.json; free with ambulo_text_free. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(
-    const ambulo_problem *problem, const ambulo_result *result, const ambulo_allocator *allocator,
-    char **text);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_summary(const ambulo_problem *problem,
+                                                                const ambulo_result *result,
+                                                                const ambulo_allocator *allocator,
+                                                                char **text);
 AMBULO_API void ambulo_text_free(char *text, const ambulo_allocator *allocator);
 
 /* Reads a solution.yaml into x [variable_count of problem]. A solution on another
  * grid or basis of the same model and duration is carried over. Errors: E_IO,
  * E_PARSE, E_SCHEMA, E_PROBLEM (other coordinates), E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_load(
-    const char *path, const ambulo_problem *problem, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics, double *x);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_load(const char *path,
+                                                               const ambulo_problem *problem,
+                                                               const ambulo_allocator *allocator,
+                                                               ambulo_diagnostics *diagnostics,
+                                                               double *x);
 
 /* Inverse dynamics of a motion file (CSV, STO or MOT, columns named after the
  * model's coordinates, with or without the prefix "q."; missing coordinates are zero
@@ -75,15 +81,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_loaded(
 
 /* How a result folder is scored against normative curves (docs/compare.md). */
 typedef struct ambulo_compare_options {
-  int cookie;           /* set by ambulo_compare_options_default() */
-  const char *map;      /* column map file; NULL: the built-in one of the layout */
-  const char *curves;   /* names separated by commas: only these; NULL: all */
-  const char *foot;     /* "left" or "right": this one alone; NULL: the mean of both where
-                           they are alike */
-  double pelvic_tilt;   /* rad, added to hip flexion and anterior tilt where the reference's
-                           pelvis is tilted; 11.4 degrees */
-  double strike;        /* s, heel strike of `foot` (left when NULL); NaN: from the folder */
-  double mass;          /* kg; 0: from the folder */
+  int cookie;         /* set by ambulo_compare_options_default() */
+  const char *map;    /* column map file; NULL: the built-in one of the layout */
+  const char *curves; /* names separated by commas: only these; NULL: all */
+  const char *foot;   /* "left" or "right": this one alone; NULL: the mean of both where
+                         they are alike */
+  double pelvic_tilt; /* rad, added to hip flexion and anterior tilt where the reference's
+                         pelvis is tilted; 11.4 degrees */
+  double strike;      /* s, heel strike of `foot` (left when NULL); NaN: from the folder */
+  double mass;        /* kg; 0: from the folder */
 } ambulo_compare_options;
 AMBULO_API ambulo_compare_options ambulo_compare_options_default(void);
 
@@ -103,7 +109,7 @@ typedef struct ambulo_curve_score {
 typedef struct ambulo_landmark {
   const char *name, *unit;
   double value;
-  double time;            /* percent of the cycle; NaN: not tied to one */
+  double time; /* percent of the cycle; NaN: not tied to one */
 } ambulo_landmark;
 
 typedef struct ambulo_comparison ambulo_comparison;
@@ -111,10 +117,12 @@ typedef struct ambulo_comparison ambulo_comparison;
 /* Scores motion.csv of a result folder against a CSV of normative curves. Curves that only one
  * of the two has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line
  * and column; also when no curve is left), E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(
-    const char *directory, const char *reference, const ambulo_compare_options *options,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-    ambulo_comparison **comparison);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(const char *directory,
+                                                         const char *reference,
+                                                         const ambulo_compare_options *options,
+                                                         const ambulo_allocator *allocator,
+                                                         ambulo_diagnostics *diagnostics,
+                                                         ambulo_comparison **comparison);
 AMBULO_API void ambulo_comparison_free(ambulo_comparison *comparison); /* accepts NULL */
 AMBULO_API int ambulo_comparison_curve_count(const ambulo_comparison *comparison);
 AMBULO_API const ambulo_curve_score *ambulo_comparison_curve(const ambulo_comparison *comparison,
@@ -130,9 +138,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_comparison_json(
 /* What a YAML file is, by its key `kind`. */
 typedef enum ambulo_file_kind { AMBULO_FILE_MODEL, AMBULO_FILE_PROBLEM } ambulo_file_kind;
 /* Errors: E_IO, E_PARSE, E_SCHEMA (another kind, or none), E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(
-    const char *path, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-    ambulo_file_kind *kind);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(const char *path,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics,
+                                                              ambulo_file_kind *kind);
 
 /* The versions of what is running, as text. */
 typedef struct ambulo_versions {

@@ -14,12 +14,12 @@
 extern "C" {
 #endif
 
-#define AMBULO_VERDICT_LIST(X) \
-  X(AMBULO_OPTIMAL, "optimal", "feasible, and a first-order (KKT) point") \
-  X(AMBULO_FEASIBLE, "feasible", "every row holds at the nodes; not shown to be optimal") \
-  X(AMBULO_INFEASIBLE, "infeasible", "some row is violated") \
-  X(AMBULO_NUMERIC_FAILURE, "numeric_failure", "a value became non-finite") \
-  X(AMBULO_LIMIT_REACHED, "limit", "stopped by the time or evaluation limit, not feasible") \
+#define AMBULO_VERDICT_LIST(X)                                                                     \
+  X(AMBULO_OPTIMAL, "optimal", "feasible, and a first-order (KKT) point")                          \
+  X(AMBULO_FEASIBLE, "feasible", "every row holds at the nodes; not shown to be optimal")          \
+  X(AMBULO_INFEASIBLE, "infeasible", "some row is violated")                                       \
+  X(AMBULO_NUMERIC_FAILURE, "numeric_failure", "a value became non-finite")                        \
+  X(AMBULO_LIMIT_REACHED, "limit", "stopped by the time or evaluation limit, not feasible")        \
   X(AMBULO_INTERRUPTED, "interrupted", "stopped by the caller; the best point so far")
 
 typedef enum ambulo_verdict {
@@ -32,31 +32,31 @@ AMBULO_API const char *ambulo_verdict_name(ambulo_verdict verdict);
 AMBULO_API const char *ambulo_verdict_text(ambulo_verdict verdict);
 
 typedef enum ambulo_algorithm {
-  AMBULO_AUTO,    /* the whitened pipeline of docs/equations.md around NLopt's AUGLAG or SLSQP */
-  AMBULO_SLSQP,   /* NLopt's SLSQP */
-  AMBULO_AUGLAG   /* NLopt's AUGLAG with inner L-BFGS */
+  AMBULO_AUTO,  /* the whitened pipeline of docs/equations.md around NLopt's AUGLAG or SLSQP */
+  AMBULO_SLSQP, /* NLopt's SLSQP */
+  AMBULO_AUGLAG /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
 
 /* Progress of a solve, given to the callback after every refresh or, without
  * presolve, every evaluation that improves. */
 typedef struct ambulo_progress {
   int iteration, evaluations;
-  double objective, violation;   /* violation: worst over all rows, in the row's unit */
-  double seconds, time_limit;    /* since the start; 0 limit: none */
-  double seconds_left;           /* estimate; < 0: unknown */
+  double objective, violation; /* violation: worst over all rows, in the row's unit */
+  double seconds, time_limit;  /* since the start; 0 limit: none */
+  double seconds_left;         /* estimate; < 0: unknown */
 } ambulo_progress;
 
 typedef struct ambulo_options {
-  int cookie;                    /* set by ambulo_options_default() */
+  int cookie; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
-  int presolve;                  /* 1: drop dependent equalities, whiten, restore, retract, screen;
-                                    0: every row handed straight to NLopt */
+  int presolve; /* 1: drop dependent equalities, whiten, restore, retract, screen;
+                   0: every row handed straight to NLopt */
   int maximum_evaluations;
-  double time_limit;             /* s; 0: none */
-  double feasibility_tolerance;  /* worst violation that counts as feasible, row's unit; 1e-6 */
-  double optimality_tolerance;   /* relative KKT residual that counts as optimal; 1e-3 */
-  int continuation;              /* 1: solve on coarser grids first where that helps */
-  int dense_samples;             /* the audit's second grid: nodes per interval; 10 */
+  double time_limit;            /* s; 0: none */
+  double feasibility_tolerance; /* worst violation that counts as feasible, row's unit; 1e-6 */
+  double optimality_tolerance;  /* relative KKT residual that counts as optimal; 1e-3 */
+  int continuation;             /* 1: solve on coarser grids first where that helps */
+  int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;
@@ -69,29 +69,30 @@ AMBULO_API ambulo_options ambulo_problem_options(const ambulo_problem *problem);
 /* Violation of one family of rows. */
 typedef struct ambulo_violation {
   const char *family, *subject, *detail, *unit;
-  double time, worst;            /* worst >= 0, in unit */
+  double time, worst; /* worst >= 0, in unit */
 } ambulo_violation;
 
 typedef struct ambulo_audit {
-  ambulo_violation violation;        /* worst of all, at the nodes */
-  ambulo_violation dense_violation;  /* worst of all, between the nodes (inequalities and contacts) */
-  double kkt;                        /* |projected gradient| / max(1e-12, |gradient|), infinity norms */
-  double complementarity;            /* largest |multiplier * row| / max(1, |J|) */
-  int active_rows, rank;             /* of the rows active at the point */
-  int dropped_equalities;            /* dependent on the others */
+  ambulo_violation violation; /* worst of all, at the nodes */
+  ambulo_violation
+      dense_violation;    /* worst of all, between the nodes (inequalities and contacts) */
+  double kkt;             /* |projected gradient| / max(1e-12, |gradient|), infinity norms */
+  double complementarity; /* largest |multiplier * row| / max(1, |J|) */
+  int active_rows, rank;  /* of the rows active at the point */
+  int dropped_equalities; /* dependent on the others */
 } ambulo_audit;
 
 typedef struct ambulo_timing {
-  double total, evaluate, linear_algebra, nlopt;   /* s */
+  double total, evaluate, linear_algebra, nlopt; /* s */
 } ambulo_timing;
 
 /* ------------------------------------------------- why there is no solution */
 
 /* A family of rows that cannot hold together with the others. */
 typedef struct ambulo_conflict {
-  ambulo_violation shared; /* its worst row where every family gives way a little */
-  int alone;               /* 1: giving way alone it makes the rest feasible; 0: it does not;
-                              -1: not tried, time was up */
+  ambulo_violation shared;     /* its worst row where every family gives way a little */
+  int alone;                   /* 1: giving way alone it makes the rest feasible; 0: it does not;
+                                  -1: not tried, time was up */
   ambulo_violation relaxation; /* alone = 1: by how much, at its worst row: a bound known to
                                   suffice, from a point found by descent */
   ambulo_violation others[3];  /* alone = 1: further rows of it, other subjects or details */
@@ -138,15 +139,16 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_audit_point(
     const ambulo_problem *problem, const ambulo_options *options, const double *x,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_result **result);
 
-AMBULO_API void ambulo_result_free(ambulo_result *result);  /* accepts NULL */
+AMBULO_API void ambulo_result_free(ambulo_result *result); /* accepts NULL */
 
 /* Pointers belong to the result. */
 AMBULO_API ambulo_verdict ambulo_result_verdict(const ambulo_result *result);
-AMBULO_API const double *ambulo_result_x(const ambulo_result *result);  /* [variable_count] */
+AMBULO_API const double *ambulo_result_x(const ambulo_result *result); /* [variable_count] */
 AMBULO_API double ambulo_result_objective(const ambulo_result *result);
-AMBULO_API const double *ambulo_result_terms(const ambulo_result *result);  /* [term_count], weighted */
-AMBULO_API const double *ambulo_result_rows(const ambulo_result *result);   /* [row_count] */
-AMBULO_API const double *ambulo_result_multipliers(const ambulo_result *result);  /* [row_count] */
+AMBULO_API const double *
+ambulo_result_terms(const ambulo_result *result); /* [term_count], weighted */
+AMBULO_API const double *ambulo_result_rows(const ambulo_result *result);        /* [row_count] */
+AMBULO_API const double *ambulo_result_multipliers(const ambulo_result *result); /* [row_count] */
 AMBULO_API const ambulo_audit *ambulo_result_audit(const ambulo_result *result);
 AMBULO_API int ambulo_result_family_count(const ambulo_result *result);
 AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *result, int index);

@@ -31,17 +31,17 @@ extern "C" {
 
 /* One list for codes, names and texts: X(identifier, name, exit status, text).
  * "exit status" is what the command-line program returns for it. */
-#define AMBULO_STATUS_LIST(X) \
-  X(AMBULO_OK, "OK", 0, "success") \
-  X(AMBULO_E_ARGUMENT, "E_ARGUMENT", 2, "an argument is outside its documented range") \
-  X(AMBULO_E_IO, "E_IO", 4, "a file could not be read or written") \
-  X(AMBULO_E_PARSE, "E_PARSE", 3, "the text is not well-formed") \
-  X(AMBULO_E_SCHEMA, "E_SCHEMA", 3, "the text is well-formed but not what the format asks for") \
-  X(AMBULO_E_MODEL, "E_MODEL", 3, "the model is physically or structurally impossible") \
-  X(AMBULO_E_PROBLEM, "E_PROBLEM", 3, "the problem contradicts itself or its model") \
-  X(AMBULO_E_LIMIT, "E_LIMIT", 5, "a size limit was exceeded") \
-  X(AMBULO_E_MEMORY, "E_MEMORY", 5, "memory could not be allocated") \
-  X(AMBULO_E_NUMERIC, "E_NUMERIC", 1, "a value became non-finite or a factorization failed") \
+#define AMBULO_STATUS_LIST(X)                                                                      \
+  X(AMBULO_OK, "OK", 0, "success")                                                                 \
+  X(AMBULO_E_ARGUMENT, "E_ARGUMENT", 2, "an argument is outside its documented range")             \
+  X(AMBULO_E_IO, "E_IO", 4, "a file could not be read or written")                                 \
+  X(AMBULO_E_PARSE, "E_PARSE", 3, "the text is not well-formed")                                   \
+  X(AMBULO_E_SCHEMA, "E_SCHEMA", 3, "the text is well-formed but not what the format asks for")    \
+  X(AMBULO_E_MODEL, "E_MODEL", 3, "the model is physically or structurally impossible")            \
+  X(AMBULO_E_PROBLEM, "E_PROBLEM", 3, "the problem contradicts itself or its model")               \
+  X(AMBULO_E_LIMIT, "E_LIMIT", 5, "a size limit was exceeded")                                     \
+  X(AMBULO_E_MEMORY, "E_MEMORY", 5, "memory could not be allocated")                               \
+  X(AMBULO_E_NUMERIC, "E_NUMERIC", 1, "a value became non-finite or a factorization failed")       \
   X(AMBULO_E_INTERNAL, "E_INTERNAL", 6, "an internal invariant was violated; please report it")
 
 typedef enum ambulo_status {
@@ -72,22 +72,18 @@ typedef struct ambulo_allocator {
 
 /* -------------------------------------------------------------- diagnostics */
 
-typedef enum ambulo_severity {
-  AMBULO_NOTE,
-  AMBULO_WARNING,
-  AMBULO_ERROR
-} ambulo_severity;
+typedef enum ambulo_severity { AMBULO_NOTE, AMBULO_WARNING, AMBULO_ERROR } ambulo_severity;
 
 /* One message about an input. Strings belong to the list. */
 typedef struct ambulo_diagnostic {
   ambulo_severity severity;
-  ambulo_status status;    /* AMBULO_OK for notes and warnings */
-  const char *file;        /* NULL: not about a file */
-  int line;                /* 1-based; 0: no position */
-  int column;              /* 1-based; 0: no position */
-  const char *path;        /* key path such as "links[3].body.mass"; NULL: none */
-  const char *message;     /* what is wrong (got X); expected Y */
-  const char *hint;        /* "did you mean 'mass'?"; NULL: none */
+  ambulo_status status; /* AMBULO_OK for notes and warnings */
+  const char *file;     /* NULL: not about a file */
+  int line;             /* 1-based; 0: no position */
+  int column;           /* 1-based; 0: no position */
+  const char *path;     /* key path such as "links[3].body.mass"; NULL: none */
+  const char *message;  /* what is wrong (got X); expected Y */
+  const char *hint;     /* "did you mean 'mass'?"; NULL: none */
 } ambulo_diagnostic;
 
 /* A list of messages; keeps the first 20 errors and counts the rest. */

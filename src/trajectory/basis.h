@@ -51,14 +51,14 @@ typedef struct ambulo__basis ambulo__basis;
 ambulo_status ambulo__basis_create(ambulo__basis_kind kind, int degree, int intervals,
                                    double duration, const double *knots,
                                    const ambulo_allocator *allocator, ambulo__basis **basis);
-void ambulo__basis_free(ambulo__basis *basis);  /* accepts NULL */
+void ambulo__basis_free(ambulo__basis *basis); /* accepts NULL */
 
 ambulo__basis_kind ambulo__basis_get_kind(const ambulo__basis *basis);
 int ambulo__basis_control_points(const ambulo__basis *basis);
 int ambulo__basis_degree(const ambulo__basis *basis);
 int ambulo__basis_intervals(const ambulo__basis *basis);
 double ambulo__basis_duration(const ambulo__basis *basis);
-const double *ambulo__basis_breakpoints(const ambulo__basis *basis);  /* [intervals + 1] */
+const double *ambulo__basis_breakpoints(const ambulo__basis *basis); /* [intervals + 1] */
 /* Largest span of any time (orders 0..3). */
 int ambulo__basis_span(const ambulo__basis *basis);
 

@@ -22,9 +22,9 @@ struct ambulo__basis {
   const ambulo__basis_methods *methods;
   ambulo__basis_kind kind;
   int degree, intervals, control_points, span;
-  double duration;      /* s */
-  double *breakpoints;  /* [intervals + 1], s */
-  double *knots;        /* B-spline: clamped, [intervals + 1 + 2 degree]; NULL otherwise */
+  double duration;     /* s */
+  double *breakpoints; /* [intervals + 1], s */
+  double *knots;       /* B-spline: clamped, [intervals + 1 + 2 degree]; NULL otherwise */
 };
 
 #endif

@@ -20,7 +20,7 @@ typedef struct ambulo__lane_map ambulo__lane_map;
 ambulo_status ambulo__lane_map_create(const ambulo__basis *basis, const double *times, int nodes,
                                       int coordinates, const ambulo_allocator *allocator,
                                       ambulo__lane_map **map);
-void ambulo__lane_map_free(ambulo__lane_map *map);  /* accepts NULL */
+void ambulo__lane_map_free(ambulo__lane_map *map); /* accepts NULL */
 
 int ambulo__lane_map_nodes(const ambulo__lane_map *map);
 int ambulo__lane_map_coordinates(const ambulo__lane_map *map);

@@ -21,15 +21,15 @@
 
 typedef struct ambulo__motion {
   ambulo_allocator allocator;
-  int rows, columns;    /* columns: without time */
-  int in_degrees;       /* 1: angles are in degrees, as in the file; 0: radians */
-  char **names;         /* [columns] */
-  double *time;         /* [rows], s */
-  double *values;       /* [rows][columns] */
+  int rows, columns; /* columns: without time */
+  int in_degrees;    /* 1: angles are in degrees, as in the file; 0: radians */
+  char **names;      /* [columns] */
+  double *time;      /* [rows], s */
+  double *values;    /* [rows][columns] */
 } ambulo__motion;
 
 typedef enum ambulo__motion_format {
-  AMBULO__MOTION_AUTO,  /* by the name's ending (.csv, .sto, .mot), else by "endheader" */
+  AMBULO__MOTION_AUTO, /* by the name's ending (.csv, .sto, .mot), else by "endheader" */
   AMBULO__MOTION_CSV,
   AMBULO__MOTION_STO
 } ambulo__motion_format;
@@ -37,7 +37,7 @@ typedef enum ambulo__motion_format {
 /* Zero-filled table with copied names. Errors: E_ARGUMENT, E_MEMORY. */
 ambulo_status ambulo__motion_create(int rows, int columns, const char *const *names,
                                     const ambulo_allocator *allocator, ambulo__motion **motion);
-void ambulo__motion_free(ambulo__motion *motion);  /* accepts NULL */
+void ambulo__motion_free(ambulo__motion *motion); /* accepts NULL */
 
 /* Errors: E_IO, E_LIMIT (size, columns), E_PARSE (shape of the text), E_SCHEMA (names,
  * numbers, times), E_MEMORY. All faults of a file are reported in one go. */

@@ -16,12 +16,12 @@ typedef struct ambulo__motion_fit ambulo__motion_fit;
 ambulo_status ambulo__motion_fit_create(const ambulo__motion *motion, int degree, double cutoff,
                                         const ambulo_allocator *allocator,
                                         ambulo__motion_fit **fit);
-void ambulo__motion_fit_free(ambulo__motion_fit *fit);  /* accepts NULL */
+void ambulo__motion_fit_free(ambulo__motion_fit *fit); /* accepts NULL */
 
 /* The curves at times[count] (the motion's own clock; clamped to its range):
  * q, qd, qdd [count][columns], each may be NULL. */
-void ambulo__motion_fit_at(const ambulo__motion_fit *fit, const double *times, int count,
-                           double *q, double *qd, double *qdd);
+void ambulo__motion_fit_at(const ambulo__motion_fit *fit, const double *times, int count, double *q,
+                           double *qd, double *qdd);
 
 /* The spline behind it, on [0, last time - first time], and its control points
  * [control_points][columns]: what ambulo__basis_transfer() takes. */

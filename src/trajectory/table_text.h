@@ -8,21 +8,21 @@
 typedef struct ambulo__table_line {
   const char *start;
   size_t length;
-  int number;     /* 1-based */
+  int number; /* 1-based */
   size_t next;
 } ambulo__table_line;
 
 /* How cells are told apart. */
 typedef enum ambulo__table_cells {
   AMBULO__CELLS_COMMA,
-  AMBULO__CELLS_TAB,    /* empty cells at the end are ignored */
-  AMBULO__CELLS_BLANK   /* runs of tabs and spaces */
+  AMBULO__CELLS_TAB,  /* empty cells at the end are ignored */
+  AMBULO__CELLS_BLANK /* runs of tabs and spaces */
 } ambulo__table_cells;
 
 typedef struct ambulo__table_cell {
   const char *start;
   size_t length;
-  int column;     /* 1-based character column of the cell in its line */
+  int column; /* 1-based character column of the cell in its line */
 } ambulo__table_cell;
 
 /* Line after *line (first call: a zero-filled line); 0 at the end of the text. LF or CRLF;

@@ -22,7 +22,8 @@ static void expect(row_fixture *f, const char *subject, const char *detail, doub
                    double value) {
   int row = row_find(f, "contact", subject, detail, time);
   assert_int_equal(f->table.rows[row].relation, AMBULO_NOT_NEGATIVE);
-  if (fabs(row_value(f, row) - value) > 1e-12) print_error("%s %s at %g s\n", subject, detail, time);
+  if (fabs(row_value(f, row) - value) > 1e-12)
+    print_error("%s %s at %g s\n", subject, detail, time);
   assert_close(row_value(f, row), value, 1e-12);
 }
 

@@ -102,9 +102,8 @@ static void time_in_the_air(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(transfers_by_hand),
-                                     cmocka_unit_test(centres_of_pressure_are_apart),
-                                     cmocka_unit_test(double_support_goes_on_beyond_the_ends),
-                                     cmocka_unit_test(time_in_the_air)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(transfers_by_hand), cmocka_unit_test(centres_of_pressure_are_apart),
+      cmocka_unit_test(double_support_goes_on_beyond_the_ends), cmocka_unit_test(time_in_the_air)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,9 +6,8 @@
 #include "gait/loading.h"
 #include "support/row_fixture.h"
 
-static const ambulo_contact contacts[] = {
-    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
-    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 1.0, {0.5, 0.1}}};
+static const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
+                                          {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 1.0, {0.5, 0.1}}};
 
 static const double mg = 72.0 * 9.81;
 

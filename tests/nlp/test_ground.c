@@ -1,5 +1,5 @@
-/* Ground reaction in a whole problem: models/walk_normal.yaml at a made-up point that moves gently, so
- * that the body presses on the ground. */
+/* Ground reaction in a whole problem: models/walk_normal.yaml at a made-up point that moves gently,
+ * so that the body presses on the ground. */
 #include "nlp/nlp.h"
 #include "support/test.h"
 

@@ -18,9 +18,9 @@ static void the_smallest_problem_loads(void **state) {
 
 static void every_shipped_problem_loads(void **state) {
   (void)state;
-  static const char *const names[] = {"yardstick_12",   "fig5a_feasible", "fig5b_torque",
-                                      "walk_without_reaction",      "pendulum_swing", "two_link_reach",
-                                      "walker_2d_step", "yardstick_36",   "yardstick_72"};
+  static const char *const names[] = {"yardstick_12",          "fig5a_feasible", "fig5b_torque",
+                                      "walk_without_reaction", "pendulum_swing", "two_link_reach",
+                                      "walker_2d_step",        "yardstick_36",   "yardstick_72"};
   for (int i = 0; i < 9; i++) {
     char path[64];
     (void)snprintf(path, sizeof path, "models/%s.yaml", names[i]);
