@@ -16,6 +16,7 @@ enum { STORED_VECTORS = 20 };
 static const double row_tolerance = 1e-9, value_tolerance = 1e-11, point_tolerance = 1e-11;
 static const double largest_memory = 4e9; /* bytes */
 static const double failed_row = 1e3;
+static const double reach_share = 0.1; /* of the tolerance: rows that hold */
 
 typedef struct callback {
   ambulo__direct *direct;
@@ -37,6 +38,7 @@ ambulo_status ambulo__direct_create(ambulo__direct *d, ambulo__pool *pool) {
   d->x = ambulo__pool_doubles(pool, n);
   d->w = ambulo__pool_doubles(pool, n);
   d->gradient = ambulo__pool_doubles(pool, n);
+  d->last_x = ambulo__pool_doubles(pool, n);
   d->best_x = ambulo__pool_doubles(pool, n);
   d->values = ambulo__pool_doubles(pool, (size_t)largest);
   d->best_objective = d->best_violation = HUGE_VAL;
@@ -80,15 +82,29 @@ static int move_to(ambulo__direct *d, const double *w) {
   return ambulo__evaluate(d->workspace, d->x) != AMBULO_OK;
 }
 
+static int reached(const ambulo__direct *d) {
+  return d->best_violation <= reach_share * d->run->options->feasibility_tolerance;
+}
+
+/* |w|^2 / 2 */
+static double distance(unsigned n, const double *w, double *gradient) {
+  double sum = 0.0;
+  for (unsigned j = 0; j < n; j++) sum += w[j] * w[j];
+  if (gradient) memcpy(gradient, w, n * sizeof *gradient);
+  return 0.5 * sum;
+}
+
 static double objective(unsigned n, const double *w, double *gradient, void *data) {
   callback *c = data;
   ambulo__direct *d = c->direct;
   ambulo__run_count(d->run);
   int failed = move_to(d, w);
   if (!failed) keep_best(d);
-  if (d->run->stopped) nlopt_force_stop(c->opt);
+  if (d->run->stopped || (d->nearest && reached(d))) nlopt_force_stop(c->opt);
   if (gradient && failed) memset(gradient, 0, n * sizeof *gradient);
   if (failed) return HUGE_VAL;
+  if (!gradient) memcpy(d->last_x, d->x, n * sizeof *d->x);
+  if (d->nearest) return distance(n, w, gradient);
   if (gradient) {
     ambulo__gradient(d->workspace, d->objective_scale, NULL, gradient);
     if (d->whitener) ambulo__band_forward(d->whitener, gradient);

@@ -20,9 +20,11 @@ typedef struct ambulo__direct {
   int is_equality[AMBULO__DIRECT_SETS];
   int sets;
   double objective_scale;
+  int nearest;                           /* minimize |w|^2 / 2 instead, until the rows hold */
   double *center, *x, *w, *gradient;     /* [n] */
   double *values;                        /* [largest set] */
   double *best_x;                        /* [n] */
+  double *last_x;                        /* [n]: where AUGLAG's last inner problem ended */
   double best_objective, best_violation; /* HUGE_VAL: none yet */
   const char *message;                   /* NLopt's name of its result */
   int result;
@@ -37,9 +39,9 @@ ambulo_status ambulo__direct_create(ambulo__direct *direct, ambulo__pool *pool);
 ambulo_status ambulo__direct_minimize(ambulo__direct *direct, ambulo_algorithm algorithm,
                                       int evaluations);
 
-/* presolve: off - the problem as it is, from x (in and out). */
-ambulo_status ambulo__solve_plain(const ambulo_problem *problem, ambulo_algorithm algorithm,
-                                  const ambulo_allocator *allocator, ambulo__run *run,
+/* presolve: off - the rows as they are, from x (in and out). Of the engine only workspace and
+ * rows are used. */
+ambulo_status ambulo__solve_plain(ambulo__engine *engine, ambulo_algorithm algorithm,
                                   ambulo_diagnostics *diagnostics, double *x, const char **message);
 
 /* SLSQP in whitened coordinates on independent rows, restored and re-whitened in rounds,

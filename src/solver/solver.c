@@ -117,8 +117,7 @@ static ambulo_status solve_problem(solve *s) {
   if (o->presolve) return solve_presolved(s);
   ambulo_algorithm algorithm = o->algorithm == AMBULO_AUGLAG ? AMBULO_AUGLAG : AMBULO_SLSQP;
   s->method = algorithm == AMBULO_AUGLAG ? "AUGLAG with LBFGS, plain" : "SLSQP, plain";
-  return ambulo__solve_plain(s->problem, algorithm, s->allocator, &s->run, s->diagnostics,
-                             s->result->x, &s->nlopt);
+  return ambulo__solve_plain(s->engine, algorithm, s->diagnostics, s->result->x, &s->nlopt);
 }
 
 /* -------------------------------------------------------------------- ending */

@@ -35,6 +35,44 @@ static void every_way_finds_the_reach(void **state) {
   assert_close(solve("two_link_reach", AMBULO_AUGLAG, 0), best, 1e-4);
 }
 
+/* six intervals, every row handed straight to NLopt, from zero */
+static double step_of(const char *name, ambulo_algorithm algorithm) {
+  static const char *const overrides[] = {"time.intervals=6", "trajectory.intervals=6"};
+  char path[300];
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  assert_int_equal(ambulo_problem_load(path, overrides, 2, NULL, NULL, &problem), AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  options.algorithm = algorithm;
+  options.presolve = 0;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  double violation = ambulo_result_audit(result)->violation.worst;
+  double objective = ambulo_result_objective(result);
+  if (!(violation <= 1e-6)) print_error("%s: %s\n", name, ambulo_result_ending(result));
+  assert_close(violation, 0.0, 1e-6);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  return objective;
+}
+
+static void every_way_finds_a_step(void **state) {
+  (void)state;
+  double slsqp = step_of("walker_2d_step", AMBULO_SLSQP);
+  double auglag = step_of("walker_2d_step", AMBULO_AUGLAG);
+  if (!(slsqp < 0.3)) print_error("SLSQP: objective %g\n", slsqp);
+  assert_true(slsqp < 0.3);
+  if (!(auglag < 0.6)) print_error("AUGLAG: objective %g\n", auglag);
+  assert_true(auglag < 0.6);
+}
+
+static void auglag_finds_a_gait(void **state) {
+  (void)state;
+  double objective = step_of("yardstick_12", AMBULO_AUGLAG);
+  if (!(objective < 0.8)) print_error("AUGLAG: objective %g\n", objective);
+  assert_true(objective < 0.8);
+}
+
 /* (q0 - 2)^2 + (q1 + 1)^2 at every node */
 static double bowl(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
   (void)user;
@@ -98,8 +136,9 @@ static void analytic_optimum_is_found(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_finds_the_swing),
-                                     cmocka_unit_test(every_way_finds_the_reach),
-                                     cmocka_unit_test(analytic_optimum_is_found)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_way_finds_the_swing), cmocka_unit_test(every_way_finds_the_reach),
+      cmocka_unit_test(every_way_finds_a_step), cmocka_unit_test(auglag_finds_a_gait),
+      cmocka_unit_test(analytic_optimum_is_found)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
