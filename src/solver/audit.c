@@ -83,6 +83,16 @@ static int project(ambulo__engine *e) {
   return 0;
 }
 
+/* gradients of length 1, which neither the cone nor the tolerance of a row notices: on fine
+ * grids rows on accelerations are so much longer than others that the penalty of some would
+ * drown the rest */
+static void normalize(ambulo__sparse_rows *rows) {
+  for (int i = 0; i < rows->count; i++) {
+    double norm = ambulo__sparse_rows_norm(rows, i);
+    if (norm > 0.0) ambulo__sparse_rows_set_scale(rows, i, rows->scale[i] / norm);
+  }
+}
+
 /* marks active rows in held.excess: 0 active, -1 not; returns their number */
 static int mark(ambulo__engine *e, double tolerance) {
   const ambulo__sparse_rows *rows = &e->rows.inequality;
@@ -153,7 +163,11 @@ static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
   ambulo__engine_gradient(e, NULL, NULL, e->gradient);
   double size = largest(e->gradient, e->n);
   result->audit.kkt = HUGE_VAL;
-  if (!isfinite(size) || project(e)) return;
+  if (!isfinite(size)) return;
+  if (project(e)) {
+    normalize(&e->rows.inequality);
+    if (project(e)) return;
+  }
   result->audit.kkt = size > 0.0 ? largest(e->total, e->n) / fmax(1e-12, size) : 0.0;
   collect_multipliers(e, result);
   audit_complementarity(e, result);
