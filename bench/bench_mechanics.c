@@ -47,7 +47,7 @@ static void run_jacobian(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
   double *jqd = r->jacobian + pattern.count * AMBULO__LANES;
   run_forward(r, block);
-  r->kernels->jacobian(r->plan, r->qd + at, r->qdd + at, r->ground, r->jacobian, jqd,
+  r->kernels->jacobian(r->plan, r->q + at, r->qd + at, r->qdd + at, r->ground, r->jacobian, jqd,
                        jqd + pattern.dynamic_count * AMBULO__LANES, r->scratch);
 }
 

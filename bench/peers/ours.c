@@ -199,8 +199,7 @@ static void run_jacobians(int b) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(plan);
   size_t at = (size_t)b * (size_t)ambulo__plan_coordinates(plan) * AMBULO__LANES;
   double *rates = jacobian + (size_t)pattern.count * AMBULO__LANES;
-  run_tau(b);
-  kernels->jacobian(plan, qd + at, qdd + at, NULL, jacobian, rates,
+  kernels->jacobian(plan, q + at, qd + at, qdd + at, NULL, jacobian, rates,
                     rates + (size_t)pattern.dynamic_count * AMBULO__LANES, scratch);
 }
 

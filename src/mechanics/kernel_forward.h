@@ -197,12 +197,17 @@ AMBULO__INLINE void sum_up(const ambulo__add_step *steps, int count, int first, 
   }
 }
 
-/* Loads up the tree, and the forces at the joints. */
-static void forward_loads(const ambulo__plan *plan, double *out, double *scratch) {
-  const ambulo__steps *steps = &plan->steps;
+/* Loads up the tree. */
+static void forward_loads(const ambulo__plan *plan, double *scratch) {
   double *root = scratch + plan->frames[0].load_at;
   for (int i = 0; i < 6; i++) store(root + i * AMBULO__LANES, spread(plan->fixed_load[i]));
-  sum_up(steps->loads, steps->load_count, 0, scratch);
+  sum_up(plan->steps.loads, plan->steps.load_count, 0, scratch);
+}
+
+/* The forces at the joints, and the root wrench. */
+static void forward_forces(const ambulo__plan *plan, double *out, double *scratch) {
+  const ambulo__steps *steps = &plan->steps;
+  const double *root = scratch + plan->frames[0].load_at;
   for (int i = 0; i < steps->moment_count; i++) {
     const ambulo__moment_step *step = &steps->moments[i];
     wide3 o = load3(scratch + step->place), force = load3(scratch + step->load + three);
@@ -235,8 +240,9 @@ AMBULO__INLINE void forward_positions(const ambulo__steps *steps, double *out, i
   }
 }
 
-static void forward_part(const ambulo__plan *plan, const double *q, const double *qd,
-                         const double *qdd, const double *ground, double *out, double *scratch) {
+/* Motion of the frames, and the loads of their subtrees. */
+static void forward_world_part(const ambulo__plan *plan, const double *q, const double *qd,
+                               const double *qdd, const double *ground, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   const ambulo__steps *steps = &plan->steps;
   forward_world(plan, scratch);
@@ -254,9 +260,15 @@ static void forward_part(const ambulo__plan *plan, const double *q, const double
   }
   forward_bodies(plan, scratch);
   if (plan->grounded) ground_split(plan, ground, scratch);
-  forward_loads(plan, out, scratch);
+  forward_loads(plan, scratch);
+}
+
+static void forward_part(const ambulo__plan *plan, const double *q, const double *qd,
+                         const double *qdd, const double *ground, double *out, double *scratch) {
+  forward_world_part(plan, q, qd, qdd, ground, scratch);
+  forward_forces(plan, out, scratch);
   if (plan->grounded) ground_rows(plan, ground, out, scratch);
-  forward_positions(steps, out, 0, scratch);
+  forward_positions(&plan->steps, out, 0, scratch);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after the forward pass.
+/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after forward_world_part.
  *
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
  * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =

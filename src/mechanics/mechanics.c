@@ -152,11 +152,15 @@ static int all_finite(const double *lanes, size_t entries) {
   return a + b + c + d == 0;
 }
 
-static void run_forward(ambulo_mechanics *m, const batch *motion, int first) {
+static void gather_block(ambulo_mechanics *m, const batch *motion, int first) {
   int d = ambulo__plan_coordinates(m->plan);
   gather(m->q, motion->q, d, first, motion->nodes);
   gather(m->qd, motion->qd, d, first, motion->nodes);
   gather(m->qdd, motion->qdd, d, first, motion->nodes);
+}
+
+static void run_forward(ambulo_mechanics *m, const batch *motion, int first) {
+  gather_block(m, motion, first);
   m->kernels->forward(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
 }
 
@@ -245,8 +249,8 @@ ambulo_status ambulo_mechanics_jacobians(ambulo_mechanics *m, int nodes, const d
   if (runs == 0) return AMBULO_E_NUMERIC;
   for (int run = runs; run > 0; run--) {
     for (int first = 0; first < nodes; first += AMBULO__LANES) {
-      run_forward(m, &motion, first);
-      m->kernels->jacobian(m->plan, m->qd, m->qdd, NULL, m->jq, m->jqd, m->jqdd, m->scratch);
+      gather_block(m, &motion, first);
+      m->kernels->jacobian(m->plan, m->q, m->qd, m->qdd, NULL, m->jq, m->jqd, m->jqdd, m->scratch);
       if (!all_finite(m->jq, count)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
       scatter_rows(m, jacobians->tau_q, m->jq, 0, d, first, nodes);

@@ -7,7 +7,7 @@
  *
  * All kernels work on ONE block of AMBULO__LANES time nodes; every array is
  * [entry][lane], 64-byte aligned, entries as below. d = coordinates, p = points.
- * World axes; moments about the world origin.
+ * Outputs are in world axes, moments about the world origin.
  */
 #ifndef AMBULO_MECHANICS_PLAN_H
 #define AMBULO_MECHANICS_PLAN_H
@@ -32,7 +32,7 @@ int ambulo__plan_coordinates(const ambulo__plan *plan);
 int ambulo__plan_points(const ambulo__plan *plan);
 int ambulo__plan_is_grounded(const ambulo__plan *plan);
 /* Doubles of scratch that any kernel needs; 64-byte aligned. The scratch carries
- * the forward pass over to the reverse sweep and to the Jacobians. */
+ * the forward pass over to the reverse sweep. */
 size_t ambulo__plan_scratch(const ambulo__plan *plan);
 
 /* Output rows of the mechanics, in this order: tau (d rows), moment (3), force
@@ -74,7 +74,7 @@ ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan);
 typedef struct ambulo__kernels {
   const char *name; /* "avx512", "avx2", "baseline", "scalar" */
 
-  /* out: [rows], see above. Fills scratch for the two below. */
+  /* out: [rows], see above. Fills scratch for the next. */
   void (*forward)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                   const double *ground, double *out, double *scratch);
 
@@ -84,9 +84,9 @@ typedef struct ambulo__kernels {
                   const double *ground, const double *weights, double *gq, double *gqd,
                   double *gqdd, double *scratch);
 
-  /* After forward on the same scratch: Jacobian entries in pattern order:
-   * jq [count], jqd and jqdd [dynamic_count]. */
-  void (*jacobian)(const ambulo__plan *plan, const double *qd, const double *qdd,
+  /* Jacobian entries in pattern order: jq [count], jqd and jqdd [dynamic_count]. Needs no
+   * forward before; reverse needs one after it. */
+  void (*jacobian)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                    const double *ground, double *jq, double *jqd, double *jqdd, double *scratch);
 } ambulo__kernels;
 

@@ -29,6 +29,9 @@ void ambulo__plan_place(ambulo__plan *plan);
 /* The lists of steps, from all of the above. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_steps_build(ambulo__plan *plan);
 void ambulo__plan_steps_free(ambulo__plan *plan);
+/* The steps in the bodies' own axes; enlarges the scratch. Errors: E_MEMORY. */
+ambulo_status ambulo__plan_local_build(ambulo__plan *plan);
+void ambulo__plan_local_free(ambulo__plan *plan);
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
 /* The last part of the pattern: terms of the dense rows. Errors: E_MEMORY. */

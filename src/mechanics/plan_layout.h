@@ -16,6 +16,7 @@
 #ifndef AMBULO_MECHANICS_PLAN_LAYOUT_H
 #define AMBULO_MECHANICS_PLAN_LAYOUT_H
 
+#include "mechanics/plan_local.h"
 #include "mechanics/plan_steps.h"
 
 typedef struct ambulo__frame {
@@ -137,6 +138,7 @@ struct ambulo__plan {
   ambulo__reaction_term *term;
 
   ambulo__steps steps;
+  ambulo__local_plan local;
 };
 
 #endif

@@ -202,9 +202,7 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     double *c = block_of(workspace, workspace->channel, b);
     size_t all = (size_t)b * (size_t)pattern.count * AMBULO__LANES;
     size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
-    /* the scratch of a single block serves all: refill it for this one */
-    compute_block(workspace, b);
-    p->kernels->jacobian(p->plan, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
+    p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
                          workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
                          workspace->scratch);
   }

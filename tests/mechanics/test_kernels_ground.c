@@ -86,8 +86,7 @@ static double *entries_of(ground_case *c, const ambulo__kernels *kernels) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(b->plan);
   double *entries = lane_array((size_t)(pattern.count + 2 * pattern.dynamic_count));
   double *jqd = entries + pattern.count * AMBULO__LANES;
-  ground_forward(c, kernels);
-  kernels->jacobian(b->plan, b->qd, b->qdd, c->ground, entries, jqd,
+  kernels->jacobian(b->plan, b->q, b->qd, b->qdd, c->ground, entries, jqd,
                     jqd + pattern.dynamic_count * AMBULO__LANES, b->scratch);
   return entries;
 }

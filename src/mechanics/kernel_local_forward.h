@@ -1,0 +1,365 @@
+/* mechanics/kernel_local_forward.h - inverse dynamics in the frames' own axes, for plans without
+ * ground reaction (recursive Newton-Euler; Luh, Walker & Paul 1980, Featherstone 2008).
+ *
+ * In its own axes a turn about axis k mixes two components of a vector, and inertias are constants
+ * most of which vanish. Down the tree, p the parent frame, R the turn of the joint (parent from
+ * frame), z its axis, r the constant offset of the origins, Omega r = alpha x r + w x (w x r):
+ *   revolute:   w = R^T w_p + z qd,  alpha = R^T alpha_p + w x z qd + z qdd,
+ *               a = R^T (a_p + Omega_p r)
+ *   prismatic:  w = w_p, alpha = alpha_p,
+ *               a = a_p + Omega_p (r + z q) + 2 w x z qd + z qdd
+ * For every body, c its centre of mass and I the inertia about it:
+ *   F = m (a + Omega c),   H = I alpha + w x I w
+ * With a diagonal I, H_x = I_xx alpha_x + (I_zz - I_yy) w_y w_z and so on. Up the tree the load of
+ * each subtree about the frame's origin, moment n and force f:
+ *   n = sum H + c x F + what comes from the children,  tau = z . n  or  z . f
+ *   n_p = R n + (r + z q) x R f,  f_p = R f
+ * The world's load is the root wrench. Axes are z = sign e_k; (u, v, k) stands for the components
+ * of a vector in cyclic order, the axis last.
+ */
+#ifndef AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
+#define AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
+
+#include "mechanics/kernel_forward.h"
+
+typedef struct local_state {
+  wide3 w, alpha, a;
+} local_state;
+
+/* (u, v, k) from (x, y, z), and back; k is known when this is compiled. */
+AMBULO__INLINE wide3 cycled(wide3 v, int k) {
+  return k == 0 ? (wide3){v.y, v.z, v.x} : k == 1 ? (wide3){v.z, v.x, v.y} : v;
+}
+
+AMBULO__INLINE wide3 uncycled(wide3 v, int k) {
+  return k == 0 ? (wide3){v.z, v.x, v.y} : k == 1 ? (wide3){v.y, v.z, v.x} : v;
+}
+
+AMBULO__INLINE wide3 load_cycled(const double *at, int k) {
+  return (wide3){load(at + (k + 1) % 3 * AMBULO__LANES), load(at + (k + 2) % 3 * AMBULO__LANES),
+                 load(at + k * AMBULO__LANES)};
+}
+
+AMBULO__INLINE void store_across(double *at, wide3 v, int k) {
+  store(at + (k + 1) % 3 * AMBULO__LANES, v.x);
+  store(at + (k + 2) % 3 * AMBULO__LANES, v.y);
+}
+
+AMBULO__INLINE void store_cycled(double *at, wide3 v, int k) {
+  store_across(at, v, k);
+  store(at + k * AMBULO__LANES, v.z);
+}
+
+/* R^T v and R v of a turn about the last component. */
+AMBULO__INLINE wide3 into_frame(wide3 v, wide s, wide c) {
+  return (wide3){c * v.x + s * v.y, c * v.y - s * v.x, v.z};
+}
+
+AMBULO__INLINE wide3 from_frame(wide3 v, wide s, wide c) {
+  return (wide3){c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+}
+
+AMBULO__INLINE wide3 spread3(const double v[3]) {
+  return (wide3){spread(v[0]), spread(v[1]), spread(v[2])};
+}
+
+/* T v and T^T v with a constant matrix. */
+AMBULO__INLINE wide3 out_of_turn(const double t[9], wide3 v) {
+  return multiply33((wide33){spread3(t), spread3(t + 3), spread3(t + 6)}, v);
+}
+
+AMBULO__INLINE wide3 into_turn(const double t[9], wide3 v) {
+  const wide3 zero = {{0}, {0}, {0}};
+  return add_multiply33_transposed(zero, (wide33){spread3(t), spread3(t + 3), spread3(t + 6)}, v);
+}
+
+/* a + Omega r */
+AMBULO__INLINE wide3 moved_any(wide3 a, wide3 w, wide3 alpha, wide3 r) {
+  a = add_cross3(a, alpha, r);
+  return axpy3(axpy3(a, dot3(w, r), w), -dot3(w, w), r);
+}
+
+AMBULO__INLINE wide3 moved_along(wide3 a, wide3 w, wide3 alpha, int k, double length) {
+  wide r = spread(length);
+  a = cycled(a, k);
+  w = cycled(w, k);
+  alpha = cycled(alpha, k);
+  a.x += r * (w.x * w.z + alpha.y);
+  a.y += r * (w.y * w.z - alpha.x);
+  a.z -= r * (w.x * w.x + w.y * w.y);
+  return uncycled(a, k);
+}
+
+AMBULO__INLINE wide3 moved_by_offset(const ambulo__local_step *step, local_state s) {
+  switch (step->moving) {
+  case AMBULO__OFFSET_X:
+    return moved_along(s.a, s.w, s.alpha, 0, step->length);
+  case AMBULO__OFFSET_Y:
+    return moved_along(s.a, s.w, s.alpha, 1, step->length);
+  case AMBULO__OFFSET_Z:
+    return moved_along(s.a, s.w, s.alpha, 2, step->length);
+  case AMBULO__OFFSET_ANY:
+    return moved_any(s.a, s.w, s.alpha, spread3(step->move));
+  default:
+    return s.a;
+  }
+}
+
+/* n + r x f, r the offset */
+AMBULO__INLINE wide3 levered_along(wide3 n, wide3 f, int k, double length) {
+  n = cycled(n, k);
+  f = cycled(f, k);
+  n.x -= length * f.y;
+  n.y += length * f.x;
+  return uncycled(n, k);
+}
+
+AMBULO__INLINE wide3 levered(const ambulo__local_step *step, wide3 n, wide3 f) {
+  switch (step->offset) {
+  case AMBULO__OFFSET_X:
+    return levered_along(n, f, 0, step->length);
+  case AMBULO__OFFSET_Y:
+    return levered_along(n, f, 1, step->length);
+  case AMBULO__OFFSET_Z:
+    return levered_along(n, f, 2, step->length);
+  case AMBULO__OFFSET_ANY:
+    return add_cross3(n, spread3(step->move), f);
+  default:
+    return n;
+  }
+}
+
+AMBULO__INLINE local_state hinge_down(const ambulo__local_step *step, local_state state, int k,
+                                      const double *qd, const double *qdd, double *scratch) {
+  double *at = scratch + step->at;
+  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  wide rate = step->sign * load(qd + step->input), gain = step->sign * load(qdd + step->input);
+  wide3 w = into_frame(cycled(state.w, k), s, c);
+  wide3 alpha = into_frame(cycled(state.alpha, k), s, c);
+  wide3 a = into_frame(cycled(state.a, k), s, c);
+  alpha.x += rate * w.y;
+  alpha.y -= rate * w.x;
+  alpha.z += gain;
+  w.z += rate;
+  store_cycled(at + local_rate, w, k);
+  store_across(at + local_gain, alpha, k);
+  store_across(at + local_pull, a, k);
+  return (local_state){uncycled(w, k), uncycled(alpha, k), uncycled(a, k)};
+}
+
+AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, const double *q,
+                                 const double *qd, const double *qdd, double *scratch) {
+  wide3 z = spread3(step->slide), a = axpy3(s.a, load(qdd + step->input), z);
+  double *at = scratch + step->at;
+  store(at + local_angle, load(q + step->input));
+  if (!step->still || step->body != AMBULO__BODY_NONE) {
+    store3(at + local_rate, s.w);
+    store3(at + local_gain, s.alpha);
+  }
+  if (step->still) return a;
+  a = moved_any(a, s.w, s.alpha, scale3(load(q + step->input), z));
+  return add_cross3(a, scale3(2 * load(qd + step->input), s.w), z);
+}
+
+/* Moment about the frame's origin, and force, of a body on axis k. */
+AMBULO__INLINE void body_along(const ambulo__local_step *step, local_state s, int k, double *to) {
+  int u = (k + 1) % 3, v = (k + 2) % 3;
+  const double *inertia = step->inertia, *difference = step->difference;
+  wide3 w = cycled(s.w, k), alpha = cycled(s.alpha, k), a = cycled(s.a, k);
+  wide xz = w.x * w.z, yz = w.y * w.z;
+  wide m = spread(step->mass), h = spread(step->first_moment[k]), c = spread(step->com[k]);
+  wide3 f = {m * a.x + h * (xz + alpha.y), m * a.y + h * (yz - alpha.x),
+             m * a.z - h * (w.x * w.x + w.y * w.y)};
+  wide3 n = {inertia[u] * alpha.x + difference[u] * yz - c * f.y,
+             inertia[v] * alpha.y + difference[v] * xz + c * f.x,
+             inertia[k] * alpha.z + difference[k] * (w.x * w.y)};
+  store_cycled(to, n, k);
+  store_cycled(to + three, f, k);
+}
+
+AMBULO__INLINE wide6 constant_inertia(const double *i) {
+  return (wide6){spread(i[0]), spread(i[1]), spread(i[2]),
+                 spread(i[3]), spread(i[4]), spread(i[5])};
+}
+
+AMBULO__INLINE void body_any(const ambulo__local_step *step, local_state s, int diagonal,
+                             double *to) {
+  const double *i = step->inertia, *d = step->difference;
+  wide3 f = moved_any(scale3(spread(step->mass), s.a), s.w, s.alpha, spread3(step->first_moment));
+  wide3 n = {i[0] * s.alpha.x + d[0] * (s.w.y * s.w.z), i[1] * s.alpha.y + d[1] * (s.w.z * s.w.x),
+             i[2] * s.alpha.z + d[2] * (s.w.x * s.w.y)};
+  if (!diagonal) {
+    wide6 inertia = constant_inertia(i);
+    n = add_cross3(multiply6(inertia, s.alpha), s.w, multiply6(inertia, s.w));
+  }
+  store3(to, add_cross3(n, spread3(step->com), f));
+  store3(to + three, f);
+}
+
+AMBULO__INLINE void body_down(const ambulo__local_step *step, local_state s, double *scratch) {
+  double *to = scratch + step->at + local_load;
+  switch (step->body) {
+  case AMBULO__BODY_X:
+    body_along(step, s, 0, to);
+    break;
+  case AMBULO__BODY_Y:
+    body_along(step, s, 1, to);
+    break;
+  case AMBULO__BODY_Z:
+    body_along(step, s, 2, to);
+    break;
+  case AMBULO__BODY_DIAGONAL:
+    body_any(step, s, 1, to);
+    break;
+  case AMBULO__BODY_ANY:
+    body_any(step, s, 0, to);
+    break;
+  default:
+    break;
+  }
+}
+
+/* Sines and cosines; 0 if an angle was out of the range of sincos_wide. The sum of magnitudes
+ * is what is compared to the limit: a NaN or an infinity shows, too. */
+static int local_angles(const ambulo__plan *plan, const double *q, double *scratch) {
+  wide total = {0};
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (step->joint == AMBULO__SLIDES) continue;
+    double *at = scratch + step->at + local_angle;
+    wide angle = step->sign * (load(q + step->input) + step->shift), s, c;
+    total += magnitude(angle);
+    sincos_wide(angle, &s, &c);
+    store(at, s);
+    store(at + AMBULO__LANES, c);
+  }
+  int inside = 1;
+  for (int lane = 0; lane < AMBULO__WIDTH; lane++) inside &= total[lane] <= AMBULO__SINCOS_LIMIT;
+  return inside;
+}
+
+static __attribute__((noinline)) void local_libm_angles(const ambulo__plan *plan, const double *q,
+                                                        double *scratch) {
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (step->joint == AMBULO__SLIDES) continue;
+    for (int lane = 0; lane < AMBULO__WIDTH; lane++) {
+      double angle = step->sign * (q[step->input + lane] + step->shift);
+      scratch[step->at + local_angle + lane] = sin(angle);
+      scratch[step->at + local_angle + AMBULO__LANES + lane] = cos(angle);
+    }
+  }
+}
+
+static void local_down(const ambulo__plan *plan, const double *q, const double *qd,
+                       const double *qdd, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  double *world = scratch + plan->local.world_at;
+  local_state s = {zero, zero, scale3(spread(-1), spread3(plan->gravity))};
+  if (plan->local.branched) {
+    store3(world + local_rate, s.w);
+    store3(world + local_gain, s.alpha);
+    store3(world + local_pull, s.a);
+  }
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (!step->carried) {
+      const double *above = scratch + step->above;
+      s = (local_state){load3(above + local_rate), load3(above + local_gain),
+                        load3(above + local_pull)};
+    }
+    s.a = moved_by_offset(step, s);
+    if (step->turned) {
+      s = (local_state){into_turn(step->turn, s.w), into_turn(step->turn, s.alpha),
+                        into_turn(step->turn, s.a)};
+    }
+    switch (step->joint) {
+    case AMBULO__TURNS_X:
+      s = hinge_down(step, s, 0, qd, qdd, scratch);
+      break;
+    case AMBULO__TURNS_Y:
+      s = hinge_down(step, s, 1, qd, qdd, scratch);
+      break;
+    case AMBULO__TURNS_Z:
+      s = hinge_down(step, s, 2, qd, qdd, scratch);
+      break;
+    default:
+      s.a = slider_down(step, s, q, qd, qdd, scratch);
+    }
+    if (step->kept) {
+      store3(scratch + step->at + local_rate, s.w);
+      store3(scratch + step->at + local_gain, s.alpha);
+      store3(scratch + step->at + local_pull, s.a);
+    }
+    body_down(step, s, scratch);
+  }
+}
+
+AMBULO__INLINE wide_pair hinge_up(const ambulo__local_step *step, wide_pair load_of, int k,
+                                  double *out, double *scratch) {
+  double *at = scratch + step->at;
+  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
+  store(out + step->input, step->sign * n.z);
+  store_across(at + local_moment, n, k);
+  store_across(at + local_force, f, k);
+  return (wide_pair){uncycled(from_frame(n, s, c), k), uncycled(from_frame(f, s, c), k)};
+}
+
+AMBULO__INLINE wide_pair slider_up(const ambulo__local_step *step, wide_pair load_of,
+                                   const double *q, double *out, double *scratch) {
+  wide3 z = spread3(step->slide);
+  store(out + step->input, dot3(z, load_of.linear));
+  store3(scratch + step->at + local_force, load_of.linear);
+  load_of.angular = add_cross3(load_of.angular, scale3(load(q + step->input), z), load_of.linear);
+  return load_of;
+}
+
+/* The load of a frame's subtree across the frame's joint. */
+AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum, const double *q,
+                                  double *out, double *scratch) {
+  switch (step->joint) {
+  case AMBULO__TURNS_X:
+    sum = hinge_up(step, sum, 0, out, scratch);
+    break;
+  case AMBULO__TURNS_Y:
+    sum = hinge_up(step, sum, 1, out, scratch);
+    break;
+  case AMBULO__TURNS_Z:
+    sum = hinge_up(step, sum, 2, out, scratch);
+    break;
+  default:
+    sum = slider_up(step, sum, q, out, scratch);
+  }
+  if (step->turned) {
+    sum.angular = out_of_turn(step->turn, sum.angular);
+    sum.linear = out_of_turn(step->turn, sum.linear);
+  }
+  sum.angular = levered(step, sum.angular, sum.linear);
+  return sum;
+}
+
+static void local_up(const ambulo__plan *plan, const double *q, double *out, double *scratch) {
+  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}}, one = zero;
+  const double *fixed = plan->fixed_load;
+  double *root = scratch + plan->local.world_at + local_load;
+  wide_pair sum = one;
+  if (plan->local.branched) store_pair(root, zero);
+  for (int i = plan->coordinates - 1; i >= 0; i--) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (!step->carries) sum = zero;
+    if (step->loaded) {
+      sum = axpy_pair(load_pair(scratch + step->at + local_load), spread(1), sum);
+    }
+    sum = joint_up(step, sum, q, out, scratch);
+    if (step->carried) continue;
+    double *above = scratch + step->above + local_load;
+    store_pair(above, step->first ? sum : axpy_pair(load_pair(above), spread(1), sum));
+  }
+  if (plan->local.branched) sum = axpy_pair(load_pair(root), spread(1), sum);
+  sum.angular = add3(sum.angular, spread3(fixed));
+  sum.linear = add3(sum.linear, spread3(fixed + 3));
+  store_pair(out + plan->coordinates * AMBULO__LANES, sum);
+}
+
+#endif

@@ -1,0 +1,152 @@
+/* mechanics/kernel_local_points.h - positions of points in world axes, and the gradient of their
+ * weighted sum, for the kernels that work in the frames' own axes.
+ *
+ * Only frames down to a point are placed: R = (x, y, z) the columns of a frame's orientation, o its
+ * origin. A revolute joint mixes two columns; o += R r with the constant offset r, o += z q if
+ * prismatic; a point at r stands at o + R r.
+ *
+ * A weight pi acts like a force at its point. With P the sum of pi and M that of p x pi over the
+ * points beyond a joint with axis z through o,
+ *   q' += z . (M - o x P)  or  z . P.
+ * The points of one frame add  sum p x pi = o x P + x x A_x + y x A_y + z x A_z,
+ * A_i = sum r_i pi.
+ */
+#ifndef AMBULO_MECHANICS_KERNEL_LOCAL_POINTS_H
+#define AMBULO_MECHANICS_KERNEL_LOCAL_POINTS_H
+
+#include "mechanics/kernel_local_forward.h"
+
+typedef struct local_place {
+  wide3 x, y, z, o;
+} local_place;
+
+AMBULO__INLINE wide3 place_of(const local_place *p, wide3 o, const double r[3]) {
+  return axpy3(axpy3(axpy3(o, spread(r[0]), p->x), spread(r[1]), p->y), spread(r[2]), p->z);
+}
+
+AMBULO__INLINE local_place place_load(const double *at) {
+  return (local_place){load3(at + local_columns), load3(at + local_columns + three),
+                       load3(at + local_columns + 2 * three), load3(at + local_origin)};
+}
+
+AMBULO__INLINE void places_of_points(const ambulo__steps *steps, int number, const local_place *p,
+                                     double *out) {
+  const ambulo__group_step *group = &steps->groups[number];
+  for (int i = group->first; i < group->first + group->count; i++) {
+    store3(out + steps->points[i].output, place_of(p, p->o, steps->points[i].position));
+  }
+}
+
+AMBULO__INLINE void mix_columns(wide3 *u, wide3 *v, wide s, wide c) {
+  wide3 from = *u;
+  *u = axpy3(scale3(c, from), s, *v);
+  *v = axpy3(scale3(c, *v), -s, from);
+}
+
+/* Across a joint; the axis and the origin are kept for the gradient. */
+AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p,
+                                       double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  double *at = scratch + step->at;
+  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  wide3 axis;
+  if (step->offset != AMBULO__OFFSET_NONE) p.o = place_of(&p, p.o, step->move);
+  if (step->turned) {
+    const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
+    const double z[3] = {t[2], t[5], t[8]};
+    p = (local_place){place_of(&p, zero, x), place_of(&p, zero, y), place_of(&p, zero, z), p.o};
+  }
+  switch (step->joint) {
+  case AMBULO__TURNS_X:
+    axis = p.x;
+    mix_columns(&p.y, &p.z, s, c);
+    break;
+  case AMBULO__TURNS_Y:
+    axis = p.y;
+    mix_columns(&p.z, &p.x, s, c);
+    break;
+  case AMBULO__TURNS_Z:
+    axis = p.z;
+    mix_columns(&p.x, &p.y, s, c);
+    break;
+  default:
+    axis = place_of(&p, zero, step->slide);
+    p.o = axpy3(p.o, s, axis);
+  }
+  store3(at + local_axis, axis);
+  store3(at + local_origin, p.o);
+  return p;
+}
+
+static void local_places(const ambulo__plan *plan, double *out, double *scratch) {
+  const wide zero = {0}, one = spread(1);
+  const local_place world = {
+      {one, zero, zero}, {zero, one, zero}, {zero, zero, one}, {zero, zero, zero}};
+  local_place p = world;
+  if (plan->local.world_group >= 0) {
+    places_of_points(&plan->steps, plan->local.world_group, &world, out);
+  }
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (!step->pointed) continue;
+    if (step->from_world) {
+      p = world;
+    } else if (!step->carried) {
+      p = place_load(scratch + step->above);
+    }
+    p = place_joint(step, p, scratch);
+    if (step->kept || step->group >= 0) {
+      store3(scratch + step->at + local_columns, p.x);
+      store3(scratch + step->at + local_columns + three, p.y);
+      store3(scratch + step->at + local_columns + 2 * three, p.z);
+    }
+    if (step->group >= 0) places_of_points(&plan->steps, step->group, &p, out);
+  }
+}
+
+/* Adds M (angular) and P (linear) of a frame's points. */
+static wide_pair weights_of_points(const ambulo__steps *steps, int number, wide_pair sum,
+                                   const double *weights, const double *at) {
+  const wide3 zero = {{0}, {0}, {0}};
+  const ambulo__group_step *group = &steps->groups[number];
+  local_place p = place_load(at), a = {zero, zero, zero, zero};
+  for (int i = group->first; i < group->first + group->count; i++) {
+    const double *r = steps->points[i].position;
+    wide3 pi = load3(weights + steps->points[i].output);
+    a.x = axpy3(a.x, spread(r[0]), pi);
+    a.y = axpy3(a.y, spread(r[1]), pi);
+    a.z = axpy3(a.z, spread(r[2]), pi);
+    a.o = add3(a.o, pi);
+  }
+  sum.angular = add_cross3(add_cross3(sum.angular, p.x, a.x), p.y, a.y);
+  sum.angular = add_cross3(add_cross3(sum.angular, p.z, a.z), p.o, a.o);
+  sum.linear = add3(sum.linear, a.o);
+  return sum;
+}
+
+/* The points' part of gq, which holds the rest already. */
+static void local_point_weights(const ambulo__plan *plan, const double *weights, double *gq,
+                                double *scratch) {
+  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  wide_pair sum = zero;
+  for (int i = plan->coordinates - 1; i >= 0; i--) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    const double *at = scratch + step->at;
+    if (!step->pointed) continue;
+    if (!step->carries_points) sum = zero;
+    if (step->weighted) sum = axpy_pair(load_pair(at + local_load), spread(1), sum);
+    if (step->group >= 0) sum = weights_of_points(&plan->steps, step->group, sum, weights, at);
+    wide3 z = load3(at + local_axis), push = sum.linear;
+    wide sign = spread(1);
+    if (step->joint != AMBULO__SLIDES) {
+      push = add_cross3(sum.angular, sum.linear, load3(at + local_origin));
+      sign = spread(step->sign);
+    }
+    store(gq + step->input, load(gq + step->input) + sign * dot3(z, push));
+    if (step->carried || step->from_world) continue;
+    double *above = scratch + step->above + local_load;
+    store_pair(above, step->first_weight ? sum : axpy_pair(load_pair(above), spread(1), sum));
+  }
+}
+
+#endif

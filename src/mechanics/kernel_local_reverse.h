@@ -1,0 +1,287 @@
+/* mechanics/kernel_local_reverse.h - gradient of a weighted sum of the outputs, in the frames' own
+ * axes, after kernel_local_forward.h on the same scratch.
+ *
+ * Weights y on tau, (eta_0, u_0) on root moment and force. By virtual work
+ *   sum y tau + eta_0 . M + u_0 . F = sum over bodies of  (u + eta x c) . F + eta . H,
+ * where the virtual motion (eta, u) of the frames' origins goes down the tree as motions do:
+ *   eta = R^T eta_p + z y,   u = R^T (u_p + eta_p x r)                       (revolute)
+ *   eta = eta_p,             u = u_p + eta_p x (r + z q) + z y               (prismatic)
+ * x' is the adjoint of x. Those of eta and u are the moment n and the force f of the subtree, which
+ * the forward pass has stored. Those of w, alpha and a go up the tree. With b = m (u + eta x c):
+ *   body:     a' += b,  (alpha', w') += Omega'(c, b),  alpha' += I eta,  w' += L x eta + I (eta x
+ * w) for a diagonal I, with D = (I_zz - I_yy, I_xx - I_zz, I_yy - I_xx) and e_i = D_i eta_i:  w' +=
+ * (e_y w_z + e_z w_y, e_x w_z + e_z w_x, e_x w_y + e_y w_x) Omega'(r, b), the adjoint of b . Omega
+ * r = b . (alpha x r) + (b . w) (w . r) - (w . w) (b . r): alpha' += r x b,   w' += b (w . r) + r
+ * (b . w) - 2 w (b . r) revolute: qdd' = z . alpha',   qd' = z . (w' + alpha' x w) q' = z . (w' x w
+ * + alpha' x alpha + a' x a + n x eta + f x u) w_p' = R (w' + z x alpha' qd),   alpha_p' = R
+ * alpha',   a_p' = R a' q' holds since d(R^T v)/dq = -z x R^T v, at first for the vectors and
+ * adjoints before the terms with qd and qdd: what these terms change in z . (w' x w) and z .
+ * (alpha' x alpha) cancels, and z y does not count along z. offset r: (alpha_p', w_p') += Omega'(r,
+ * a_p') prismatic: qdd' = z . a',   qd' = 2 z . (a' x w),   w' += 2 qd z x a',  (alpha', w') +=
+ *             Omega'(z q, a'),   q' = z . (Omega^T a' + f x eta),
+ *             Omega^T a' = a' x alpha + w (w . a') - a' (w . w)
+ * Points: kernel_local_points.h.
+ */
+#ifndef AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
+#define AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
+
+#include "mechanics/kernel_local_points.h"
+
+/* What goes along through the passes. */
+typedef struct local_arrays {
+  const double *qd, *weights;
+  double *gq, *gqd, *gqdd, *scratch;
+} local_arrays;
+
+AMBULO__INLINE wide_pair hinge_virtual(const ambulo__local_step *step, wide_pair v, int k,
+                                       const local_arrays *x) {
+  double *at = x->scratch + step->at;
+  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  wide3 eta = into_frame(cycled(v.angular, k), s, c), u = into_frame(cycled(v.linear, k), s, c);
+  eta.z += step->sign * load(x->weights + step->input);
+  store_across(at + local_turn, eta, k);
+  store_across(at + local_slide, u, k);
+  return (wide_pair){uncycled(eta, k), uncycled(u, k)};
+}
+
+AMBULO__INLINE wide_pair slider_virtual(const ambulo__local_step *step, wide_pair v,
+                                        const local_arrays *x) {
+  wide3 z = spread3(step->slide), r = scale3(load(x->scratch + step->at + local_angle), z);
+  store3(x->scratch + step->at + local_turn, v.angular);
+  v.linear = axpy3(add_cross3(v.linear, v.angular, r), load(x->weights + step->input), z);
+  return v;
+}
+
+/* Virtual motion down the tree. */
+static void local_virtual(const ambulo__plan *plan, const local_arrays *x) {
+  wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES), v = root;
+  if (plan->local.branched) store_pair(x->scratch + plan->local.world_at + local_turn, root);
+  for (int i = 0; i < plan->coordinates; i++) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
+    /* u + eta x r = u - r x eta */
+    v.linear = levered(step, v.linear, scale3(spread(-1), v.angular));
+    if (step->turned) {
+      v = (wide_pair){into_turn(step->turn, v.angular), into_turn(step->turn, v.linear)};
+    }
+    switch (step->joint) {
+    case AMBULO__TURNS_X:
+      v = hinge_virtual(step, v, 0, x);
+      break;
+    case AMBULO__TURNS_Y:
+      v = hinge_virtual(step, v, 1, x);
+      break;
+    case AMBULO__TURNS_Z:
+      v = hinge_virtual(step, v, 2, x);
+      break;
+    default:
+      v = slider_virtual(step, v, x);
+    }
+    if (step->kept || step->body != AMBULO__BODY_NONE) {
+      store_pair(x->scratch + step->at + local_turn, v);
+    }
+  }
+}
+
+/* s += Omega'(r, b); s holds the adjoints of w, alpha and a. */
+AMBULO__INLINE local_state moved_adjoint_any(local_state s, wide3 w, wide3 r, wide3 b) {
+  s.alpha = add_cross3(s.alpha, r, b);
+  s.w = axpy3(axpy3(s.w, dot3(w, r), b), dot3(b, w), r);
+  s.w = axpy3(s.w, -2 * dot3(b, r), w);
+  return s;
+}
+
+AMBULO__INLINE local_state moved_adjoint_along(local_state s, wide3 w, int k, double length,
+                                               wide3 b) {
+  wide3 rate = cycled(s.w, k), gain = cycled(s.alpha, k), g = scale3(spread(length), cycled(b, k));
+  w = cycled(w, k);
+  wide twice = 2 * g.z;
+  gain.x -= g.y;
+  gain.y += g.x;
+  rate.x = rate.x + g.x * w.z - twice * w.x;
+  rate.y = rate.y + g.y * w.z - twice * w.y;
+  rate.z = rate.z + g.x * w.x + g.y * w.y;
+  return (local_state){uncycled(rate, k), uncycled(gain, k), s.a};
+}
+
+/* Across the offset, into the parent's adjoints; w is the parent's. */
+AMBULO__INLINE local_state offset_adjoint(const ambulo__local_step *step, local_state s,
+                                          const double *w) {
+  switch (step->moving) {
+  case AMBULO__OFFSET_X:
+    return moved_adjoint_along(s, load3(w), 0, step->length, s.a);
+  case AMBULO__OFFSET_Y:
+    return moved_adjoint_along(s, load3(w), 1, step->length, s.a);
+  case AMBULO__OFFSET_Z:
+    return moved_adjoint_along(s, load3(w), 2, step->length, s.a);
+  case AMBULO__OFFSET_ANY:
+    return moved_adjoint_any(s, load3(w), spread3(step->move), s.a);
+  default:
+    return s;
+  }
+}
+
+AMBULO__INLINE local_state body_adjoint_along(const ambulo__local_step *step, local_state s, int k,
+                                              const double *at) {
+  int u = (k + 1) % 3, v = (k + 2) % 3;
+  const double *inertia = step->inertia, *difference = step->difference;
+  wide3 w = load_cycled(at + local_rate, k), eta = load_cycled(at + local_turn, k);
+  wide3 b = load_cycled(at + local_slide, k);
+  wide c = spread(step->com[k]), m = spread(step->mass);
+  b = (wide3){m * (b.x + c * eta.y), m * (b.y - c * eta.x), m * b.z};
+  s = (local_state){cycled(s.w, k), cycled(s.alpha, k), add3(cycled(s.a, k), b)};
+  s = moved_adjoint_along(s, w, 2, step->com[k], b);
+  wide3 e = {difference[u] * eta.x, difference[v] * eta.y, difference[k] * eta.z};
+  s.alpha.x += inertia[u] * eta.x;
+  s.alpha.y += inertia[v] * eta.y;
+  s.alpha.z += inertia[k] * eta.z;
+  s.w.x = s.w.x + e.y * w.z + e.z * w.y;
+  s.w.y = s.w.y + e.x * w.z + e.z * w.x;
+  s.w.z = s.w.z + e.x * w.y + e.y * w.x;
+  return (local_state){uncycled(s.w, k), uncycled(s.alpha, k), uncycled(s.a, k)};
+}
+
+AMBULO__INLINE local_state body_adjoint_any(const ambulo__local_step *step, local_state s,
+                                            int diagonal, const double *at) {
+  const double *i = step->inertia, *d = step->difference;
+  wide3 w = load3(at + local_rate), eta = load3(at + local_turn);
+  wide3 c = spread3(step->com), b = add_cross3(load3(at + local_slide), eta, c);
+  b = scale3(spread(step->mass), b);
+  s.a = add3(s.a, b);
+  s = moved_adjoint_any(s, w, c, b);
+  if (diagonal) {
+    wide3 e = {d[0] * eta.x, d[1] * eta.y, d[2] * eta.z};
+    s.alpha = add3(s.alpha, (wide3){i[0] * eta.x, i[1] * eta.y, i[2] * eta.z});
+    s.w = (wide3){s.w.x + e.y * w.z + e.z * w.y, s.w.y + e.x * w.z + e.z * w.x,
+                  s.w.z + e.x * w.y + e.y * w.x};
+  } else {
+    wide6 inertia = constant_inertia(i);
+    s.alpha = add3(s.alpha, multiply6(inertia, eta));
+    s.w = add_cross3(s.w, multiply6(inertia, w), eta);
+    s.w = add3(s.w, multiply6(inertia, cross3(eta, w)));
+  }
+  return s;
+}
+
+AMBULO__INLINE local_state body_adjoint(const ambulo__local_step *step, local_state s,
+                                        const double *scratch) {
+  const double *at = scratch + step->at;
+  switch (step->body) {
+  case AMBULO__BODY_X:
+    return body_adjoint_along(step, s, 0, at);
+  case AMBULO__BODY_Y:
+    return body_adjoint_along(step, s, 1, at);
+  case AMBULO__BODY_Z:
+    return body_adjoint_along(step, s, 2, at);
+  case AMBULO__BODY_DIAGONAL:
+    return body_adjoint_any(step, s, 1, at);
+  case AMBULO__BODY_ANY:
+    return body_adjoint_any(step, s, 0, at);
+  default:
+    return s;
+  }
+}
+
+/* z . (a' x a), of which only the components across z count; at: of a. */
+AMBULO__INLINE wide turned_by(wide sum, wide3 adjoint, const double *at, int k) {
+  sum += adjoint.x * load(at + (k + 2) % 3 * AMBULO__LANES);
+  return sum - adjoint.y * load(at + (k + 1) % 3 * AMBULO__LANES);
+}
+
+AMBULO__INLINE local_state hinge_adjoint(const ambulo__local_step *step, local_state state, int k,
+                                         const local_arrays *x) {
+  const double *at = x->scratch + step->at;
+  int u = (k + 1) % 3 * AMBULO__LANES, v = (k + 2) % 3 * AMBULO__LANES;
+  wide3 w = cycled(state.w, k), alpha = cycled(state.alpha, k), a = cycled(state.a, k);
+  wide3 n = {load(at + local_moment + u), load(at + local_moment + v), {0}};
+  wide3 f = {load(at + local_force + u), load(at + local_force + v), {0}};
+  wide rate = step->sign * load(x->qd + step->input), zero = {0};
+  wide turned = turned_by(zero, w, at + local_rate, k), other = zero;
+  turned = turned_by(turned, alpha, at + local_gain, k);
+  turned = turned_by(turned, a, at + local_pull, k);
+  other = turned_by(other, n, at + local_turn, k);
+  other = turned_by(other, f, at + local_slide, k);
+  store(x->gq + step->input, step->sign * (turned + other));
+  store(x->gqd + step->input, step->sign * turned_by(w.z, alpha, at + local_rate, k));
+  store(x->gqdd + step->input, step->sign * alpha.z);
+  w.x -= rate * alpha.y;
+  w.y += rate * alpha.x;
+  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  return (local_state){uncycled(from_frame(w, s, c), k), uncycled(from_frame(alpha, s, c), k),
+                       uncycled(from_frame(a, s, c), k)};
+}
+
+AMBULO__INLINE local_state slider_adjoint(const ambulo__local_step *step, local_state s,
+                                          const local_arrays *x) {
+  const double *at = x->scratch + step->at;
+  wide3 z = spread3(step->slide);
+  wide3 push = cross3(load3(at + local_force), load3(at + local_turn));
+  wide drift = {0};
+  if (!step->still) {
+    wide3 w = load3(at + local_rate), twice = scale3(2 * load(x->qd + step->input), z);
+    drift = 2 * dot3(z, cross3(s.a, w));
+    push = add_cross3(push, s.a, load3(at + local_gain));
+    push = axpy3(axpy3(push, dot3(w, s.a), w), -dot3(w, w), s.a);
+    s.w = add_cross3(s.w, twice, s.a);
+    s = moved_adjoint_any(s, w, scale3(load(at + local_angle), z), s.a);
+  }
+  store(x->gq + step->input, dot3(z, push));
+  store(x->gqd + step->input, drift);
+  store(x->gqdd + step->input, dot3(z, s.a));
+  return s;
+}
+
+/* Adjoints of a frame into those of its parent. */
+AMBULO__INLINE local_state joint_adjoint(const ambulo__local_step *step, local_state s,
+                                         const local_arrays *x) {
+  switch (step->joint) {
+  case AMBULO__TURNS_X:
+    s = hinge_adjoint(step, s, 0, x);
+    break;
+  case AMBULO__TURNS_Y:
+    s = hinge_adjoint(step, s, 1, x);
+    break;
+  case AMBULO__TURNS_Z:
+    s = hinge_adjoint(step, s, 2, x);
+    break;
+  default:
+    s = slider_adjoint(step, s, x);
+  }
+  if (step->turned) {
+    s = (local_state){out_of_turn(step->turn, s.w), out_of_turn(step->turn, s.alpha),
+                      out_of_turn(step->turn, s.a)};
+  }
+  return offset_adjoint(step, s, x->scratch + step->above + local_rate);
+}
+
+AMBULO__INLINE local_state add_stored(local_state s, const double *at) {
+  return (local_state){add3(s.w, load3(at)), add3(s.alpha, load3(at + three)),
+                       add3(s.a, load3(at + 2 * three))};
+}
+
+/* Adjoints up the tree. */
+static void local_adjoints(const ambulo__plan *plan, const local_arrays *x) {
+  const local_state zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  local_state s = zero;
+  for (int i = plan->coordinates - 1; i >= 0; i--) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    if (!step->carries) s = zero;
+    if (step->adjoined) s = add_stored(s, x->scratch + step->at + local_adjoint);
+    s = body_adjoint(step, s, x->scratch);
+    s = joint_adjoint(step, s, x);
+    if (step->carried || step->from_world) continue;
+    double *above = x->scratch + step->above + local_adjoint;
+    if (!step->first_adjoint) s = add_stored(s, above);
+    store3(above, s.w);
+    store3(above + three, s.alpha);
+    store3(above + 2 * three, s.a);
+  }
+}
+
+static void local_reverse_part(const ambulo__plan *plan, const local_arrays *x) {
+  local_virtual(plan, x);
+  local_adjoints(plan, x);
+  if (plan->points > 0) local_point_weights(plan, x->weights, x->gq, x->scratch);
+}
+
+#endif

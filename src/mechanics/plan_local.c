@@ -1,0 +1,145 @@
+/* mechanics/plan_local.c - which constants of joints and bodies vanish, and where the tree forks.
+ *
+ * Coordinates are in an order in which parents come first; along a limb they follow each other.
+ */
+#include <string.h>
+
+#include "mechanics/plan_build.h"
+
+/* The axis along which v lies, 3 if none; of a vector of zeros, axis 2. */
+static int along(const double v[3]) {
+  for (int k = 2; k >= 0; k--) {
+    if (v[(k + 1) % 3] == 0 && v[(k + 2) % 3] == 0) return k;
+  }
+  return 3;
+}
+
+/* base 1 + first u u^T + second w w^T, see plan_mass.c, in the frame's axes. */
+static void set_inertia(ambulo__local_step *step, const ambulo__body *body) {
+  static const int place[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  double u[3] = {0}, w[3] = {0};
+  u[body->order[0]] = 1;
+  u[body->order[1]] = body->lower[0];
+  u[body->order[2]] = body->lower[1];
+  w[body->order[1]] = 1;
+  w[body->order[2]] = body->lower[2];
+  for (int i = 0; i < 3; i++) {
+    for (int k = i; k < 3; k++) {
+      step->inertia[place[i][k]] =
+          (i == k ? body->base : 0) + body->first * u[i] * u[k] + body->second * w[i] * w[k];
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    step->difference[i] = step->inertia[(i + 2) % 3] - step->inertia[(i + 1) % 3];
+  }
+}
+
+static void set_body(ambulo__local_step *step, const ambulo__body *body) {
+  static const ambulo__body_kind kinds[] = {AMBULO__BODY_X, AMBULO__BODY_Y, AMBULO__BODY_Z,
+                                            AMBULO__BODY_DIAGONAL};
+  step->mass = body->mass;
+  for (int i = 0; i < 3; i++) {
+    step->com[i] = body->com[i];
+    step->first_moment[i] = body->mass * body->com[i];
+  }
+  set_inertia(step, body);
+  step->body = body->diagonal ? kinds[along(step->com)] : AMBULO__BODY_ANY;
+}
+
+static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
+  static const ambulo__offset_kind kinds[] = {AMBULO__OFFSET_X, AMBULO__OFFSET_Y, AMBULO__OFFSET_Z,
+                                              AMBULO__OFFSET_ANY};
+  static const double zero[3] = {0};
+  step->joint = joint->revolute ? (ambulo__joint_kind)joint->axis : AMBULO__SLIDES;
+  step->sign = joint->sign;
+  step->shift = joint->shift;
+  step->still = joint->still;
+  step->turned = joint->revolute && joint->turned;
+  memcpy(step->turn, joint->turn, sizeof step->turn);
+  for (int i = 0; i < 3; i++) {
+    double axis = joint->turned ? joint->turn[3 * i + joint->axis] : i == joint->axis;
+    step->slide[i] = joint->sign * axis;
+    step->move[i] = joint->revolute && !joint->has_offset ? 0 : joint->offset[i];
+  }
+  step->offset = step->moving = AMBULO__OFFSET_NONE;
+  if (memcmp(step->move, zero, sizeof zero) == 0) return;
+  int axis = along(step->move);
+  step->offset = kinds[axis];
+  if (!step->still) step->moving = step->offset;
+  if (axis < 3) step->length = step->move[axis];
+}
+
+/* Who writes where: a limb that does not carry on into its parent adds to the parent's slot. */
+static void set_forks(ambulo__plan *plan) {
+  ambulo__local_step *steps = plan->local.steps;
+  for (int k = plan->coordinates - 1; k >= 0; k--) {
+    int parent = plan->joints[k].parent;
+    ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
+    step->carried = parent == k;
+    step->from_world = parent == 0;
+    if (step->carried && above) above->carries = 1;
+    if (step->body != AMBULO__BODY_NONE) step->loaded = 1;
+    if (step->carried) continue;
+    if (!above) {
+      plan->local.branched = 1;
+      continue;
+    }
+    step->first = !above->loaded && above->body == AMBULO__BODY_NONE;
+    step->first_adjoint = !above->adjoined;
+    above->kept = above->loaded = above->adjoined = 1;
+  }
+}
+
+/* Frames down to each point. Groups of points are in order of frames. */
+static void set_points(ambulo__plan *plan) {
+  ambulo__local_step *steps = plan->local.steps;
+  plan->local.world_group = -1;
+  for (int k = 0; k < plan->coordinates; k++) steps[k].group = -1;
+  for (int f = 0, group = 0; f <= plan->coordinates; f++) {
+    int *place = f > 0 ? &steps[f - 1].group : &plan->local.world_group;
+    for (int i = 0; i < plan->points && *place < 0; i++) {
+      if (plan->point[i].frame == f) *place = group;
+    }
+    if (*place >= 0) group++;
+  }
+  for (int k = plan->coordinates - 1; k >= 0; k--) {
+    int parent = plan->joints[k].parent;
+    ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
+    if (step->group >= 0) step->pointed = 1;
+    if (!step->pointed || !above) continue;
+    above->pointed = 1;
+    if (step->carried) {
+      above->carries_points = 1;
+    } else {
+      step->first_weight = !above->weighted;
+      above->weighted = 1;
+    }
+  }
+}
+
+ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
+  size_t d = (size_t)plan->coordinates + 1;
+  int slots = (int)plan->scratch;
+  ambulo__local_plan *local = &plan->local;
+  local->steps = ambulo__alloc(&plan->allocator, d, sizeof *local->steps);
+  if (!local->steps) return AMBULO_E_MEMORY;
+  local->world_at = slots;
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__local_step *step = &local->steps[k];
+    int body = plan->frames[k + 1].body;
+    step->input = k * AMBULO__LANES;
+    step->at = slots + (k + 1) * local_slot;
+    step->above = slots + plan->joints[k].parent * local_slot;
+    step->body = AMBULO__BODY_NONE;
+    set_joint(step, &plan->joints[k]);
+    if (body >= 0) set_body(step, &plan->body[body]);
+  }
+  set_forks(plan);
+  set_points(plan);
+  plan->scratch += d * local_slot;
+  return AMBULO_OK;
+}
+
+void ambulo__plan_local_free(ambulo__plan *plan) {
+  ambulo__free(&plan->allocator, plan->local.steps);
+}

@@ -1,0 +1,92 @@
+/* mechanics/plan_local.h - the program of the kernels that work in the bodies' own axes.
+ *
+ * One step for each coordinate, parents first. A step that is `carried` follows its parent, whose
+ * vectors are still in registers. Kinds tell which constants are structurally zero: an axis k
+ * of the frame is 0, 1 or 2.
+ */
+#ifndef AMBULO_MECHANICS_PLAN_LOCAL_H
+#define AMBULO_MECHANICS_PLAN_LOCAL_H
+
+#include "mechanics/plan.h"
+
+/* Vectors of a slot, in the frame's axes about its origin (3 entries each). */
+enum {
+  local_rate = 0,                     /* w */
+  local_gain = 3 * AMBULO__LANES,     /* alpha */
+  local_pull = 6 * AMBULO__LANES,     /* a */
+  local_moment = 9 * AMBULO__LANES,   /* n of the subtree */
+  local_force = 12 * AMBULO__LANES,   /* f of the subtree */
+  local_turn = 15 * AMBULO__LANES,    /* eta */
+  local_slide = 18 * AMBULO__LANES,   /* u */
+  local_load = 21 * AMBULO__LANES,    /* moment and force of the body and of branches (6) */
+  local_adjoint = 27 * AMBULO__LANES, /* adjoints of w, alpha and a from branches (9) */
+  local_angle = 36 * AMBULO__LANES,   /* sine, cosine; q if prismatic */
+  local_axis = 38 * AMBULO__LANES,    /* points, world axes: axis of the joint, */
+  local_columns = 41 * AMBULO__LANES, /* orientation (9), */
+  local_origin = 50 * AMBULO__LANES,  /* origin */
+  local_slot = 53 * AMBULO__LANES
+};
+
+typedef enum ambulo__joint_kind {
+  AMBULO__TURNS_X = 0, /* revolute about axis 0, 1, 2 */
+  AMBULO__TURNS_Y,
+  AMBULO__TURNS_Z,
+  AMBULO__SLIDES
+} ambulo__joint_kind;
+
+typedef enum ambulo__offset_kind {
+  AMBULO__OFFSET_X = 0, /* along axis 0, 1, 2 */
+  AMBULO__OFFSET_Y,
+  AMBULO__OFFSET_Z,
+  AMBULO__OFFSET_ANY,
+  AMBULO__OFFSET_NONE
+} ambulo__offset_kind;
+
+typedef enum ambulo__body_kind {
+  AMBULO__BODY_X = 0, /* diagonal inertia, centre of mass on axis 0, 1, 2 */
+  AMBULO__BODY_Y,
+  AMBULO__BODY_Z,
+  AMBULO__BODY_DIAGONAL,
+  AMBULO__BODY_ANY,
+  AMBULO__BODY_NONE
+} ambulo__body_kind;
+
+typedef struct ambulo__local_step {
+  ambulo__joint_kind joint;
+  ambulo__offset_kind offset;
+  ambulo__offset_kind moving; /* none if still: the offset then has no acceleration */
+  ambulo__body_kind body;
+  int input;     /* entries of the coordinate in the arrays of the caller */
+  int at, above; /* slots of the frame and of its parent */
+  int carried;   /* the parent is the frame of the step before, or the world at the first step */
+  int carries;   /* the step after is carried */
+  int kept;      /* a step that is not carried starts from this frame */
+  int loaded;    /* local_load holds something when the pass up the tree arrives */
+  int first;     /* first to write the parent's local_load */
+  int adjoined;  /* the same two for local_adjoint */
+  int first_adjoint;
+  int from_world;
+  int still; /* the parent does not turn */
+  int turned;
+  int pointed;                          /* points hang on the frame or further down */
+  int group;                            /* of points, in plan_steps.h; -1: none */
+  int carries_points;                   /* carries, and the step after is pointed */
+  int weighted, first_weight;           /* as loaded and first, for the points' weights */
+  double sign, shift;                   /* angle = sign (q + shift) */
+  double turn[9];                       /* oblique axis: the turned frame in the parent frame */
+  double slide[3];                      /* prismatic: the axis in the frame */
+  double move[3];                       /* offset of the origin, parent frame */
+  double length;                        /* the offset, if it is along one axis */
+  double mass, com[3], first_moment[3]; /* mass times com */
+  double inertia[6];                    /* about the centre of mass: xx yy zz xy xz yz */
+  double difference[3];                 /* zz - yy, xx - zz, yy - xx */
+} ambulo__local_step;
+
+typedef struct ambulo__local_plan {
+  ambulo__local_step *steps; /* [coordinates] */
+  int world_at;              /* slot of the world */
+  int branched;              /* local_load of the world is used */
+  int world_group;           /* points fixed to the world, -1: none */
+} ambulo__local_plan;
+
+#endif

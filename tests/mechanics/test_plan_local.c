@@ -1,0 +1,117 @@
+/* Which constants the kernels in the frames' own axes leave out, and where they fork. */
+#include "mechanics/kernel_fixture.h"
+#include "mechanics/plan_layout.h"
+
+static const double quarter = 1.5707963267948966;
+
+enum { link_count = 6 };
+
+/* A slider, a trunk that turns, two limbs of one joint, and one more joint on the first limb. */
+static void make_links(ambulo_link *links) {
+  static const char *const names[] = {"lift", "trunk", "knee", "ankle", "hip", "plate"};
+  static const int parents[] = {-1, 0, 1, 2, 1, 4};
+  for (int i = 0; i < link_count; i++) {
+    links[i] = ambulo_link_default();
+    links[i].name = names[i];
+    links[i].parent = parents[i];
+    links[i].type = i == 0 ? AMBULO_PRISMATIC : i == 5 ? AMBULO_FIXED : AMBULO_REVOLUTE;
+    links[i].mass = i == 0 ? 0 : 2;
+    for (int k = 0; k < 3 && i > 0; k++) links[i].inertia[k] = 0.1 + 0.01 * k;
+  }
+  links[1].alpha = quarter;
+  links[1].com[1] = 0.3;
+  links[2].a = 0.2;
+  links[3].com[0] = links[3].com[2] = 0.1;
+  links[4].theta = 0.3;
+  links[5].inertia[3] = 0.02;
+}
+
+static ambulo__plan *make_plan(void) {
+  ambulo_link links[link_count];
+  ambulo_coordinate coordinates[link_count];
+  ambulo_model_definition definition = ambulo_model_definition_default();
+  ambulo_model *model = NULL;
+  ambulo__plan *plan = NULL;
+  make_links(links);
+  for (int i = 0; i < link_count - 1; i++) {
+    coordinates[i] = ambulo_coordinate_default();
+    coordinates[i].name = links[i].name;
+    coordinates[i].type = links[i].type;
+    coordinates[i].mirror = i;
+  }
+  definition.links = links;
+  definition.link_count = link_count;
+  definition.coordinates = coordinates;
+  definition.coordinate_count = link_count - 1;
+  assert_int_equal(ambulo_model_create(&definition, NULL, NULL, &model), AMBULO_OK);
+  assert_int_equal(ambulo__plan_create(model, NULL, &plan), AMBULO_OK);
+  ambulo_model_free(model);
+  return plan;
+}
+
+static void limbs_are_carried_and_branches_kept(void **state) {
+  (void)state;
+  ambulo__plan *plan = make_plan();
+  const ambulo__local_step *steps = plan->local.steps;
+  static const int carried[] = {1, 1, 1, 1, 0}, carries[] = {1, 1, 1, 0, 0};
+  for (int k = 0; k < 5; k++) {
+    if (steps[k].carried != carried[k] || steps[k].carries != carries[k]) {
+      print_error("step %d: carried %d, carries %d\n", k, steps[k].carried, steps[k].carries);
+      fail();
+    }
+    assert_int_equal(steps[k].kept, k == 1);
+    assert_int_equal(steps[k].adjoined, k == 1);
+  }
+  /* the trunk's own body writes its load first, nobody its adjoints */
+  assert_int_equal(steps[4].first, 0);
+  assert_int_equal(steps[4].first_adjoint, 1);
+  assert_int_equal(plan->local.branched, 0);
+  ambulo__plan_free(plan);
+}
+
+static void zeros_of_joints_and_bodies_are_found(void **state) {
+  (void)state;
+  ambulo__plan *plan = make_plan();
+  const ambulo__local_step *steps = plan->local.steps;
+  assert_int_equal(steps[0].joint, AMBULO__SLIDES);
+  assert_int_equal(steps[0].body, AMBULO__BODY_NONE);
+  assert_int_equal(steps[1].joint, AMBULO__TURNS_Z);
+  assert_int_equal(steps[1].still, 1);
+  assert_int_equal(steps[2].still, 0);
+  assert_int_equal(steps[2].joint, AMBULO__TURNS_Y);
+  /* the trunk's y is turned to its frame's z by the link's alpha */
+  assert_int_equal(steps[1].body, AMBULO__BODY_Z);
+  assert_close(fabs(steps[1].com[2]), 0.3, 1e-15);
+  assert_int_equal(steps[2].offset, AMBULO__OFFSET_NONE);
+  assert_int_equal(steps[3].offset, AMBULO__OFFSET_X);
+  assert_close(fabs(steps[3].length), 0.2, 1e-15);
+  assert_int_equal(steps[3].body, AMBULO__BODY_DIAGONAL);
+  assert_int_equal(steps[4].offset, AMBULO__OFFSET_NONE);
+  assert_int_equal(steps[4].body, AMBULO__BODY_ANY);
+  ambulo__plan_free(plan);
+}
+
+/* The factors of the inertia, put together again, are the inertia. */
+static void inertia_is_that_of_the_links(void **state) {
+  (void)state;
+  ambulo__plan *plan = make_plan();
+  const ambulo__local_step *hip = &plan->local.steps[4], *trunk = &plan->local.steps[1];
+  const double want[6] = {0.2, 0.22, 0.24, 0.02, 0, 0}, turned[3] = {0.1, 0.12, 0.11};
+  double largest = 0, trace = 0;
+  for (int i = 0; i < 3; i++) {
+    assert_close(trunk->inertia[i], turned[i], 1e-12);
+    trace += hip->inertia[i];
+    largest = fmax(largest, fabs(hip->inertia[3 + i]));
+    assert_close(hip->difference[i], hip->inertia[(i + 2) % 3] - hip->inertia[(i + 1) % 3], 1e-15);
+  }
+  assert_close(trace, want[0] + want[1] + want[2], 1e-12);
+  assert_close(largest, want[3], 1e-12);
+  ambulo__plan_free(plan);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(limbs_are_carried_and_branches_kept),
+                                     cmocka_unit_test(zeros_of_joints_and_bodies_are_found),
+                                     cmocka_unit_test(inertia_is_that_of_the_links)};
+  return cmocka_run_group_tests_name("mechanics/plan_local", tests, NULL, NULL);
+}
