@@ -20,6 +20,7 @@
 
 #define AMBULO_VERSION_STRING "0.1.0"
 
+#include "ambulo/batch.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
 #include "ambulo/problem.h"

@@ -27,7 +27,7 @@ typedef struct ambulo_case {
 } ambulo_case;
 
 /* Loads a sweep file and its base problem, and builds the case list.
- * Errors: as ambulo_problem_load; E_LIMIT (more than ten million cases). */
+ * Errors: as ambulo_problem_load; E_LIMIT (more than a million cases). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_sweep_load(const char *path,
                                                             const ambulo_allocator *allocator,
                                                             ambulo_diagnostics *diagnostics,
@@ -50,14 +50,15 @@ AMBULO_API const char *ambulo_sweep_value(const ambulo_sweep *sweep, int index, 
 /* State of a run, for progress. */
 typedef struct ambulo_batch_progress {
   int cases;               /* of this shard */
-  int done, failed;        /* finished cases; failed: without a valid solution */
+  int done, failed;        /* cases with a record; failed: those without a valid solution */
   int running;
   int resumed;             /* of done: found finished at the start */
   double seconds;          /* since the start */
   double seconds_left;     /* < 0: unknown */
-  double worst_violation;  /* over the cases solved in this run */
+  double worst_violation;  /* over the cases solved in this run; < 0: none yet */
+  const char *worst;       /* name of that case; NULL: none yet */
   const char *last;        /* name of the case that ended last; NULL: none yet */
-  const char *last_state;  /* "optimal", "infeasible", "crashed", "timeout", ... */
+  char last_state[24];     /* "optimal", "infeasible", "crashed", "timeout", ... */
 } ambulo_batch_progress;
 
 typedef struct ambulo_batch_options {
@@ -88,7 +89,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *s
 
 /* What stands in a folder, from its records alone. Errors: E_IO, E_PARSE, E_MEMORY. */
 typedef struct ambulo_batch_census {
-  int cases, done, failed, missing, stale, corrupt;
+  int cases;
+  int done, failed; /* with a record; failed: those of them without a valid solution */
+  int missing;      /* not computed yet */
+  int stale;        /* computed from other inputs */
+  int corrupt;      /* record or summary damaged */
+  double seconds;   /* all cases with a record took together */
+  char holder[96];  /* host:pid of the run that holds the folder; "": none */
 } ambulo_batch_census;
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_status(const char *directory,
                                                               const ambulo_allocator *allocator,
@@ -103,12 +110,18 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
                                                                ambulo_diagnostics *diagnostics,
                                                                ambulo_batch_census *census);
 
-/* Draws a collected output over one axis (curves) or two (a heat map) as SVG: plot is
- * "X:OUTPUT" or "X,Y:OUTPUT". Errors: E_ARGUMENT (no such axis or output), E_IO, E_MEMORY. */
+/* Draws a collected output over one axis (curves) or two (a heat map) as SVG into `directory`;
+ * plot is "X:OUTPUT" or "X,Y:OUTPUT". *file: path of the drawing, free with ambulo_text_free.
+ * Errors: E_ARGUMENT (no such axis or output, or no numbers in it), E_IO, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory,
-                                                            const char *plot, const char *file,
+                                                            const char *plot,
                                                             const ambulo_allocator *allocator,
-                                                            ambulo_diagnostics *diagnostics);
+                                                            ambulo_diagnostics *diagnostics,
+                                                            char **file);
+
+/* Processes that ambulo_batch_run would use: workers where > 0, else the usable processors;
+ * limited by the free memory with `megabytes` each (0: unknown). */
+AMBULO_API int ambulo_batch_workers(int workers, int megabytes);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,9 @@
 
 typedef enum comparison { LESS, LESS_EQUAL, GREATER, GREATER_EQUAL, EQUAL, DIFFERENT } comparison;
 
-static int is_blank(char c) { return c == ' ' || c == '\t'; }
+static int is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
 
 /* position and length of the operator; 0 if there is none */
 static size_t find_operator(const char *text, size_t *at, comparison *which) {

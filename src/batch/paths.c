@@ -27,7 +27,7 @@ char *ambulo__sibling_path(const ambulo_allocator *a, const char *file, const ch
 }
 
 char *ambulo__join_paths(const ambulo_allocator *a, const char *directory, const char *first,
-                        const char *second) {
+                         const char *second) {
   const char *part[] = {directory, "/", first, second ? "/" : "", second ? second : ""};
   return join(a, part, 5);
 }

@@ -8,7 +8,7 @@
 char *ambulo__sibling_path(const ambulo_allocator *allocator, const char *file, const char *name);
 /* directory/first[/second]; `second` may be NULL. NULL: no memory. */
 char *ambulo__join_paths(const ambulo_allocator *allocator, const char *directory,
-                        const char *first, const char *second);
+                         const char *first, const char *second);
 /* DIR/cases/<last two digits of the id>/<id><ending>: at most 256 neighbours of a million cases
  * share a folder's fan-out, and a listing stays short. */
 char *ambulo__case_path(const ambulo_allocator *allocator, const char *directory, const char *id,

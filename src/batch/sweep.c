@@ -30,8 +30,7 @@ static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
   const char *key_text = key ? ambulo__yaml_text(key) : NULL;
   if (!key_text) return AMBULO_E_SCHEMA;
-  ambulo__axis *axis =
-      ambulo__sweep_add_axis(s, name ? ambulo__yaml_text(name) : NULL, key_text);
+  ambulo__axis *axis = ambulo__sweep_add_axis(s, name ? ambulo__yaml_text(name) : NULL, key_text);
   if (!axis)
     return ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "more than %d axes", AMBULO__SWEEP_AXES);
   ambulo_status status = ambulo__sweep_read_values(s, axis, node);
@@ -82,9 +81,17 @@ static ambulo_status read_limits(ambulo_sweep *s, const ambulo__yaml_node *root)
   s->case_seconds = ambulo__yaml_number_in(ambulo__yaml_get(limits, "seconds"), 0.0, 1e9, 0.0);
   s->case_megabytes = ambulo__yaml_integer(ambulo__yaml_get(limits, "megabytes"), 0, 10000000, 0);
   if (limits) ambulo__yaml_close(limits);
-  const ambulo__yaml_node *chain = ambulo__yaml_get(root, "start_from_neighbour_along");
+  return AMBULO_OK;
+}
+
+/* start_from: zero (default), or neighbour together with along: AXIS */
+static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) {
+  static const char *const starts[] = {"zero", "neighbour"};
+  int start = ambulo__yaml_choice(ambulo__yaml_get(root, "start_from"), starts, 2, 0);
+  const ambulo__yaml_node *chain =
+      start ? ambulo__yaml_require(root, "along") : ambulo__yaml_get(root, "along");
   s->chain_axis = -1;
-  const char *name = chain ? ambulo__yaml_text(chain) : NULL;
+  const char *name = chain && start ? ambulo__yaml_text(chain) : NULL;
   if (!name) return AMBULO_OK;
   s->chain_axis = ambulo__sweep_find_axis(s, name);
   if (s->chain_axis < 0)
@@ -94,21 +101,18 @@ static ambulo_status read_limits(ambulo_sweep *s, const ambulo__yaml_node *root)
 }
 
 /* the base problem is loaded once: a fault in it is told now, and its hash enters every key */
-static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
-  const char *name = node ? ambulo__yaml_text(node) : NULL;
-  if (!name) return AMBULO_E_SCHEMA;
-  s->base = ambulo__sibling_path(&s->allocator, s->path, name);
-  if (!s->base) return AMBULO_E_MEMORY;
+static ambulo_status read_base(ambulo_sweep *s) {
   ambulo_problem *problem = NULL;
   ambulo_status status =
       ambulo_problem_load(s->base, NULL, 0, &s->allocator, s->diagnostics, &problem);
   if (status) return status;
   ambulo_versions versions;
   ambulo_versions_get(&versions);
-  unsigned long long hash = ambulo__hash_word(AMBULO__HASH_START, ambulo_problem_hash(problem));
+  s->problem_hash = ambulo_problem_hash(problem);
+  /* not the instruction set: the nodes of a cluster may differ in it */
+  unsigned long long hash = ambulo__hash_word(AMBULO__HASH_START, s->problem_hash);
   hash = ambulo__hash_text(hash, versions.ambulo);
-  hash = ambulo__hash_text(hash, versions.nlopt);
-  s->base_hash = ambulo__hash_text(hash, versions.instruction_set);
+  s->base_hash = ambulo__hash_text(hash, versions.nlopt);
   ambulo_problem_free(problem);
   return AMBULO_OK;
 }
@@ -122,13 +126,16 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   s->case_name = copy_scalar(s, ambulo__yaml_get(root, "case_name"));
   const ambulo__yaml_node *base = ambulo__yaml_require(root, "base");
   const ambulo__yaml_node *cases = ambulo__yaml_get(root, "cases");
-  ambulo_status status = read_axes(s, root);
+  if (!base || !s->name) return ambulo__yaml_finish(document);
+  s->base = ambulo__sibling_path(&s->allocator, s->path, ambulo__yaml_text(base));
+  ambulo_status status = s->base ? read_axes(s, root) : AMBULO_E_MEMORY;
   if (!status) status = read_texts(s, ambulo__yaml_get(root, "filters"), &s->filter, &s->filters);
   if (!status) status = read_texts(s, ambulo__yaml_get(root, "outputs"), &s->output, &s->outputs);
   if (!status) status = read_limits(s, root);
+  if (!status) status = read_chain(s, root);
   ambulo__yaml_close(root);
   if (!status) status = ambulo__yaml_finish(document);
-  if (!status) status = read_base(s, base);
+  if (!status) status = read_base(s);
   if (!status) status = ambulo__sweep_build_cases(s, cases);
   if (!status) status = ambulo__yaml_finish(document);
   return status;
@@ -166,12 +173,13 @@ void ambulo_sweep_free(ambulo_sweep *s) {
   if (!s) return;
   ambulo_allocator a = s->allocator;
   for (int i = 0; i < s->axes; i++) {
-    free_texts(&a, s->axis[i].value, s->axis[i].count);
+    free_texts(&a, s->axis[i].override, s->axis[i].count);
+    ambulo__free(&a, s->axis[i].file);
     ambulo__free(&a, s->axis[i].name);
     ambulo__free(&a, s->axis[i].key);
   }
   for (int i = 0; i < s->case_count; i++) {
-    free_texts(&a, s->cases[i].override, s->cases[i].overrides);
+    ambulo__free(&a, (void *)s->cases[i].override);
     ambulo__free(&a, s->cases[i].id);
     ambulo__free(&a, s->cases[i].name);
   }
@@ -188,10 +196,18 @@ void ambulo_sweep_free(ambulo_sweep *s) {
 
 /* ------------------------------------------------------------------ queries */
 
-const char *ambulo_sweep_name(const ambulo_sweep *s) { return s->name; }
-const char *ambulo_sweep_base(const ambulo_sweep *s) { return s->base; }
-int ambulo_sweep_case_count(const ambulo_sweep *s) { return s->case_count; }
-int ambulo_sweep_axis_count(const ambulo_sweep *s) { return s->axes; }
+const char *ambulo_sweep_name(const ambulo_sweep *s) {
+  return s->name;
+}
+const char *ambulo_sweep_base(const ambulo_sweep *s) {
+  return s->base;
+}
+int ambulo_sweep_case_count(const ambulo_sweep *s) {
+  return s->case_count;
+}
+int ambulo_sweep_axis_count(const ambulo_sweep *s) {
+  return s->axes;
+}
 
 const char *ambulo_sweep_axis_name(const ambulo_sweep *s, int axis) {
   return axis >= 0 && axis < s->axes ? s->axis[axis].name : NULL;
@@ -199,15 +215,14 @@ const char *ambulo_sweep_axis_name(const ambulo_sweep *s, int axis) {
 
 const char *ambulo_sweep_value(const ambulo_sweep *s, int index, int axis) {
   if (index < 0 || index >= s->case_count || axis < 0 || axis >= s->axes) return "";
-  int value = s->value[(size_t)index * AMBULO__SWEEP_AXES + (size_t)axis];
-  return value < 0 ? "" : s->axis[axis].value[value];
+  int value = s->value[(size_t)index * (size_t)s->stride + (size_t)axis];
+  return value < 0 ? "" : ambulo__axis_text(&s->axis[axis], value);
 }
 
 ambulo_status ambulo_sweep_case(const ambulo_sweep *s, int index, ambulo_case *one) {
   if (!s || !one || index < 0 || index >= s->case_count) return AMBULO_E_ARGUMENT;
   const ambulo__sweep_case *c = &s->cases[index];
-  ambulo_case view = {c->id,        c->name,     (const char *const *)c->override,
-                      c->overrides, c->previous, c->key};
+  ambulo_case view = {c->id, c->name, c->override, c->overrides, c->previous, c->key};
   *one = view;
   return AMBULO_OK;
 }

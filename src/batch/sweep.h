@@ -15,7 +15,8 @@ enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEX
 
 typedef struct ambulo__axis {
   char *name, *key;
-  char **value; /* [count] */
+  char **override;          /* [count] "key=value"; cases share these texts */
+  unsigned long long *file; /* [count] hash of the file that the value names; 0: none */
   int count, capacity;
 } ambulo__axis;
 
@@ -26,7 +27,7 @@ typedef struct ambulo__axis_group {
 
 typedef struct ambulo__sweep_case {
   char *id, *name;
-  char **override; /* [overrides] */
+  const char **override; /* [overrides], texts of the axes */
   int overrides;
   int previous;
   unsigned long long key;
@@ -46,14 +47,16 @@ struct ambulo_sweep {
   double case_seconds; /* 0: no limit */
   int case_megabytes;  /* 0: no limit */
   ambulo__sweep_case *cases;
-  int *value;          /* [cases][axes]: index into the axis's values; -1: not set */
+  int *value; /* [cases][stride]: index into the axis's values; -1: not set */
+  int stride; /* axes, those of explicit cases included */
   int case_count, case_capacity;
-  unsigned long long base_hash;
+  unsigned long long problem_hash, base_hash; /* of the base; with the versions */
 };
 
 /* Each reports its own faults; E_MEMORY or what the reader found. */
 ambulo_status ambulo__sweep_read(ambulo_sweep *sweep, const ambulo__yaml *document);
-ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep, const ambulo__yaml_node *explicit_cases);
+ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
+                                        const ambulo__yaml_node *explicit_cases);
 ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_node *node);
 /* Fills axes of a sampled group: samples values each, uniform in the axis's range. */
 ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml_node *node,
@@ -66,7 +69,11 @@ ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, cons
 ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
                                     size_t length);
 ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value);
+const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
+
+/* sweep_chains.c: sets `previous` of every case, and lets keys depend on it. */
+ambulo_status ambulo__sweep_link_chains(ambulo_sweep *sweep);
 
 /* 1 if "a OP b" holds, 0 if not, -1 if the text is no comparison of axis names, numbers and
  * words. OP: < <= > >= == !=. `text_of` gives the text of an axis name (NULL: no axis). */

@@ -19,7 +19,7 @@ static const char *text_of_axis(void *user, const char *name) {
   const builder *b = user;
   int axis = ambulo__sweep_find_axis(b->sweep, name);
   if (axis < 0) return NULL;
-  return b->value[axis] < 0 ? "" : b->sweep->axis[axis].value[b->value[axis]];
+  return b->value[axis] < 0 ? "" : ambulo__axis_text(&b->sweep->axis[axis], b->value[axis]);
 }
 
 static ambulo_status passes(builder *b, int *pass) {
@@ -50,32 +50,22 @@ static ambulo_status grow(ambulo_sweep *s) {
   ambulo__sweep_case *cases =
       ambulo__realloc(&s->allocator, s->cases, (size_t)capacity, sizeof *cases);
   if (cases) s->cases = cases;
-  int *value = ambulo__realloc(&s->allocator, s->value,
-                               (size_t)capacity * AMBULO__SWEEP_AXES, sizeof *value);
+  int *value =
+      ambulo__realloc(&s->allocator, s->value, (size_t)capacity * (size_t)s->stride, sizeof *value);
   if (value) s->value = value;
   if (!cases || !value) return AMBULO_E_MEMORY;
   s->case_capacity = capacity;
   return AMBULO_OK;
 }
 
-static char *make_override(const ambulo_sweep *s, int axis, int value) {
-  const char *key = s->axis[axis].key, *text = s->axis[axis].value[value];
-  size_t size = strlen(key) + strlen(text) + 2;
-  char *override = ambulo__alloc(&s->allocator, size, 1);
-  if (override) (void)snprintf(override, size, "%s=%s", key, text);
-  return override;
-}
-
 static ambulo_status fill_overrides(builder *b, ambulo__sweep_case *one) {
   const ambulo_sweep *s = b->sweep;
-  one->override = ambulo__alloc(&s->allocator, (size_t)s->axes, sizeof *one->override);
+  int count = 0;
+  for (int i = 0; i < s->axes; i++) count += b->value[i] >= 0;
+  one->override = ambulo__alloc(&s->allocator, (size_t)count, sizeof *one->override);
   if (!one->override) return AMBULO_E_MEMORY;
-  for (int i = 0; i < s->axes; i++) {
-    if (b->value[i] < 0) continue;
-    one->override[one->overrides] = make_override(s, i, b->value[i]);
-    if (!one->override[one->overrides]) return AMBULO_E_MEMORY;
-    one->overrides++;
-  }
+  for (int i = 0; i < s->axes; i++)
+    if (b->value[i] >= 0) one->override[one->overrides++] = s->axis[i].override[b->value[i]];
   return AMBULO_OK;
 }
 
@@ -107,7 +97,8 @@ static ambulo_status add_case(builder *b, const char *pattern) {
   if (status) return status;
   ambulo__sweep_case *one = &s->cases[s->case_count];
   memset(one, 0, sizeof *one);
-  memcpy(s->value + (size_t)s->case_count * AMBULO__SWEEP_AXES, b->value, sizeof b->value);
+  memcpy(s->value + (size_t)s->case_count * (size_t)s->stride, b->value,
+         (size_t)s->stride * sizeof *b->value);
   s->case_count++;
   one->previous = -1;
   status = fill_overrides(b, one);
@@ -115,8 +106,12 @@ static ambulo_status add_case(builder *b, const char *pattern) {
   unsigned long long hash = AMBULO__HASH_START;
   for (int i = 0; i < one->overrides; i++) hash = ambulo__hash_text(hash, one->override[i]);
   one->key = ambulo__hash_word(hash, s->base_hash);
+  for (int i = 0; i < s->axes; i++) {
+    if (b->value[i] >= 0 && s->axis[i].file[b->value[i]])
+      one->key = ambulo__hash_word(one->key, s->axis[i].file[b->value[i]]);
+  }
   char id[40];
-  (void)snprintf(id, sizeof id, "%07lld-%08llx", b->place, hash & 0xffffffffULL);
+  (void)snprintf(id, sizeof id, "%09lld-%08llx", b->place, hash & 0xffffffffULL);
   one->id = ambulo__strdup(&s->allocator, id);
   one->name = pattern ? expand_name(b, pattern) : ambulo__strdup(&s->allocator, id);
   return one->id && one->name ? AMBULO_OK : AMBULO_E_MEMORY;
@@ -149,15 +144,32 @@ static ambulo_status product(builder *b) {
   return status;
 }
 
+static int axis_of_key(const ambulo_sweep *s, const char *key) {
+  for (int i = 0; i < s->axes; i++)
+    if (strcmp(s->axis[i].key, key) == 0) return i;
+  return -1;
+}
+
+/* axes for the keys that only explicit cases set, before any case is stored */
+static ambulo_status add_explicit_axes(ambulo_sweep *s, const ambulo__yaml_node *cases) {
+  for (int i = 0; i < ambulo__yaml_count(cases); i++) {
+    const ambulo__yaml_node *set = ambulo__yaml_require(ambulo__yaml_item(cases, i), "set");
+    for (int j = 0; j < ambulo__yaml_count(set); j++) {
+      const char *key = ambulo__yaml_key(set, j);
+      if (axis_of_key(s, key) >= 0) continue;
+      if (s->axes == AMBULO__SWEEP_AXES)
+        return ambulo__yaml_error(set, AMBULO_E_LIMIT, NULL, "more than %d keys",
+                                  AMBULO__SWEEP_AXES);
+      if (!ambulo__sweep_add_axis(s, NULL, key)) return AMBULO_E_MEMORY;
+    }
+  }
+  return AMBULO_OK;
+}
+
 static ambulo_status set_value(builder *b, const char *key, const char *text) {
   ambulo_sweep *s = b->sweep;
-  int axis = -1;
-  for (int i = 0; i < s->axes; i++)
-    if (strcmp(s->axis[i].key, key) == 0) axis = i;
-  if (axis < 0) {
-    if (!ambulo__sweep_add_axis(s, NULL, key)) return AMBULO_E_MEMORY;
-    axis = s->axes - 1;
-  }
+  int axis = axis_of_key(s, key);
+  if (axis < 0) return AMBULO_E_INTERNAL;
   ambulo_status status = ambulo__axis_add_text(s, &s->axis[axis], text, strlen(text));
   if (!status) b->value[axis] = s->axis[axis].count - 1;
   return status;
@@ -180,34 +192,12 @@ static ambulo_status explicit_case(builder *b, const ambulo__yaml_node *node) {
   return status;
 }
 
-/* ------------------------------------------------------------------ chains */
-
-static int same_but(const ambulo_sweep *s, int a, int b, int axis) {
-  const int *x = s->value + (size_t)a * AMBULO__SWEEP_AXES;
-  const int *y = s->value + (size_t)b * AMBULO__SWEEP_AXES;
-  for (int i = 0; i < s->axes; i++)
-    if (i != axis && x[i] != y[i]) return 0;
-  return 1;
-}
-
-/* each case starts from the nearest earlier one that differs along the chain's axis only */
-static void link_chains(ambulo_sweep *s) {
-  for (int k = 0; s->chain_axis >= 0 && k < s->case_count; k++) {
-    int place = s->value[(size_t)k * AMBULO__SWEEP_AXES + (size_t)s->chain_axis];
-    for (int j = k - 1; j >= 0 && place > 0; j--) {
-      if (s->value[(size_t)j * AMBULO__SWEEP_AXES + (size_t)s->chain_axis] != place - 1) continue;
-      if (!same_but(s, j, k, s->chain_axis)) continue;
-      s->cases[k].previous = j;
-      s->cases[k].key = ambulo__hash_word(s->cases[k].key, s->cases[j].key);
-      break;
-    }
-  }
-}
-
 ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
                                         const ambulo__yaml_node *explicit_cases) {
   builder b = {.sweep = sweep};
-  ambulo_status status = product(&b);
+  ambulo_status status = add_explicit_axes(sweep, explicit_cases);
+  sweep->stride = sweep->axes > 0 ? sweep->axes : 1;
+  if (!status) status = product(&b);
   for (int i = 0; i < ambulo__yaml_count(explicit_cases) && !status; i++)
     status = explicit_case(&b, ambulo__yaml_item(explicit_cases, i));
   if (status) return status;
@@ -217,6 +207,5 @@ ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
                          "the sweep has no case left; expected at least one%s",
                          sweep->filters ? " that passes the filters" : "");
   }
-  link_chains(sweep);
-  return AMBULO_OK;
+  return ambulo__sweep_link_chains(sweep);
 }

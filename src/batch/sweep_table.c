@@ -17,8 +17,8 @@ typedef struct table {
 static ambulo_status fault(const table *t, int line, int column, const char *what, int got,
                            int expected) {
   ambulo__place place = {t->file, line, column, NULL};
-  return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place, NULL, "%s (got %d); expected %d",
-                       what, got, expected);
+  return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                       "%s (got %d); expected %d", what, got, expected);
 }
 
 static ambulo_status add_header(table *t, const ambulo__table_line *line) {

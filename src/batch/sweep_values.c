@@ -6,12 +6,14 @@
  * strata as there are samples, each used once, in an order shuffled by axis (McKay, Beckman &
  * Conover, Technometrics 21, 1979). */
 #include "base/numtext.h"
+#include "base/read_file.h"
+#include "batch/paths.h"
 #include "batch/sweep.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_VALUES = 1000000 };
+enum { MOST_VALUES = 1000000, MOST_FILE_BYTES = 16 << 20 };
 
 ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key) {
   if (sweep->axes == AMBULO__SWEEP_AXES) return NULL;
@@ -28,22 +30,52 @@ int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name) {
   return -1;
 }
 
-ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
-                                    size_t length) {
+/* hash of the regular file that a value names, seen from the base problem; 0: no such file */
+static unsigned long long hash_named_file(const ambulo_sweep *sweep, const char *name) {
+  double number;
+  if (!name[0] || ambulo__parse_double(name, strlen(name), &number)) return 0;
+  const char *base = sweep->base ? sweep->base : sweep->path;
+  char *path = ambulo__sibling_path(&sweep->allocator, base, name), *text = NULL;
+  size_t length = 0;
+  unsigned long long hash = 0;
+  if (path && !ambulo__read_file(path, MOST_FILE_BYTES, &sweep->allocator, NULL, &text, &length))
+    hash = ambulo__hash_text(AMBULO__HASH_START, text);
+  ambulo__free(&sweep->allocator, text);
+  ambulo__free(&sweep->allocator, path);
+  return hash;
+}
+
+static ambulo_status grow(const ambulo_sweep *sweep, ambulo__axis *axis) {
   const ambulo_allocator *a = &sweep->allocator;
   if (axis->count == MOST_VALUES) return AMBULO_E_LIMIT;
-  if (axis->count == axis->capacity) {
-    int capacity = axis->capacity ? 2 * axis->capacity : 8;
-    char **grown = ambulo__realloc(a, axis->value, (size_t)capacity, sizeof *grown);
-    if (!grown) return AMBULO_E_MEMORY;
-    axis->value = grown;
-    axis->capacity = capacity;
-  }
-  char *copy = ambulo__alloc(a, length + 1, 1);
-  if (!copy) return AMBULO_E_MEMORY;
-  memcpy(copy, text, length);
-  axis->value[axis->count++] = copy;
+  if (axis->count < axis->capacity) return AMBULO_OK;
+  int capacity = axis->capacity ? 2 * axis->capacity : 8;
+  char **texts = ambulo__realloc(a, axis->override, (size_t)capacity, sizeof *texts);
+  if (texts) axis->override = texts;
+  unsigned long long *files = ambulo__realloc(a, axis->file, (size_t)capacity, sizeof *files);
+  if (files) axis->file = files;
+  if (!texts || !files) return AMBULO_E_MEMORY;
+  axis->capacity = capacity;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
+                                    size_t length) {
+  ambulo_status status = grow(sweep, axis);
+  if (status) return status;
+  size_t key = strlen(axis->key);
+  char *copy = ambulo__alloc(&sweep->allocator, key + length + 2, 1);
+  if (!copy) return AMBULO_E_MEMORY;
+  memcpy(copy, axis->key, key);
+  copy[key] = '=';
+  memcpy(copy + key + 1, text, length);
+  axis->file[axis->count] = hash_named_file(sweep, copy + key + 1);
+  axis->override[axis->count++] = copy;
+  return AMBULO_OK;
+}
+
+const char *ambulo__axis_text(const ambulo__axis *axis, int value) {
+  return axis->override[value] + strlen(axis->key) + 1;
 }
 
 ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value) {

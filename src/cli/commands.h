@@ -10,5 +10,7 @@ extern const ambulo__cli_command ambulo__cli_check;
 extern const ambulo__cli_command ambulo__cli_info;
 extern const ambulo__cli_command ambulo__cli_inverse;
 extern const ambulo__cli_command ambulo__cli_compare;
+extern const ambulo__cli_command ambulo__cli_batch;
+extern const ambulo__cli_command ambulo__cli_collect;
 
 #endif

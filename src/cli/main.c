@@ -7,10 +7,11 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/worker.h"
 
 static const ambulo__cli_command *const commands[] = {
-    &ambulo__cli_solve, &ambulo__cli_evaluate, &ambulo__cli_check,
-    &ambulo__cli_info,  &ambulo__cli_inverse,  &ambulo__cli_compare,
+    &ambulo__cli_solve,   &ambulo__cli_evaluate, &ambulo__cli_check, &ambulo__cli_info,
+    &ambulo__cli_inverse, &ambulo__cli_compare,  &ambulo__cli_batch, &ambulo__cli_collect,
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
@@ -71,6 +72,7 @@ static int dispatch(int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
+  if (!ambulo__cli_become_worker()) return 128 + SIGTERM;
   ambulo__cli_guard_streams();
   single_threaded_blas(argv);
   /* a closed pipe and a file size limit show up as failed writes, exit code 4 */

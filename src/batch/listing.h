@@ -1,0 +1,50 @@
+/* batch/listing.h - what a batch folder says about itself.
+ *
+ * DIR/cases.tsv: one line a case: id, key (16 hexadecimal digits), name, one column an axis.
+ * DIR/batch.json: name, version, base problem and its hash, hash of the list, axes, outputs.
+ * Both are written when a run begins; everything that only reads the folder starts here. */
+#ifndef AMBULO_BATCH_LISTING_H
+#define AMBULO_BATCH_LISTING_H
+
+#include "ambulo/batch.h"
+#include "base/alloc.h"
+#include "base/diagnostics.h"
+
+enum {
+  AMBULO__LISTING_ID,
+  AMBULO__LISTING_KEY,
+  AMBULO__LISTING_NAME,
+  AMBULO__LISTING_AXES /* first axis */
+};
+
+typedef struct ambulo__listing {
+  ambulo_allocator allocator;
+  char *text;
+  const char **cell; /* [cases + 1][columns]; row 0: titles */
+  int cases, columns;
+  char **output; /* [outputs] */
+  int outputs;
+  char *name, *version, *problem_hash;
+} ambulo__listing;
+
+/* Errors: E_IO (no such folder, no batch in it), E_PARSE, E_SCHEMA, E_MEMORY. */
+ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo__listing *listing);
+void ambulo__listing_free(ambulo__listing *listing);
+/* Cell of case `index` (0-based). */
+const char *ambulo__listing_cell(const ambulo__listing *listing, int index, int column);
+const char *ambulo__listing_title(const ambulo__listing *listing, int column);
+int ambulo__listing_key(const ambulo__listing *listing, int index, unsigned long long *key);
+
+/* Creates DIR and DIR/cases; a folder that holds other things is refused. Errors: E_IO. */
+ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *allocator,
+                                         ambulo_diagnostics *diagnostics);
+
+/* Makes the folder a batch folder of this sweep. One that holds another list is refused, with
+ * what changed, unless force = 1. Errors: E_IO,
+ * E_PROBLEM (changed), E_MEMORY. */
+ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_diagnostics *diagnostics);
+
+#endif

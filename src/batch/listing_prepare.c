@@ -1,0 +1,204 @@
+/* batch/listing_prepare.c - turning a folder into the batch folder of a sweep, and telling what
+ * changed since it was one (listing.h). */
+#include "ambulo/report.h"
+#include "base/atomic_file.h"
+#include "base/file_steps.h"
+#include "base/text_buffer.h"
+#include "batch/listing.h"
+#include "batch/paths.h"
+#include "batch/sweep.h"
+#include "report/json_text.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ------------------------------------------------------------------ writing */
+
+/* tabs and line ends separate cells, so they become blanks inside */
+static void append_cell(ambulo__text_buffer *text, const char *cell, char end) {
+  for (; *cell; cell++) {
+    char c = *cell == '\t' || *cell == '\n' || *cell == '\r' ? ' ' : *cell;
+    ambulo__text_append_char(text, c);
+  }
+  ambulo__text_append_char(text, end);
+}
+
+static void list_text(const ambulo_sweep *s, ambulo__text_buffer *text) {
+  char end = s->axes > 0 ? '\t' : '\n';
+  ambulo__text_append(text, "id\tkey\tname");
+  ambulo__text_append_char(text, end);
+  for (int i = 0; i < s->axes; i++)
+    append_cell(text, s->axis[i].name, i + 1 < s->axes ? '\t' : '\n');
+  for (int k = 0; k < s->case_count; k++) {
+    const ambulo__sweep_case *one = &s->cases[k];
+    ambulo__text_append_format(text, "%s\t%016llx\t", one->id, one->key);
+    append_cell(text, one->name, end);
+    for (int i = 0; i < s->axes; i++)
+      append_cell(text, ambulo_sweep_value(s, k, i), i + 1 < s->axes ? '\t' : '\n');
+  }
+}
+
+static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
+  ambulo_versions versions;
+  ambulo_versions_get(&versions);
+  ambulo__json json = {text, 0, 1};
+  char hash[20], version[64];
+  (void)snprintf(hash, sizeof hash, "%016llx", s->problem_hash);
+  (void)snprintf(version, sizeof version, "ambulo %s, NLopt %s", versions.ambulo, versions.nlopt);
+  ambulo__json_open(&json, NULL, '{');
+  ambulo__json_text(&json, "schema", "ambulo-batch/1");
+  ambulo__json_text(&json, "name", s->name);
+  ambulo__json_text(&json, "version", version);
+  ambulo__json_text(&json, "sweep", s->path);
+  ambulo__json_text(&json, "base", s->base);
+  ambulo__json_text(&json, "problem_hash", hash);
+  ambulo__json_integer(&json, "cases", s->case_count);
+  ambulo__json_open(&json, "outputs", '[');
+  for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output[i]);
+  ambulo__json_close(&json, ']');
+  ambulo__json_close(&json, '}');
+}
+
+static ambulo_status write_text(const char *directory, const char *name,
+                                const ambulo__text_buffer *text, const ambulo_allocator *a,
+                                ambulo_diagnostics *diagnostics) {
+  char *path = ambulo__join_paths(a, directory, name, NULL);
+  ambulo_status status = path ? ambulo__text_status(text) : AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo__write_file(path, ambulo__text_data(text), text->length, 1, a, diagnostics);
+  ambulo__free(a, path);
+  return status;
+}
+
+static ambulo_status write_listing(const ambulo_sweep *s, const char *directory,
+                                   const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, a);
+  list_text(s, &text);
+  ambulo_status status = write_text(directory, "cases.tsv", &text, a, diagnostics);
+  ambulo__text_clear(&text);
+  describe(s, &text);
+  if (!status) status = write_text(directory, "batch.json", &text, a, diagnostics);
+  ambulo__text_free(&text);
+  return status;
+}
+
+/* ---------------------------------------------------------------- comparing */
+
+typedef struct changes {
+  int same, changed, added, gone;
+} changes;
+
+/* both lists are sorted by id */
+static changes compare(const ambulo_sweep *s, const ambulo__listing *old) {
+  changes c = {0, 0, 0, 0};
+  int i = 0, j = 0;
+  while (i < s->case_count || j < old->cases) {
+    int order;
+    if (i == s->case_count) {
+      order = 1;
+    } else if (j == old->cases) {
+      order = -1;
+    } else {
+      order = strcmp(s->cases[i].id, ambulo__listing_cell(old, j, AMBULO__LISTING_ID));
+    }
+    unsigned long long key = 0;
+    if (order == 0) {
+      int same = ambulo__listing_key(old, j, &key) && key == s->cases[i].key;
+      c.same += same;
+      c.changed += !same;
+    }
+    c.added += order < 0;
+    c.gone += order > 0;
+    i += order <= 0;
+    j += order >= 0;
+  }
+  return c;
+}
+
+static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
+                            const ambulo__listing *old, changes c,
+                            ambulo_diagnostics *diagnostics) {
+  ambulo_versions versions;
+  ambulo_versions_get(&versions);
+  char hash[20], version[64];
+  (void)snprintf(hash, sizeof hash, "%016llx", s->problem_hash);
+  (void)snprintf(version, sizeof version, "ambulo %s, NLopt %s", versions.ambulo, versions.nlopt);
+  int problem = strcmp(hash, old->problem_hash) != 0, other = strcmp(version, old->version) != 0;
+  ambulo__place place = {directory, 0, 0, NULL};
+  return ambulo__error(
+      diagnostics, AMBULO_E_PROBLEM, place,
+      "--force keeps the cases that are the same and computes the others; or give another folder",
+      "the folder was filled from other inputs: %s%s%s%s%d cases the same, %d with other inputs, "
+      "%d new, %d gone",
+      problem ? "the base problem changed; " : "", other ? "the version changed (was " : "",
+      other ? old->version : "",
+      other     ? "); "
+      : problem ? ""
+                : "the sweep changed; ",
+      c.same, c.changed, c.added, c.gone);
+}
+
+/* ----------------------------------------------------------------- the folder */
+
+/* 1: holds nothing but what a batch writes first */
+static int is_fresh(const char *directory) {
+  static const char *const ours[] = {".", "..", "lock", "cases", "batch.json", "results"};
+  DIR *stream = opendir(directory);
+  int fresh = stream != NULL;
+  for (struct dirent *e = stream ? readdir(stream) : NULL; e && fresh; e = readdir(stream)) {
+    fresh = 0;
+    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+      fresh |= strncmp(e->d_name, ours[i], strlen(ours[i])) == 0;
+  }
+  if (stream) closedir(stream);
+  return fresh;
+}
+
+static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnostics) {
+  struct stat entry;
+  if (mkdir(path, 0777) == 0) return AMBULO_OK;
+  if (errno == EEXIST && stat(path, &entry) == 0 && !S_ISDIR(entry.st_mode)) errno = ENOTDIR;
+  return errno == EEXIST ? AMBULO_OK : ambulo__io_error(diagnostics, path, "create the folder");
+}
+
+ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *a,
+                                         ambulo_diagnostics *diagnostics) {
+  ambulo_status status = make_folder(directory, diagnostics);
+  if (!status && !is_fresh(directory)) {
+    ambulo__place place = {directory, 0, 0, NULL};
+    char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
+    struct stat entry;
+    if (!mark || stat(mark, &entry) != 0)
+      status = ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                             "the folder holds other files; expected a new, an empty or a batch "
+                             "folder");
+    ambulo__free(a, mark);
+  }
+  char *cases = ambulo__join_paths(a, directory, "cases", NULL);
+  if (!status) status = cases ? make_folder(cases, diagnostics) : AMBULO_E_MEMORY;
+  ambulo__free(a, cases);
+  return status;
+}
+
+ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
+                                      const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  ambulo__listing old;
+  struct stat entry;
+  char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
+  if (!mark) return AMBULO_E_MEMORY;
+  int there = stat(mark, &entry) == 0;
+  ambulo__free(a, mark);
+  ambulo_status status = AMBULO_OK;
+  /* a description that cannot be read is rewritten: the records carry the keys themselves */
+  if (there && ambulo__listing_load(directory, a, NULL, &old) == AMBULO_OK) {
+    changes c = compare(sweep, &old);
+    if (c.changed + c.added + c.gone > 0 && !force)
+      status = refuse(sweep, directory, &old, c, diagnostics);
+    ambulo__listing_free(&old);
+  }
+  return status ? status : write_listing(sweep, directory, a, diagnostics);
+}

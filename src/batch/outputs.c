@@ -1,0 +1,152 @@
+/* batch/outputs.c - see outputs.h. */
+#include "batch/outputs.h"
+#include "base/numtext.h"
+#include "base/read_file.h"
+#include "base/yaml_node.h"
+#include "batch/paths.h"
+#include "trajectory/table_text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_MOTION_BYTES = 1 << 30, PART = 128 };
+
+static void set_number(ambulo__output *value, double number) {
+  value->kind = AMBULO__OUTPUT_NUMBER;
+  value->number = number;
+  (void)ambulo__print_double(value->text, number);
+}
+
+/* ------------------------------------------------------------- summary.json */
+
+/* the child that the first part of *path names; moves *path behind it */
+static const ambulo__yaml_node *step(const ambulo__yaml_node *node, const char **path) {
+  char part[PART];
+  size_t item = **path == '[', length = strcspn(*path + item, ".[]");
+  if (length >= sizeof part) return NULL;
+  memcpy(part, *path + item, length);
+  part[length] = '\0';
+  *path += item + length;
+  if (item && **path == ']') (*path)++;
+  if (**path == '.') (*path)++;
+  if (item) {
+    int index = (int)strtol(part, NULL, 10);
+    return index >= 0 && index < ambulo__yaml_count(node) ? ambulo__yaml_item(node, index) : NULL;
+  }
+  return ambulo__yaml_kind_of(node) == AMBULO__YAML_MAPPING ? ambulo__yaml_get(node, part) : NULL;
+}
+
+static void read_path(const ambulo__yaml_node *root, const char *path, ambulo__output *value) {
+  const ambulo__yaml_node *node = root;
+  while (node && *path) node = step(node, &path);
+  if (node && ambulo__yaml_kind_of(node) == AMBULO__YAML_MAPPING)
+    node = ambulo__yaml_get(node, "total");
+  if (!node || ambulo__yaml_kind_of(node) != AMBULO__YAML_SCALAR) return;
+  const char *text = ambulo__yaml_text(node);
+  double number;
+  if (ambulo__parse_double(text, strlen(text), &number)) {
+    set_number(value, number);
+  } else if (strcmp(text, "null") != 0) {
+    value->kind = AMBULO__OUTPUT_TEXT;
+    (void)snprintf(value->text, sizeof value->text, "%s", text);
+  }
+}
+
+/* --------------------------------------------------------------- motion.csv */
+
+typedef enum reduction { MAX, MIN, MEAN, RANGE, PATH } reduction;
+
+/* which reduction an output asks for; its column is copied */
+static reduction parse(const char *output, char column[PART]) {
+  static const char *const words[] = {"max(", "min(", "mean(", "range("};
+  size_t length = strlen(output);
+  for (int i = 0; i < PATH; i++) {
+    size_t word = strlen(words[i]);
+    if (strncmp(output, words[i], word) != 0 || output[length - 1] != ')') continue;
+    if (length - word - 1 >= PART) continue;
+    memcpy(column, output + word, length - word - 1);
+    column[length - word - 1] = '\0';
+    return (reduction)i;
+  }
+  return PATH;
+}
+
+typedef struct motion {
+  const char *text;
+  size_t length;
+  ambulo__table_line header;
+} motion;
+
+static int column_of(const motion *m, const char *name) {
+  ambulo__table_cell cell;
+  size_t position = 0;
+  for (int i = 0; ambulo__table_next_cell(&m->header, AMBULO__CELLS_COMMA, &position, &cell); i++)
+    if (cell.length == strlen(name) && memcmp(cell.start, name, cell.length) == 0) return i;
+  return -1;
+}
+
+static int number_at(const ambulo__table_line *line, int column, double *number) {
+  ambulo__table_cell cell;
+  size_t position = 0;
+  for (int i = 0; ambulo__table_next_cell(line, AMBULO__CELLS_COMMA, &position, &cell); i++)
+    if (i == column) return ambulo__parse_double(cell.start, cell.length, number);
+  return 0;
+}
+
+static void reduce(const motion *m, reduction how, const char *name, ambulo__output *value) {
+  int column = column_of(m, name), time = column_of(m, "time"), rows = 0;
+  double least = 0.0, most = 0.0, area = 0.0, first = 0.0, t0 = 0.0, y0 = 0.0;
+  ambulo__table_line line = m->header;
+  while (column >= 0 && ambulo__table_next_line(m->text, m->length, &line)) {
+    double y, t = 0.0;
+    if (!number_at(&line, column, &y) || (time >= 0 && !number_at(&line, time, &t))) continue;
+    if (rows == 0) {
+      least = most = y;
+      first = t;
+    } else {
+      area += 0.5 * (y + y0) * (t - t0);
+    }
+    if (y < least) least = y;
+    if (y > most) most = y;
+    t0 = t;
+    y0 = y;
+    rows++;
+  }
+  if (rows == 0) return;
+  double mean = t0 > first ? area / (t0 - first) : y0;
+  set_number(value, how == MAX ? most : how == MIN ? least : how == MEAN ? mean : most - least);
+}
+
+static int open_motion(motion *m) {
+  memset(&m->header, 0, sizeof m->header);
+  while (ambulo__table_next_line(m->text, m->length, &m->header))
+    if (m->header.length > 0 && m->header.start[0] != '#') return 1;
+  return 0;
+}
+
+void ambulo__outputs_of(const char *directory, const char *id, char *const *output, int count,
+                        const ambulo_allocator *a, ambulo__output *value) {
+  char *summary = ambulo__case_path(a, directory, id, "/summary.json");
+  char *file = ambulo__case_path(a, directory, id, "/motion.csv"), *text = NULL;
+  ambulo__yaml *document = NULL;
+  motion m = {NULL, 0, {NULL, 0, 0, 0}};
+  if (summary && ambulo__yaml_load(summary, a, NULL, &document)) document = NULL;
+  for (int i = 0; i < count; i++) {
+    char column[PART];
+    reduction how = parse(output[i], column);
+    memset(&value[i], 0, sizeof value[i]);
+    if (how == PATH) {
+      if (document) read_path(ambulo__yaml_root(document), output[i], &value[i]);
+      continue;
+    }
+    if (!text && file && ambulo__read_file(file, MOST_MOTION_BYTES, a, NULL, &text, &m.length))
+      text = NULL;
+    m.text = text;
+    if (text && open_motion(&m)) reduce(&m, how, column, &value[i]);
+  }
+  ambulo__yaml_free(document);
+  ambulo__free(a, text);
+  ambulo__free(a, summary);
+  ambulo__free(a, file);
+}

@@ -1,0 +1,26 @@
+/* batch/outputs.h - one collected output of a result folder.
+ *
+ * "audit.violation.worst": a path into summary.json ("objective" alone: its total).
+ * "max(tau.knee_angle_r)", min, mean (over time, trapezoids), range: of a column of motion.csv. */
+#ifndef AMBULO_BATCH_OUTPUTS_H
+#define AMBULO_BATCH_OUTPUTS_H
+
+#include "base/alloc.h"
+
+typedef enum ambulo__output_kind {
+  AMBULO__OUTPUT_NONE, /* the result has no such thing */
+  AMBULO__OUTPUT_NUMBER,
+  AMBULO__OUTPUT_TEXT
+} ambulo__output_kind;
+
+typedef struct ambulo__output {
+  ambulo__output_kind kind;
+  double number;
+  char text[200]; /* as it is written: also of a number */
+} ambulo__output;
+
+/* Fills value[count] from the folder of a case; what cannot be found is NONE. */
+void ambulo__outputs_of(const char *directory, const char *id, char *const *output, int count,
+                        const ambulo_allocator *allocator, ambulo__output *value);
+
+#endif

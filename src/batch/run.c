@@ -1,0 +1,193 @@
+/* batch/run.c - the supervisor: keeps the slots filled, enforces limits, listens to the caller.
+ *
+ * One thread, one loop: every 2 ms it asks which workers ended, which exceeded their time, and,
+ * five times a second, what the caller wants. All that must survive is on disk before the next
+ * case starts, so the supervisor may be killed anywhere. */
+#include "batch/run.h"
+#include "base/file_steps.h"
+#include "batch/clean.h"
+#include "batch/listing.h"
+#include "batch/machine.h"
+#include "batch/paths.h"
+#include "batch/worker.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+
+enum { COOKIE = 0x62617463, MOST_WORKERS = 4096 };
+static const double report_seconds = 0.2;
+
+double ambulo__run_clock(void) {
+  struct timespec now = {0, 0};
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+ambulo_batch_options ambulo_batch_options_default(void) {
+  ambulo_batch_options options;
+  memset(&options, 0, sizeof options);
+  options.cookie = COOKIE;
+  options.shard = options.shards = 1;
+  options.grace = 30.0;
+  return options;
+}
+
+/* -------------------------------------------------------------------- slots */
+
+static ambulo_status make_fan(ambulo__run *run, const char *id) {
+  char *path = ambulo__case_path(run->allocator, run->directory, id, "");
+  if (!path) return AMBULO_E_MEMORY;
+  *strrchr(path, '/') = '\0';
+  ambulo_status status = AMBULO_OK;
+  if (mkdir(path, 0777) != 0 && errno != EEXIST)
+    status = ambulo__io_error(run->diagnostics, path, "create the folder");
+  ambulo__free(run->allocator, path);
+  return status;
+}
+
+static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
+  ambulo_case one;
+  ambulo_status status = ambulo_sweep_case(run->sweep, index, &one);
+  if (!status) status = make_fan(run, one.id);
+  if (status) return status;
+  int from = ambulo__schedule_start_of(run, index);
+  ambulo__worker_job job = {run->options.program,
+                            run->sweep->base,
+                            run->directory,
+                            &one,
+                            from < 0 ? NULL : run->sweep->cases[from].id,
+                            run->case_megabytes};
+  status = ambulo__worker_start(&job, run->allocator, run->diagnostics, &slot->process);
+  if (status) {
+    slot->process = 0;
+    return status;
+  }
+  slot->index = index;
+  slot->cut = 0;
+  slot->begin = ambulo__run_clock();
+  run->state[index] = AMBULO__CASE_RUNNING;
+  run->progress.running++;
+  return AMBULO_OK;
+}
+
+static void kill_slot(ambulo__slot *slot, int cut) {
+  if (slot->process <= 0 || slot->cut) return;
+  slot->cut = cut;
+  (void)kill(slot->process, SIGKILL);
+}
+
+/* takes in what ended; the slot goes on with the chain unless the run stops */
+static void reap(ambulo__run *run, ambulo__slot *slot, int stopping) {
+  int wait_status = 0;
+  pid_t ended = waitpid(slot->process, &wait_status, WNOHANG);
+  if (ended == 0 || (ended < 0 && errno == EINTR)) {
+    if (run->case_seconds > 0.0 && ambulo__run_clock() - slot->begin > run->case_seconds)
+      kill_slot(slot, 1);
+    return;
+  }
+  pid_t process = slot->process;
+  slot->process = 0;
+  run->progress.running--;
+  ambulo_status status = AMBULO_OK;
+  if (ended == process) {
+    if (!(WIFEXITED(wait_status) && WEXITSTATUS(wait_status) <= 3))
+      ambulo__clean_case(run->directory, run->sweep->cases[slot->index].id, (long)process,
+                         run->allocator);
+    status = ambulo__outcome_record(run, slot, wait_status);
+  } else {
+    run->state[slot->index] = AMBULO__CASE_WAITING; /* somebody else waited for it */
+  }
+  int follower = stopping || status ? -1 : ambulo__schedule_follower(run, slot->index);
+  if (follower >= 0) status = start(run, slot, follower);
+  if (status && !run->status) run->status = status;
+}
+
+/* ---------------------------------------------------------------- the loop */
+
+static int ask(ambulo__run *run, int always) {
+  ambulo_batch_progress *p = &run->progress;
+  double now = ambulo__run_clock() - run->begin;
+  if (!always && now - p->seconds < report_seconds) return 0;
+  p->seconds = now;
+  p->seconds_left = run->finished_now > 0 ? now / run->finished_now * (p->cases - p->done) : -1.0;
+  return run->options.progress ? run->options.progress(run->options.user, p) : 0;
+}
+
+static void supervise(ambulo__run *run) {
+  int stop = ask(run, 1);
+  double stopped = 0.0;
+  for (;;) {
+    for (int i = 0; i < run->workers; i++) {
+      ambulo__slot *slot = &run->slot[i];
+      if (slot->process > 0) reap(run, slot, stop > 0 || run->status);
+      int index = slot->process > 0 || stop > 0 || run->status ? -1 : ambulo__schedule_next(run);
+      if (index >= 0) run->status = start(run, slot, index);
+    }
+    int wish = ask(run, 0);
+    if (wish > stop) stop = wish;
+    if (run->status && stop < 1) stop = 1;
+    if (run->progress.running == 0 && (stop || run->progress.done >= run->progress.cases)) break;
+    if (run->progress.running == 0 && ambulo__schedule_next(run) < 0) break; /* given up */
+    if (run->progress.running == 0) run->cursor = 0;
+    if (stop && stopped == 0.0) stopped = ambulo__run_clock();
+    int late = stop && ambulo__run_clock() - stopped > run->options.grace;
+    for (int i = 0; i < run->workers && (stop > 1 || late); i++) kill_slot(&run->slot[i], 2);
+    struct timespec pause = {0, 2000000};
+    (void)nanosleep(&pause, NULL);
+  }
+  (void)ask(run, 1);
+}
+
+static int acceptable(const ambulo_batch_options *o) {
+  return o->cookie == COOKIE && o->shards >= 1 && o->shard >= 1 && o->shard <= o->shards &&
+         o->workers >= 0 && o->workers <= MOST_WORKERS && o->case_seconds >= 0.0 &&
+         o->case_megabytes >= 0 && o->grace >= 0.0;
+}
+
+static ambulo_status run_locked(ambulo__run *run) {
+  ambulo_status status = ambulo__listing_prepare(run->sweep, run->directory, run->options.force,
+                                                 run->allocator, run->diagnostics);
+  if (status) return status;
+  if (run->options.shards == 1) ambulo__clean_all(run->directory, run->allocator);
+  run->begin = ambulo__run_clock();
+  status = ambulo__schedule_open(run);
+  if (status) return status;
+  supervise(run);
+  return run->status;
+}
+
+ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
+                               const ambulo_batch_options *options,
+                               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                               ambulo_batch_progress *progress) {
+  if (!sweep || !directory || !directory[0]) return AMBULO_E_ARGUMENT;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo__run run;
+  memset(&run, 0, sizeof run);
+  run.options = options ? *options : ambulo_batch_options_default();
+  if (!acceptable(&run.options)) return AMBULO_E_ARGUMENT;
+  run.sweep = sweep;
+  run.directory = directory;
+  run.allocator = &own;
+  run.diagnostics = diagnostics;
+  run.case_seconds =
+      run.options.case_seconds > 0.0 ? run.options.case_seconds : sweep->case_seconds;
+  run.case_megabytes =
+      run.options.case_megabytes > 0 ? run.options.case_megabytes : sweep->case_megabytes;
+  run.workers = ambulo__worker_count(run.options.workers, run.case_megabytes);
+  run.progress.worst_violation = -1.0;
+  ambulo__lock lock = {-1, -1};
+  ambulo_status status = ambulo__batch_make_folders(directory, &own, diagnostics);
+  if (!status)
+    status = ambulo__lock_take(directory, run.options.shard, run.options.shards, &own, diagnostics,
+                               &lock);
+  if (!status) status = run_locked(&run);
+  ambulo__lock_release(&lock);
+  if (progress) *progress = run.progress;
+  ambulo__schedule_free(&run);
+  return status;
+}

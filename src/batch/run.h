@@ -1,0 +1,60 @@
+/* batch/run.h - the supervisor: which case is next, and what became of the last. */
+#ifndef AMBULO_BATCH_RUN_H
+#define AMBULO_BATCH_RUN_H
+
+#include "batch/lock.h"
+#include "batch/record.h"
+#include "batch/sweep.h"
+
+#include <sys/types.h>
+
+typedef enum ambulo__case_state {
+  AMBULO__CASE_ELSEWHERE, /* of another shard */
+  AMBULO__CASE_WAITING,
+  AMBULO__CASE_RUNNING,
+  AMBULO__CASE_DONE,
+  AMBULO__CASE_GIVEN_UP /* its worker was killed from outside again and again: no record */
+} ambulo__case_state;
+
+typedef struct ambulo__slot {
+  pid_t process; /* 0: free */
+  int index;     /* of the case */
+  int cut;       /* 1: killed by us for its time, 2: because the run stops */
+  double begin;  /* s */
+} ambulo__slot;
+
+typedef struct ambulo__run {
+  const ambulo_sweep *sweep;
+  const char *directory;
+  ambulo_batch_options options;
+  const ambulo_allocator *allocator;
+  ambulo_diagnostics *diagnostics;
+  unsigned char *state;    /* [cases] ambulo__case_state */
+  unsigned char *solved;   /* [cases] 1: has a valid solution */
+  unsigned char *attempts; /* [cases] */
+  int *next;               /* [cases] the case that continues from this one; -1: none */
+  ambulo__slot *slot;      /* [workers] */
+  int workers, cursor, finished_now;
+  double case_seconds, begin;
+  int case_megabytes;
+  ambulo_batch_progress progress;
+  ambulo_status status; /* of the run: E_IO once a worker could not write */
+} ambulo__run;
+
+/* Seconds of a clock that only goes forward. */
+double ambulo__run_clock(void);
+
+/* schedule.c: reads the records of this shard's cases and fills the tables. */
+ambulo_status ambulo__schedule_open(ambulo__run *run);
+void ambulo__schedule_free(ambulo__run *run);
+/* The next case that may start, or -1. */
+int ambulo__schedule_next(ambulo__run *run);
+/* The case to go on with in the same slot, or -1. */
+int ambulo__schedule_follower(ambulo__run *run, int index);
+/* The nearest case before it in its chain with a solution; -1: none. */
+int ambulo__schedule_start_of(const ambulo__run *run, int index);
+
+/* outcome.c: judges an ended worker and records the case. */
+ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot, int wait_status);
+
+#endif

@@ -1,0 +1,97 @@
+/* batch/schedule.c - which case may start next.
+ *
+ * A case that continues another waits until that one is done, and is then started in the same
+ * slot; so a chain runs in order whatever the number of workers. A shard takes whole chains. */
+#include "batch/paths.h"
+#include "batch/run.h"
+
+#include <string.h>
+
+/* every k-th chain, counted over the whole list, is ours */
+static ambulo_status assign(ambulo__run *run) {
+  const ambulo_sweep *s = run->sweep;
+  int *root = ambulo__alloc(run->allocator, (size_t)s->case_count, sizeof *root), roots = 0;
+  if (!root) return AMBULO_E_MEMORY;
+  for (int k = 0; k < s->case_count; k++) {
+    int previous = s->cases[k].previous;
+    root[k] = previous < 0 ? roots++ : root[previous];
+    int ours = root[k] % run->options.shards == run->options.shard - 1;
+    run->state[k] = ours ? AMBULO__CASE_WAITING : AMBULO__CASE_ELSEWHERE;
+    run->progress.cases += ours;
+    run->next[k] = -1;
+    if (previous >= 0 && run->next[previous] < 0) run->next[previous] = k;
+  }
+  ambulo__free(run->allocator, root);
+  return AMBULO_OK;
+}
+
+static void take_record(ambulo__run *run, int k) {
+  const ambulo__sweep_case *one = &run->sweep->cases[k];
+  ambulo__record record;
+  if (ambulo__record_read(run->directory, one->id, run->allocator, &record) != AMBULO__RECORD_READ)
+    return;
+  if (record.key != one->key ||
+      ambulo__record_was_cut(&record, run->case_seconds, run->case_megabytes) ||
+      !ambulo__record_summary_intact(run->directory, one->id, &record, run->allocator))
+    return;
+  run->state[k] = AMBULO__CASE_DONE;
+  run->solved[k] = (unsigned char)record.valid;
+  run->progress.done++;
+  run->progress.resumed++;
+  run->progress.failed += !record.valid;
+}
+
+ambulo_status ambulo__schedule_open(ambulo__run *run) {
+  const ambulo_allocator *a = run->allocator;
+  size_t cases = (size_t)run->sweep->case_count;
+  run->state = ambulo__alloc(a, cases, 1);
+  run->solved = ambulo__alloc(a, cases, 1);
+  run->attempts = ambulo__alloc(a, cases, 1);
+  run->next = ambulo__alloc(a, cases, sizeof *run->next);
+  run->slot = ambulo__alloc(a, (size_t)run->workers, sizeof *run->slot);
+  if (!run->state || !run->solved || !run->attempts || !run->next || !run->slot)
+    return AMBULO_E_MEMORY;
+  ambulo_status status = assign(run);
+  for (int k = 0; k < run->sweep->case_count && !status; k++) {
+    if (run->state[k] == AMBULO__CASE_WAITING) take_record(run, k);
+  }
+  return status;
+}
+
+void ambulo__schedule_free(ambulo__run *run) {
+  const ambulo_allocator *a = run->allocator;
+  ambulo__free(a, run->state);
+  ambulo__free(a, run->solved);
+  ambulo__free(a, run->attempts);
+  ambulo__free(a, run->next);
+  ambulo__free(a, run->slot);
+}
+
+static int may_start(const ambulo__run *run, int k) {
+  int previous = run->sweep->cases[k].previous;
+  return run->state[k] == AMBULO__CASE_WAITING &&
+         (previous < 0 || run->state[previous] == AMBULO__CASE_DONE);
+}
+
+int ambulo__schedule_next(ambulo__run *run) {
+  /* once more from the front when all is quiet: a second case may continue the same one */
+  for (int pass = 0; pass < 2; pass++) {
+    for (; run->cursor < run->sweep->case_count; run->cursor++)
+      if (may_start(run, run->cursor)) return run->cursor++;
+    if (run->progress.running > 0) break;
+    run->cursor = 0;
+  }
+  return -1;
+}
+
+int ambulo__schedule_follower(ambulo__run *run, int index) {
+  if (run->state[index] == AMBULO__CASE_WAITING) return index; /* to be tried again */
+  int next = run->next[index];
+  return next >= 0 && may_start(run, next) ? next : -1;
+}
+
+int ambulo__schedule_start_of(const ambulo__run *run, int index) {
+  int k = run->sweep->cases[index].previous;
+  while (k >= 0 && !run->solved[k]) k = run->sweep->cases[k].previous;
+  return k;
+}

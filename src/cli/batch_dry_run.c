@@ -1,0 +1,87 @@
+/* cli/batch_dry_run.c - see batch_dry_run.h. */
+#include "cli/batch_dry_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/output.h"
+
+static const char *const files[] = {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
+                                    "gait.svg"};
+enum { FILES = sizeof files / sizeof files[0], RECORD_BYTES = 4096 };
+
+/* bytes on disk of a result folder, which is removed */
+static double weigh_and_remove(const char *folder) {
+  char path[600];
+  struct stat entry;
+  double bytes = RECORD_BYTES;
+  for (int i = 0; i < FILES; i++) {
+    ambulo__cli_format(path, sizeof path, "%s/%s", folder, files[i]);
+    if (stat(path, &entry) == 0) bytes += 512.0 * (double)entry.st_blocks;
+    (void)unlink(path);
+  }
+  (void)rmdir(folder);
+  return bytes;
+}
+
+/* solves the first case; 1: *seconds and *bytes are set */
+static int time_first_case(const ambulo_sweep *sweep, double *seconds, double *bytes) {
+  ambulo_case one;
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  const char *parent = getenv("TMPDIR");
+  char folder[512];
+  ambulo__cli_format(folder, sizeof folder, "%.400s/ambulo-dry-XXXXXX",
+                     parent && *parent ? parent : "/tmp");
+  ambulo_status status = ambulo_sweep_case(sweep, 0, &one);
+  if (!status)
+    status = ambulo_problem_load(ambulo_sweep_base(sweep), one.overrides, one.override_count, NULL,
+                                 NULL, &problem);
+  if (!status) {
+    ambulo_options options = ambulo_problem_options(problem);
+    status = ambulo_solve(problem, &options, NULL, NULL, NULL, &result);
+  }
+  int timed = 0;
+  if (!status && mkdtemp(folder)) {
+    ambulo_report_options options = ambulo_report_options_default();
+    timed = !ambulo_report_write(problem, result, folder, &options, NULL, NULL);
+    *bytes = weigh_and_remove(folder);
+    *seconds = ambulo_result_timing(result)->total + 0.05;
+  }
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  return timed;
+}
+
+static void print_cases(const ambulo_sweep *sweep) {
+  ambulo_case one;
+  for (int k = 0; k < ambulo_sweep_case_count(sweep); k++) {
+    if (ambulo_sweep_case(sweep, k, &one)) continue;
+    printf("%s  %s ", one.id, one.name);
+    for (int i = 0; i < one.override_count; i++) printf(" %s", one.overrides[i]);
+    printf("\n");
+  }
+}
+
+int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int workers) {
+  double seconds = 0.0, bytes = 0.0;
+  ambulo_batch_census census;
+  int cases = ambulo_sweep_case_count(sweep), left = cases;
+  const char *source = "the first case";
+  print_cases(sweep);
+  int timed = time_first_case(sweep, &seconds, &bytes);
+  if (directory && !ambulo_batch_status(directory, NULL, NULL, &census) && census.done > 0) {
+    seconds = census.seconds / census.done;
+    left = cases > census.done ? cases - census.done : 0;
+    source = "the finished cases";
+  }
+  int processes = ambulo_batch_workers(workers, 0);
+  printf("%d cases, %d to do", cases, left);
+  if (timed)
+    printf("; about %.0f s with %d processes and %.1f MB, judged by %s", seconds * left / processes,
+           processes, bytes * cases / 1e6, source);
+  printf("\n");
+  return 0;
+}

@@ -1,0 +1,61 @@
+/* cli/cmd_collect.c - ambulo collect: one table, and pictures, of a batch folder. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+
+static int print_census(const char *directory, const ambulo_batch_census *c) {
+  printf("%d cases: %d done (%d without a valid solution), %d missing, %d stale, %d corrupt\n",
+         c->cases, c->done, c->failed, c->missing, c->stale, c->corrupt);
+  int incomplete = c->missing + c->stale + c->corrupt;
+  if (c->holder[0]) {
+    printf("a batch runs in it: %s\n", c->holder);
+  } else if (incomplete) {
+    printf("run 'ambulo batch' with -o %s again to complete it\n", directory);
+  }
+  return incomplete ? 1 : 0;
+}
+
+static int run(const ambulo__cli_input *input) {
+  const char *directory = input->arguments[0], *plot = ambulo__cli_value(input, "plot");
+  ambulo_batch_census census;
+  memset(&census, 0, sizeof census);
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_batch_collect(directory, NULL, diagnostics, &census);
+  int code = 0;
+  if (!status) {
+    printf("written to %s/results.csv and %s/results.jsonl\n", directory, directory);
+    code = print_census(directory, &census);
+  }
+  char *file = NULL;
+  if (!status && plot) status = ambulo_batch_plot(directory, plot, NULL, diagnostics, &file);
+  if (file) printf("drawn to %s\n", file);
+  ambulo_text_free(file, NULL);
+  int failed = ambulo__cli_diagnostics(diagnostics, status, directory);
+  ambulo_diagnostics_free(diagnostics);
+  return failed ? failed : code;
+}
+
+static const ambulo__cli_option options[] = {
+    {"plot", 0, "X[,Y]:OUTPUT",
+     "draw an output over one axis (curves) or two (a heat map), as SVG;\n"
+     "every point names its case and leads to its gait.svg"},
+};
+
+const ambulo__cli_command ambulo__cli_collect = {
+    .name = "collect",
+    .arguments = "DIR",
+    .summary = "write the table of a batch, and draw it",
+    .description =
+        "Writes DIR/results.csv and DIR/results.jsonl: one line per case, sorted by id, with the\n"
+        "axes and the outputs the sweep file asks for. The same results give the same bytes,\n"
+        "however they were computed. Exit code 0: every case has a record; 1: some are missing,\n"
+        "stale (of other inputs) or corrupt; the table is written all the same and says which.",
+    .example = "ambulo collect walks --plot speed:objective",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
+    .minimum = 1,
+    .maximum = 1,
+    .run = run,
+};
