@@ -10,7 +10,8 @@
  *         rho <- min(3000, 2 rho) when max |max(v, -lambda/rho)| did not halve; a stall
  *         at the bound raises the bound tenfold, twice at most
  *     until f has settled, the reduced gradient is small, and v <= tolerance, or small enough
- *     for a few Newton steps on the rows                   (polish.c)
+ *     for a few Newton steps on the rows                   (polish.c); or until f has
+ *     fallen to a thousandth of its first value and changes by 1e-5 of that
  *
  * Equalities hold all along: every point is a retracted one.
  */
@@ -27,6 +28,7 @@ static const double step_cap = 0.5; /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5; /* relative */
 static const double value_floor = 1e-9;  /* scaled objective */
+static const double vanished = 1e-3;     /* of the first f: an objective that goes to zero */
 static const double moving = 1e-3;       /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
 static const double polishable = 1e-5;   /* excess, row's own unit */
@@ -37,6 +39,7 @@ typedef struct progress {
   double objective, measure, least_violation;
   int settled, since_better, loose;
   double rho_limit;
+  double first; /* f after the first refresh */
 } progress;
 
 /* largest |max(v, -lambda / rho)|: infeasibility and complementarity in one */
@@ -83,6 +86,12 @@ static void update_multipliers(ambulo__engine *e, progress *p) {
   p->measure = now;
 }
 
+/* Relative tests never end a solve whose objective goes to zero (nodes whose forces can all
+ * vanish): then changes count against the first f. */
+static int has_vanished(const progress *p, double objective, double change) {
+  return fabs(objective) <= vanished * p->first && change <= value_change * p->first;
+}
+
 /* follows the best point; 1 when the loop is to end */
 static int finished(ambulo__engine *e, progress *p, double *x) {
   const ambulo__trial *best = &e->best;
@@ -93,6 +102,7 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
   int near = violation <= fmax(tolerance, polishable);
   p->settled = near && steady ? p->settled + 1 : 0;
+  if (!(p->first < HUGE_VAL)) p->first = fabs(best->objective);
   p->objective = best->objective;
   p->since_better++;
   if (violation < 0.9 * p->least_violation || change > moving * fabs(best->objective))
@@ -100,7 +110,7 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   p->least_violation = fmin(p->least_violation, violation);
   int stalled = e->rho >= p->rho_limit && p->since_better > STALL;
   int settled = (p->settled >= 1 && (small || p->loose)) || p->settled >= 3;
-  if (violation <= tolerance) return settled;
+  if (violation <= tolerance) return settled || has_vanished(p, best->objective, change);
   if (!settled && !stalled) return 0;
   if (violation <= polish_reach && ambulo__polish(e, x)) return 1;
   if (!stalled || p->rho_limit >= rho_last) return stalled;
@@ -129,7 +139,7 @@ static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, doub
 ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose, double *x) {
   const ambulo_problem *p = e->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
-  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose, rho_largest};
+  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose, rho_largest, HUGE_VAL};
   double error;
   e->mu = mu_start * interval;
   e->rho = rho_start;

@@ -53,9 +53,29 @@ static void polish_closes_what_is_left(void **state) {
   engine_close(&f);
 }
 
+/* Hermite nodes whose forces can all vanish: the objective goes to zero, the solve ends */
+static void vanishing_objective_ends_the_solve(void **state) {
+  (void)state;
+  const char *overrides[] = {"trajectory={basis: hermite}"};
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/yardstick_12.yaml", overrides, 1, NULL, NULL, &problem),
+      AMBULO_OK);
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  int evaluations = ambulo_result_evaluations(result);
+  if (evaluations > 900) print_error("%d evaluations\n", evaluations);
+  assert_true(evaluations <= 900);
+  assert_close(ambulo_result_audit(result)->violation.worst, 0.0, 1e-6);
+  assert_close(ambulo_result_objective(result), 0.0, 1e-4);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_reaches_its_optimum),
                                      cmocka_unit_test(both_inner_solvers_agree),
-                                     cmocka_unit_test(polish_closes_what_is_left)};
+                                     cmocka_unit_test(polish_closes_what_is_left),
+                                     cmocka_unit_test(vanishing_objective_ends_the_solve)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
