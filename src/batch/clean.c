@@ -34,6 +34,12 @@ void ambulo__clean_case(const char *directory, const char *id, long process,
   }
 }
 
+void ambulo__clean_result(const char *directory, const char *id, const ambulo_allocator *a) {
+  char *path = ambulo__case_path(a, directory, id, "");
+  if (path) remove_flat(AT_FDCWD, path);
+  ambulo__free(a, path);
+}
+
 static void clean_fan(const char *path) {
   DIR *stream = opendir(path);
   if (!stream) return;

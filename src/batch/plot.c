@@ -44,31 +44,40 @@ static ambulo_status parse(ambulo__plot *p, const char *directory, const char *t
   return no_such(diagnostics, directory, "output", colon + 1);
 }
 
-/* the number of a cell; of a column with words: the place of its first occurrence */
-static double place_of(const ambulo__listing *l, int index, int column, int words) {
-  const char *text = ambulo__listing_cell(l, index, column);
-  double number = 0.0;
-  if (!words) {
-    (void)ambulo__parse_double(text, strlen(text), &number);
-    return number;
-  }
-  int k = 0, place = 0;
-  for (; strcmp(ambulo__listing_cell(l, k, column), text) != 0; k++) {
-    int seen = 0;
-    for (int j = 0; j < k && !seen; j++)
-      seen = strcmp(ambulo__listing_cell(l, j, column), ambulo__listing_cell(l, k, column)) == 0;
-    place += !seen;
-  }
+static int find_seen(const ambulo__plot *p, int axis, const char *text) {
+  int place = 0;
+  while (place < p->seen_count[axis] && strcmp(p->seen[axis][place], text) != 0) place++;
   return place;
 }
 
-static int has_words(const ambulo__listing *l, int column) {
+/* the number of a cell; on an axis that is listed: its place in the list */
+static double place_of(const ambulo__plot *p, int index, int axis) {
+  const char *text = ambulo__listing_cell(p->listing, index, axis ? p->y_column : p->x_column);
+  double number = 0.0;
+  if (p->seen[axis]) return find_seen(p, axis, text);
+  (void)ambulo__parse_double(text, strlen(text), &number);
+  return number;
+}
+
+/* lists the distinct texts of an axis: of words, and both axes of a heat map */
+static ambulo_status list_axis(ambulo__plot *p, int axis) {
+  const ambulo__listing *l = p->listing;
+  int column = axis ? p->y_column : p->x_column, listed = p->y_column >= 0;
   double number;
-  for (int k = 0; column >= 0 && k < l->cases; k++) {
+  for (int k = 0; column >= 0 && k < l->cases && !listed; k++) {
     const char *text = ambulo__listing_cell(l, k, column);
-    if (!ambulo__parse_double(text, strlen(text), &number)) return 1;
+    listed = !ambulo__parse_double(text, strlen(text), &number);
   }
-  return 0;
+  if (column < 0 || !listed) return AMBULO_OK;
+  p->seen[axis] = ambulo__alloc(&l->allocator, (size_t)l->cases, sizeof *p->seen[axis]);
+  if (!p->seen[axis]) return AMBULO_E_MEMORY;
+  for (int k = 0; k < l->cases; k++) {
+    const char *text = ambulo__listing_cell(l, k, column);
+    int place = find_seen(p, axis, text);
+    p->seen[axis][place] = text;
+    p->seen_count[axis] += place == p->seen_count[axis];
+  }
+  return AMBULO_OK;
 }
 
 static ambulo_status add_point(void *user, const ambulo__gathered *one) {
@@ -78,8 +87,8 @@ static ambulo_status add_point(void *user, const ambulo__gathered *one) {
   ambulo__plot_point *point = &p->point[p->points++];
   point->index = one->index;
   point->value = value->number;
-  point->x = place_of(p->listing, one->index, p->x_column, p->x_is_text);
-  point->y = p->y_column < 0 ? 0.0 : place_of(p->listing, one->index, p->y_column, p->y_is_text);
+  point->x = place_of(p, one->index, 0);
+  point->y = p->y_column < 0 ? 0.0 : place_of(p, one->index, 1);
   return AMBULO_OK;
 }
 
@@ -94,10 +103,9 @@ static char *file_name(const ambulo_allocator *a, const char *directory, const c
 static ambulo_status draw(ambulo__plot *p, const char *directory, const char *plot,
                           ambulo_diagnostics *diagnostics, char **file) {
   const ambulo_allocator *a = &p->listing->allocator;
-  p->x_is_text = has_words(p->listing, p->x_column);
-  p->y_is_text = has_words(p->listing, p->y_column);
   p->point = ambulo__alloc(a, (size_t)p->listing->cases, sizeof *p->point);
-  ambulo_status status = p->point ? AMBULO_OK : AMBULO_E_MEMORY;
+  ambulo_status status = p->point ? list_axis(p, 0) : AMBULO_E_MEMORY;
+  if (!status) status = list_axis(p, 1);
   if (!status) status = ambulo__gather(directory, p->listing, 1, add_point, p, NULL);
   if (!status && p->points == 0)
     status = no_such(diagnostics, directory, "number for the output of", plot);
@@ -115,6 +123,8 @@ static ambulo_status draw(ambulo__plot *p, const char *directory, const char *pl
   }
   ambulo__text_free(&svg);
   ambulo__free(a, p->point);
+  ambulo__free(a, (void *)p->seen[0]);
+  ambulo__free(a, (void *)p->seen[1]);
   return status;
 }
 

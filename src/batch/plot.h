@@ -14,8 +14,11 @@ typedef struct ambulo__plot {
   const ambulo__listing *listing;
   int x_column, y_column; /* y_column < 0: curves */
   int output;
-  ambulo__plot_point *point;        /* [points] */
-  int points, x_is_text, y_is_text; /* text axes: places instead of values */
+  ambulo__plot_point *point; /* [points] */
+  int points;
+  const char **seen[2]; /* distinct texts of the x and y columns, in the order of the list; NULL:
+                           numbers, placed by value */
+  int seen_count[2];
 } ambulo__plot;
 
 /* plot_draw.c: the whole drawing. Links lead from the batch folder to cases. */

@@ -108,9 +108,23 @@ static void axis_labels(const ambulo__plot *p, ambulo__text_buffer *svg, int ver
   }
 }
 
-static int same_curve(const ambulo__plot *p, int a, int b) {
+/* 1: the column goes with x (a table's other columns): equal x, equal cell, and x repeats */
+static int goes_with_x(const ambulo__plot *p, int column) {
+  int repeats = 0;
+  for (int i = 0; i < p->points; i++) {
+    int first = 0;
+    while (p->point[first].x != p->point[i].x) first++;
+    repeats |= first < i;
+    if (strcmp(ambulo__listing_cell(p->listing, p->point[i].index, column),
+               ambulo__listing_cell(p->listing, p->point[first].index, column)) != 0)
+      return 0;
+  }
+  return repeats;
+}
+
+static int same_curve(const ambulo__plot *p, const unsigned char *tied, int a, int b) {
   for (int i = AMBULO__LISTING_AXES; i < p->listing->columns; i++) {
-    if (i == p->x_column) continue;
+    if (tied[i]) continue;
     if (strcmp(ambulo__listing_cell(p->listing, a, i), ambulo__listing_cell(p->listing, b, i)) != 0)
       return 0;
   }
@@ -118,19 +132,26 @@ static int same_curve(const ambulo__plot *p, int a, int b) {
 }
 
 /* the point that follows on the same curve: the least x above; NULL: none */
-static const ambulo__plot_point *follower(const ambulo__plot *p, const ambulo__plot_point *from) {
+static const ambulo__plot_point *follower(const ambulo__plot *p, const unsigned char *tied,
+                                          const ambulo__plot_point *from) {
   const ambulo__plot_point *next = NULL;
   for (int i = 0; i < p->points; i++) {
     const ambulo__plot_point *q = &p->point[i];
-    if (q->x > from->x && (!next || q->x < next->x) && same_curve(p, from->index, q->index))
+    if (q->x > from->x && (!next || q->x < next->x) && same_curve(p, tied, from->index, q->index))
       next = q;
   }
   return next;
 }
 
-static void draw_curves(const ambulo__plot *p, ambulo__text_buffer *svg, span x, span value) {
+static ambulo_status draw_curves(const ambulo__plot *p, ambulo__text_buffer *svg, span x,
+                                 span value) {
+  const ambulo_allocator *allocator = &p->listing->allocator;
+  unsigned char *tied = ambulo__alloc(allocator, (size_t)p->listing->columns, 1);
+  if (!tied) return AMBULO_E_MEMORY;
+  for (int i = AMBULO__LISTING_AXES; i < p->listing->columns; i++)
+    tied[i] = i == p->x_column || goes_with_x(p, i);
   for (int i = 0; i < p->points; i++) {
-    const ambulo__plot_point *a = &p->point[i], *b = follower(p, a);
+    const ambulo__plot_point *a = &p->point[i], *b = follower(p, tied, a);
     if (b)
       ambulo__svg_line(svg, "axis", left + width * place(x, a->x),
                        top + height * (1.0 - place(value, a->value)), left + width * place(x, b->x),
@@ -143,6 +164,8 @@ static void draw_curves(const ambulo__plot *p, ambulo__text_buffer *svg, span x,
                        top + height * (1.0 - place(value, a->value)), 3.5);
     end_case(svg);
   }
+  ambulo__free(allocator, tied);
+  return AMBULO_OK;
 }
 
 /* light to dark blue, in steps of lightness that look even */
@@ -208,6 +231,7 @@ ambulo_status ambulo__plot_draw(const ambulo__plot *p, ambulo__text_buffer *svg)
     if (p->y_column < 0 || cell_of(p, i, &mean) > 0) widen(&value, mean);
   }
   const char *output = p->listing->output[p->output];
+  ambulo_status status = AMBULO_OK;
   ambulo__svg_begin(svg, full_width, full_height, output);
   ambulo__svg_label(svg, "title", left, 36.0, output);
   ambulo__svg_label(svg, "subtitle middle", left + 0.5 * width, top + height + 42.0,
@@ -215,7 +239,7 @@ ambulo_status ambulo__plot_draw(const ambulo__plot *p, ambulo__text_buffer *svg)
   if (p->y_column < 0) {
     value_ticks(p, svg, value);
     axis_labels(p, svg, 0, x, 0.0);
-    draw_curves(p, svg, x, value);
+    status = draw_curves(p, svg, x, value);
   } else {
     ambulo__svg_label(svg, "subtitle end", left - 8.0, top - 10.0,
                       ambulo__listing_title(p->listing, p->y_column));
@@ -224,5 +248,5 @@ ambulo_status ambulo__plot_draw(const ambulo__plot *p, ambulo__text_buffer *svg)
     draw_map(p, svg, x, y, value);
   }
   ambulo__svg_end(svg);
-  return ambulo__text_status(svg);
+  return status ? status : ambulo__text_status(svg);
 }

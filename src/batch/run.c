@@ -54,6 +54,7 @@ static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
   ambulo_status status = ambulo_sweep_case(run->sweep, index, &one);
   if (!status) status = make_fan(run, one.id);
   if (status) return status;
+  ambulo__clean_result(run->directory, one.id, run->allocator);
   int from = ambulo__schedule_start_of(run, index);
   ambulo__worker_job job = {run->options.program,
                             run->sweep->base,

@@ -103,7 +103,7 @@ static ambulo_status load_start(job *j) {
   if (!start || !strcmp(start, "zero")) return AMBULO_OK;
   j->start = calloc((size_t)ambulo_problem_variable_count(j->problem), sizeof *j->start);
   if (!j->start) return AMBULO_E_MEMORY;
-  return ambulo_solution_load(start, j->problem, NULL, j->diagnostics, j->start);
+  return ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start);
 }
 
 static ambulo_status solve(job *j) {

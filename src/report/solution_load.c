@@ -15,6 +15,7 @@ enum { MAX_INTERVALS = 100000 };
 
 typedef struct reader {
   const ambulo_problem *problem;
+  int stretch; /* 1: another duration is stretched to the problem's */
   ambulo_allocator allocator;
   ambulo__yaml *document;
   ambulo__basis *basis; /* of the file */
@@ -34,7 +35,7 @@ static ambulo_status read_basis(reader *r, const ambulo__yaml_node *root) {
   ambulo_status status = ambulo__yaml_finish(r->document);
   if (status) return status;
   double expected = ambulo_problem_duration(r->problem);
-  if (fabs(duration - expected) > 1e-9 * expected)
+  if (!r->stretch && fabs(duration - expected) > 1e-9 * expected)
     return ambulo__yaml_error(ambulo__yaml_get(root, "duration"), AMBULO_E_PROBLEM, NULL,
                               "the solution lasts %g s; the problem lasts %g s", duration,
                               expected);
@@ -43,6 +44,7 @@ static ambulo_status read_basis(reader *r, const ambulo__yaml_node *root) {
     values = ambulo__alloc(&r->allocator, (size_t)intervals + 1, sizeof *values);
     if (!values) return AMBULO_E_MEMORY;
     ambulo__yaml_numbers(breaks, intervals + 1, values);
+    for (int i = 0; r->stretch && i <= intervals; i++) values[i] *= expected / duration;
     status = ambulo__yaml_finish(r->document);
   }
   if (!status) {
@@ -142,11 +144,13 @@ static ambulo_status read_document(reader *r, double *x) {
                                 &r->allocator);
 }
 
-ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *problem,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, double *x) {
+static ambulo_status load(const char *path, const ambulo_problem *problem, int stretch,
+                          const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                          double *x) {
   if (!path || !problem || !x) return AMBULO_E_ARGUMENT;
-  reader r = {.problem = problem, .allocator = ambulo__allocator_or_default(allocator)};
+  reader r = {.problem = problem,
+              .stretch = stretch,
+              .allocator = ambulo__allocator_or_default(allocator)};
   ambulo_status status = ambulo__yaml_load(path, &r.allocator, diagnostics, &r.document);
   if (status) return status;
   status = read_document(&r, x);
@@ -155,4 +159,16 @@ ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *probl
   ambulo__basis_free(r.basis);
   ambulo__yaml_free(r.document);
   return status;
+}
+
+ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *problem,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, double *x) {
+  return load(path, problem, 0, allocator, diagnostics, x);
+}
+
+ambulo_status ambulo_solution_start(const char *path, const ambulo_problem *problem,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, double *x) {
+  return load(path, problem, 1, allocator, diagnostics, x);
 }
