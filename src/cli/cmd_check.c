@@ -19,7 +19,7 @@ static const double tolerance = 1e-7;
  * point to the next: a body that does not fly has a zero-moment point */
 static void unremarkable_point(double *x, int count, int coordinates) {
   for (int i = 0; i < count; i++) {
-    double point = (double)(i / coordinates), coordinate = (double)(i % coordinates);
+    int point = i / coordinates, coordinate = i % coordinates;
     x[i] = 0.1 * sin(1.0 + 0.15 * point + 2.39996 * coordinate);
   }
 }

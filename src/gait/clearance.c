@@ -59,7 +59,7 @@ static void track_band(const swing *w) {
   const ambulo__gait_frame *frame = w->frame;
   const ambulo_clearance *c = &frame->definition->clearance;
   int heel = frame->model->feet[w->foot].heel_center;
-  double track, other;
+  double track = 0.0, other = 0.0;
   if (!track_of(frame, w->foot, frame->times[w->node], &track)) return;
   int is_left = track >= 0.0;
   if (frame->model->foot_count == 2 &&

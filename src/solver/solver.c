@@ -201,7 +201,8 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.explains = 1;
   ambulo_status status = begin(&s, &own, start);
-  if (!status) status = solve_problem(&s);
+  if (status) return end(&s, status, result);
+  status = solve_problem(&s);
   if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
   if (!status) status = finish(&s);
   return end(&s, status, result);

@@ -110,8 +110,8 @@ static int offset_of(const wording *w, int node, int index, double *offset) {
   int link = model->points[foot->heel_center].link;
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
-    if (row->node != node || strcmp(row->family, "foot_strike") || strcmp(row->detail, "forward"))
-      continue;
+    int is_strike = !strcmp(row->family, "foot_strike") && !strcmp(row->detail, "forward");
+    if (row->node != node || !is_strike) continue;
     int point = ambulo_model_find_point(model, row->subject);
     if (point < 0 || model->points[point].link != link) continue;
     *offset = w->values[r];
