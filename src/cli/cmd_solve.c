@@ -118,7 +118,7 @@ static ambulo_status solve(job *j) {
   return status;
 }
 
-static ambulo_status print_outcome(job *j) {
+static ambulo_status print_outcome(job *j, int written) {
   if (ambulo__cli_flag(j->input, "json")) {
     char *text = NULL;
     ambulo_status status = ambulo_report_summary(j->problem, j->result, NULL, &text);
@@ -127,7 +127,10 @@ static ambulo_status print_outcome(job *j) {
     ambulo_text_free(text, NULL);
   } else if (!ambulo__cli_flag(j->input, "quiet")) {
     ambulo__cli_print_result(j->problem, j->result);
-    printf("written to   %s\n", j->directory);
+    if (written) {
+      printf("written to   %s\n", j->directory);
+      printf("picture      %s/gait.svg\n", j->directory);
+    }
   }
   return AMBULO_OK;
 }
@@ -151,7 +154,7 @@ static int run_job(job *j) {
   status =
       ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
   code = ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
-  ambulo_status printed = print_outcome(j);
+  ambulo_status printed = print_outcome(j, !status);
   if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
   return code ? code : verdict_exit_code(j->result);
 }
