@@ -8,25 +8,42 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/summary.h"
 
-/* the only thing a signal handler may touch */
+/* the only things the signal handler touches */
 static volatile sig_atomic_t pending_signal = 0;
+static struct timespec first_signal;
 
+/* The first signal asks for the best point, a later one ends the program at once. One key press
+ * can arrive twice (as `timeout` sends it, to the process and to its group), so that repeats
+ * within half a second count as one. */
 static void note_signal(int number) {
-  pending_signal = number;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (!pending_signal) {
+    first_signal = now;
+    pending_signal = number;
+    return;
+  }
+  double seconds = (double)(now.tv_sec - first_signal.tv_sec) +
+                   1e-9 * (double)(now.tv_nsec - first_signal.tv_nsec);
+  if (seconds < 0.5) return;
+  signal(number, SIG_DFL);
+  raise(number);
 }
 
 static void catch_signals(void) {
   struct sigaction action;
   memset(&action, 0, sizeof action);
   action.sa_handler = note_signal;
-  action.sa_flags = (int)SA_RESETHAND; /* the second one kills */
   sigemptyset(&action.sa_mask);
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
 }
@@ -111,7 +128,6 @@ static ambulo_status solve(job *j) {
   if (j->time_limit >= 0.0) options.time_limit = j->time_limit;
   options.progress = show_progress;
   options.user = j;
-  catch_signals();
   ambulo_status status =
       ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
   if (j->terminal) fprintf(stderr, "\r\033[K");
@@ -144,6 +160,7 @@ static int verdict_exit_code(const ambulo_result *result) {
 static int run_job(job *j) {
   int code = read_options(j);
   if (code) return code;
+  catch_signals();
   const char *file = j->input->arguments[0];
   ambulo_status status = ambulo_report_check(j->directory, &j->report, j->diagnostics);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
