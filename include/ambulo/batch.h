@@ -18,12 +18,12 @@ typedef struct ambulo_sweep ambulo_sweep; /* immutable */
 
 /* One case. Strings belong to the sweep. */
 typedef struct ambulo_case {
-  const char *id;                /* "000012-1f3a9c04": place in the list, hash of the overrides */
-  const char *name;              /* from `case_name`, or the id */
-  const char *const *overrides;  /* [override_count] "path=value", as `--set` takes them */
+  const char *id;               /* "000012-1f3a9c04": place in the list, hash of the overrides */
+  const char *name;             /* from `case_name`, or the id */
+  const char *const *overrides; /* [override_count] "path=value", as `--set` takes them */
   int override_count;
-  int previous;                  /* case whose solution starts this one; -1: zero */
-  unsigned long long key;        /* of everything its result depends on */
+  int previous;           /* case whose solution starts this one; -1: zero */
+  unsigned long long key; /* of everything its result depends on */
 } ambulo_case;
 
 /* Loads a sweep file and its base problem, and builds the case list.
@@ -49,27 +49,27 @@ AMBULO_API const char *ambulo_sweep_value(const ambulo_sweep *sweep, int index, 
 
 /* State of a run, for progress. */
 typedef struct ambulo_batch_progress {
-  int cases;               /* of this shard */
-  int done, failed;        /* cases with a record; failed: those without a valid solution */
+  int cases;        /* of this shard */
+  int done, failed; /* cases with a record; failed: those without a valid solution */
   int running;
-  int resumed;             /* of done: found finished at the start */
-  double seconds;          /* since the start */
-  double seconds_left;     /* < 0: unknown */
-  double worst_violation;  /* over the cases solved in this run; < 0: none yet */
-  const char *worst;       /* name of that case; NULL: none yet */
-  const char *last;        /* name of the case that ended last; NULL: none yet */
-  char last_state[24];     /* "optimal", "infeasible", "crashed", "timeout", ... */
+  int resumed;            /* of done: found finished at the start */
+  double seconds;         /* since the start */
+  double seconds_left;    /* < 0: unknown */
+  double worst_violation; /* over the cases solved in this run; < 0: none yet */
+  const char *worst;      /* name of that case; NULL: none yet */
+  const char *last;       /* name of the case that ended last; NULL: none yet */
+  char last_state[24];    /* "optimal", "infeasible", "crashed", "timeout", ... */
 } ambulo_batch_progress;
 
 typedef struct ambulo_batch_options {
-  int cookie;              /* set by ambulo_batch_options_default() */
-  const char *program;     /* the ambulo program; NULL: /proc/self/exe */
-  int workers;             /* processes at once; 0: usable processors, limited by memory */
-  int shard, shards;       /* this is shard 1 .. shards */
-  double case_seconds;     /* kill a case after this; 0: as the sweep file says, or no limit */
-  int case_megabytes;      /* address space of a case; 0: as the sweep file says, or no limit */
-  double grace;            /* s that running cases get after a first stop; 30 */
-  int force;               /* 1: recompute cases whose inputs changed */
+  int cookie;          /* set by ambulo_batch_options_default() */
+  const char *program; /* the ambulo program; NULL: /proc/self/exe */
+  int workers;         /* processes at once; 0: usable processors, limited by memory */
+  int shard, shards;   /* this is shard 1 .. shards */
+  double case_seconds; /* kill a case after this; 0: as the sweep file says, or no limit */
+  int case_megabytes;  /* address space of a case; 0: as the sweep file says, or no limit */
+  double grace;        /* s that running cases get after a first stop; 30 */
+  int force;           /* 1: recompute cases whose inputs changed */
   /* Called a few times a second. 0: go on; 1: start no new case; 2: stop now. NULL: none. */
   int (*progress)(void *user, const ambulo_batch_progress *progress);
   void *user;
@@ -113,8 +113,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
 /* Draws a collected output over one axis (curves) or two (a heat map) as SVG into `directory`;
  * plot is "X:OUTPUT" or "X,Y:OUTPUT". *file: path of the drawing, free with ambulo_text_free.
  * Errors: E_ARGUMENT (no such axis or output, or no numbers in it), E_IO, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory,
-                                                            const char *plot,
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
                                                             const ambulo_allocator *allocator,
                                                             ambulo_diagnostics *diagnostics,
                                                             char **file);

@@ -51,9 +51,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_load(const char *path,
                                                                double *x);
 
 /* The same as a start for the solver: a solution of another duration is stretched in time. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_start(
-    const char *path, const ambulo_problem *problem, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics, double *x);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_start(const char *path,
+                                                                const ambulo_problem *problem,
+                                                                const ambulo_allocator *allocator,
+                                                                ambulo_diagnostics *diagnostics,
+                                                                double *x);
 
 /* Inverse dynamics of a motion file (CSV, STO or MOT, columns named after the
  * model's coordinates, with or without the prefix "q."; missing coordinates are zero
