@@ -5,6 +5,7 @@
 #include "batch/paths.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MOST_LIST_BYTES ((size_t)2 << 30)
@@ -114,6 +115,8 @@ const char *ambulo__listing_title(const ambulo__listing *l, int column) {
 }
 
 int ambulo__listing_key(const ambulo__listing *l, int index, unsigned long long *key) {
-  char rest = 0;
-  return sscanf(ambulo__listing_cell(l, index, AMBULO__LISTING_KEY), "%16llx%c", key, &rest) == 1;
+  const char *text = ambulo__listing_cell(l, index, AMBULO__LISTING_KEY);
+  char *end = NULL;
+  *key = strtoull(text, &end, 16);
+  return end != text && *end == '\0';
 }

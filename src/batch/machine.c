@@ -7,6 +7,7 @@
 #include "ambulo/batch.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -19,9 +20,14 @@ enum { TYPICAL_MEGABYTES = 150 };
 static int read_numbers(const char *path, double *first, double *second) {
   FILE *file = fopen(path, "re");
   if (!file) return 0;
-  int count = fscanf(file, "%lf %lf", first, second);
+  char line[160] = "", *end = line, *last = line;
+  char *read = fgets(line, sizeof line, file);
   (void)fclose(file);
-  return count > 0 ? count : 0;
+  if (!read) return 0;
+  *first = strtod(line, &end);
+  if (end == line) return 0;
+  *second = strtod(end, &last);
+  return last == end ? 1 : 2;
 }
 
 int ambulo__usable_processors(void) {
@@ -45,8 +51,9 @@ double ambulo__free_megabytes(void) {
   FILE *file = fopen("/proc/meminfo", "re");
   char line[160];
   while (file && fgets(line, sizeof line, file)) {
-    double kilobytes;
-    if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1) free_now = kilobytes / 1024.0;
+    static const char name[] = "MemAvailable:";
+    if (strncmp(line, name, sizeof name - 1) == 0)
+      free_now = strtod(line + sizeof name - 1, NULL) / 1024.0;
   }
   if (file) (void)fclose(file);
   if (read_numbers("/sys/fs/cgroup/memory.max", &limit, &none) >= 1 &&

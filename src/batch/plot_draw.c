@@ -74,7 +74,10 @@ static void tick_label(ambulo__text_buffer *svg, const char *style, double x, do
 static void value_ticks(const ambulo__plot *p, ambulo__text_buffer *svg, span s) {
   int decimals = 0;
   double step = ambulo__nice_step(s.high > s.low ? s.high - s.low : 1.0, 6, &decimals);
-  for (double v = ceil(s.low / step - 1e-9) * step; v <= s.high + 1e-9 * step; v += step) {
+  double first = ceil(s.low / step - 1e-9) * step;
+  int count = (int)floor((s.high - first) / step + 1e-9) + 1;
+  for (int i = 0; i < count; i++) {
+    double v = first + i * step;
     double y = top + height * (1.0 - place(s, v));
     ambulo__svg_line(svg, "grid", left, y, left + width, y);
     tick_label(svg, "end", left - 8.0, y + 4.0, v, decimals, &p->listing->allocator);

@@ -14,9 +14,10 @@
 
 int ambulo__cli_become_worker(void) {
   const char *told = getenv("AMBULO_WORKER");
-  long parent = 0;
-  int megabytes = 0;
-  if (!told || sscanf(told, "%ld %d", &parent, &megabytes) != 2) return 1;
+  if (!told) return 1;
+  char *end = NULL, *last = NULL;
+  long parent = strtol(told, &end, 10), megabytes = strtol(end, &last, 10);
+  if (end == told || last == end) return 1;
 #ifdef __linux__
   (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif

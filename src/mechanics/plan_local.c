@@ -49,7 +49,6 @@ static void set_body(ambulo__local_step *step, const ambulo__body *body) {
 static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
   static const ambulo__offset_kind kinds[] = {AMBULO__OFFSET_X, AMBULO__OFFSET_Y, AMBULO__OFFSET_Z,
                                               AMBULO__OFFSET_ANY};
-  static const double zero[3] = {0};
   step->joint = joint->revolute ? (ambulo__joint_kind)joint->axis : AMBULO__SLIDES;
   step->sign = joint->sign;
   step->shift = joint->shift;
@@ -62,7 +61,7 @@ static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
     step->move[i] = joint->revolute && !joint->has_offset ? 0 : joint->offset[i];
   }
   step->offset = step->moving = AMBULO__OFFSET_NONE;
-  if (memcmp(step->move, zero, sizeof zero) == 0) return;
+  if (step->move[0] == 0.0 && step->move[1] == 0.0 && step->move[2] == 0.0) return;
   int axis = along(step->move);
   step->offset = kinds[axis];
   if (!step->still) step->moving = step->offset;

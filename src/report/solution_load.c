@@ -148,9 +148,8 @@ static ambulo_status load(const char *path, const ambulo_problem *problem, int s
                           const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                           double *x) {
   if (!path || !problem || !x) return AMBULO_E_ARGUMENT;
-  reader r = {.problem = problem,
-              .stretch = stretch,
-              .allocator = ambulo__allocator_or_default(allocator)};
+  reader r = {
+      .problem = problem, .stretch = stretch, .allocator = ambulo__allocator_or_default(allocator)};
   ambulo_status status = ambulo__yaml_load(path, &r.allocator, diagnostics, &r.document);
   if (status) return status;
   status = read_document(&r, x);
