@@ -93,7 +93,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench bench-table4 bench-peers \
-  sanitize valgrind coverage \
+  sanitize valgrind check-kill check-slurm coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-headers \
   lint-equations lint-keys lint-leftovers format \
   install uninstall clean force
@@ -106,6 +106,8 @@ help:
 	@echo 'make              build/ambulo, build/libambulo.a, build/libambulo.so'
 	@echo 'make demo         install what is missing, build, solve models/walk_normal.yaml'
 	@echo 'make check        install what is missing, build, run all tests'
+	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
+	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
@@ -200,6 +202,14 @@ run-tests:
 	  BUILD_STATUS=$$status JOBS=$(JOBS) OUT=$(OUT) CC='$(CC)' CFLAGS='$(CFLAGS)' \
 	  CPPFLAGS='$(CPPFLAGS)' LDFLAGS='$(LDFLAGS)' MODE='$(MODE)' tests/support/run_tests.sh $(TESTS)
 
+check-kill: build/.ready-build
+	$(submake) all
+	@AMBULO=$(OUT)/ambulo KILLS=200 SWEEP=models/sweep_walk.yaml tests/batch/kill_test.sh
+
+check-slurm: build/.ready-build
+	$(submake) all
+	@AMBULO=$(OUT)/ambulo tests/batch/cluster_test.sh
+
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests
 
@@ -265,7 +275,7 @@ lint-leftovers:
 
 # ----------------------------------------------------------------- install
 
-MODELS = $(shell find models -type f -name '*.yaml' 2>/dev/null)
+MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' 2>/dev/null)
 TARGET = $(DESTDIR)$(PREFIX)
 
 define PKG_CONFIG_FILE

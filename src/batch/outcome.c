@@ -22,6 +22,7 @@ static int from_outside(int number) {
 
 /* first line of the worker's log in the message */
 static ambulo_status disk_trouble(ambulo__run *run, const char *id) {
+  if (run->status) return run->status; /* said once */
   char *path = ambulo__case_path(run->allocator, run->directory, id, ".log"), *text = NULL;
   size_t length = 0;
   if (path && ambulo__read_file(path, MOST_LOG_BYTES, run->allocator, NULL, &text, &length))

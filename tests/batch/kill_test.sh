@@ -18,6 +18,8 @@ trap 'rm -rf "$scratch"' EXIT
 children() { ps -o pid= --ppid "$1" 2>/dev/null; }
 
 kills=0 rounds=0 restarts=0
+# (the shell's own news of killed processes is not shown)
+{
 while [ "$kills" -lt "$KILLS" ] && [ "$rounds" -lt $((20 * KILLS)) ]; do
   rounds=$((rounds + 1))
   "$AMBULO" batch "$SWEEP" -o "$scratch/wild" -j 2 --quiet >/dev/null 2>&1 &
@@ -36,6 +38,7 @@ while [ "$kills" -lt "$KILLS" ] && [ "$rounds" -lt $((20 * KILLS)) ]; do
       shuf -n 9 | xargs -r rm -f
   fi
 done
+} 2>/dev/null
 "$AMBULO" batch "$SWEEP" -o "$scratch/wild" -j 2 --quiet
 "$AMBULO" collect "$scratch/wild" || { echo 'the killed run is incomplete'; exit 1; }
 left=$(find "$scratch/wild" -name '*.tmp-*' -o -name '*.old-*' | wc -l)

@@ -1,0 +1,54 @@
+/* Outputs: paths into a summary, reductions of a motion's columns. */
+#include "batch/outputs.h"
+#include "support/scratch.h"
+
+static const char id[] = "000000001-0000abcd";
+
+static void make_result(void **state) {
+  assert_int_equal(mkdir(scratch_path(state, "cases"), 0777), 0);
+  assert_int_equal(mkdir(scratch_path(state, "cases/cd"), 0777), 0);
+  assert_int_equal(mkdir(scratch_path(state, "cases/cd/000000001-0000abcd"), 0777), 0);
+  scratch_write(
+      scratch_path(state, "cases/cd/000000001-0000abcd/summary.json"),
+      "{\"verdict\": \"optimal\", \"objective\": {\"total\": 2.5, \"terms\": {\"a\": 1}},\n"
+      "\"body\": {\"up\": [0, 1, 0]}, \"none\": null}\n");
+  /* the mean is over time: 2 for 1 s, then from 2 to 4 in 1 s */
+  scratch_write(scratch_path(state, "cases/cd/000000001-0000abcd/motion.csv"),
+                "# units\ntime,q.pin,zmp.x\n0,2,nan\n1,2,1\n1.5,3,nan\n2,4,5\n");
+}
+
+static void values_are_found(void **state) {
+  const ambulo_allocator plain = ambulo__allocator_or_default(NULL);
+  char *output[] = {"verdict",     "objective",    "objective.terms.a", "body.up[1]",
+                    "max(q.pin)",  "min(q.pin)",   "mean(q.pin)",       "range(q.pin)",
+                    "none",        "max(q.other)", "body.up[7]",        "verdict.deeper",
+                    "range(zmp.x)"};
+  enum { COUNT = sizeof output / sizeof *output };
+  static const char *const expected[COUNT] = {"optimal", "2.5", "1", "1", "4", "2", "2.5",
+                                              "2",       "",    "",  "",  "",  "4"};
+  ambulo__output value[COUNT];
+  make_result(state);
+  ambulo__outputs_of(*state, id, output, COUNT, &plain, value);
+  for (int i = 0; i < COUNT; i++) {
+    if (strcmp(value[i].text, expected[i]) != 0) print_error("%s:\n", output[i]);
+    assert_string_equal(value[i].text, expected[i]);
+    assert_int_equal(value[i].kind == AMBULO__OUTPUT_NONE, expected[i][0] == '\0');
+  }
+}
+
+static void without_a_result_there_are_none(void **state) {
+  const ambulo_allocator plain = ambulo__allocator_or_default(NULL);
+  char *output[] = {"verdict", "max(q.pin)"};
+  ambulo__output value[2];
+  ambulo__outputs_of(*state, id, output, 2, &plain, value);
+  assert_int_equal(value[0].kind, AMBULO__OUTPUT_NONE);
+  assert_int_equal(value[1].kind, AMBULO__OUTPUT_NONE);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(values_are_found, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(without_a_result_there_are_none, scratch_open, scratch_close),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

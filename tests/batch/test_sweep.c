@@ -1,0 +1,190 @@
+/* Sweep files: what case lists follow from them. */
+#include "ambulo/batch.h"
+#include "support/messages.h"
+#include "support/scratch.h"
+
+static const char problem[] =
+    "ambulo: 1\nkind: problem\nname: swing\nmodel: one.yaml\n"
+    "angles: radians\ntime: {duration: 1.0, intervals: 10}\ntrajectory: {intervals: 6}\n"
+    "ends: {initial: {pin: 0}, final: {pin: 1}}\n"
+    "objective:\n  - {term: torque_squared, weight: 1}\n";
+static const char model[] =
+    "ambulo: 1\nkind: model\nname: one\nunits: {angle: radians}\ngravity: [0, -9.81, 0]\nforward: "
+    "[1, 0, 0]\nlinks:\n"
+    "  - {name: rod, parent: none, joint: revolute, dh: [-1.5708, 0, 1, 0], coordinate: {name: "
+    "pin, range: [-3, 3]},\n"
+    "     body: {mass: 1, com: [-0.5, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0]}}\n";
+
+static ambulo_status load(void **state, const char *text, ambulo_diagnostics *list,
+                          ambulo_sweep **sweep) {
+  char whole[2048];
+  snprintf(whole, sizeof whole, "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\n%s", text);
+  scratch_write(scratch_path(state, "p.yaml"), problem);
+  scratch_write(scratch_path(state, "one.yaml"), model);
+  scratch_write(scratch_path(state, "s.yaml"), whole);
+  return ambulo_sweep_load(scratch_path(state, "s.yaml"), NULL, list, sweep);
+}
+
+static ambulo_sweep *loaded(void **state, const char *text) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_sweep *sweep = NULL;
+  ambulo_status status = load(state, text, list, &sweep);
+  char buffer[1024] = "";
+  ambulo_diagnostics_format(list, 0, buffer, sizeof buffer);
+  if (status) print_error("%s\n", buffer);
+  assert_int_equal(status, AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  return sweep;
+}
+
+static void refused(void **state, const char *text, const char *message) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_sweep *sweep = NULL;
+  assert_int_not_equal(load(state, text, list, &sweep), AMBULO_OK);
+  assert_null(sweep);
+  assert_message(list, 0, message);
+  ambulo_diagnostics_free(list);
+}
+
+static ambulo_case case_of(const ambulo_sweep *sweep, int index) {
+  ambulo_case one;
+  assert_int_equal(ambulo_sweep_case(sweep, index, &one), AMBULO_OK);
+  return one;
+}
+
+#define TWO_AXES                                                                                   \
+  "axes:\n  - {key: time.intervals, name: n, values: [8, 10]}\n"                                   \
+  "  - {key: time.duration, name: T, range: [0.8, 1.2, 0.2]}\n"
+
+static void a_grid_with_the_last_axis_fastest(void **state) {
+  ambulo_sweep *s = loaded(state, TWO_AXES "case_name: \"{n}-{T}\"\n");
+  assert_int_equal(ambulo_sweep_case_count(s), 6);
+  assert_string_equal(case_of(s, 0).name, "8-0.8");
+  assert_string_equal(case_of(s, 1).name, "8-1");
+  assert_string_equal(case_of(s, 5).name, "10-1.2");
+  assert_string_equal(case_of(s, 5).overrides[1], "time.duration=1.2");
+  assert_int_equal(case_of(s, 5).previous, -1);
+  ambulo_sweep_free(s);
+}
+
+static void a_filter_renames_nothing(void **state) {
+  ambulo_sweep *all = loaded(state, TWO_AXES);
+  ambulo_sweep *some = loaded(state, TWO_AXES "filters: [\"T < 1.1\", \"n == 10\"]\n");
+  assert_int_equal(ambulo_sweep_case_count(some), 2);
+  assert_string_equal(case_of(some, 0).id, case_of(all, 3).id);
+  assert_true(case_of(some, 0).key == case_of(all, 3).key);
+  assert_true(case_of(all, 3).key != case_of(all, 4).key);
+  ambulo_sweep_free(all);
+  ambulo_sweep_free(some);
+}
+
+static void zip_goes_side_by_side(void **state) {
+  ambulo_sweep *s = loaded(state, "axes:\n  - {key: time.intervals, values: [8, 10, 12]}\n"
+                                  "  - {key: time.duration, linspace: [1, 2, 3]}\ncombine: zip\n");
+  assert_int_equal(ambulo_sweep_case_count(s), 3);
+  assert_string_equal(ambulo_sweep_value(s, 1, 1), "1.5");
+  ambulo_sweep_free(s);
+  refused(state, TWO_AXES "combine: zip\n", "zip needs axes of one length");
+}
+
+static void a_chain_follows_its_axis(void **state) {
+  ambulo_sweep *plain = loaded(state, TWO_AXES);
+  ambulo_sweep *s = loaded(state, TWO_AXES "start_from: neighbour\nalong: n\n");
+  for (int k = 0; k < 3; k++) assert_int_equal(case_of(s, k).previous, -1);
+  for (int k = 3; k < 6; k++) assert_int_equal(case_of(s, k).previous, k - 3);
+  assert_true(case_of(s, 0).key == case_of(plain, 0).key);
+  assert_true(case_of(s, 4).key != case_of(plain, 4).key);
+  ambulo_sweep_free(s);
+  ambulo_sweep_free(plain);
+  refused(state, TWO_AXES "start_from: neighbour\nalong: height\n", "unknown axis");
+}
+
+static void a_table_is_one_axis(void **state) {
+  scratch_write(scratch_path(state, "t.csv"),
+                "# durations\ntime.duration,time.intervals\n1,8\n1.5,10\n");
+  ambulo_sweep *s =
+      loaded(state, "table: t.csv\naxes:\n  - {key: \"objective[0].weight\", values: [1, 2]}\n");
+  assert_int_equal(ambulo_sweep_case_count(s), 4);
+  assert_string_equal(ambulo_sweep_value(s, 1, 0), "1");
+  assert_string_equal(ambulo_sweep_value(s, 1, 1), "1.5");
+  assert_string_equal(ambulo_sweep_value(s, 1, 2), "10");
+  ambulo_sweep_free(s);
+}
+
+#define SAMPLES(kind)                                                                              \
+  kind ": {samples: 20, seed: 7, axes: [{key: time.duration, range: [1, 2]}, "                     \
+       "{key: \"objective[0].weight\", range: [0, 20]}]}\n"
+
+static void a_latin_hypercube_uses_each_stratum_once(void **state) {
+  ambulo_sweep *s = loaded(state, SAMPLES("latin_hypercube"));
+  ambulo_sweep *again = loaded(state, SAMPLES("latin_hypercube"));
+  assert_int_equal(ambulo_sweep_case_count(s), 20);
+  int used[2][20] = {{0}};
+  for (int k = 0; k < 20; k++) {
+    used[0][(int)((atof(ambulo_sweep_value(s, k, 0)) - 1.0) * 20.0)]++;
+    used[1][(int)atof(ambulo_sweep_value(s, k, 1))]++;
+    assert_string_equal(case_of(s, k).id, case_of(again, k).id);
+  }
+  for (int i = 0; i < 20; i++) {
+    assert_int_equal(used[0][i], 1);
+    assert_int_equal(used[1][i], 1);
+  }
+  ambulo_sweep_free(s);
+  ambulo_sweep_free(again);
+  s = loaded(state, SAMPLES("random"));
+  assert_int_equal(ambulo_sweep_case_count(s), 20);
+  ambulo_sweep_free(s);
+}
+
+static void explicit_cases_come_last(void **state) {
+  ambulo_sweep *s =
+      loaded(state, TWO_AXES "filters: [\"n == 8\"]\ncases:\n"
+                             "  - {name: own, set: {time.intervals: 30, solver.time_limit: 5}}\n");
+  assert_int_equal(ambulo_sweep_case_count(s), 4);
+  ambulo_case own = case_of(s, 3);
+  assert_string_equal(own.name, "own");
+  assert_int_equal(own.override_count, 2);
+  assert_string_equal(own.overrides[0], "time.intervals=30");
+  assert_string_equal(own.overrides[1], "solver.time_limit=5");
+  assert_string_equal(ambulo_sweep_value(s, 0, 2), "");
+  ambulo_sweep_free(s);
+}
+
+static void a_named_file_is_part_of_the_key(void **state) {
+  const char *text = "axes:\n  - {key: model, values: [two.yaml]}\n";
+  scratch_write(scratch_path(state, "two.yaml"), model);
+  ambulo_sweep *s = loaded(state, text);
+  scratch_write(scratch_path(state, "two.yaml"), "# changed\n");
+  ambulo_sweep *changed = loaded(state, text);
+  assert_string_equal(case_of(s, 0).id, case_of(changed, 0).id);
+  assert_true(case_of(s, 0).key != case_of(changed, 0).key);
+  ambulo_sweep_free(s);
+  ambulo_sweep_free(changed);
+}
+
+static void faults_are_named(void **state) {
+  refused(state, "axes:\n  - {key: time.duration, range: [1, 2, -1]}\n", "has no values");
+  refused(state, "axes:\n  - {key: time.duration}\n", "needs one of");
+  refused(state, "axes:\n  - {key: time.duration, values: [1], step: 2}\n", "step");
+  refused(state, TWO_AXES "filters: [\"n ~ 3\"]\n", "is no comparison");
+  refused(state, TWO_AXES "filters: [\"n > 100\"]\n", "no case left");
+  refused(state, TWO_AXES "colour: red\n", "colour");
+  refused(state, "table: nothing.csv\n", "nothing.csv");
+  refused(state, "", "no case left");
+}
+
+int main(void) {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
+  const struct CMUnitTest tests[] = {
+      TEST(a_grid_with_the_last_axis_fastest),
+      TEST(a_filter_renames_nothing),
+      TEST(zip_goes_side_by_side),
+      TEST(a_chain_follows_its_axis),
+      TEST(a_table_is_one_axis),
+      TEST(a_latin_hypercube_uses_each_stratum_once),
+      TEST(explicit_cases_come_last),
+      TEST(a_named_file_is_part_of_the_key),
+      TEST(faults_are_named),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
