@@ -1,8 +1,8 @@
 /* batch/run.c - the supervisor: keeps the slots filled, enforces limits, listens to the caller.
  *
  * One thread, one loop: every 2 ms it asks which workers ended, which exceeded their time, and,
- * five times a second, what the caller wants. All that must survive is on disk before the next
- * case starts, so the supervisor may be killed anywhere. */
+ * five times a second, what the caller wants. A case counts once its record is on disk, and is
+ * computed again otherwise, so the supervisor may be killed anywhere. */
 #include "batch/run.h"
 #include "base/file_steps.h"
 #include "batch/clean.h"
@@ -81,28 +81,36 @@ static void kill_slot(ambulo__slot *slot, int cut) {
   (void)kill(slot->process, SIGKILL);
 }
 
-/* takes in what ended; the slot goes on with the chain unless the run stops */
+static ambulo_status take_in(ambulo__run *run, const ambulo__slot *ended, int wait_status) {
+  if (!(WIFEXITED(wait_status) && WEXITSTATUS(wait_status) <= 3))
+    ambulo__clean_case(run->directory, run->sweep->cases[ended->index].id, (long)ended->process,
+                       run->allocator);
+  return ambulo__outcome_record(run, ended, wait_status);
+}
+
+/* Takes in what ended. A slot without a chain starts the next case before the record is
+ * flushed, so that processors do not wait for the disk; a chain goes on in its slot. */
 static void reap(ambulo__run *run, ambulo__slot *slot, int stopping) {
   int wait_status = 0;
-  pid_t ended = waitpid(slot->process, &wait_status, WNOHANG);
-  if (ended == 0 || (ended < 0 && errno == EINTR)) {
+  pid_t process = waitpid(slot->process, &wait_status, WNOHANG);
+  if (process == 0 || (process < 0 && errno == EINTR)) {
     if (run->case_seconds > 0.0 && ambulo__run_clock() - slot->begin > run->case_seconds)
       kill_slot(slot, 1);
     return;
   }
-  pid_t process = slot->process;
+  ambulo__slot ended = *slot;
   slot->process = 0;
   run->progress.running--;
-  ambulo_status status = AMBULO_OK;
-  if (ended == process) {
-    if (!(WIFEXITED(wait_status) && WEXITSTATUS(wait_status) <= 3))
-      ambulo__clean_case(run->directory, run->sweep->cases[slot->index].id, (long)process,
-                         run->allocator);
-    status = ambulo__outcome_record(run, slot, wait_status);
+  int chained = run->next[ended.index] >= 0;
+  int next = stopping || chained ? -1 : ambulo__schedule_next(run);
+  ambulo_status status = next >= 0 ? start(run, slot, next) : AMBULO_OK;
+  if (process == ended.process) {
+    ambulo_status taken = take_in(run, &ended, wait_status);
+    if (!status) status = taken;
   } else {
-    run->state[slot->index] = AMBULO__CASE_WAITING; /* somebody else waited for it */
+    run->state[ended.index] = AMBULO__CASE_WAITING; /* somebody else waited for it */
   }
-  int follower = stopping || status ? -1 : ambulo__schedule_follower(run, slot->index);
+  int follower = stopping || status || next >= 0 ? -1 : ambulo__schedule_follower(run, ended.index);
   if (follower >= 0) status = start(run, slot, follower);
   if (status && !run->status) run->status = status;
 }
