@@ -4,7 +4,9 @@
  *     mechanics.h  inverse dynamics of given motions, in batches
  *     problem.h    what to minimize, subject to what (immutable) + evaluation workspace
  *     solve.h      the solver, the verdict and the audit
- *     report.h     results on disk
+ *     ground.h     parts of a problem: the ground's force, feet in the air
+ *     report.h     results on disk, comparison with people
+ *     batch.h      many problems: sweeps
  *     status.h     status codes, messages, allocator
  *
  * Lifecycle:  model/problem --load or create--> solve --> result --> report --> free
@@ -21,6 +23,7 @@
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"
+#include "ambulo/ground.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
 #include "ambulo/problem.h"

@@ -18,7 +18,7 @@ typedef struct ambulo_sweep ambulo_sweep; /* immutable */
 
 /* One case. Strings belong to the sweep. */
 typedef struct ambulo_case {
-  const char *id;               /* "000012-1f3a9c04": place in the list, hash of the overrides */
+  const char *id;               /* "000000012-1f3a9c04": place in the list, hash of the overrides */
   const char *name;             /* from `case_name`, or the id */
   const char *const *overrides; /* [override_count] "path=value", as `--set` takes them */
   int override_count;

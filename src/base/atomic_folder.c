@@ -73,8 +73,9 @@ static ambulo_status inspect_target(const ambulo__folder *folder, ambulo_diagnos
   if (empty < 0) return ambulo__io_error(diagnostics, folder->path, "read the folder");
   if (empty) return AMBULO_OK;
   if (!folder->marker) {
-    return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
-                         "the folder exists and is not empty");
+    return ambulo__error(diagnostics, AMBULO_E_IO, place,
+                         "--force (in C: overwrite) replaces an earlier result",
+                         "the folder exists and is not empty; expected a new or empty folder");
   }
   char *marker = ambulo__join_path(&folder->allocator, folder->path, folder->marker);
   if (!marker) return ambulo__io_memory_error(diagnostics, folder->path);

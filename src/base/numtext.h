@@ -19,7 +19,7 @@ int ambulo__parse_integer(const char *text, size_t length, long long min, long l
 /* Shortest text that reads back to the same double ("0.1", "1e-05", "nan",
  * "inf"); always with '.', never with ','. Returns the length written; buffer
  * must hold AMBULO__NUMTEXT_SIZE bytes. */
-#define AMBULO__NUMTEXT_SIZE 32
+#define AMBULO__NUMTEXT_SIZE 40
 size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value);
 
 #endif

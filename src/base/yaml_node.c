@@ -64,7 +64,8 @@ static ambulo_status check_root(const ambulo__yaml *document) {
                          "got an empty document; expected a mapping at the top level");
   }
   if (root->kind != AMBULO__YAML_MAPPING) {
-    return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, ambulo__yaml_place(root), NULL,
+    return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, ambulo__yaml_place(root),
+                         "the file should hold YAML: lines 'key: value'",
                          "got a %s at the top level; expected a mapping", kinds[root->kind]);
   }
   return AMBULO_OK;

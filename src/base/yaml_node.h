@@ -83,6 +83,10 @@ int ambulo__yaml_boolean(const ambulo__yaml_node *node, int fallback); /* true /
 /* Index of the scalar in words[0..count), error with the list (and nearest) otherwise. */
 int ambulo__yaml_choice(const ambulo__yaml_node *node, const char *const *words, int count,
                         int fallback);
+/* Which of kinds[0..count) a file is, by its key `kind`, else by the keys it has (a model need not
+ * say its kind). Another format is one error that names it and who takes it, and -1: its other keys
+ * would only be noise. 0 when nothing tells. */
+int ambulo__yaml_file_kind(const ambulo__yaml_node *root, const char *const *kinds, int count);
 /* A name: 1-64 characters of letters, digits, '_', '-', '.'. NULL with an error otherwise. */
 const char *ambulo__yaml_name(const ambulo__yaml_node *node);
 /* A sequence of exactly `count` numbers into values[]; 1 on success. A NULL node

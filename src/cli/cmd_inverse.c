@@ -40,7 +40,7 @@ const ambulo__cli_command ambulo__cli_inverse = {
         "Columns are named after the model's coordinates; rates and accelerations come from an\n"
         "interpolating spline. Writes a CSV with time, q.*, qd.*, qdd.*, tau.*, zmp.* in SI units\n"
         "and radians. With --grf, tau.* of the root is what the measured forces leave over.",
-    .example = "ambulo inverse models/lower_body_18.yaml walk/motion.csv -o torques.csv",
+    .example = "ambulo inverse models/yardstick_body.yaml walk/motion.csv -o torques.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 2,

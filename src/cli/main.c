@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/output.h"
@@ -35,13 +34,13 @@ static void print_version(void) {
          versions.blas, versions.instruction_set);
 }
 
-/* OpenBLAS starts a thread per core before main(); the matrices here are too small to gain
- * from them. The variable is only read at load time, so the program starts itself again. */
-static void single_threaded_blas(char **argv) {
-  if (getenv("OPENBLAS_NUM_THREADS")) return;
-  if (setenv("OPENBLAS_NUM_THREADS", "1", 1)) return;
-  execv("/proc/self/exe", argv);
-  /* without /proc the program goes on with the threads it has */
+/* Only OpenBLAS has it; with another BLAS the symbol stays undefined and its address NULL. */
+extern void openblas_set_num_threads(int threads) __attribute__((weak));
+
+/* OpenBLAS starts a thread per core when it is loaded; the matrices here are too small to gain
+ * from more than one. Whoever sets the variable decides for himself. */
+static void single_threaded_blas(void) {
+  if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
 static int unknown_command(const char *word) {
@@ -74,9 +73,9 @@ static int dispatch(int argc, char **argv) {
 int main(int argc, char **argv) {
   if (!ambulo__cli_become_worker()) return 128 + SIGTERM;
   ambulo__cli_guard_streams();
-  single_threaded_blas(argv);
-  /* a closed pipe and a file size limit show up as failed writes, exit code 4 */
-  signal(SIGPIPE, SIG_IGN);
+  single_threaded_blas();
+  /* a closed pipe and a file size limit show up as failed writes, so that files are whole */
+  int may_die = signal(SIGPIPE, SIG_IGN) == SIG_DFL;
   signal(SIGXFSZ, SIG_IGN);
-  return ambulo__cli_finish(dispatch(argc, argv));
+  return ambulo__cli_finish(dispatch(argc, argv), may_die);
 }

@@ -3,6 +3,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,10 +89,20 @@ int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status
   return ambulo_status_exit_code(status);
 }
 
-int ambulo__cli_finish(int code) {
+/* a pipe whose reader has gone away, as `head` does when it has seen enough */
+static int reader_is_gone(void) {
+  struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
+int ambulo__cli_finish(int code, int sigpipe) {
   errno = 0;
   int failed = ferror(stdout);
   failed |= fflush(stdout) != 0;
+  if (failed && sigpipe && reader_is_gone()) {
+    signal(SIGPIPE, SIG_DFL);
+    (void)raise(SIGPIPE);
+  }
   failed |= close(STDOUT_FILENO) != 0;
   if (!failed) return code;
   ambulo__cli_error("E_IO", NULL, "standard output could not be written: %s",

@@ -48,8 +48,9 @@ void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char 
 
 static void force_row(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
   double mg = body_weight(frame->model);
-  ambulo__row_begin(table, "normal_force", "ground", "vertical", "body weight", AMBULO_NOT_NEGATIVE,
-                    node, frame->times[node], -frame->definition->minimum_force);
+  ambulo__row_begin(table, "normal_force", "ground", "vertical", "body weights",
+                    AMBULO_NOT_NEGATIVE, node, frame->times[node],
+                    -frame->definition->minimum_force);
   for (int i = 0; i < 3; i++) {
     ambulo__row_term_add(table, node, ambulo__channel_force(&frame->channels, i),
                          frame->model->up[i] / mg);

@@ -81,9 +81,8 @@ static void read_source(const ambulo__yaml_node *node) {
 }
 
 static void read_header(ambulo__reader *r, const ambulo__yaml_node *root) {
-  static const char *const versions[] = {"1"}, *const kinds[] = {"model"};
+  static const char *const versions[] = {"1"};
   (void)ambulo__yaml_choice(ambulo__yaml_require(root, "ambulo"), versions, 1, 0);
-  (void)ambulo__yaml_choice(ambulo__yaml_get(root, "kind"), kinds, 1, 0);
   const char *name = ambulo__yaml_name(ambulo__yaml_require(root, "name"));
   if (name) r->definition.name = name;
   read_source(ambulo__yaml_get(root, "source"));
@@ -92,8 +91,10 @@ static void read_header(ambulo__reader *r, const ambulo__yaml_node *root) {
 }
 
 static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
+  static const char *const kinds[] = {"model"};
   const ambulo__yaml_node *root = ambulo__yaml_root(r->document);
   ambulo_model_definition *d = &r->definition;
+  if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return;
   r->places.model = (ambulo__place){ambulo__yaml_file(r->document), 1, 1, NULL};
   read_header(r, root);
   ambulo__read_subject(r, root);

@@ -66,13 +66,6 @@ const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, c
   return NULL;
 }
 
-/* 0 when the file is something else: its other keys would only produce noise */
-static int is_problem(const ambulo__yaml_node *root) {
-  static const char *const kinds[] = {"problem"};
-  const ambulo__yaml_node *kind = ambulo__yaml_require(root, "kind");
-  return !kind || ambulo__yaml_choice(kind, kinds, 1, -1) == 0;
-}
-
 static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   static const char *const units[] = {"degrees", "radians"};
   const ambulo__yaml_node *version = ambulo__yaml_require(root, "ambulo");
@@ -119,7 +112,8 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
 }
 
 static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
-  if (!is_problem(root)) return;
+  static const char *const kinds[] = {"problem"};
+  if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return;
   read_header(reader, root);
   read_model(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));

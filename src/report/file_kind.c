@@ -9,8 +9,7 @@ ambulo_status ambulo_file_kind_of(const char *path, const ambulo_allocator *allo
   ambulo_status status = ambulo__yaml_load(path, allocator, diagnostics, &document);
   if (status) return status;
   static const char *const kinds[] = {"model", "problem"};
-  const ambulo__yaml_node *node = ambulo__yaml_require(ambulo__yaml_root(document), "kind");
-  int choice = ambulo__yaml_choice(node, kinds, 2, 0);
+  int choice = ambulo__yaml_file_kind(ambulo__yaml_root(document), kinds, 2);
   status = ambulo__yaml_finish(document);
   if (!status) *kind = choice == 0 ? AMBULO_FILE_MODEL : AMBULO_FILE_PROBLEM;
   ambulo__yaml_free(document);

@@ -122,8 +122,8 @@ static int same_basis(const ambulo__basis *a, const ambulo__basis *b) {
 static ambulo_status read_document(reader *r, double *x) {
   static const char *const kinds[] = {"solution"};
   const ambulo__yaml_node *root = ambulo__yaml_root(r->document);
+  if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return ambulo__yaml_finish(r->document);
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
-  (void)ambulo__yaml_choice(ambulo__yaml_require(root, "kind"), kinds, 1, 0);
   ambulo__yaml_expect(root, "duration");
   ambulo__yaml_expect(root, "trajectory");
   ambulo__yaml_expect(root, "coordinates");

@@ -186,9 +186,11 @@ static ambulo_status read_names(table_reader *reader) {
   size_t position = 0;
   ambulo__table_cell cell = {.start = ""};
   if (!ambulo__table_next_cell(line, cells, &position, &cell) || !cell_is(&cell, "time")) {
-    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, 1), NULL,
-                                "the first column is '%.*s'; expected 'time'", quoted_length(&cell),
-                                cell.start));
+    /* hardly a motion at all: the rows would only be noise */
+    return ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, 1),
+                         "a motion is a table (CSV, STO or MOT) of times and named columns",
+                         "the first column is '%.*s'; expected 'time'", quoted_length(&cell),
+                         cell.start);
   }
   while (ambulo__table_next_cell(line, cells, &position, &cell)) {
     ambulo_status status = add_name(reader, &cell);

@@ -92,13 +92,15 @@ static void the_top_level_is_a_mapping(void **state) {
   }
   yaml_case list = yaml_open("- a\n- b\n");
   assert_int_equal(list.status, AMBULO_E_SCHEMA);
-  expect_message(
-      &list, 0, "t.yaml:1:1: error[E_SCHEMA]: got a sequence at the top level; expected a mapping");
+  expect_message(&list, 0,
+                 "t.yaml:1:1: error[E_SCHEMA]: got a sequence at the top level; expected a mapping"
+                 "\n  hint: the file should hold YAML: lines 'key: value'");
   yaml_shut(&list);
   yaml_case scalar = yaml_open("\n 3.5\n");
   assert_int_equal(scalar.status, AMBULO_E_SCHEMA);
   expect_message(&scalar, 0,
-                 "t.yaml:2:2: error[E_SCHEMA]: got a scalar at the top level; expected a mapping");
+                 "t.yaml:2:2: error[E_SCHEMA]: got a scalar at the top level; expected a mapping"
+                 "\n  hint: the file should hold YAML: lines 'key: value'");
   yaml_shut(&scalar);
 }
 

@@ -29,7 +29,7 @@ static void broken_headers(void **state) {
   model_bad("name: t\nunits: {angle: degrees}\n" MODEL_ROD, AMBULO_E_SCHEMA,
             "t.yaml:1:1: error[E_SCHEMA]: missing required key 'ambulo'");
   model_bad(MODEL_HEAD MODEL_ROD "kind: problem\n", AMBULO_E_SCHEMA,
-            "t.yaml:6:7: error[E_SCHEMA]: got 'problem'; expected one of: model");
+            "t.yaml:6:7: error[E_SCHEMA]: this is a problem; expected a skeleton model");
   model_bad("ambulo: 1\nname: t t\nunits: {angle: degrees}\n" MODEL_ROD, AMBULO_E_SCHEMA,
             "t.yaml:2:7: error[E_SCHEMA]: got 't t'; expected a name");
   model_bad("ambulo: 1\nname: t\n" MODEL_ROD, AMBULO_E_SCHEMA,
