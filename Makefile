@@ -78,7 +78,7 @@ ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
 SOURCES := $(sort $(wildcard src/*/*.c))
 ifeq ($(X86),)
-  SOURCES := $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
+  SOURCES := $(filter-out src/mechanics/kernels_avx%.c src/solver/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES)))
@@ -137,12 +137,17 @@ $(OUT)/obj/sources: force
 
 # commands are shown with V=1
 quiet = $(if $(V),,@echo '  $(1)'; )
-kernel_flags = $(KERNEL) $(KERNEL_$(patsubst kernels_%,%,$(basename $(notdir $<))))
+kernel_flags = $(KERNEL) $(KERNEL_$(patsubst kernels_%,%,$(patsubst band_%,%,$(basename $(notdir $<)))))
 compile = $(call quiet,CC $<)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(1) $(CFLAGS) -MMD -MP -c $< -o $@
 
-$(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
+define compile_kernel
 	@mkdir -p $(@D)
 	$(call compile,$(if $(filter release,$(VARIANT)),$(kernel_flags),$(filter-out -O3,$(kernel_flags))))
+endef
+$(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
+	$(compile_kernel)
+$(OUT)/obj/src/solver/band_kernels_%.o: src/solver/band_kernels_%.c $(OUT)/obj/flags
+	$(compile_kernel)
 
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
@@ -242,7 +247,7 @@ coverage: build/.ready-test
 LINT := format static order size symbols mirror headers equations keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
-TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c,$(SOURCES))
+TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/solver/band_kernels_avx%.c,$(SOURCES))
 
 lint: build/.ready-lint
 	+@failed=; for part in $(LINT); do echo "lint-$$part"; \

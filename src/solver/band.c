@@ -6,11 +6,21 @@
 
 enum { BLOCK = 24 }; /* columns that ambulo__band_forward_many takes at once */
 
+static int round_up(int count) {
+  return (count + AMBULO__TILE - 1) / AMBULO__TILE * AMBULO__TILE;
+}
+
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
   band->n = n;
   band->kd = kd < n ? kd : n - 1;
-  band->ld = band->kd + 1 + BLOCK;
-  band->a = ambulo__pool_doubles(pool, (size_t)n * (size_t)band->ld);
+  band->ld = round_up(band->kd + BLOCK) + 1;
+  band->kernels = ambulo__band_kernels_select();
+  if (band->kernels && band->kd > band->kernels->largest_kd) band->kernels = NULL;
+  band->a = ambulo__pool_doubles(pool, (size_t)round_up(n) * (size_t)band->ld);
+  band->corner = NULL;
+  if (band->kernels)
+    band->corner = ambulo__pool_doubles(pool, (size_t)round_up(n) / AMBULO__TILE * AMBULO__CORNER);
+  band->work = ambulo__pool_doubles(pool, (size_t)round_up(n));
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -69,18 +79,34 @@ void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y)
 
 int ambulo__band_factor(ambulo__band *band) {
   int info = 0;
+  if (band->kernels)
+    return band->kernels->factor(band->n, band->kd, band->ld, band->a, band->corner);
   dpbtrf_("L", &band->n, &band->kd, band->a, &band->ld, &info);
   return info != 0;
 }
 
 void ambulo__band_forward(const ambulo__band *l, double *x) {
+  size_t bytes = (size_t)l->n * sizeof *x;
   int step = 1;
-  dtbsv_("L", "N", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+  if (l->kernels) {
+    memcpy(l->work, x, bytes);
+    l->kernels->forward(l->n, l->kd, l->ld, l->a, l->corner, l->work);
+    memcpy(x, l->work, bytes);
+  } else {
+    dtbsv_("L", "N", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+  }
 }
 
 void ambulo__band_backward(const ambulo__band *l, double *x) {
+  size_t bytes = (size_t)l->n * sizeof *x;
   int step = 1;
-  dtbsv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+  if (l->kernels) {
+    memcpy(l->work, x, bytes);
+    l->kernels->backward(l->n, l->kd, l->ld, l->a, l->corner, l->work);
+    memcpy(x, l->work, bytes);
+  } else {
+    dtbsv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+  }
 }
 
 void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {

@@ -4,16 +4,21 @@
  *
  * Read with leading dimension ld - 1, a square diagonal block of at most kd + 1 unknowns
  * is an ordinary column-major lower triangle: rank-k updates go straight into the band. The
- * rows of a[] below the band stay zero, so that rectangles that reach past it can be read.
+ * rows of a[] below the band stay zero, so that rectangles that reach past it can be read;
+ * ld - 1 is a multiple of 8, so that aligned tiles can (band_kernels.h).
  */
 #ifndef AMBULO_SOLVER_BAND_H
 #define AMBULO_SOLVER_BAND_H
 
+#include "solver/band_kernels.h"
 #include "solver/sparse_rows.h"
 
 typedef struct ambulo__band {
   int n, kd, ld;
-  double *a; /* [n][ld] */
+  const ambulo__band_kernels *kernels; /* NULL: LAPACK */
+  double *a;                           /* [n rounded up to 8][ld] */
+  double *corner;                      /* with kernels: inverses of the factor's corners */
+  double *work;                        /* [n rounded up to 8]: a right-hand side */
 } ambulo__band;
 
 /* n unknowns, kd diagonals below the main one, zero. */

@@ -1,0 +1,14 @@
+/* solver/band_kernels_avx512.c - vectors of eight. */
+#include "solver/band_kernels.h"
+
+#include <limits.h>
+
+#if defined(__AVX512F__)
+#define AMBULO__WIDTH 8
+#define AMBULO__BAND_KERNELS ambulo__band_kernels_avx512
+#define AMBULO__LARGEST_KD INT_MAX
+#define AMBULO__BAND_KERNELS_NAME "avx512"
+#include "solver/band_source.h"
+#elif defined(__x86_64__)
+const ambulo__band_kernels ambulo__band_kernels_avx512 = {"avx512", 0, 0, 0, 0};
+#endif
