@@ -37,9 +37,14 @@ ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char
 void ambulo__yaml_free(ambulo__yaml *document); /* accepts NULL */
 
 /* Replaces or adds the scalar at a dotted path ("time.intervals",
- * "objective[0].weight") by a YAML flow text ("36", "[1, 2]", "off"): what
- * `--set path=value` does. Errors: E_SCHEMA (no such parent), E_PARSE, E_MEMORY. */
+ * "objective[0].weight", "links[shank_r].body.mass": items by number, `name` or `term`) by a
+ * YAML flow text ("36", "[1, 2]", "off"): what `--set path=value` does. Errors: E_SCHEMA (no
+ * such parent), E_PARSE, E_MEMORY. */
 ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const char *value);
+/* The same for a document that another one names under `above` ("model."), which messages put
+ * before the path. */
+ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, const char *path,
+                                     const char *value);
 
 const ambulo__yaml_node *ambulo__yaml_root(const ambulo__yaml *document);
 const char *ambulo__yaml_file(const ambulo__yaml *document);

@@ -6,10 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* one step of a path: a key, or an index when key_length is 0 */
+/* one step of a path: a key, an index, or the name of an item */
+typedef enum step_kind { KEY, INDEX, NAME } step_kind;
 typedef struct step {
-  const char *key;
-  size_t key_length;
+  step_kind kind;
+  const char *word; /* key or name */
+  size_t length;
   int index;
 } step;
 
@@ -31,29 +33,71 @@ static ambulo_status no_item(const ambulo__yaml *document, const char *file,
                        "no item [%d]; expected an index below %d", index, parent->count);
 }
 
+/* a key that is not there, in a mapping that the path goes through */
+static ambulo_status no_key(const ambulo__yaml *document, const char *file,
+                            const ambulo__yaml_node *parent, const char *key) {
+  const char *names[AMBULO__YAML_MAX_KEYS];
+  char hint[160] = "paths look like 'time.intervals' or 'objective[0].weight'";
+  for (int i = 0; i < parent->count; i++) names[i] = parent->items[i]->key->text;
+  const char *nearest = ambulo__nearest(key, names, (size_t)parent->count);
+  if (nearest) (void)snprintf(hint, sizeof hint, "did you mean '%.100s'?", nearest);
+  ambulo__place place = {file, 0, 0, NULL};
+  return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place, hint,
+                       "the path goes through a key that is not there (got '%.100s')", key);
+}
+
+/* the item of a sequence whose `name`, or else whose `term`, is the word; NULL: none */
+static ambulo__yaml_node *named_item(const ambulo__yaml_node *parent, const char *word) {
+  static const char *const keys[] = {"name", "term"};
+  for (int k = 0; k < 2 && parent->kind == AMBULO__YAML_SEQUENCE; k++) {
+    for (int i = 0; i < parent->count; i++) {
+      const ambulo__yaml_node *item = parent->items[i];
+      const ambulo__yaml_node *name =
+          item->kind == AMBULO__YAML_MAPPING ? ambulo__yaml_find(item, keys[k]) : NULL;
+      if (name && name->kind == AMBULO__YAML_SCALAR && strcmp(name->text, word) == 0)
+        return parent->items[i];
+    }
+  }
+  return NULL;
+}
+
 static ambulo_status no_memory(const ambulo__yaml *document, const char *file) {
   ambulo__place place = {file, 0, 0, NULL};
   return ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL,
                        "cannot allocate memory for the value");
 }
 
-/* reads "key", ".key" or "[3]" at *cursor and moves it behind; 0: not a path */
+static ambulo_status no_name(const ambulo__yaml *document, const char *file,
+                             const ambulo__yaml_node *parent, const char *word) {
+  ambulo__place place = {file, 0, 0, NULL};
+  return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                       parent->kind == AMBULO__YAML_SEQUENCE
+                           ? "no item is named '%.100s'; expected the name of one, or its number"
+                           : "no item [%.100s]; the value is no sequence",
+                       word);
+}
+
+/* reads "key", ".key", "[3]" or "[name]" at *cursor and moves it behind; 0: not a path */
 static int next_step(const char **cursor, int first, step *out) {
   const char *at = *cursor;
-  *out = (step){NULL, 0, 0};
+  *out = (step){KEY, NULL, 0, 0};
   if (*at == '[') {
-    size_t digits = strspn(++at, "0123456789");
-    long long index;
-    if (!ambulo__parse_integer(at, digits, 0, 1000000, &index) || at[digits] != ']') return 0;
+    size_t length = strcspn(++at, "]"), digits = strspn(at, "-0123456789");
+    long long index = 0;
+    if (length == 0 || at[length] != ']') return 0;
+    out->kind = digits == length ? INDEX : NAME;
+    if (out->kind == INDEX && !ambulo__parse_integer(at, digits, 0, 1000000, &index)) return 0;
+    out->word = at;
+    out->length = length;
     out->index = (int)index;
-    *cursor = at + digits + 1;
+    *cursor = at + length + 1;
     return 1;
   }
   if (!first && *at++ != '.') return 0;
-  out->key = at;
-  out->key_length = strcspn(at, ".[");
-  *cursor = at + out->key_length;
-  return out->key_length > 0;
+  out->word = at;
+  out->length = strcspn(at, ".[");
+  *cursor = at + out->length;
+  return out->length > 0;
 }
 
 /* the child that a step leads to; *key_copy gets the key, so that it can be added */
@@ -61,16 +105,21 @@ static ambulo_status follow(ambulo__yaml *document, const char *file, ambulo__ya
                             step where, ambulo__yaml_node **child, char **key_copy) {
   *child = NULL;
   *key_copy = NULL;
-  if (where.key_length == 0) {
+  if (where.kind == INDEX) {
     if (parent->kind != AMBULO__YAML_SEQUENCE || where.index >= parent->count)
       return no_item(document, file, parent, where.index);
     *child = parent->items[where.index];
     return AMBULO_OK;
   }
+  char *word = ambulo__yaml_copy(document, where.word, where.length);
+  if (!word) return no_memory(document, file);
+  if (where.kind == NAME) {
+    *child = named_item(parent, word);
+    return *child ? AMBULO_OK : no_name(document, file, parent, word);
+  }
   if (parent->kind != AMBULO__YAML_MAPPING)
     return bad_path(document, file, "the path goes through a value that is no mapping");
-  *key_copy = ambulo__yaml_copy(document, where.key, where.key_length);
-  if (!*key_copy) return no_memory(document, file);
+  *key_copy = word;
   *child = ambulo__yaml_find(parent, *key_copy);
   return AMBULO_OK;
 }
@@ -113,7 +162,7 @@ static ambulo_status locate(ambulo__yaml *document, const char *file, const char
   *depth = 0;
   do {
     step where;
-    if (!node) return bad_path(document, file, "the path goes through a key that is not there");
+    if (!node) return no_key(document, file, *parent, *key);
     if (!next_step(&cursor, cursor == path, &where))
       return bad_path(document, file, "the path is not well-formed");
     *parent = node;
@@ -125,13 +174,12 @@ static ambulo_status locate(ambulo__yaml *document, const char *file, const char
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const char *value) {
-  static const char lead[] = "--set ";
-  size_t length = strlen(path);
-  char *file = ambulo__yaml_allocate(document, length + sizeof lead, 1);
+ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, const char *path,
+                                     const char *value) {
+  size_t size = strlen("--set ") + strlen(above) + strlen(path) + 1;
+  char *file = ambulo__yaml_allocate(document, size, 1);
   if (!file) return no_memory(document, NULL);
-  memcpy(file, lead, sizeof lead);
-  memcpy(file + sizeof lead - 1, path, length);
+  (void)snprintf(file, size, "--set %s%s", above, path);
   ambulo__yaml_node *parent = NULL, *old = NULL, *made = NULL;
   char *key = NULL;
   int depth = 0;
@@ -145,4 +193,8 @@ ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const c
                          "got no value; expected YAML text such as 36, [1, 2] or off");
   }
   return put(document, file, parent, old, key, made);
+}
+
+ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const char *value) {
+  return ambulo__yaml_set_below(document, "", path, value);
 }

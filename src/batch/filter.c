@@ -62,6 +62,15 @@ static int compare_numbers(double a, double b, comparison which) {
   return a != b;
 }
 
+size_t ambulo__filter_sides(const char *filter, char left[AMBULO__SWEEP_TEXT],
+                            char right[AMBULO__SWEEP_TEXT]) {
+  size_t at = 0;
+  comparison which = EQUAL;
+  size_t length = find_operator(filter, &at, &which);
+  const char *rest = filter + at + length;
+  return length && side(filter, at, left) && side(rest, strlen(rest), right) ? length : 0;
+}
+
 int ambulo__filter_holds(const char *filter, const char *(*text_of)(void *user, const char *name),
                          void *user) {
   char left[AMBULO__SWEEP_TEXT], right[AMBULO__SWEEP_TEXT];

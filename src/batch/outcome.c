@@ -109,6 +109,8 @@ ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot,
   record.key = one->key;
   record.exit_code = -1;
   record.violation = -1.0;
+  if (slot->from >= 0)
+    (void)snprintf(record.start, sizeof record.start, "%s", run->sweep->cases[slot->from].id);
   record.seconds = ambulo__run_clock() - slot->begin;
   record.limit_seconds = run->case_seconds;
   record.limit_megabytes = run->case_megabytes;

@@ -38,6 +38,9 @@ static int read_fields(const ambulo__yaml_node *root, const char *id, ambulo__re
   if (!parse_hex(text_at(root, "key"), &r->key)) return 0;
   if (!parse_hex(text_at(root, "summary"), &r->summary)) return 0;
   (void)snprintf(r->state, sizeof r->state, "%s", state);
+  const char *start = text_at(root, "start");
+  if (!start || strlen(start) >= sizeof r->start) return 0;
+  (void)snprintf(r->start, sizeof r->start, "%s", start);
   r->valid = ambulo__yaml_boolean(ambulo__yaml_require(root, "valid"), 0);
   r->exit_code = ambulo__yaml_integer(ambulo__yaml_require(root, "exit_code"), -1, 255, -1);
   r->signal = ambulo__yaml_integer(ambulo__yaml_require(root, "signal"), 0, 255, 0);
@@ -80,6 +83,7 @@ ambulo_status ambulo__record_write(const char *directory, const char *id, const 
   (void)snprintf(hex, sizeof hex, "%016llx", r->key);
   ambulo__json_text(&json, "key", hex);
   ambulo__json_text(&json, "state", r->state);
+  ambulo__json_text(&json, "start", r->start);
   ambulo__text_append_format(&text, ",\n  \"valid\": %s", r->valid ? "true" : "false");
   ambulo__json_integer(&json, "exit_code", r->exit_code);
   ambulo__json_integer(&json, "signal", r->signal);

@@ -16,6 +16,7 @@ typedef struct ambulo__record {
   double seconds;        /* wall time of the last attempt */
   double limit_seconds;  /* limits it ran under; 0: none */
   int limit_megabytes;
+  char start[40];             /* id of the case whose solution it began from; "": none */
   double violation;           /* worst of the audit; -1: no result */
   unsigned long long summary; /* hash of summary.json; 0: no result folder belongs to it */
 } ambulo__record;

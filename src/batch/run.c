@@ -68,6 +68,7 @@ static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
     return status;
   }
   slot->index = index;
+  slot->from = from;
   slot->cut = 0;
   slot->begin = ambulo__run_clock();
   run->state[index] = AMBULO__CASE_RUNNING;

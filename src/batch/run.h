@@ -19,6 +19,7 @@ typedef enum ambulo__case_state {
 typedef struct ambulo__slot {
   pid_t process; /* 0: free */
   int index;     /* of the case */
+  int from;      /* the case whose solution it starts from; -1: none */
   int cut;       /* 1: killed by us for its time, 2: because the run stops */
   double begin;  /* s */
 } ambulo__slot;
@@ -47,7 +48,8 @@ double ambulo__run_clock(void);
 /* schedule.c: reads the records of this shard's cases and fills the tables. */
 ambulo_status ambulo__schedule_open(ambulo__run *run);
 void ambulo__schedule_free(ambulo__run *run);
-/* The next case that may start, or -1. */
+/* The next case that may start, or -1. A case that continues another is taken from its record
+ * only once that one is done, since only then it is known what it has to start from. */
 int ambulo__schedule_next(ambulo__run *run);
 /* The case to go on with in the same slot, or -1. */
 int ambulo__schedule_follower(ambulo__run *run, int index);

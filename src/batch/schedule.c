@@ -25,12 +25,22 @@ static ambulo_status assign(ambulo__run *run) {
   return AMBULO_OK;
 }
 
+static int may_start(const ambulo__run *run, int k) {
+  int previous = run->sweep->cases[k].previous;
+  return run->state[k] == AMBULO__CASE_WAITING &&
+         (previous < 0 || run->state[previous] == AMBULO__CASE_DONE);
+}
+
+/* Takes a waiting case as done when its record is what this run would compute: same key, same
+ * start, limits no tighter than now. */
 static void take_record(ambulo__run *run, int k) {
   const ambulo__sweep_case *one = &run->sweep->cases[k];
+  int from = ambulo__schedule_start_of(run, k);
   ambulo__record record;
   if (ambulo__record_read(run->directory, one->id, run->allocator, &record) != AMBULO__RECORD_READ)
     return;
   if (record.key != one->key ||
+      strcmp(record.start, from < 0 ? "" : run->sweep->cases[from].id) != 0 ||
       ambulo__record_was_cut(&record, run->case_seconds, run->case_megabytes) ||
       !ambulo__record_summary_intact(run->directory, one->id, &record, run->allocator))
     return;
@@ -53,7 +63,7 @@ ambulo_status ambulo__schedule_open(ambulo__run *run) {
     return AMBULO_E_MEMORY;
   ambulo_status status = assign(run);
   for (int k = 0; k < run->sweep->case_count && !status; k++) {
-    if (run->state[k] == AMBULO__CASE_WAITING) take_record(run, k);
+    if (may_start(run, k)) take_record(run, k);
   }
   return status;
 }
@@ -67,17 +77,18 @@ void ambulo__schedule_free(ambulo__run *run) {
   ambulo__free(a, run->slot);
 }
 
-static int may_start(const ambulo__run *run, int k) {
-  int previous = run->sweep->cases[k].previous;
-  return run->state[k] == AMBULO__CASE_WAITING &&
-         (previous < 0 || run->state[previous] == AMBULO__CASE_DONE);
+/* 1: the case has to be computed, and may be now */
+static int is_due(ambulo__run *run, int k) {
+  if (!may_start(run, k)) return 0;
+  if (run->sweep->cases[k].previous >= 0) take_record(run, k);
+  return run->state[k] == AMBULO__CASE_WAITING;
 }
 
 int ambulo__schedule_next(ambulo__run *run) {
   /* once more from the front when all is quiet: a second case may continue the same one */
   for (int pass = 0; pass < 2; pass++) {
     for (; run->cursor < run->sweep->case_count; run->cursor++)
-      if (may_start(run, run->cursor)) return run->cursor++;
+      if (is_due(run, run->cursor)) return run->cursor++;
     if (run->progress.running > 0) break;
     run->cursor = 0;
   }
@@ -87,7 +98,11 @@ int ambulo__schedule_next(ambulo__run *run) {
 int ambulo__schedule_follower(ambulo__run *run, int index) {
   if (run->state[index] == AMBULO__CASE_WAITING) return index; /* to be tried again */
   int next = run->next[index];
-  return next >= 0 && may_start(run, next) ? next : -1;
+  while (next >= 0 && !is_due(run, next)) {
+    if (run->state[next] != AMBULO__CASE_DONE) return -1;
+    next = run->next[next];
+  }
+  return next;
 }
 
 int ambulo__schedule_start_of(const ambulo__run *run, int index) {

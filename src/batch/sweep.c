@@ -14,6 +14,8 @@ static char *copy_scalar(ambulo_sweep *s, const ambulo__yaml_node *node) {
 static ambulo_status read_texts(ambulo_sweep *s, const ambulo__yaml_node *node, char ***texts,
                                 int *count) {
   int items = ambulo__yaml_count(node);
+  if (node && ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE)
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "not a list; expected [TEXT, ...]");
   if (items == 0) return AMBULO_OK;
   *texts = ambulo__alloc(&s->allocator, (size_t)items, sizeof **texts);
   if (!*texts) return AMBULO_E_MEMORY;
@@ -30,7 +32,8 @@ static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
   const char *key_text = key ? ambulo__yaml_text(key) : NULL;
   if (!key_text) return AMBULO_E_SCHEMA;
-  ambulo__axis *axis = ambulo__sweep_add_axis(s, name ? ambulo__yaml_text(name) : NULL, key_text);
+  ambulo__axis *axis = ambulo__sweep_add_axis(s, name ? ambulo__yaml_text(name) : NULL, key_text,
+                                              ambulo__spot_of(key));
   if (!axis)
     return ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "more than %d axes", AMBULO__SWEEP_AXES);
   ambulo_status status = ambulo__sweep_read_values(s, axis, node);
@@ -123,13 +126,18 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   static const char *const kinds[] = {"sweep"};
   (void)ambulo__yaml_choice(ambulo__yaml_require(root, "kind"), kinds, 1, 0);
   s->name = copy_scalar(s, ambulo__yaml_require(root, "name"));
-  s->case_name = copy_scalar(s, ambulo__yaml_get(root, "case_name"));
+  const ambulo__yaml_node *pattern = ambulo__yaml_get(root, "case_name");
+  s->case_name = copy_scalar(s, pattern);
+  if (pattern) s->case_name_spot = ambulo__spot_of(pattern);
   const ambulo__yaml_node *base = ambulo__yaml_require(root, "base");
   const ambulo__yaml_node *cases = ambulo__yaml_get(root, "cases");
   if (!base || !s->name) return ambulo__yaml_finish(document);
   s->base = ambulo__sibling_path(&s->allocator, s->path, ambulo__yaml_text(base));
   ambulo_status status = s->base ? read_axes(s, root) : AMBULO_E_MEMORY;
-  if (!status) status = read_texts(s, ambulo__yaml_get(root, "filters"), &s->filter, &s->filters);
+  const ambulo__yaml_node *filters = ambulo__yaml_get(root, "filters");
+  if (!status) status = ambulo__sweep_check_axes(s);
+  if (!status) status = read_texts(s, filters, &s->filter, &s->filters);
+  if (!status) status = ambulo__sweep_check_filters(s, filters);
   if (!status) status = read_texts(s, ambulo__yaml_get(root, "outputs"), &s->output, &s->outputs);
   if (!status) status = read_limits(s, root);
   if (!status) status = read_chain(s, root);
@@ -173,8 +181,8 @@ void ambulo_sweep_free(ambulo_sweep *s) {
   if (!s) return;
   ambulo_allocator a = s->allocator;
   for (int i = 0; i < s->axes; i++) {
-    free_texts(&a, s->axis[i].override, s->axis[i].count);
-    ambulo__free(&a, s->axis[i].file);
+    for (int k = 0; k < s->axis[i].count; k++) ambulo__free(&a, s->axis[i].value[k].override);
+    ambulo__free(&a, s->axis[i].value);
     ambulo__free(&a, s->axis[i].name);
     ambulo__free(&a, s->axis[i].key);
   }
@@ -191,6 +199,7 @@ void ambulo_sweep_free(ambulo_sweep *s) {
   ambulo__free(&a, s->case_name);
   ambulo__free(&a, s->base);
   ambulo__free(&a, s->path);
+  ambulo__free(&a, s->table);
   ambulo__free(&a, s);
 }
 

@@ -13,10 +13,23 @@
 
 enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEXT = 256 };
 
+/* Where something stands in the sweep file, or in its table. */
+typedef struct ambulo__spot {
+  int line, column;
+} ambulo__spot;
+
+/* A value of an axis. */
+typedef struct ambulo__axis_value {
+  char *override;          /* "key=value"; cases share these texts */
+  unsigned long long file; /* hash of the file that the value names; 0: none */
+  ambulo__spot spot;
+} ambulo__axis_value;
+
 typedef struct ambulo__axis {
   char *name, *key;
-  char **override;          /* [count] "key=value"; cases share these texts */
-  unsigned long long *file; /* [count] hash of the file that the value names; 0: none */
+  ambulo__spot spot; /* of the key */
+  int in_table;      /* 1: spots are in the table's file */
+  ambulo__axis_value *value;
   int count, capacity;
 } ambulo__axis;
 
@@ -35,8 +48,9 @@ typedef struct ambulo__sweep_case {
 
 struct ambulo_sweep {
   ambulo_allocator allocator;
-  ambulo_diagnostics *diagnostics; /* while loading */
-  char *name, *path, *base, *case_name;
+  ambulo_diagnostics *diagnostics;              /* while loading */
+  char *name, *path, *base, *case_name, *table; /* table: path of the CSV file, or NULL */
+  ambulo__spot case_name_spot;
   ambulo__axis axis[AMBULO__SWEEP_AXES];
   int axes;
   ambulo__axis_group group[AMBULO__SWEEP_AXES];
@@ -65,12 +79,24 @@ ambulo_status ambulo__sweep_read_values(ambulo_sweep *sweep, ambulo__axis *axis,
                                         const ambulo__yaml_node *node);
 
 /* A fresh axis, or NULL (too many, no memory). Names default to the key. */
-ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key);
+ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key,
+                                     ambulo__spot spot);
 ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
-                                    size_t length);
-ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value);
+                                    size_t length, ambulo__spot spot);
+ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value,
+                                      ambulo__spot spot);
 const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
+ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
+
+/* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one
+ * name or key. Filters: neither side names an axis. Case name: {word} names none. Cases: two of
+ * one name; and each value of each axis is read once together with the base problem, so that a
+ * key that does not exist or a value of the wrong kind is told now and not by every case. */
+ambulo_status ambulo__sweep_check_axes(ambulo_sweep *sweep);
+ambulo_status ambulo__sweep_check_filters(ambulo_sweep *sweep, const ambulo__yaml_node *filters);
+ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *sweep);
+ambulo_status ambulo__sweep_check_cases(ambulo_sweep *sweep);
 
 /* sweep_chains.c: sets `previous` of every case, and lets keys depend on it. */
 ambulo_status ambulo__sweep_link_chains(ambulo_sweep *sweep);
@@ -79,5 +105,8 @@ ambulo_status ambulo__sweep_link_chains(ambulo_sweep *sweep);
  * words. OP: < <= > >= == !=. `text_of` gives the text of an axis name (NULL: no axis). */
 int ambulo__filter_holds(const char *filter, const char *(*text_of)(void *user, const char *name),
                          void *user);
+/* Both sides, trimmed. Returns the length of the operator; 0: the text is no comparison. */
+size_t ambulo__filter_sides(const char *filter, char left[AMBULO__SWEEP_TEXT],
+                            char right[AMBULO__SWEEP_TEXT]);
 
 #endif

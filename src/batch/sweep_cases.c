@@ -65,7 +65,7 @@ static ambulo_status fill_overrides(builder *b, ambulo__sweep_case *one) {
   one->override = ambulo__alloc(&s->allocator, (size_t)count, sizeof *one->override);
   if (!one->override) return AMBULO_E_MEMORY;
   for (int i = 0; i < s->axes; i++)
-    if (b->value[i] >= 0) one->override[one->overrides++] = s->axis[i].override[b->value[i]];
+    if (b->value[i] >= 0) one->override[one->overrides++] = s->axis[i].value[b->value[i]].override;
   return AMBULO_OK;
 }
 
@@ -107,8 +107,8 @@ static ambulo_status add_case(builder *b, const char *pattern) {
   for (int i = 0; i < one->overrides; i++) hash = ambulo__hash_text(hash, one->override[i]);
   one->key = ambulo__hash_word(hash, s->base_hash);
   for (int i = 0; i < s->axes; i++) {
-    if (b->value[i] >= 0 && s->axis[i].file[b->value[i]])
-      one->key = ambulo__hash_word(one->key, s->axis[i].file[b->value[i]]);
+    if (b->value[i] >= 0 && s->axis[i].value[b->value[i]].file)
+      one->key = ambulo__hash_word(one->key, s->axis[i].value[b->value[i]].file);
   }
   char id[40];
   (void)snprintf(id, sizeof id, "%09lld-%08llx", b->place, hash & 0xffffffffULL);
@@ -160,17 +160,21 @@ static ambulo_status add_explicit_axes(ambulo_sweep *s, const ambulo__yaml_node 
       if (s->axes == AMBULO__SWEEP_AXES)
         return ambulo__yaml_error(set, AMBULO_E_LIMIT, NULL, "more than %d keys",
                                   AMBULO__SWEEP_AXES);
-      if (!ambulo__sweep_add_axis(s, NULL, key)) return AMBULO_E_MEMORY;
+      ambulo__spot spot = ambulo__spot_of(ambulo__yaml_value(set, j));
+      if (!ambulo__sweep_add_axis(s, NULL, key, spot)) return AMBULO_E_MEMORY;
     }
   }
   return AMBULO_OK;
 }
 
-static ambulo_status set_value(builder *b, const char *key, const char *text) {
+static ambulo_status set_value(builder *b, const char *key, const ambulo__yaml_node *node) {
   ambulo_sweep *s = b->sweep;
   int axis = axis_of_key(s, key);
+  const char *text = ambulo__yaml_text(node);
   if (axis < 0) return AMBULO_E_INTERNAL;
-  ambulo_status status = ambulo__axis_add_text(s, &s->axis[axis], text, strlen(text));
+  if (!text) return AMBULO_E_SCHEMA;
+  ambulo_status status =
+      ambulo__axis_add_text(s, &s->axis[axis], text, strlen(text), ambulo__spot_of(node));
   if (!status) b->value[axis] = s->axis[axis].count - 1;
   return status;
 }
@@ -182,9 +186,8 @@ static ambulo_status explicit_case(builder *b, const ambulo__yaml_node *node) {
   for (int i = 0; i < AMBULO__SWEEP_AXES; i++) b->value[i] = -1;
   for (int i = 0; i < ambulo__yaml_count(set) && !status; i++) {
     const char *key = ambulo__yaml_key(set, i);
-    const char *text = ambulo__yaml_text(ambulo__yaml_value(set, i));
     ambulo__yaml_expect(set, key);
-    status = text ? set_value(b, key, text) : AMBULO_E_SCHEMA;
+    status = set_value(b, key, ambulo__yaml_value(set, i));
   }
   ambulo__yaml_close(node);
   if (!status) status = add_case(b, name ? ambulo__yaml_text(name) : b->sweep->case_name);
@@ -197,15 +200,18 @@ ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
   builder b = {.sweep = sweep};
   ambulo_status status = add_explicit_axes(sweep, explicit_cases);
   sweep->stride = sweep->axes > 0 ? sweep->axes : 1;
+  if (!status) status = ambulo__sweep_check_case_name(sweep);
   if (!status) status = product(&b);
   for (int i = 0; i < ambulo__yaml_count(explicit_cases) && !status; i++)
     status = explicit_case(&b, ambulo__yaml_item(explicit_cases, i));
   if (status) return status;
   if (sweep->case_count == 0) {
     ambulo__place place = {sweep->path, 0, 0, NULL};
-    return ambulo__error(sweep->diagnostics, AMBULO_E_PROBLEM, place, NULL,
+    return ambulo__error(sweep->diagnostics, AMBULO_E_PROBLEM, place,
+                         sweep->filters ? NULL : "give axes, a table, samples or cases",
                          "the sweep has no case left; expected at least one%s",
                          sweep->filters ? " that passes the filters" : "");
   }
-  return ambulo__sweep_link_chains(sweep);
+  status = ambulo__sweep_check_cases(sweep);
+  return status ? status : ambulo__sweep_link_chains(sweep);
 }

@@ -1,7 +1,8 @@
 /* batch/sweep_table.c - axes from a CSV table: one column an axis, one row a case. */
+#include "base/numtext.h"
 #include "base/read_file.h"
-#include "batch/sweep.h"
 #include "batch/paths.h"
+#include "batch/sweep.h"
 #include "trajectory/table_text.h"
 
 #include <string.h>
@@ -10,15 +11,15 @@ enum { MOST_TABLE_BYTES = 64 << 20 };
 
 typedef struct table {
   ambulo_sweep *sweep;
-  const char *file;
   ambulo__axis_group *group;
 } table;
 
-static ambulo_status fault(const table *t, int line, int column, const char *what, int got,
-                           int expected) {
-  ambulo__place place = {t->file, line, column, NULL};
-  return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place, NULL,
-                       "%s (got %d); expected %d", what, got, expected);
+static ambulo__place place_of(const table *t, ambulo__spot spot) {
+  return (ambulo__place){t->sweep->table, spot.line, spot.column, NULL};
+}
+
+static ambulo_status fault(const table *t, ambulo__spot spot, const char *what) {
+  return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place_of(t, spot), NULL, "%s", what);
 }
 
 static ambulo_status add_header(table *t, const ambulo__table_line *line) {
@@ -26,25 +27,49 @@ static ambulo_status add_header(table *t, const ambulo__table_line *line) {
   size_t position = 0;
   while (ambulo__table_next_cell(line, AMBULO__CELLS_COMMA, &position, &cell)) {
     char key[AMBULO__SWEEP_TEXT];
+    ambulo__spot spot = {line->number, cell.column};
     if (cell.length == 0 || cell.length >= sizeof key)
-      return fault(t, line->number, cell.column, "a column has no name", 0, 1);
+      return fault(t, spot, "a column has no name; expected a key of the problem");
     memcpy(key, cell.start, cell.length);
     key[cell.length] = '\0';
-    if (!ambulo__sweep_add_axis(t->sweep, NULL, key)) return AMBULO_E_MEMORY;
+    if (t->sweep->axes == AMBULO__SWEEP_AXES) return fault(t, spot, "too many columns");
+    ambulo__axis *axis = ambulo__sweep_add_axis(t->sweep, NULL, key, spot);
+    if (!axis) return AMBULO_E_MEMORY;
+    axis->in_table = 1;
     t->group->axes++;
   }
   return AMBULO_OK;
+}
+
+/* a column holds numbers or words, as its first cell does */
+static ambulo_status check_cell(const table *t, const ambulo__axis *axis,
+                                const ambulo__table_cell *cell, ambulo__spot spot) {
+  double number;
+  if (cell->length == 0) return fault(t, spot, "the cell is empty; expected a value");
+  if (axis->count == 0) return AMBULO_OK;
+  const char *first = ambulo__axis_text(axis, 0);
+  int numbers = ambulo__parse_double(first, strlen(first), &number);
+  if (numbers == ambulo__parse_double(cell->start, cell->length, &number)) return AMBULO_OK;
+  return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place_of(t, spot), NULL,
+                       "got '%.*s' in column '%s', which begins with '%s' in line %d; expected %s",
+                       cell->length < 40 ? (int)cell->length : 40, cell->start, axis->key, first,
+                       axis->value[0].spot.line, numbers ? "a number" : "a word");
 }
 
 static ambulo_status add_row(table *t, const ambulo__table_line *line) {
   ambulo__table_cell cell;
   size_t position = 0;
   int column = 0, cells = ambulo__table_count_cells(line, AMBULO__CELLS_COMMA);
-  if (cells != t->group->axes)
-    return fault(t, line->number, 1, "number of cells", cells, t->group->axes);
+  if (cells != t->group->axes) {
+    ambulo__spot spot = {line->number, 1};
+    return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place_of(t, spot), NULL,
+                         "the row has %d cells; expected %d, as the header", cells, t->group->axes);
+  }
   while (ambulo__table_next_cell(line, AMBULO__CELLS_COMMA, &position, &cell)) {
     ambulo__axis *axis = &t->sweep->axis[t->group->first + column++];
-    ambulo_status status = ambulo__axis_add_text(t->sweep, axis, cell.start, cell.length);
+    ambulo__spot spot = {line->number, cell.column};
+    ambulo_status status = check_cell(t, axis, &cell, spot);
+    if (!status) status = ambulo__axis_add_text(t->sweep, axis, cell.start, cell.length, spot);
     if (status) return status;
   }
   t->group->count++;
@@ -60,24 +85,25 @@ static ambulo_status read_lines(table *t, const char *text, size_t length) {
     status = header ? add_header(t, &line) : add_row(t, &line);
     header = 0;
   }
+  ambulo__spot end = {line.number, 1};
   if (!status && t->group->count == 0)
-    return fault(t, line.number, 1, "rows below the header", 0, 1);
+    return fault(t, end, "no row below the header; expected at least one");
   return status;
 }
 
 ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_node *node) {
   const char *name = ambulo__yaml_text(node);
   if (!name) return AMBULO_E_SCHEMA;
-  char *path = ambulo__sibling_path(&sweep->allocator, sweep->path, name), *text = NULL;
+  char *text = NULL;
   size_t length = 0;
-  if (!path) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__read_file(path, MOST_TABLE_BYTES, &sweep->allocator,
+  sweep->table = ambulo__sibling_path(&sweep->allocator, sweep->path, name);
+  if (!sweep->table) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__read_file(sweep->table, MOST_TABLE_BYTES, &sweep->allocator,
                                            sweep->diagnostics, &text, &length);
-  table t = {sweep, path, &sweep->group[sweep->groups]};
+  table t = {sweep, &sweep->group[sweep->groups]};
   t.group->first = sweep->axes;
   if (!status) status = read_lines(&t, text, length);
   if (t.group->axes > 0) sweep->groups++;
   ambulo__free(&sweep->allocator, text);
-  ambulo__free(&sweep->allocator, path);
   return status;
 }

@@ -15,11 +15,18 @@
 
 enum { MOST_VALUES = 1000000, MOST_FILE_BYTES = 16 << 20 };
 
-ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key) {
+ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node) {
+  ambulo__place place = ambulo__yaml_place(node);
+  return (ambulo__spot){place.line, place.column};
+}
+
+ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key,
+                                     ambulo__spot spot) {
   if (sweep->axes == AMBULO__SWEEP_AXES) return NULL;
   ambulo__axis *axis = &sweep->axis[sweep->axes];
   axis->key = ambulo__strdup(&sweep->allocator, key);
   axis->name = ambulo__strdup(&sweep->allocator, name ? name : key);
+  axis->spot = spot;
   sweep->axes++;
   return axis->key && axis->name ? axis : NULL;
 }
@@ -50,17 +57,15 @@ static ambulo_status grow(const ambulo_sweep *sweep, ambulo__axis *axis) {
   if (axis->count == MOST_VALUES) return AMBULO_E_LIMIT;
   if (axis->count < axis->capacity) return AMBULO_OK;
   int capacity = axis->capacity ? 2 * axis->capacity : 8;
-  char **texts = ambulo__realloc(a, axis->override, (size_t)capacity, sizeof *texts);
-  if (texts) axis->override = texts;
-  unsigned long long *files = ambulo__realloc(a, axis->file, (size_t)capacity, sizeof *files);
-  if (files) axis->file = files;
-  if (!texts || !files) return AMBULO_E_MEMORY;
+  ambulo__axis_value *value = ambulo__realloc(a, axis->value, (size_t)capacity, sizeof *value);
+  if (!value) return AMBULO_E_MEMORY;
+  axis->value = value;
   axis->capacity = capacity;
   return AMBULO_OK;
 }
 
 ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
-                                    size_t length) {
+                                    size_t length, ambulo__spot spot) {
   ambulo_status status = grow(sweep, axis);
   if (status) return status;
   size_t key = strlen(axis->key);
@@ -69,19 +74,20 @@ ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, con
   memcpy(copy, axis->key, key);
   copy[key] = '=';
   memcpy(copy + key + 1, text, length);
-  axis->file[axis->count] = hash_named_file(sweep, copy + key + 1);
-  axis->override[axis->count++] = copy;
+  ambulo__axis_value value = {copy, hash_named_file(sweep, copy + key + 1), spot};
+  axis->value[axis->count++] = value;
   return AMBULO_OK;
 }
 
 const char *ambulo__axis_text(const ambulo__axis *axis, int value) {
-  return axis->override[value] + strlen(axis->key) + 1;
+  return axis->value[value].override + strlen(axis->key) + 1;
 }
 
-ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value) {
+ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value,
+                                      ambulo__spot spot) {
   char text[AMBULO__NUMTEXT_SIZE];
   size_t length = ambulo__print_double(text, value);
-  return ambulo__axis_add_text(sweep, axis, text, length);
+  return ambulo__axis_add_text(sweep, axis, text, length, spot);
 }
 
 /* [first, last, step], both ends included where a step lands on them */
@@ -98,7 +104,8 @@ static ambulo_status add_range(ambulo_sweep *sweep, ambulo__axis *axis,
   for (int i = 0; i <= (int)steps && !status; i++) {
     /* rounded to what a person would have written: 0.8 + 2 * 0.1 is 1 */
     double value = r[0] + i * r[2];
-    status = ambulo__axis_add_number(sweep, axis, round(value * 1e12) / 1e12);
+    status =
+        ambulo__axis_add_number(sweep, axis, round(value * 1e12) / 1e12, ambulo__spot_of(node));
   }
   return status;
 }
@@ -114,7 +121,8 @@ static ambulo_status add_linspace(ambulo_sweep *sweep, ambulo__axis *axis,
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < count && !status; i++) {
     double fraction = count > 1 ? (double)i / (count - 1) : 0.0;
-    status = ambulo__axis_add_number(sweep, axis, r[0] + fraction * (r[1] - r[0]));
+    status = ambulo__axis_add_number(sweep, axis, r[0] + fraction * (r[1] - r[0]),
+                                     ambulo__spot_of(node));
   }
   return status;
 }
@@ -124,12 +132,14 @@ static ambulo_status add_list(ambulo_sweep *sweep, ambulo__axis *axis,
   int count = ambulo__yaml_count(node);
   if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || count < 1)
     return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                              "'values' of '%s' is not a list; expected one or more values",
-                              axis->name);
+                              "'values' of '%s' %s; expected a list of one or more values",
+                              axis->name, count < 1 ? "is empty" : "is not a list");
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < count && !status; i++) {
-    const char *text = ambulo__yaml_text(ambulo__yaml_item(node, i));
-    status = text ? ambulo__axis_add_text(sweep, axis, text, strlen(text)) : AMBULO_E_SCHEMA;
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, i);
+    const char *text = ambulo__yaml_text(item);
+    status = text ? ambulo__axis_add_text(sweep, axis, text, strlen(text), ambulo__spot_of(item))
+                  : AMBULO_E_SCHEMA;
   }
   return status;
 }
@@ -159,11 +169,12 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
                                  int latin, generator *g) {
   const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  int whole = ambulo__yaml_boolean(ambulo__yaml_get(node, "whole"), 0);
   double range[2];
   if (!key || !ambulo__yaml_numbers(ambulo__yaml_require(node, "range"), 2, range))
     return AMBULO_E_SCHEMA;
-  ambulo__axis *axis =
-      ambulo__sweep_add_axis(sweep, name ? ambulo__yaml_text(name) : NULL, ambulo__yaml_text(key));
+  ambulo__axis *axis = ambulo__sweep_add_axis(sweep, name ? ambulo__yaml_text(name) : NULL,
+                                              ambulo__yaml_text(key), ambulo__spot_of(key));
   int *order = ambulo__alloc(&sweep->allocator, (size_t)samples, sizeof *order);
   ambulo_status status = axis && order ? AMBULO_OK : AMBULO_E_MEMORY;
   for (int i = 0; order && i < samples; i++) order[i] = i;
@@ -174,7 +185,9 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
   }
   for (int i = 0; i < samples && !status; i++) {
     double u = fraction(g), place = latin ? (order[i] + u) / samples : u;
-    status = ambulo__axis_add_number(sweep, axis, range[0] + place * (range[1] - range[0]));
+    double value = range[0] + place * (range[1] - range[0] + whole);
+    if (whole) value = fmin(floor(value), range[1]);
+    status = ambulo__axis_add_number(sweep, axis, value, ambulo__spot_of(key));
   }
   ambulo__free(&sweep->allocator, order);
   ambulo__yaml_close(node);

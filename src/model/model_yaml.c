@@ -154,16 +154,25 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
   return status;
 }
 
-ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
-                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                ambulo_model **model) {
+ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *subject,
+                                      const ambulo__model_setting *setting, int settings,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
   ambulo__yaml *document = NULL;
-  if (!path || !model) return AMBULO_E_ARGUMENT;
   ambulo_status status = check_subject(subject, diagnostics);
   if (status == AMBULO_OK) status = ambulo__yaml_load(path, allocator, diagnostics, &document);
+  for (int i = 0; i < settings && status == AMBULO_OK; i++)
+    status = ambulo__yaml_set_below(document, "model.", setting[i].path, setting[i].value);
   if (status == AMBULO_OK) status = build(document, subject, allocator, diagnostics, model);
   ambulo__yaml_free(document);
   return status;
+}
+
+ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_model **model) {
+  if (!path || !model) return AMBULO_E_ARGUMENT;
+  return ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
 }
 
 ambulo_status ambulo_model_load_text(const char *text, size_t length, const char *name,

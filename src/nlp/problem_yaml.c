@@ -42,6 +42,12 @@ static ambulo_status apply_override(ambulo__problem_reader *reader, ambulo__yaml
   char *path = ambulo__reader_alloc(reader, length + 1, 1);
   if (!path) return AMBULO_E_MEMORY;
   memcpy(path, override, length);
+  static const char model[] = "model.";
+  if (strncmp(path, model, sizeof model - 1) == 0) {
+    ambulo__model_setting setting = {path + sizeof model - 1, equals + 1};
+    reader->setting[reader->settings++] = setting;
+    return AMBULO_OK;
+  }
   ambulo_status status = add_section(document, path);
   return status ? status : ambulo__yaml_set(document, path, equals + 1);
 }
@@ -49,6 +55,8 @@ static ambulo_status apply_override(ambulo__problem_reader *reader, ambulo__yaml
 static ambulo_status apply_overrides(ambulo__problem_reader *reader, ambulo__yaml *document,
                                      const char *const *overrides, int count) {
   ambulo_status status = AMBULO_OK;
+  reader->setting = ambulo__reader_alloc(reader, (size_t)count, sizeof *reader->setting);
+  if (!reader->setting) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     ambulo_status one = apply_override(reader, document, overrides[i]);
     if (!status) status = one;
@@ -104,7 +112,8 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   const char *path = ambulo__reader_path(reader, name);
   if (!path) return;
   ambulo_status status =
-      ambulo_model_load(path, &subject, &reader->allocator, reader->diagnostics, &reader->model);
+      ambulo__model_load_with(path, &subject, reader->setting, reader->settings, &reader->allocator,
+                              reader->diagnostics, &reader->model);
   reader->definition.model = reader->model;
   if (!status) return;
   reader->failure = status;

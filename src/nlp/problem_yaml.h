@@ -15,14 +15,16 @@ typedef struct ambulo__reader_block ambulo__reader_block;
 typedef struct ambulo__problem_reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
-  const char *directory;         /* where relative names start; "" for the current one */
-  ambulo__reader_block *blocks;  /* freed with the reader */
-  ambulo_status failure;         /* E_MEMORY, or what a referenced file failed with */
-  double radians;                /* per unit of angle in the file; 0: not stated */
-  int asked_for_unit;            /* the missing unit has been reported */
-  ambulo_model *model;           /* NULL if it could not be loaded */
-  const ambulo__yaml_node *gait; /* the section, or NULL */
-  int has_duration;              /* time.duration is in the file */
+  const char *directory;          /* where relative names start; "" for the current one */
+  ambulo__reader_block *blocks;   /* freed with the reader */
+  ambulo_status failure;          /* E_MEMORY, or what a referenced file failed with */
+  double radians;                 /* per unit of angle in the file; 0: not stated */
+  int asked_for_unit;             /* the missing unit has been reported */
+  ambulo_model *model;            /* NULL if it could not be loaded */
+  const ambulo__yaml_node *gait;  /* the section, or NULL */
+  int has_duration;               /* time.duration is in the file */
+  ambulo__model_setting *setting; /* [settings] overrides of the model file's keys */
+  int settings;
   ambulo_problem_definition definition;
   ambulo_options options;
 } ambulo__problem_reader;

@@ -18,6 +18,7 @@ static void values_are_replaced_and_added(void **state) {
   assert_int_equal(ambulo__yaml_set(c.document, "time.intervals", "72"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "objective[0].weight", " 0.5 "), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "objective[1].weight", "2"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[upright].points", "7"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[1][0]", "9"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[0]", "[5, 6]"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "solver", "{algorithm: slsqp}"), AMBULO_OK);
@@ -29,6 +30,7 @@ static void values_are_replaced_and_added(void **state) {
   assert_true(ambulo__yaml_number(at(time, "duration"), 0.0) == 2.442);
   assert_true(ambulo__yaml_number(at(ambulo__yaml_item(terms, 0), "weight"), 0.0) == 0.5);
   assert_true(ambulo__yaml_number(at(ambulo__yaml_item(terms, 1), "weight"), 0.0) == 2.0);
+  assert_int_equal(ambulo__yaml_integer(at(ambulo__yaml_item(terms, 1), "points"), 0, 9, 0), 7);
   double row[2][2];
   for (int i = 0; i < 2; i++)
     assert_true(ambulo__yaml_numbers(ambulo__yaml_item(at(c.root, "matrix"), i), 2, row[i]));
@@ -55,7 +57,11 @@ static void faults_name_the_setting(void **state) {
     int hinted;
   } cases[] = {
       {"nothing.there", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path goes through a key that is not there", 1},
+       ": error[E_SCHEMA]: the path goes through a key that is not there (got 'nothing')", 1},
+      {"tmie.duration", "1", AMBULO_E_SCHEMA,
+       ": error[E_SCHEMA]: the path goes through a key that is not there (got 'tmie')\n"
+       "  hint: did you mean 'time'?",
+       0},
       {"time.duration.x", "1", AMBULO_E_SCHEMA,
        ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
       {"objective.x", "1", AMBULO_E_SCHEMA,
@@ -67,7 +73,12 @@ static void faults_name_the_setting(void **state) {
       {"", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
       {"time.", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
       {".time", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"objective[x]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+      {"objective[]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+      {"objective[-1]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+      {"objective[x]", "1", AMBULO_E_SCHEMA,
+       ": error[E_SCHEMA]: no item is named 'x'; expected the name of one, or its number", 0},
+      {"time[x]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [x]; the value is no sequence",
+       0},
       {"objective[0", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
       {"objective[0]weight", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed",
        1},

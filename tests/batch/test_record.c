@@ -9,6 +9,7 @@ static ambulo__record sample(void) {
                       .state = "timeout",
                       .exit_code = -1,
                       .signal = 9,
+                      .start = "000000000-00000000",
                       .seconds = 1.25,
                       .limit_seconds = 1.0,
                       .violation = 0.1,
@@ -30,6 +31,7 @@ static void a_round_trip(void **state) {
   assert_int_equal(ambulo__record_read(*state, id, &plain, &back), AMBULO__RECORD_READ);
   assert_true(back.key == r.key && back.summary == r.summary && back.signal == 9);
   assert_string_equal(back.state, "timeout");
+  assert_string_equal(back.start, r.start);
   assert_true(back.seconds == 1.25 && back.violation == 0.1 && back.exit_code == -1);
   assert_false(ambulo__record_summary_intact(*state, id, &back, &plain));
 }

@@ -97,6 +97,22 @@ static void a_chain_follows_its_axis(void **state) {
   ambulo_sweep_free(s);
   ambulo_sweep_free(plain);
   refused(state, TWO_AXES "start_from: neighbour\nalong: height\n", "unknown axis");
+  /* what a filter takes away is stepped over */
+  s = loaded(state, "axes:\n  - {key: time.duration, name: T, range: [1, 5, 1]}\n"
+                    "filters: [\"T != 2\", \"T != 3\"]\nstart_from: neighbour\nalong: T\n");
+  assert_int_equal(case_of(s, 0).previous, -1);
+  assert_int_equal(case_of(s, 1).previous, 0);
+  assert_int_equal(case_of(s, 2).previous, 1);
+  ambulo_sweep_free(s);
+  /* axes that advance together are one */
+  scratch_write(scratch_path(state, "t.csv"), "time.duration,time.intervals\n1,8\n2,10\n3,12\n");
+  s = loaded(state, "table: t.csv\naxes:\n  - {key: \"objective[0].weight\", values: [1, 2]}\n"
+                    "start_from: neighbour\nalong: time.intervals\n");
+  assert_int_equal(ambulo_sweep_case_count(s), 6);
+  int linked = 0;
+  for (int k = 0; k < 6; k++) linked += case_of(s, k).previous >= 0;
+  assert_int_equal(linked, 4);
+  ambulo_sweep_free(s);
 }
 
 static void a_table_is_one_axis(void **state) {
@@ -125,6 +141,13 @@ static void a_latin_hypercube_uses_each_stratum_once(void **state) {
     used[1][(int)atof(ambulo_sweep_value(s, k, 1))]++;
     assert_string_equal(case_of(s, k).id, case_of(again, k).id);
   }
+  ambulo_sweep *dice =
+      loaded(state, "random: {samples: 60, seed: 7, axes: [{key: time.intervals, range: [7, 9], "
+                    "whole: true}]}\n");
+  int thrown[3] = {0};
+  for (int k = 0; k < 60; k++) thrown[atoi(ambulo_sweep_value(dice, k, 0)) - 7]++;
+  assert_true(thrown[0] > 10 && thrown[1] > 10 && thrown[2] > 10);
+  ambulo_sweep_free(dice);
   for (int i = 0; i < 20; i++) {
     assert_int_equal(used[0][i], 1);
     assert_int_equal(used[1][i], 1);
@@ -154,12 +177,64 @@ static void a_named_file_is_part_of_the_key(void **state) {
   const char *text = "axes:\n  - {key: model, values: [two.yaml]}\n";
   scratch_write(scratch_path(state, "two.yaml"), model);
   ambulo_sweep *s = loaded(state, text);
-  scratch_write(scratch_path(state, "two.yaml"), "# changed\n");
+  char changed_model[sizeof model + 20];
+  snprintf(changed_model, sizeof changed_model, "# changed\n%s", model);
+  scratch_write(scratch_path(state, "two.yaml"), changed_model);
   ambulo_sweep *changed = loaded(state, text);
   assert_string_equal(case_of(s, 0).id, case_of(changed, 0).id);
   assert_true(case_of(s, 0).key != case_of(changed, 0).key);
   ambulo_sweep_free(s);
   ambulo_sweep_free(changed);
+}
+
+static void a_model_key_is_an_axis(void **state) {
+  ambulo_sweep *s =
+      loaded(state, "axes:\n  - {key: \"model.links[rod].body.mass\", values: [1, 2]}\n");
+  assert_string_equal(case_of(s, 1).overrides[0], "model.links[rod].body.mass=2");
+  ambulo_sweep_free(s);
+  refused(state, "axes:\n  - {key: \"model.links[rod].bdy.mass\", values: [1, 2]}\n",
+          "did you mean 'body'?");
+}
+
+/* told once, where it stands, before anything is computed */
+static void a_wrong_key_or_value_is_told_with_its_place(void **state) {
+  refused(state, "axes:\n  - {key: time.duratoin, values: [1]}\n",
+          "s.yaml:6:11: error[E_SCHEMA]: time.duratoin: unknown key 'duratoin' in time\n"
+          "  hint: did you mean 'duration'?");
+  refused(state, "axes:\n  - {key: tmie.duration, values: [1]}\n", "did you mean 'time'?");
+  refused(state, "axes:\n  - {key: time.duration, values: [1, long]}\n", "s.yaml:6:38: error");
+  refused(state, "axes:\n  - {key: time.duration, values: [1, .nan]}\n",
+          "got '.nan'; expected a finite number");
+  refused(state, "axes:\n  - {key: model, values: [nothing.yaml]}\n", "nothing.yaml");
+  refused(state, "cases:\n  - {name: a, set: {time.duratoin: 1}}\n", "s.yaml:6:36: error");
+}
+
+static void names_are_used_once(void **state) {
+  refused(state, TWO_AXES "  - {key: time.duration, name: T2, values: [1]}\n",
+          "the key 'time.duration' is that of another axis (line 7)");
+  refused(state, TWO_AXES "  - {key: name, name: T, values: [a]}\n", "the name 'T' is that of");
+  refused(state, TWO_AXES "case_name: \"{n}\"\n", "two cases are named '8'");
+  refused(state, TWO_AXES "case_name: \"{n}-{t}\"\n", "unknown axis in case_name (got '{t}')");
+  refused(state, TWO_AXES "filters: [\"speed != 3\"]\n", "unknown axis in filter");
+  refused(state, TWO_AXES "filters: \"n > 8\"\n", "not a list");
+}
+
+static void table_refused(void **state, const char *table, const char *message) {
+  scratch_write(scratch_path(state, "t.csv"), table);
+  refused(state, "table: t.csv\n", message);
+}
+
+static void a_bad_cell_is_told_with_line_and_column(void **state) {
+  table_refused(state, "time.duration,time.intervals\n1,8\n2,1o\n",
+                "t.csv:3:3: error[E_SCHEMA]: got '1o' in column 'time.intervals', which begins "
+                "with '8' in line 2; expected a number");
+  table_refused(state, "time.duration,time.intervals\n1,8\n,10\n", "t.csv:3:1: error");
+  table_refused(state, "time.duration,time.intervals\n1,8\n1\n", "t.csv:3:1: error");
+  table_refused(state, "time.duration,time.intervals\n1,8\n1,-4\n",
+                "t.csv:3:3: error[E_SCHEMA]: time.intervals: got '-4'; expected a whole number");
+  table_refused(state, "time.duration,\n1,8\n", "t.csv:1:15: error");
+  table_refused(state, "time.duration,time.intervls\n1,8\n", "t.csv:1:15: error");
+  table_refused(state, "time.duration,time.intervals\n", "no row below the header");
 }
 
 static void faults_are_named(void **state) {
@@ -184,6 +259,10 @@ int main(void) {
       TEST(a_latin_hypercube_uses_each_stratum_once),
       TEST(explicit_cases_come_last),
       TEST(a_named_file_is_part_of_the_key),
+      TEST(a_model_key_is_an_axis),
+      TEST(a_wrong_key_or_value_is_told_with_its_place),
+      TEST(names_are_used_once),
+      TEST(a_bad_cell_is_told_with_line_and_column),
       TEST(faults_are_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,205 @@
+/* batch/sweep_check.c - what makes a case list wrong before anything is computed (sweep.h). */
+#include "ambulo/problem.h"
+#include "base/numtext.h"
+#include "batch/paths.h"
+#include "batch/sweep.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_PROBES = 200, HINT = 200 };
+
+static ambulo__place place_in(const ambulo_sweep *s, const ambulo__axis *axis, ambulo__spot spot) {
+  const char *file = axis && axis->in_table ? s->table : s->path;
+  return (ambulo__place){file, spot.line, spot.column, NULL};
+}
+
+/* "did you mean 'speed'?", or the names there are */
+static void hint_axis(const ambulo_sweep *s, const char *word, char hint[HINT]) {
+  const char *name[AMBULO__SWEEP_AXES];
+  for (int i = 0; i < s->axes; i++) name[i] = s->axis[i].name;
+  const char *near = ambulo__nearest(word, name, (size_t)s->axes);
+  size_t used = 0;
+  if (near) {
+    (void)snprintf(hint, HINT, "did you mean '%s'?", near);
+    return;
+  }
+  (void)snprintf(hint, HINT, "there are no axes");
+  for (int i = 0; i < s->axes && used < HINT; i++) {
+    int length = snprintf(hint + used, HINT - used, "%s%s", i ? ", " : "axes: ", name[i]);
+    used += length > 0 ? (size_t)length : 0;
+  }
+}
+
+/* --------------------------------------------------------------------- axes */
+
+static ambulo_status repeated(ambulo_sweep *s, const ambulo__axis *axis, const char *what,
+                              const char *text, const ambulo__axis *first) {
+  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place_in(s, axis, axis->spot), NULL,
+                       "the %s '%s' is that of another axis (line %d); expected another one", what,
+                       text, first->spot.line);
+}
+
+ambulo_status ambulo__sweep_check_axes(ambulo_sweep *s) {
+  for (int i = 0; i < s->axes; i++) {
+    const ambulo__axis *axis = &s->axis[i];
+    for (int k = 0; k < i; k++) {
+      if (strcmp(axis->key, s->axis[k].key) == 0)
+        return repeated(s, axis, "key", axis->key, &s->axis[k]);
+      if (strcmp(axis->name, s->axis[k].name) == 0)
+        return repeated(s, axis, "name", axis->name, &s->axis[k]);
+    }
+  }
+  return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------ filters */
+
+static int is_number(const char *text) {
+  double number;
+  return ambulo__parse_double(text, strlen(text), &number);
+}
+
+/* the side that should name an axis and does not; NULL: fine */
+static const char *stranger(const ambulo_sweep *s, const char *left, const char *right) {
+  int axes = (ambulo__sweep_find_axis(s, left) >= 0) + (ambulo__sweep_find_axis(s, right) >= 0);
+  if (axes > 0) return NULL;
+  return is_number(left) ? right : left;
+}
+
+ambulo_status ambulo__sweep_check_filters(ambulo_sweep *s, const ambulo__yaml_node *filters) {
+  for (int i = 0; i < s->filters; i++) {
+    char left[AMBULO__SWEEP_TEXT], right[AMBULO__SWEEP_TEXT], hint[HINT];
+    const ambulo__yaml_node *node = ambulo__yaml_item(filters, i);
+    if (!ambulo__filter_sides(s->filter[i], left, right))
+      return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                                "filter '%s' is no comparison; expected NAME < VALUE with < <= > "
+                                ">= == !=",
+                                s->filter[i]);
+    const char *word = stranger(s, left, right);
+    if (!word) continue;
+    hint_axis(s, word, hint);
+    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint,
+                              "unknown axis in filter '%s' (got '%s'); expected the name of an "
+                              "axis",
+                              s->filter[i], word);
+  }
+  return AMBULO_OK;
+}
+
+/* --------------------------------------------------------------- case names */
+
+ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *s) {
+  for (const char *c = s->case_name ? strchr(s->case_name, '{') : NULL; c; c = strchr(c + 1, '{')) {
+    char word[AMBULO__SWEEP_TEXT], hint[HINT];
+    size_t length = strcspn(c + 1, "}");
+    if (length >= sizeof word || c[1 + length] != '}') break;
+    memcpy(word, c + 1, length);
+    word[length] = '\0';
+    if (ambulo__sweep_find_axis(s, word) >= 0) continue;
+    hint_axis(s, word, hint);
+    return ambulo__error(
+        s->diagnostics, AMBULO_E_SCHEMA, place_in(s, NULL, s->case_name_spot), hint,
+        "unknown axis in case_name (got '{%s}'); expected the name of an axis", word);
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status names_differ(ambulo_sweep *s) {
+  size_t slots = 2;
+  while (slots < 2 * (size_t)s->case_count) slots *= 2;
+  int *slot = ambulo__alloc(&s->allocator, slots, sizeof *slot);
+  if (!slot) return AMBULO_E_MEMORY;
+  memset(slot, 0xff, slots * sizeof *slot);
+  ambulo_status status = AMBULO_OK;
+  for (int k = 0; k < s->case_count && !status; k++) {
+    const char *name = s->cases[k].name;
+    size_t at = (size_t)ambulo__hash_text(AMBULO__HASH_START, name) & (slots - 1);
+    while (slot[at] >= 0 && strcmp(s->cases[slot[at]].name, name) != 0) at = (at + 1) & (slots - 1);
+    if (slot[at] >= 0)
+      status = ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place_in(s, NULL, s->case_name_spot),
+                             "name every axis that varies in case_name, or leave it out",
+                             "two cases are named '%s' (%s and %s); expected different names", name,
+                             s->cases[slot[at]].id, s->cases[k].id);
+    slot[at] = k;
+  }
+  ambulo__free(&s->allocator, slot);
+  return status;
+}
+
+/* -------------------------------------------------------------------- cases */
+
+/* the axis that a message about "--set KEY" is about; -1: none */
+static int axis_of_message(const ambulo_sweep *s, const ambulo_diagnostic *message) {
+  static const char lead[] = "--set ";
+  if (!message->file || strncmp(message->file, lead, sizeof lead - 1) != 0) return -1;
+  for (int i = 0; i < s->axes; i++)
+    if (strcmp(s->axis[i].key, message->file + sizeof lead - 1) == 0) return i;
+  return -1;
+}
+
+/* a message of the problem's reader, told at the key (it has no position in the value) or at the
+ * value that it is about */
+static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
+                          const ambulo_diagnostics *list) {
+  const ambulo_diagnostic *message = NULL;
+  int i = -1;
+  for (size_t k = 0; k < ambulo_diagnostics_count(list) && i < 0; k++) {
+    message = ambulo_diagnostics_get(list, k);
+    i = message->severity == AMBULO_ERROR ? axis_of_message(s, message) : -1;
+  }
+  int value = i < 0 ? -1 : s->value[(size_t)index * (size_t)s->stride + (size_t)i];
+  if (value < 0) {
+    message = ambulo_diagnostics_get(list, 0);
+    return ambulo__error(s->diagnostics, status, place_in(s, NULL, (ambulo__spot){0, 0}),
+                         message ? message->hint : NULL, "case '%s': %s", s->cases[index].name,
+                         message ? message->message : ambulo_status_text(status));
+  }
+  const ambulo__axis *axis = &s->axis[i];
+  ambulo__spot spot = message->line > 0 ? axis->value[value].spot : axis->spot;
+  return ambulo__error(s->diagnostics, status, place_in(s, axis, spot), message->hint, "%s: %s",
+                       axis->key, message->message);
+}
+
+/* Only what a value is in itself ends the sweep; whether the values of a case agree with each
+ * other (E_PROBLEM, E_MODEL) is a result of that case. */
+static ambulo_status probe(ambulo_sweep *s, int index) {
+  const ambulo__sweep_case *one = &s->cases[index];
+  ambulo_problem *problem = NULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(&s->allocator);
+  ambulo_status status =
+      ambulo_problem_load(s->base, one->override, one->overrides, &s->allocator, list, &problem);
+  ambulo_problem_free(problem);
+  if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO)
+    status = tell(s, index, status, list);
+  else if (status != AMBULO_E_MEMORY)
+    status = AMBULO_OK;
+  ambulo_diagnostics_free(list);
+  return status;
+}
+
+ambulo_status ambulo__sweep_check_cases(ambulo_sweep *s) {
+  ambulo_status status = AMBULO_OK;
+  size_t first[AMBULO__SWEEP_AXES], values = 0;
+  for (int i = 0; i < s->axes; i++) {
+    first[i] = values;
+    values += (size_t)s->axis[i].count;
+  }
+  unsigned char *seen = ambulo__alloc(&s->allocator, values, 1);
+  if (!seen) status = AMBULO_E_MEMORY;
+  int probes = 0;
+  for (int k = 0; k < s->case_count && !status && probes < MOST_PROBES; k++) {
+    const int *value = s->value + (size_t)k * (size_t)s->stride;
+    int fresh = 0;
+    for (int i = 0; i < s->axes; i++) {
+      if (value[i] < 0 || seen[first[i] + (size_t)value[i]]) continue;
+      seen[first[i] + (size_t)value[i]] = 1;
+      fresh = 1;
+    }
+    if (!fresh) continue;
+    probes++;
+    status = probe(s, k);
+  }
+  ambulo__free(&s->allocator, seen);
+  return status ? status : names_differ(s);
+}
