@@ -180,7 +180,7 @@ static ambulo_status probe(ambulo_sweep *s, int index) {
 
 ambulo_status ambulo__sweep_check_cases(ambulo_sweep *s) {
   ambulo_status status = AMBULO_OK;
-  size_t first[AMBULO__SWEEP_AXES], values = 0;
+  size_t first[AMBULO__SWEEP_AXES] = {0}, values = 0;
   for (int i = 0; i < s->axes; i++) {
     first[i] = values;
     values += (size_t)s->axis[i].count;
