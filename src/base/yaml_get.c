@@ -73,13 +73,22 @@ void ambulo__yaml_expect(const ambulo__yaml_node *mapping, const char *key) {
   (void)ambulo__yaml_get(mapping, key);
 }
 
+/* the name of what encloses a mapping: its own, or that of the item of a list it is part of */
+static const ambulo__yaml_node *name_of(const ambulo__yaml_node *mapping) {
+  for (const ambulo__yaml_node *node = mapping; node; node = node->parent) {
+    const ambulo__yaml_node *name = ambulo__yaml_find(node, "name");
+    if (name && name->kind == AMBULO__YAML_SCALAR && (node == mapping || node->parent)) return name;
+  }
+  return NULL;
+}
+
 /* "in links[2] ('shank')", "at the top level": how a message names a mapping */
 static const char *describe(const ambulo__yaml_node *mapping, char *buffer, size_t size) {
   ambulo__place place = ambulo__yaml_place(mapping);
-  const ambulo__yaml_node *name = ambulo__yaml_find(mapping, "name");
+  const ambulo__yaml_node *name = name_of(mapping);
   const char *lead = place.path ? "in " : "at the top level";
   const char *path = place.path ? place.path : "";
-  if (name && name->kind == AMBULO__YAML_SCALAR) {
+  if (name) {
     (void)snprintf(buffer, size, "%s%s ('%.60s')", lead, path, name->text);
   } else {
     (void)snprintf(buffer, size, "%s%s", lead, path);

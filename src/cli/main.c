@@ -1,9 +1,9 @@
 /* cli/main.c - the program: finds the command, runs it, and makes sure its output arrived. */
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "cli/blas.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/worker.h"
@@ -34,15 +34,6 @@ static void print_version(void) {
          versions.blas, versions.instruction_set);
 }
 
-/* Only OpenBLAS has it; with another BLAS the symbol stays undefined and its address NULL. */
-extern void openblas_set_num_threads(int threads) __attribute__((weak));
-
-/* OpenBLAS starts a thread per core when it is loaded; the matrices here are too small to gain
- * from more than one. Whoever sets the variable decides for himself. */
-static void single_threaded_blas(void) {
-  if (openblas_set_num_threads && !getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
-}
-
 static int unknown_command(const char *word) {
   const char *names[COMMAND_COUNT];
   char hint[64];
@@ -65,7 +56,9 @@ static int dispatch(int argc, char **argv) {
     return 0;
   }
   for (int i = 0; i < COMMAND_COUNT; i++) {
-    if (!strcmp(word, commands[i]->name)) return ambulo__cli_run(commands[i], argc, argv);
+    if (strcmp(word, commands[i]->name) != 0) continue;
+    return ambulo__cli_blas_fits() ? ambulo__cli_run(commands[i], argc, argv)
+                                   : ambulo_status_exit_code(AMBULO_E_MEMORY);
   }
   return unknown_command(word);
 }
@@ -73,7 +66,7 @@ static int dispatch(int argc, char **argv) {
 int main(int argc, char **argv) {
   if (!ambulo__cli_become_worker()) return 128 + SIGTERM;
   ambulo__cli_guard_streams();
-  single_threaded_blas();
+  ambulo__cli_single_threaded_blas(argv);
   /* a closed pipe and a file size limit show up as failed writes, so that files are whole */
   int may_die = signal(SIGPIPE, SIG_IGN) == SIG_DFL;
   signal(SIGXFSZ, SIG_IGN);

@@ -4,7 +4,9 @@
  *
  * at every node, for finite limits only. A range of no width is one equation. Joint
  * limits may instead stand on the unknowns that are values: with B-splines the curve
- * lies in the convex hull of its control points, so such rows hold at all times.
+ * lies in the convex hull of its control points, so such rows hold at all times. A
+ * coordinate that is fixed has them there in any case: more nodes than control points
+ * would repeat its equations, those less well conditioned the further they are apart.
  */
 #include "gait/gait.h"
 
@@ -38,12 +40,17 @@ static int revolute(const ambulo_coordinate *coordinate) {
   return coordinate->type == AMBULO_REVOLUTE;
 }
 
+static int fixed_by_points(const ambulo__gait_frame *frame, int i) {
+  const double *range = frame->model->coordinates[i].range;
+  return range[0] == range[1] && ambulo__basis_get_kind(frame->basis) == AMBULO__BSPLINE;
+}
+
 static void node_limits(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
   const ambulo_problem_definition *definition = frame->definition;
   for (int i = 0; i < frame->model->coordinate_count; i++) {
     const ambulo_coordinate *c = &frame->model->coordinates[i];
     limit l = {.subject = c->name, .node = node, .time = frame->times[node]};
-    if (definition->joint_limits == AMBULO_LIMIT_NODES) {
+    if (definition->joint_limits == AMBULO_LIMIT_NODES && !fixed_by_points(frame, i)) {
       l.family = "joint_limit";
       l.unit = revolute(c) ? "rad" : "m";
       l.low = c->range[0];
@@ -70,7 +77,8 @@ static void node_limits(const ambulo__gait_frame *frame, int node, ambulo__row_t
   }
 }
 
-static void control_point_limits(const ambulo__gait_frame *frame, ambulo__row_table *table) {
+static void control_point_limits(const ambulo__gait_frame *frame, int fixed_only,
+                                 ambulo__row_table *table) {
   int coordinates = frame->model->coordinate_count;
   int points = ambulo__basis_control_points(frame->basis);
   for (int p = 0; p < points; p++) {
@@ -78,6 +86,7 @@ static void control_point_limits(const ambulo__gait_frame *frame, ambulo__row_ta
     double time = ambulo__basis_abscissa(frame->basis, p, &is_value);
     if (!is_value) continue;
     for (int i = 0; i < coordinates; i++) {
+      if (fixed_only && !fixed_by_points(frame, i)) continue;
       const ambulo_coordinate *c = &frame->model->coordinates[i];
       limit l = {.family = "joint_limit",
                  .subject = c->name,
@@ -94,7 +103,6 @@ static void control_point_limits(const ambulo__gait_frame *frame, ambulo__row_ta
 
 void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   for (int node = 0; node < frame->nodes; node++) node_limits(frame, node, table);
-  if (frame->definition->joint_limits == AMBULO_LIMIT_CONTROL_POINTS) {
-    control_point_limits(frame, table);
-  }
+  ambulo_limit_mode mode = frame->definition->joint_limits;
+  if (mode != AMBULO_LIMIT_OFF) control_point_limits(frame, mode == AMBULO_LIMIT_NODES, table);
 }

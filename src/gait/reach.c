@@ -9,7 +9,8 @@
  * prismatic joint among them can stretch without bound: no check.
  *
  * Compared are the points that two contacts hold (gait/foot_outline.h), whenever two
- * different feet are down at the same time or hand over to each other.
+ * different feet are down at the same time or hand over to each other. With a contact tolerance
+ * each point may stand off its place by that much in every direction.
  */
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
@@ -76,7 +77,8 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
   int point_a = ambulo__contact_point(model, &outline_a, a, place_a);
   int point_b = ambulo__contact_point(model, &outline_b, b, place_b);
   double distance = hypot(place_a[0] - place_b[0], place_a[1] - place_b[1]);
-  double reach = reach_between(model, point_a, point_b);
+  double slack = 2.0 * sqrt(3.0) * fmax(definition->contact_tolerance, 0.0);
+  double reach = reach_between(model, point_a, point_b) + slack;
   if (distance <= reach + length_tolerance) return AMBULO_OK;
   char hint[80];
   (void)snprintf(hint, sizeof hint, "shorten the step by %.3g m or more", distance - reach);
@@ -92,7 +94,7 @@ ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *defi
                                            ambulo_diagnostics *diagnostics) {
   ambulo_status status = AMBULO_OK;
   int feet = ambulo_model_foot_count(definition->model);
-  if (!definition->foot_strike) return AMBULO_OK;
+  if (!definition->foot_strike && !(definition->contact_tolerance > 0.0)) return AMBULO_OK;
   for (int i = 0; i < definition->contact_count; i++) {
     for (int j = i + 1; j < definition->contact_count; j++) {
       const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];

@@ -1,5 +1,7 @@
 /* model/contact_check.c - coordinates, points and feet: ranges, pairs, references. */
 #include <math.h>
+#include <string.h>
+#include <stdio.h>
 
 #include "model/check.h"
 
@@ -13,23 +15,30 @@ static ambulo__place place_of_coordinate(const ambulo__checker *c, int index) {
   return place_in(c, c->places ? c->places->coordinates : NULL, index);
 }
 
-/* An interval may be unbounded, or one point; never empty or undefined. */
-static void check_interval(ambulo__checker *c, int index, const char *what,
-                           const double interval[2]) {
-  const char *name = c->definition->coordinates[index].name;
-  if (interval[0] <= interval[1] && interval[0] < INFINITY && interval[1] > -INFINITY) return;
-  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
-                            "%s limits of coordinate '%s' contradict each other (got [%s, %s]); "
-                            "expected lower <= upper",
-                            what, name ? name : "", ambulo__number_text(interval[0]).text,
-                            ambulo__number_text(interval[1]).text);
-}
-
 static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, int index) {
   for (int i = 0, seen = 0; i < d->link_count; i++) {
     if (d->links[i].type != AMBULO_FIXED && seen++ == index) return d->links[i].type;
   }
   return AMBULO_FIXED;
+}
+
+/* An interval may be unbounded, or one point; never empty or undefined. */
+static void check_interval(ambulo__checker *c, int index, const char *what,
+                           const double interval[2]) {
+  const char *name = c->definition->coordinates[index].name;
+  if (interval[0] <= interval[1] && interval[0] < INFINITY && interval[1] > -INFINITY) return;
+  char in_degrees[80] = "";
+  int angle = type_of_coordinate(c->definition, index) == AMBULO_REVOLUTE;
+  if (angle && strcmp(what, "torque") != 0 && isfinite(interval[0] - interval[1])) {
+    const double degrees = 180.0 / 3.14159265358979323846;
+    (void)snprintf(in_degrees, sizeof in_degrees, ", in degrees [%.6g, %.6g]",
+                   degrees * interval[0], degrees * interval[1]);
+  }
+  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                            "%s limits of coordinate '%s' contradict each other (got [%s, %s]%s); "
+                            "expected lower <= upper",
+                            what, name ? name : "", ambulo__number_text(interval[0]).text,
+                            ambulo__number_text(interval[1]).text, in_degrees);
 }
 
 static void report_mirror(ambulo__checker *c, int index, const char *why) {

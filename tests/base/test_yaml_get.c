@@ -270,8 +270,27 @@ static void messages_without_memory(void **state) {
   }
 }
 
+/* a part without a name is told by the item it belongs to */
+static void parts_are_named_by_their_item(void **state) {
+  (void)state;
+  yaml_case c = yaml_open("name: x\n"
+                          "links:\n"
+                          "- name: shank\n"
+                          "  body: {com: 1}\n"
+                          "units: {}\n");
+  const ambulo__yaml_node *link = ambulo__yaml_item(ambulo__yaml_require(c.root, "links"), 0);
+  assert_null(ambulo__yaml_require(ambulo__yaml_require(link, "body"), "mass"));
+  assert_null(ambulo__yaml_require(ambulo__yaml_require(c.root, "units"), "angle"));
+  expect_message(&c, 0,
+                 "t.yaml:4:9: error[E_SCHEMA]: missing required key 'mass' in links[0].body "
+                 "('shank')");
+  expect_message(&c, 1, "t.yaml:5:8: error[E_SCHEMA]: missing required key 'angle' in units");
+  yaml_shut(&c);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(parts_are_named_by_their_item),
+                                     cmocka_unit_test(numbers),
                                      cmocka_unit_test(whole_numbers),
                                      cmocka_unit_test(words),
                                      cmocka_unit_test(names_have_at_most_64_letters),

@@ -35,6 +35,11 @@ static void a_range_of_no_width_is_one_equation(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
+  ambulo__basis_free(f.basis);
+  f.basis = NULL;
+  assert_int_equal(ambulo__basis_create(AMBULO__HERMITE, 3, 4, 1.0, NULL, NULL, &f.basis),
+                   AMBULO_OK);
+  f.frame.basis = f.basis;
   f.definition.joint_limits = AMBULO_LIMIT_NODES;
   f.model->coordinates[1].range[0] = f.model->coordinates[1].range[1] = 0.2;
   ambulo__limit_rows(&f.frame, &f.table);
@@ -43,6 +48,31 @@ static void a_range_of_no_width_is_one_equation(void **state) {
   assert_string_equal(f.table.rows[row].unit, "m");
   *row_channel(&f, 0, ambulo__channel_q(&f.frame.channels, 1)) = 0.5;
   assert_close(row_value(&f, row), 0.3, 1e-15);
+  row_fixture_close(&f);
+}
+
+/* with B-splines its equations stand on the control points, once each, whatever the nodes */
+static void a_fixed_coordinate_is_fixed_everywhere(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  ambulo__basis_free(f.basis);
+  f.basis = NULL;
+  assert_int_equal(ambulo__basis_create(AMBULO__BSPLINE, 3, 2, 1.0, NULL, NULL, &f.basis),
+                   AMBULO_OK);
+  f.frame.basis = f.basis;
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.model->coordinates[1].range[0] = f.model->coordinates[1].range[1] = 0.2;
+  ambulo__limit_rows(&f.frame, &f.table);
+  int fixed = 0;
+  for (int r = 0; r < f.table.row_count; r++) {
+    const ambulo__table_row *row = &f.table.rows[r];
+    if (strcmp(row->detail, "fixed") != 0) continue;
+    assert_int_equal(row->relation, AMBULO_EQUAL);
+    assert_int_equal(row->node, -1);
+    fixed++;
+  }
+  assert_int_equal(fixed, ambulo__basis_control_points(f.basis));
   row_fixture_close(&f);
 }
 
@@ -85,8 +115,10 @@ static void rates_are_not_bounded(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(limits_at_nodes), cmocka_unit_test(a_range_of_no_width_is_one_equation),
-      cmocka_unit_test(limits_on_control_points), cmocka_unit_test(rates_are_not_bounded)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(limits_at_nodes),
+                                     cmocka_unit_test(a_range_of_no_width_is_one_equation),
+                                     cmocka_unit_test(limits_on_control_points),
+                                     cmocka_unit_test(a_fixed_coordinate_is_fixed_everywhere),
+                                     cmocka_unit_test(rates_are_not_bounded)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,8 +3,8 @@
  * From heel to heel: 2 (|(0.08, 0.05)| + 0.42 + |(0.42, 0.09)|) = 1.887749 m. */
 #include "support/row_fixture.h"
 
-static ambulo_status check(double apart, double left_to, double right_from, int strike,
-                           ambulo_diagnostics *list) {
+static ambulo_status check_within(double tolerance, double apart, double left_to, double right_from,
+                                  int strike, ambulo_diagnostics *list) {
   row_fixture f;
   row_fixture_open(&f, 0);
   const ambulo_contact contacts[] = {
@@ -13,6 +13,7 @@ static ambulo_status check(double apart, double left_to, double right_from, int 
   f.definition.contacts = contacts;
   f.definition.contact_count = 2;
   f.definition.foot_strike = strike;
+  f.definition.contact_tolerance = tolerance;
   int active[2 * ROW_NODES];
   assert_int_equal(ambulo__schedule_fill(&f.definition, f.times, ROW_NODES, active, NULL),
                    AMBULO_OK);
@@ -20,6 +21,19 @@ static ambulo_status check(double apart, double left_to, double right_from, int 
       ambulo__schedule_check_reach(&f.definition, f.times, ROW_NODES, active, list);
   row_fixture_close(&f);
   return status;
+}
+
+static ambulo_status check(double apart, double left_to, double right_from, int strike,
+                           ambulo_diagnostics *list) {
+  return check_within(0.0, apart, left_to, right_from, strike, list);
+}
+
+/* contacts within a tolerance are compared too, each end of the legs that much closer */
+static void a_tolerance_shortens_the_way(void **state) {
+  (void)state;
+  double reach = 2.0 * (hypot(0.08, 0.05) + 0.42 + hypot(0.42, 0.09)) + 2.0 * sqrt(3.0) * 0.01;
+  assert_int_equal(check_within(0.01, reach - 1e-6, 0.6, 0.4, 0, NULL), AMBULO_OK);
+  assert_int_equal(check_within(0.01, reach + 1e-6, 0.6, 0.4, 0, NULL), AMBULO_E_PROBLEM);
 }
 
 static void the_limit_is_the_length_of_the_legs(void **state) {
@@ -48,6 +62,7 @@ static void the_message_says_where_and_how_far(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_limit_is_the_length_of_the_legs),
                                      cmocka_unit_test(feet_that_hand_over_are_compared),
+                                     cmocka_unit_test(a_tolerance_shortens_the_way),
                                      cmocka_unit_test(the_message_says_where_and_how_far)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

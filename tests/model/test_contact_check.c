@@ -7,7 +7,8 @@ static void intervals(void **state) {
   c.coordinates[1].range[0] = 2;
   c.coordinates[1].range[1] = -0.5;
   chain_bad(&c, AMBULO_E_MODEL,
-            "range limits of coordinate 'qb' contradict each other (got [2, -0.5])");
+            "range limits of coordinate 'qb' contradict each other (got [2, -0.5], in degrees "
+            "[114.592, -28.6479])");
   c.coordinates[1].range[1] = NAN;
   chain_bad(&c, AMBULO_E_MODEL, "(got [2, nan])");
   c.coordinates[1].range[1] = 2; /* one value: a fixed coordinate, legal */
