@@ -162,7 +162,8 @@ static ambulo_status locate(ambulo__yaml *document, const char *file, const char
   *depth = 0;
   do {
     step where;
-    if (!node) return no_key(document, file, *parent, *key);
+    if (!node && *parent) return no_key(document, file, *parent, *key);
+    if (!node) return bad_path(document, file, "the document is empty");
     if (!next_step(&cursor, cursor == path, &where))
       return bad_path(document, file, "the path is not well-formed");
     *parent = node;
