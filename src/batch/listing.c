@@ -55,6 +55,7 @@ static ambulo_status read_description(ambulo__listing *l, const char *path,
   l->name = copy_text(l, ambulo__yaml_require(root, "name"));
   l->version = copy_text(l, ambulo__yaml_require(root, "version"));
   l->problem_hash = copy_text(l, ambulo__yaml_require(root, "problem_hash"));
+  l->text_hash = copy_text(l, ambulo__yaml_require(root, "text_hash"));
   int count = ambulo__yaml_count(outputs);
   l->output = ambulo__alloc(&l->allocator, (size_t)count, sizeof *l->output);
   for (int i = 0; l->output && i < count; i++) {
@@ -62,7 +63,8 @@ static ambulo_status read_description(ambulo__listing *l, const char *path,
     if (l->output[i]) l->outputs++;
   }
   status = ambulo__yaml_finish(document);
-  if (!status && (!l->output || l->outputs < count || !l->name || !l->version || !l->problem_hash))
+  if (!status && (!l->output || l->outputs < count || !l->name || !l->version || !l->problem_hash ||
+                  !l->text_hash))
     status = AMBULO_E_MEMORY;
   ambulo__yaml_free(document);
   return status;
@@ -98,6 +100,7 @@ void ambulo__listing_free(ambulo__listing *l) {
   ambulo__free(a, l->name);
   ambulo__free(a, l->version);
   ambulo__free(a, l->problem_hash);
+  ambulo__free(a, l->text_hash);
   ambulo__free(a, (void *)l->cell);
   ambulo__free(a, l->text);
   ambulo__listing empty;

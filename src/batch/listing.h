@@ -24,7 +24,7 @@ typedef struct ambulo__listing {
   int cases, columns;
   char **output; /* [outputs] */
   int outputs;
-  char *name, *version, *problem_hash;
+  char *name, *version, *problem_hash, *text_hash;
 } ambulo__listing;
 
 /* Errors: E_IO (no such folder, no batch in it), E_PARSE, E_SCHEMA, E_MEMORY. */

@@ -3,6 +3,7 @@
 #include "ambulo/report.h"
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
+#include "base/read_file.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
 #include "batch/paths.h"
@@ -55,6 +56,8 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   ambulo__json_text(&json, "sweep", s->path);
   ambulo__json_text(&json, "base", s->base);
   ambulo__json_text(&json, "problem_hash", hash);
+  (void)snprintf(hash, sizeof hash, "%016llx", s->text_hash);
+  ambulo__json_text(&json, "text_hash", hash);
   ambulo__json_integer(&json, "cases", s->case_count);
   ambulo__json_open(&json, "outputs", '[');
   for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output[i]);
@@ -62,12 +65,23 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   ambulo__json_close(&json, '}');
 }
 
+/* the file holds this already, as it does whenever a shard or a resumed run begins */
+static int is_written(const char *path, const ambulo__text_buffer *text,
+                      const ambulo_allocator *a) {
+  char *old = NULL;
+  size_t length = 0;
+  if (ambulo__read_file(path, text->length, a, NULL, &old, &length)) return 0;
+  int same = length == text->length && memcmp(old, ambulo__text_data(text), length) == 0;
+  ambulo__free(a, old);
+  return same;
+}
+
 static ambulo_status write_text(const char *directory, const char *name,
                                 const ambulo__text_buffer *text, const ambulo_allocator *a,
                                 ambulo_diagnostics *diagnostics) {
   char *path = ambulo__join_paths(a, directory, name, NULL);
   ambulo_status status = path ? ambulo__text_status(text) : AMBULO_E_MEMORY;
-  if (!status)
+  if (!status && !is_written(path, text, a))
     status = ambulo__write_file(path, ambulo__text_data(text), text->length, 1, a, diagnostics);
   ambulo__free(a, path);
   return status;
@@ -90,11 +104,12 @@ static ambulo_status write_listing(const ambulo_sweep *s, const char *directory,
 
 typedef struct changes {
   int same, changed, added, gone;
+  const char *first; /* name of the first case that is not the same; NULL: none */
 } changes;
 
 /* both lists are sorted by id */
 static changes compare(const ambulo_sweep *s, const ambulo__listing *old) {
-  changes c = {0, 0, 0, 0};
+  changes c = {0, 0, 0, 0, NULL};
   int i = 0, j = 0;
   while (i < s->case_count || j < old->cases) {
     int order;
@@ -113,33 +128,48 @@ static changes compare(const ambulo_sweep *s, const ambulo__listing *old) {
     }
     c.added += order < 0;
     c.gone += order > 0;
+    if (!c.first && order > 0) c.first = ambulo__listing_cell(old, j, AMBULO__LISTING_NAME);
+    if (!c.first && c.changed + c.added > 0) c.first = s->cases[i].name;
     i += order <= 0;
     j += order >= 0;
   }
   return c;
 }
 
-static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
-                            const ambulo__listing *old, changes c,
-                            ambulo_diagnostics *diagnostics) {
+/* which input is another one: only what the folder has written down can be told apart */
+static void name_cause(const ambulo_sweep *s, const ambulo__listing *old, changes c, char *cause,
+                       size_t size) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   char hash[20], version[64];
   (void)snprintf(hash, sizeof hash, "%016llx", s->problem_hash);
   (void)snprintf(version, sizeof version, "ambulo %s, NLopt %s", versions.ambulo, versions.nlopt);
-  int problem = strcmp(hash, old->problem_hash) != 0, other = strcmp(version, old->version) != 0;
+  int problem = strcmp(hash, old->problem_hash) != 0;
+  (void)snprintf(hash, sizeof hash, "%016llx", s->text_hash);
+  if (strcmp(version, old->version) != 0)
+    (void)snprintf(cause, size, "the version changed (was %s)", old->version);
+  else if (problem && strcmp(hash, old->text_hash) != 0)
+    (void)snprintf(cause, size, "the base problem changed");
+  else if (problem)
+    (void)snprintf(cause, size, "a file that the base problem names changed, its model or data");
+  else if (c.added + c.gone > 0)
+    (void)snprintf(cause, size, "the sweep changed");
+  else
+    (void)snprintf(cause, size, "a file that the sweep names, or what cases start from, changed");
+}
+
+static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
+                            const ambulo__listing *old, changes c,
+                            ambulo_diagnostics *diagnostics) {
+  char cause[128];
+  name_cause(s, old, c, cause, sizeof cause);
   ambulo__place place = {directory, 0, 0, NULL};
   return ambulo__error(
       diagnostics, AMBULO_E_PROBLEM, place,
       "--force keeps the cases that are the same and computes the others; or give another folder",
-      "the folder was filled from other inputs: %s%s%s%s%d cases the same, %d with other inputs, "
-      "%d new, %d gone",
-      problem ? "the base problem changed; " : "", other ? "the version changed (was " : "",
-      other ? old->version : "",
-      other     ? "); "
-      : problem ? ""
-                : "the sweep changed; ",
-      c.same, c.changed, c.added, c.gone);
+      "the folder was filled from other inputs: %s; %d cases the same, %d with other inputs, "
+      "%d new, %d gone (first: '%.60s')",
+      cause, c.same, c.changed, c.added, c.gone, c.first ? c.first : "");
 }
 
 /* ----------------------------------------------------------------- the folder */

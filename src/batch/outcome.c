@@ -28,11 +28,12 @@ static ambulo_status disk_trouble(ambulo__run *run, const char *id) {
   if (path && ambulo__read_file(path, MOST_LOG_BYTES, run->allocator, NULL, &text, &length))
     text = NULL;
   const char *error = text ? strstr(text, "error[") : NULL;
+  if (error && strstr(error, "]: ")) error = strstr(error, "]: ") + 3;
   if (!error) error = text && text[0] ? text : "its log is empty";
   ambulo__place place = {run->directory, 0, 0, NULL};
-  ambulo_status status = ambulo__error(
-      run->diagnostics, AMBULO_E_IO, place, "what is finished is kept; run the same command again",
-      "case %s could not be read or written: %.*s", id, (int)strcspn(error, "\n"), error);
+  ambulo_status status = ambulo__error(run->diagnostics, AMBULO_E_IO, place,
+                                       "what is finished is kept; run the same command again",
+                                       "case %s: %.*s", id, (int)strcspn(error, "\n"), error);
   ambulo__free(run->allocator, text);
   ambulo__free(run->allocator, path);
   return status;

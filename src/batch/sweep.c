@@ -2,9 +2,12 @@
 #include "batch/sweep.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/report.h"
+#include "base/read_file.h"
 #include "batch/paths.h"
 
 #include <string.h>
+
+enum { MOST_BASE_BYTES = 16 << 20 };
 
 static char *copy_scalar(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const char *text = node ? ambulo__yaml_text(node) : NULL;
@@ -112,6 +115,11 @@ static ambulo_status read_base(ambulo_sweep *s) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   s->problem_hash = ambulo_problem_hash(problem);
+  char *text = NULL;
+  size_t length = 0;
+  if (!ambulo__read_file(s->base, MOST_BASE_BYTES, &s->allocator, NULL, &text, &length))
+    s->text_hash = ambulo__hash_text(AMBULO__HASH_START, text);
+  ambulo__free(&s->allocator, text);
   /* not the instruction set: the nodes of a cluster may differ in it */
   unsigned long long hash = ambulo__hash_word(AMBULO__HASH_START, s->problem_hash);
   hash = ambulo__hash_text(hash, versions.ambulo);

@@ -64,7 +64,8 @@ struct ambulo_sweep {
   int *value; /* [cases][stride]: index into the axis's values; -1: not set */
   int stride; /* axes, those of explicit cases included */
   int case_count, case_capacity;
-  unsigned long long problem_hash, base_hash; /* of the base; with the versions */
+  /* of the base problem as understood; of its file's text; of the former with the versions */
+  unsigned long long problem_hash, text_hash, base_hash;
 };
 
 /* Each reports its own faults; E_MEMORY or what the reader found. */

@@ -1,4 +1,9 @@
 #!/usr/bin/env bash
-# A few random kills on every check; `make check-kill` deals two hundred.
+# A few random kills and a full disk on every check; `make check-kill` deals two hundred.
 here=$(cd "$(dirname "$0")" && pwd)
-if KILLS=12 "$here/kill_test.sh"; then echo "1 passed, 0 failed"; else echo "0 passed, 1 failed"; exit 1; fi
+passed=0 failed=0
+count() { if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi; }
+KILLS=12 count "$here/kill_test.sh"
+count "$here/disk_test.sh"
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
