@@ -60,21 +60,12 @@ AMBULO__INLINE wide3 ground_lever(const ambulo__plan *plan, wide3 up, wide_pair 
   return add_cross3(scale3(spread(plan->ground_height), w.linear), up, w.angular);
 }
 
-/* The root wrench from the bodies' loads, its split, and what it leaves to the feet's frames. */
-static void ground_split(const ambulo__plan *plan, const double *ground, double *scratch) {
-  const double *fixed = plan->fixed_load, *fixed_first = plan->fixed_first;
+/* The split of the root wrench w; first: the bodies' first mass moment, what is fixed left out. */
+AMBULO__INLINE void ground_divide(const ambulo__plan *plan, const double *ground, wide_pair w,
+                                  wide3 first, double *scratch) {
+  const double *fixed = plan->fixed_first;
   double *at = scratch + plan->ground_at;
-  wide_pair w = {{spread(fixed[0]), spread(fixed[1]), spread(fixed[2])},
-                 {spread(fixed[3]), spread(fixed[4]), spread(fixed[5])}};
-  wide3 c = {spread(fixed_first[0]), spread(fixed_first[1]), spread(fixed_first[2])};
-  for (int i = 0; i < plan->bodies; i++) {
-    const ambulo__body *body = &plan->body[i];
-    const ambulo__frame *frame = &plan->frames[body->frame];
-    wide3 r = add3(load3(scratch + frame->place_at), load3(scratch + body->at));
-    w.angular = add3(w.angular, load3(scratch + frame->load_at));
-    w.linear = add3(w.linear, load3(scratch + frame->load_at + three));
-    c = axpy3(c, spread(body->mass), r);
-  }
+  wide3 c = {first.x + fixed[0], first.y + fixed[1], first.z + fixed[2]};
   c = scale3(spread(1 / plan->mass), c);
   ground_shares s = ground_load(plan, ground, dot3(ground_up(plan), c) - plan->ground_height);
   wide normal = dot3(s.up, w.linear);
@@ -86,22 +77,26 @@ static void ground_split(const ambulo__plan *plan, const double *ground, double 
   store(at + ground_height, s.height);
   store(at + ground_twist, dot3(w.angular, w.linear) / normal);
   for (int f = 0; f < 2; f++) {
-    const ambulo__frame *frame = &plan->frames[plan->foot_frame[f]];
     wide_pair part = {scale3(s.share[f], w.angular), scale3(s.share[f], w.linear)};
-    part = axpy_pair(part, spread(1 - 2 * f), passed);
-    store_pair(at + ground_foot + 2 * f * three, part);
-    if (plan->foot_frame[f] == 0) continue;
-    add3_at(scratch + frame->load_at, scale3(spread(-1), part.angular));
-    add3_at(scratch + frame->load_at + three, scale3(spread(-1), part.linear));
+    store_pair(at + ground_foot + 2 * f * three, axpy_pair(part, spread(1 - 2 * f), passed));
   }
 }
 
-/* Outputs: the root wrench (at the root only a residual is left), feet, centre of mass. */
+/* The split, from the bodies' inertias and the loads that have been summed up. */
+static void ground_split(const ambulo__plan *plan, const double *ground, double *scratch) {
+  wide3 first = {{0}, {0}, {0}};
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    if (joint->parent == 0) first = add3(first, load3(scratch + plan->frames[k + 1].composite_at));
+  }
+  ground_divide(plan, ground, load_pair(scratch + plan->frames[0].load_at), first, scratch);
+}
+
+/* Outputs: feet, centre of mass. */
 static void ground_rows(const ambulo__plan *plan, const double *ground, double *out,
                         const double *scratch) {
   const double *at = scratch + plan->ground_at;
   const wide share[2] = {load(ground), 1 - load(ground)};
-  store_pair(out + plan->coordinates * AMBULO__LANES, load_pair(at + ground_wrench));
   out += ambulo__plan_first_foot_row(plan) * AMBULO__LANES;
   for (int f = 0; f < 2; f++) {
     store3(out, load3(at + ground_foot + (2 * f + 1) * three));
@@ -111,41 +106,22 @@ static void ground_rows(const ambulo__plan *plan, const double *ground, double *
   store3(out, load3(at + ground_center));
 }
 
-/* Virtual motion, about the world origin, by the weights on tau of joints that carry `feet`. */
-AMBULO__INLINE wide_pair ground_virtual(const ambulo__plan *plan, const double *weights, int feet,
-                                        wide_pair sum, const double *scratch) {
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
-    if (joint->feet != feet) continue;
-    wide y = joint->sign * load(weights + k * AMBULO__LANES);
-    wide3 step = scale3(y, load3(scratch + joint->axis_at));
-    if (joint->revolute) {
-      sum.angular = add3(sum.angular, step);
-      sum.linear = add_cross3(sum.linear, load3(scratch + plan->frames[k + 1].place_at), step);
-    } else {
-      sum.linear = add3(sum.linear, step);
-    }
-  }
-  return sum;
-}
-
-/* Adds M' and F' to *root, the weights on the root wrench; *center is c'. */
-static void ground_adjoints(const ambulo__plan *plan, const double *ground, const double *weights,
-                            wide_pair *root, wide3 *center, const double *scratch) {
-  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+/* Adds M' and F' to *root, the weights on the root wrench; foot: virtual motions of the feet.
+ * Returns c'. */
+AMBULO__INLINE wide3 ground_adjoints(const ambulo__plan *plan, const double *ground,
+                                     const double *weights, const wide_pair foot[2],
+                                     wide_pair *root, const double *scratch) {
   const double *at = scratch + plan->ground_at;
   const double *rows = weights + ambulo__plan_first_foot_row(plan) * AMBULO__LANES;
   ground_shares s = ground_load(plan, ground, load(at + ground_height));
-  wide_pair w = load_pair(at + ground_wrench),
-            both = ground_virtual(plan, weights, 3, zero, scratch);
-  wide_pair sum = *root, passed = zero;
+  wide_pair w = load_pair(at + ground_wrench), sum = *root;
+  wide_pair passed = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
   wide theta = {0};
   for (int f = 0; f < 2; f++) {
     const double *row = rows + 4 * f * AMBULO__LANES;
-    wide_pair foot = ground_virtual(plan, weights, 1 + f, both, scratch);
-    foot.linear = sub3(foot.linear, load3(row));
-    sum = axpy_pair(sum, -s.share[f], foot);
-    passed = axpy_pair(passed, spread(f ? 1 : -1), foot);
+    wide_pair part = {foot[f].angular, sub3(foot[f].linear, load3(row))};
+    sum = axpy_pair(sum, -s.share[f], part);
+    passed = axpy_pair(passed, spread(f ? 1 : -1), part);
     theta += s.share[f] * load(row + three);
   }
   wide normal = dot3(s.up, w.linear), along = dot3(passed.linear, s.apart);
@@ -157,7 +133,7 @@ static void ground_adjoints(const ambulo__plan *plan, const double *ground, cons
   sum.linear = axpy3(sum.linear, theta, w.angular);
   sum.linear = axpy3(sum.linear, -(s.gain * along + theta * load(at + ground_twist)), s.up);
   *root = sum;
-  *center = axpy3(load3(rows + 8 * AMBULO__LANES), -s.gain / s.height * gain, s.up);
+  return axpy3(load3(rows + 8 * AMBULO__LANES), -s.gain / s.height * gain, s.up);
 }
 
 #endif

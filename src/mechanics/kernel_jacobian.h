@@ -1,4 +1,4 @@
-/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after forward_world_part.
+/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after world_part.
  *
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
  * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =
@@ -34,30 +34,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 
-#include "mechanics/kernel_forward.h"
-
-enum {
-  composite_first = 0,
-  composite_momentum = three,
-  composite_inertia = 2 * three,
-  composite_coriolis = 4 * three
-};
-
-/* Velocities of the origins. */
-static void jacobian_velocities(const ambulo__plan *plan, const double *qd, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const ambulo__steps *steps = &plan->steps;
-  store3(scratch + plan->frames[0].velocity_at, zero);
-  for (int i = 0; i < steps->origin_count; i++) {
-    const ambulo__origin_step *step = &steps->origins[i];
-    wide3 r = sub3(load3(scratch + step->place_to), load3(scratch + step->place_from));
-    wide3 v = add_cross3(load3(scratch + step->velocity_from), load3(scratch + step->rate), r);
-    if (step->prismatic) {
-      v = axpy3(v, step->sign * load(qd + step->input), load3(scratch + step->axis));
-    }
-    store3(scratch + step->velocity_to, v);
-  }
-}
+#include "mechanics/kernel_world.h"
 
 /* S, 2 Sd and Sdd of the revolute joints. */
 static void jacobian_hinges(const ambulo__steps *steps, double *scratch) {
@@ -91,45 +68,6 @@ static void jacobian_sliders(const ambulo__steps *steps, double *scratch) {
     store_pair(out, (wide_pair){zero, z});
     store_pair(out + 2 * three, (wide_pair){zero, scale3(spread(2), zd)});
     store_pair(out + 4 * three, (wide_pair){zero, zdd});
-  }
-}
-
-/* h, P, I and E of the bodies. */
-static void jacobian_bodies(const ambulo__plan *plan, double *scratch) {
-  for (int i = 0; i < plan->bodies; i++) {
-    const ambulo__body *body = &plan->body[i];
-    double *out = scratch + body->composite;
-    wide3 c = load3(scratch + body->at), w = load3(scratch + body->rate);
-    wide6 j = load6(scratch + body->at + 4 * three);
-    wide3 x = add3(load3(scratch + body->place), c);
-    wide3 v = add_cross3(load3(scratch + body->velocity), w, c);
-    wide3 h = scale3(spread(body->mass), x);
-    wide square = dot3(h, x), trace = dot3(v, h), half = 0.5 * (j.xx + j.yy + j.zz);
-    wide6 inertia = {j.xx + square - h.x * x.x, j.yy + square - h.y * x.y,
-                     j.zz + square - h.z * x.z, j.xy - h.x * x.y,
-                     j.xz - h.x * x.z,          j.yz - h.y * x.z};
-    /* columns of [w x] (half - J), which has no trace; E = (v.h) 1 - v h^T - [w
-     * x] (...) */
-    wide3 k1 = cross3(w, (wide3){half - j.xx, -j.xy, -j.xz});
-    wide3 k2 = cross3(w, (wide3){-j.xy, half - j.yy, -j.yz});
-    wide3 k3 = cross3(w, (wide3){-j.xz, -j.yz, half - j.zz});
-    wide33 coriolis = {{trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x},
-                       {-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y},
-                       {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
-    store3(out + composite_first, h);
-    store3(out + composite_momentum, scale3(spread(body->mass), v));
-    store6(out + composite_inertia, inertia);
-    store33(out + composite_coriolis, coriolis);
-  }
-}
-
-/* Composites up the tree. */
-static void jacobian_sums(const ambulo__steps *steps, double *scratch) {
-  for (int i = 0; i < steps->composite_count; i++) {
-    const ambulo__add_step *step = &steps->composites[i];
-    for (int n = 0; n < 7; n++) {
-      add3_at(scratch + step->to + n * three, load3(scratch + step->from + n * three));
-    }
   }
 }
 
@@ -176,25 +114,6 @@ AMBULO__INLINE wide jacobian_lower(const subtree_changes *t, wide_pair s, const 
   return dot_pair(t->qdd, s);
 }
 
-/* Row and column of a joint in the Jacobians of tau. */
-AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
-                                   const subtree_changes *t, double *jq, double *jqd, double *jqdd,
-                                   const double *scratch) {
-  int lower = step->lower;
-  for (int i = step->first; i < step->first + step->count; i++, lower += AMBULO__LANES) {
-    const double *motion = scratch + pairs[i].motion;
-    int upper = pairs[i].upper;
-    wide_pair s = load_pair(motion);
-    wide mass = jacobian_lower(t, s, motion, lower, jq, jqd);
-    store(jqdd + lower, mass);
-    store(jqdd + upper, mass);
-    store(jq + upper, dot_pair(t->q, s));
-    store(jqd + upper, dot_pair(t->qd, s));
-  }
-  const double *motion = scratch + step->motion;
-  store(jqdd + lower, jacobian_lower(t, load_pair(motion), motion, lower, jq, jqd));
-}
-
 /* Column of a joint in the Jacobian of the root wrench. */
 AMBULO__INLINE void jacobian_wrench(const ambulo__plan *plan, int k, wide_pair t, double *out) {
   int row = plan->coordinates * AMBULO__LANES;
@@ -207,10 +126,79 @@ AMBULO__INLINE void jacobian_wrench(const ambulo__plan *plan, int k, wide_pair t
   store(out + 5 * row, t.linear.z);
 }
 
+/* The component of v along the axis of a straight joint. */
+AMBULO__INLINE wide straight_part(const ambulo__pair *pair, wide3 v, const double *scratch) {
+  switch (pair->axis) {
+  case 0:
+    return v.x;
+  case 1:
+    return v.y;
+  case 2:
+    return v.z;
+  default:
+    return dot3(v, load3(scratch + pair->motion + three));
+  }
+}
+
+/* Row and column of a joint in the Jacobians of tau. Straight joints come first among its
+ * ancestors: S = (0, s), Sd = Sdd = 0, and what vanishes with them is not written. */
+AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
+                                   const subtree_changes *t, double *jq, double *jqd, double *jqdd,
+                                   const double *scratch) {
+  const ambulo__pair *pair = pairs + step->first, *last = pair + step->count;
+  int lower = step->lower;
+  for (; pair < pairs + step->first + step->straight; pair++, lower += AMBULO__LANES) {
+    wide mass = straight_part(pair, t->qdd.linear, scratch);
+    store(jqdd + lower, mass);
+    store(jqdd + pair->upper, mass);
+    store(jq + pair->upper, straight_part(pair, t->q.linear, scratch));
+    store(jqd + pair->upper, straight_part(pair, t->qd.linear, scratch));
+  }
+  for (; pair < last; pair++, lower += AMBULO__LANES) {
+    const double *motion = scratch + pair->motion;
+    wide_pair s = load_pair(motion);
+    wide mass = jacobian_lower(t, s, motion, lower, jq, jqd);
+    store(jqdd + lower, mass);
+    store(jqdd + pair->upper, mass);
+    store(jq + pair->upper, dot_pair(t->q, s));
+    store(jqd + pair->upper, dot_pair(t->qd, s));
+  }
+  const double *motion = scratch + step->motion;
+  store(jqdd + lower, jacobian_lower(t, load_pair(motion), motion, lower, jq, jqd));
+}
+
+/* Column of the root wrench for a displacement s along an axis that stands still: no rates, no
+ * turning; f: the force of the subtree's bodies. */
+AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, wide_pair f, double *jq,
+                                      double *jqdd, const double *scratch) {
+  const ambulo__change_step *step = &plan->steps.changes[k];
+  const int row = plan->coordinates * AMBULO__LANES;
+  double *moment = jq + (plan->start[plan->coordinates] + k) * AMBULO__LANES;
+  wide3 s = load3(scratch + step->motion + three), turn = cross3(s, f.linear);
+  wide3 h = load3(scratch + step->composite + composite_first);
+  store(moment, turn.x);
+  store(moment + row, turn.y);
+  store(moment + 2 * row, turn.z);
+  jacobian_wrench(plan, k, (wide_pair){cross3(h, s), scale3(spread(step->mass), s)}, jqdd);
+}
+
+/* Its row and column of tau: all joints above are straight, too. */
+AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
+                                   double *jqdd, const double *scratch) {
+  wide3 force = scale3(spread(step->mass), load3(scratch + step->motion + three));
+  int lower = step->lower;
+  for (int i = step->first; i < step->first + step->count; i++, lower += AMBULO__LANES) {
+    wide mass = straight_part(&pairs[i], force, scratch);
+    store(jqdd + lower, mass);
+    store(jqdd + pairs[i].upper, mass);
+  }
+  store(jqdd + lower, spread(step->mass));
+}
+
 static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratch) {
   const ambulo__steps *steps = &plan->steps;
   double *places = scratch + plan->positions_at;
-  forward_positions(steps, places, 1, scratch);
+  world_positions(steps, places, 1, scratch);
   for (int g = 0; g < steps->group_count; g++) {
     const ambulo__group_step *group = &steps->groups[g];
     int row = group->chain_count * AMBULO__LANES, last = group->first + group->count;
@@ -227,27 +215,20 @@ static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratc
   }
 }
 
-/* Motions of the joints and composites of the subtrees. */
-static void jacobian_motion(const ambulo__plan *plan, const double *qd, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
+static void jacobian_part(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
+                          double *scratch) {
   const ambulo__steps *steps = &plan->steps;
-  jacobian_velocities(plan, qd, scratch);
   jacobian_hinges(steps, scratch);
   jacobian_sliders(steps, scratch);
-  for (int i = 0; i < steps->zero_composite_count; i++) {
-    for (int n = 0; n < 7; n++) store3(scratch + steps->zero_composites[i] + n * three, zero);
-  }
-  jacobian_bodies(plan, scratch);
-  jacobian_sums(steps, scratch);
-}
-
-static void jacobian_part(const ambulo__plan *plan, const double *qd, double *jq, double *jqd,
-                          double *jqdd, double *scratch) {
-  const ambulo__steps *steps = &plan->steps;
-  jacobian_motion(plan, qd, scratch);
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__change_step *step = &steps->changes[k];
-    subtree_changes t = jacobian_changes(step, load_pair(scratch + step->load), scratch);
+    wide_pair f = load_pair(scratch + step->load);
+    if (step->is_straight) {
+      jacobian_straight(plan, k, f, jq, jqdd, scratch);
+      straight_pairs(step, steps->pairs, jqdd, scratch);
+      continue;
+    }
+    subtree_changes t = jacobian_changes(step, f, scratch);
     jacobian_wrench(plan, k, t.q, jq);
     jacobian_wrench(plan, k, t.qd, jqd);
     jacobian_wrench(plan, k, t.qdd, jqdd);

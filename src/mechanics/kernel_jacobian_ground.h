@@ -132,7 +132,6 @@ AMBULO__INLINE void ground_root_pairs(const ambulo__root_column *roots, int coun
     if (roots[i].straight) {
       wide3 s = load3(motion + three);
       store(jq + entry, dot3(c.turn.linear, s));
-      store(jqd + entry, (wide){0});
       store(jqdd + entry, dot3(c.force.linear, s));
     } else {
       ground_above(&c, motion, jq + entry, jqd + entry, jqdd + entry);
@@ -168,30 +167,15 @@ AMBULO__INLINE wide_pair ground_wrench_column(const double *at, int row) {
                      {load(at + 3 * row), load(at + 4 * row), load(at + 5 * row)}};
 }
 
-/* Column of the root wrench for a displacement s along an axis that stands still: no rates, no
- * turning. */
-AMBULO__INLINE void ground_straight_changes(const ambulo__plan *plan, int k, wide_pair f,
-                                            double *jq, double *jqd, double *jqdd,
-                                            const double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const ambulo__change_step *step = &plan->steps.changes[k];
-  wide3 s = load3(scratch + step->motion + three);
-  wide3 h = load3(scratch + step->composite + composite_first);
-  jacobian_wrench(plan, k, (wide_pair){cross3(s, f.linear), zero}, jq);
-  jacobian_wrench(plan, k, (wide_pair){zero, zero}, jqd);
-  jacobian_wrench(plan, k, (wide_pair){cross3(h, s), scale3(spread(step->mass), s)}, jqdd);
-}
-
 /* Changes of the subtrees: columns of the root wrench; and rows without feet. */
 AMBULO__STEP void ground_changes(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
                                  double *scratch) {
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__joint *joint = &plan->joints[k];
     const ambulo__change_step *step = &plan->steps.changes[k];
-    wide_pair carried = ground_carried(plan, joint->feet, scratch);
-    wide_pair bodies = axpy_pair(load_pair(scratch + step->load), spread(1), carried);
-    if (joint->torque_row == AMBULO__ROW_VANISHES && !joint->revolute && joint->still) {
-      ground_straight_changes(plan, k, bodies, jq, jqd, jqdd, scratch);
+    wide_pair bodies = load_pair(scratch + step->load);
+    if (joint->torque_row == AMBULO__ROW_VANISHES && step->is_straight) {
+      jacobian_straight(plan, k, bodies, jq, jqdd, scratch);
       continue;
     }
     subtree_changes t = jacobian_changes(step, bodies, scratch);
@@ -305,14 +289,15 @@ static ground_slopes ground_slopes_of(const ambulo__plan *plan, const double *gr
   return slopes;
 }
 
-static void jacobian_ground_part(const ambulo__plan *plan, const double *qd, const double *ground,
-                                 double *jq, double *jqd, double *jqdd, double *scratch) {
+static void jacobian_ground_part(const ambulo__plan *plan, const double *ground, double *jq,
+                                 double *jqd, double *jqdd, double *scratch) {
   const int row = ambulo__plan_first_foot_row(plan), d = plan->coordinates;
   const int wrench = plan->start[d] * AMBULO__LANES, feet = plan->start[row] * AMBULO__LANES;
   const int rates = plan->rate_start[row] * AMBULO__LANES;
   const int center = plan->start[row + 8] * AMBULO__LANES;
   const wide inverse_mass = spread(1 / plan->mass);
-  jacobian_motion(plan, qd, scratch);
+  jacobian_hinges(&plan->steps, scratch);
+  jacobian_sliders(&plan->steps, scratch);
   const ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
   ground_reaction_rows(plan, &slopes.shares, scratch);
   ground_changes(plan, jq, jqd, jqdd, scratch);

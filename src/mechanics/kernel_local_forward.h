@@ -1,5 +1,5 @@
-/* mechanics/kernel_local_forward.h - inverse dynamics in the frames' own axes, for plans without
- * ground reaction (recursive Newton-Euler; Luh, Walker & Paul 1980, Featherstone 2008).
+/* mechanics/kernel_local_forward.h - inverse dynamics in the frames' own axes (recursive
+ * Newton-Euler; Luh, Walker & Paul 1980, Featherstone 2008).
  *
  * In its own axes a turn about axis k mixes two components of a vector, and inertias are constants
  * most of which vanish. Down the tree, p the parent frame, R the turn of the joint (parent from
@@ -20,7 +20,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 
-#include "mechanics/kernel_forward.h"
+#include "mechanics/kernel_world.h"
 
 typedef struct local_state {
   wide3 w, alpha, a;
@@ -300,17 +300,21 @@ AMBULO__INLINE wide_pair hinge_up(const ambulo__local_step *step, wide_pair load
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
-  store(out + step->input, step->sign * n.z);
-  store_across(at + local_moment, n, k);
-  store_across(at + local_force, f, k);
+  if (!step->vanishes) {
+    store(out + step->input, step->sign * n.z);
+    store_across(at + local_moment, n, k);
+    store_across(at + local_force, f, k);
+  }
   return (wide_pair){uncycled(from_frame(n, s, c), k), uncycled(from_frame(f, s, c), k)};
 }
 
 AMBULO__INLINE wide_pair slider_up(const ambulo__local_step *step, wide_pair load_of,
                                    const double *q, double *out, double *scratch) {
   wide3 z = spread3(step->slide);
-  store(out + step->input, dot3(z, load_of.linear));
-  store3(scratch + step->at + local_force, load_of.linear);
+  if (!step->vanishes) {
+    store(out + step->input, dot3(z, load_of.linear));
+    store3(scratch + step->at + local_force, load_of.linear);
+  }
   load_of.angular = add_cross3(load_of.angular, scale3(load(q + step->input), z), load_of.linear);
   return load_of;
 }

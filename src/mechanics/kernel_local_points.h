@@ -78,8 +78,25 @@ AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_pla
   return p;
 }
 
-static void local_places(const ambulo__plan *plan, double *out, double *scratch) {
+/* Mass times the position of the centre of mass, of the frame's body. */
+AMBULO__INLINE wide3 first_moment_of(const ambulo__local_step *step, const local_place *p) {
+  wide3 sum = scale3(spread(step->mass), p->o);
+  switch (step->body) {
+  case AMBULO__BODY_X:
+    return axpy3(sum, spread(step->first_moment[0]), p->x);
+  case AMBULO__BODY_Y:
+    return axpy3(sum, spread(step->first_moment[1]), p->y);
+  case AMBULO__BODY_Z:
+    return axpy3(sum, spread(step->first_moment[2]), p->z);
+  default:
+    return place_of(p, sum, step->first_moment);
+  }
+}
+
+/* Returns the first mass moment of the bodies that weigh. */
+static wide3 local_places(const ambulo__plan *plan, double *out, double *scratch) {
   const wide zero = {0}, one = spread(1);
+  wide3 first = {zero, zero, zero};
   const local_place world = {
       {one, zero, zero}, {zero, one, zero}, {zero, zero, one}, {zero, zero, zero}};
   local_place p = world;
@@ -95,13 +112,19 @@ static void local_places(const ambulo__plan *plan, double *out, double *scratch)
       p = place_load(scratch + step->above);
     }
     p = place_joint(step, p, scratch);
-    if (step->kept || step->group >= 0) {
+    if (step->placed) {
       store3(scratch + step->at + local_columns, p.x);
       store3(scratch + step->at + local_columns + three, p.y);
       store3(scratch + step->at + local_columns + 2 * three, p.z);
     }
     if (step->group >= 0) places_of_points(&plan->steps, step->group, &p, out);
+    if (step->weighs) {
+      wide3 moment = first_moment_of(step, &p);
+      store3(scratch + step->at + local_first, moment);
+      first = add3(first, moment);
+    }
   }
+  return first;
 }
 
 /* Adds M (angular) and P (linear) of a frame's points. */
@@ -124,9 +147,26 @@ static wide_pair weights_of_points(const ambulo__steps *steps, int number, wide_
   return sum;
 }
 
-/* The points' part of gq, which holds the rest already. */
-static void local_point_weights(const ambulo__plan *plan, const double *weights, double *gq,
-                                double *scratch) {
+/* What acts on the body like weights on points (kernel_local_ground.h). */
+typedef struct local_pulls {
+  wide3 center;      /* on the centre of mass, over the mass */
+  wide_pair feet[2]; /* on the joints that carry a foot */
+} local_pulls;
+
+AMBULO__INLINE wide_pair add_pulls(const ambulo__local_step *step, wide_pair sum,
+                                   const local_pulls *pulls, const double *at) {
+  if (step->weighs) {
+    sum.angular = add_cross3(sum.angular, load3(at + local_first), pulls->center);
+    sum.linear = axpy3(sum.linear, spread(step->mass), pulls->center);
+  }
+  if (step->feet & 1) sum = axpy_pair(pulls->feet[0], spread(1), sum);
+  if (step->feet & 2) sum = axpy_pair(pulls->feet[1], spread(1), sum);
+  return sum;
+}
+
+/* The points' part of gq, which holds the rest already; pulls: read with ground reaction only. */
+static void local_point_weights(const ambulo__plan *plan, const local_pulls *pulls,
+                                const double *weights, double *gq, double *scratch) {
   const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
   wide_pair sum = zero;
   for (int i = plan->coordinates - 1; i >= 0; i--) {
@@ -136,6 +176,7 @@ static void local_point_weights(const ambulo__plan *plan, const double *weights,
     if (!step->carries_points) sum = zero;
     if (step->weighted) sum = axpy_pair(load_pair(at + local_load), spread(1), sum);
     if (step->group >= 0) sum = weights_of_points(&plan->steps, step->group, sum, weights, at);
+    sum = add_pulls(step, sum, pulls, at);
     wide3 z = load3(at + local_axis), push = sum.linear;
     wide sign = spread(1);
     if (step->joint != AMBULO__SLIDES) {

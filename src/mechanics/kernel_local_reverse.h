@@ -7,25 +7,34 @@
  *   eta = R^T eta_p + z y,   u = R^T (u_p + eta_p x r)                       (revolute)
  *   eta = eta_p,             u = u_p + eta_p x (r + z q) + z y               (prismatic)
  * x' is the adjoint of x. Those of eta and u are the moment n and the force f of the subtree, which
- * the forward pass has stored. Those of w, alpha and a go up the tree. With b = m (u + eta x c):
- *   body:     a' += b,  (alpha', w') += Omega'(c, b),  alpha' += I eta,  w' += L x eta + I (eta x
- * w) for a diagonal I, with D = (I_zz - I_yy, I_xx - I_zz, I_yy - I_xx) and e_i = D_i eta_i:  w' +=
- * (e_y w_z + e_z w_y, e_x w_z + e_z w_x, e_x w_y + e_y w_x) Omega'(r, b), the adjoint of b . Omega
- * r = b . (alpha x r) + (b . w) (w . r) - (w . w) (b . r): alpha' += r x b,   w' += b (w . r) + r
- * (b . w) - 2 w (b . r) revolute: qdd' = z . alpha',   qd' = z . (w' + alpha' x w) q' = z . (w' x w
- * + alpha' x alpha + a' x a + n x eta + f x u) w_p' = R (w' + z x alpha' qd),   alpha_p' = R
- * alpha',   a_p' = R a' q' holds since d(R^T v)/dq = -z x R^T v, at first for the vectors and
- * adjoints before the terms with qd and qdd: what these terms change in z . (w' x w) and z .
- * (alpha' x alpha) cancels, and z y does not count along z. offset r: (alpha_p', w_p') += Omega'(r,
- * a_p') prismatic: qdd' = z . a',   qd' = 2 z . (a' x w),   w' += 2 qd z x a',  (alpha', w') +=
- *             Omega'(z q, a'),   q' = z . (Omega^T a' + f x eta),
- *             Omega^T a' = a' x alpha + w (w . a') - a' (w . w)
+ * the forward pass has stored. Those of w, alpha and a go up the tree. With b = m (u + eta x c) and
+ * Omega'(r, b) the adjoint of b . Omega r = b . (alpha x r) + (b . w) (w . r) - (w . w) (b . r),
+ *   alpha' += r x b,   w' += b (w . r) + r (b . w) - 2 w (b . r):
+ * body:
+ *   a' += b,   (alpha', w') += Omega'(c, b),
+ *   alpha' += I eta,   w' += L x eta + I (eta x w),   L = I w,
+ *   for a diagonal I, with D = (I_zz - I_yy, I_xx - I_zz, I_yy - I_xx) and e_i = D_i eta_i:
+ *   w' += (e_y w_z + e_z w_y, e_x w_z + e_z w_x, e_x w_y + e_y w_x)
+ * revolute:
+ *   qdd' = z . alpha',   qd' = z . (w' + alpha' x w),
+ *   q' = z . (w' x w + alpha' x alpha + a' x a + n x eta + f x u),
+ *   w_p' = R (w' + z x alpha' qd),   alpha_p' = R alpha',   a_p' = R a'
+ *   q' holds since d(R^T v)/dq = -z x R^T v, at first for the vectors and adjoints before the
+ *   terms with qd and qdd: what these terms change in z . (w' x w) and z . (alpha' x alpha)
+ *   cancels, and z y does not count along z.
+ * offset r:
+ *   (alpha_p', w_p') += Omega'(r, a_p')
+ * prismatic:
+ *   qdd' = z . a',   qd' = 2 z . (a' x w),   w' += 2 qd z x a',
+ *   (alpha', w') += Omega'(z q, a'),   q' = z . (Omega^T a' + f x eta),
+ *   Omega^T a' = a' x alpha + w (w . a') - a' (w . w)
+ * Ground reaction: kernel_local_ground.h.
  * Points: kernel_local_points.h.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
 
-#include "mechanics/kernel_local_points.h"
+#include "mechanics/kernel_local_ground.h"
 
 /* What goes along through the passes. */
 typedef struct local_arrays {
@@ -38,7 +47,7 @@ AMBULO__INLINE wide_pair hinge_virtual(const ambulo__local_step *step, wide_pair
   double *at = x->scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 eta = into_frame(cycled(v.angular, k), s, c), u = into_frame(cycled(v.linear, k), s, c);
-  eta.z += step->sign * load(x->weights + step->input);
+  if (!step->vanishes) eta.z += step->sign * load(x->weights + step->input);
   store_across(at + local_turn, eta, k);
   store_across(at + local_slide, u, k);
   return (wide_pair){uncycled(eta, k), uncycled(u, k)};
@@ -48,22 +57,19 @@ AMBULO__INLINE wide_pair slider_virtual(const ambulo__local_step *step, wide_pai
                                         const local_arrays *x) {
   wide3 z = spread3(step->slide), r = scale3(load(x->scratch + step->at + local_angle), z);
   store3(x->scratch + step->at + local_turn, v.angular);
-  v.linear = axpy3(add_cross3(v.linear, v.angular, r), load(x->weights + step->input), z);
+  v.linear = add_cross3(v.linear, v.angular, r);
+  if (!step->vanishes) v.linear = axpy3(v.linear, load(x->weights + step->input), z);
   return v;
 }
 
 /* Virtual motion down the tree. */
-static void local_virtual(const ambulo__plan *plan, const local_arrays *x) {
-  wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES), v = root;
+static void local_virtual(const ambulo__plan *plan, wide_pair root, const local_arrays *x) {
+  wide_pair v = root;
   if (plan->local.branched) store_pair(x->scratch + plan->local.world_at + local_turn, root);
   for (int i = 0; i < plan->coordinates; i++) {
     const ambulo__local_step *step = &plan->local.steps[i];
     if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
-    /* u + eta x r = u - r x eta */
-    v.linear = levered(step, v.linear, scale3(spread(-1), v.angular));
-    if (step->turned) {
-      v = (wide_pair){into_turn(step->turn, v.angular), into_turn(step->turn, v.linear)};
-    }
+    v = offset_down(step, v);
     switch (step->joint) {
     case AMBULO__TURNS_X:
       v = hinge_virtual(step, v, 0, x);
@@ -193,14 +199,15 @@ AMBULO__INLINE local_state hinge_adjoint(const ambulo__local_step *step, local_s
   const double *at = x->scratch + step->at;
   int u = (k + 1) % 3 * AMBULO__LANES, v = (k + 2) % 3 * AMBULO__LANES;
   wide3 w = cycled(state.w, k), alpha = cycled(state.alpha, k), a = cycled(state.a, k);
-  wide3 n = {load(at + local_moment + u), load(at + local_moment + v), {0}};
-  wide3 f = {load(at + local_force + u), load(at + local_force + v), {0}};
   wide rate = step->sign * load(x->qd + step->input), zero = {0};
   wide turned = turned_by(zero, w, at + local_rate, k), other = zero;
   turned = turned_by(turned, alpha, at + local_gain, k);
   turned = turned_by(turned, a, at + local_pull, k);
-  other = turned_by(other, n, at + local_turn, k);
-  other = turned_by(other, f, at + local_slide, k);
+  if (!step->vanishes) {
+    wide3 n = {load(at + local_moment + u), load(at + local_moment + v), zero};
+    wide3 f = {load(at + local_force + u), load(at + local_force + v), zero};
+    other = turned_by(turned_by(other, n, at + local_turn, k), f, at + local_slide, k);
+  }
   store(x->gq + step->input, step->sign * (turned + other));
   store(x->gqd + step->input, step->sign * turned_by(w.z, alpha, at + local_rate, k));
   store(x->gqdd + step->input, step->sign * alpha.z);
@@ -215,8 +222,9 @@ AMBULO__INLINE local_state slider_adjoint(const ambulo__local_step *step, local_
                                           const local_arrays *x) {
   const double *at = x->scratch + step->at;
   wide3 z = spread3(step->slide);
-  wide3 push = cross3(load3(at + local_force), load3(at + local_turn));
   wide drift = {0};
+  wide3 push = {drift, drift, drift};
+  if (!step->vanishes) push = cross3(load3(at + local_force), load3(at + local_turn));
   if (!step->still) {
     wide3 w = load3(at + local_rate), twice = scale3(2 * load(x->qd + step->input), z);
     drift = 2 * dot3(z, cross3(s.a, w));
@@ -278,10 +286,14 @@ static void local_adjoints(const ambulo__plan *plan, const local_arrays *x) {
   }
 }
 
-static void local_reverse_part(const ambulo__plan *plan, const local_arrays *x) {
-  local_virtual(plan, x);
+static void local_reverse_part(const ambulo__plan *plan, const double *ground,
+                               const local_arrays *x) {
+  wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES);
+  local_pulls pulls;
+  if (plan->grounded) pulls = local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
+  local_virtual(plan, root, x);
   local_adjoints(plan, x);
-  if (plan->points > 0) local_point_weights(plan, x->weights, x->gq, x->scratch);
+  if (plan->points > 0) local_point_weights(plan, &pulls, x->weights, x->gq, x->scratch);
 }
 
 #endif

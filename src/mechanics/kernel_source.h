@@ -8,61 +8,53 @@
 #ifndef AMBULO_MECHANICS_KERNEL_SOURCE_H
 #define AMBULO_MECHANICS_KERNEL_SOURCE_H
 
-#include "mechanics/kernel_forward.h"
+#include "mechanics/kernel_world.h"
 #include "mechanics/kernel_jacobian.h"
 #include "mechanics/kernel_jacobian_ground.h"
 #include "mechanics/kernel_local_reverse.h"
-#include "mechanics/kernel_reverse.h"
 
 static const double *lanes_from(const double *ground, int lane) {
   return ground ? ground + lane : NULL;
 }
 
 static void local_forward_part(const ambulo__plan *plan, const double *q, const double *qd,
-                               const double *qdd, double *out, double *scratch) {
+                               const double *qdd, const double *ground, double *out,
+                               double *scratch) {
   if (!local_angles(plan, q, scratch)) local_libm_angles(plan, q, scratch);
   local_down(plan, q, qd, qdd, scratch);
   local_up(plan, q, out, scratch);
-  if (plan->points > 0) local_places(plan, out, scratch);
+  if (plan->points == 0) return;
+  wide3 first = local_places(plan, out, scratch);
+  if (plan->grounded) local_ground(plan, ground, first, out, scratch);
 }
 
 static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                     const double *ground, double *out, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    if (plan->grounded) {
-      forward_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane), out + lane,
-                   scratch + lane);
-    } else {
-      local_forward_part(plan, q + lane, qd + lane, qdd + lane, out + lane, scratch + lane);
-    }
+    local_forward_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane), out + lane,
+                       scratch + lane);
   }
 }
 
 static void reverse(const ambulo__plan *plan, const double *qd, const double *qdd,
                     const double *ground, const double *weights, double *gq, double *gqd,
                     double *gqdd, double *scratch) {
+  (void)qdd;
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    if (plan->grounded) {
-      reverse_part(plan, qd + lane, qdd + lane, lanes_from(ground, lane), weights + lane, gq + lane,
-                   gqd + lane, gqdd + lane, scratch + lane);
-    } else {
-      const local_arrays arrays = {qd + lane,  weights + lane, gq + lane,
-                                   gqd + lane, gqdd + lane,    scratch + lane};
-      local_reverse_part(plan, &arrays);
-    }
+    const local_arrays arrays = {qd + lane,  weights + lane, gq + lane,
+                                 gqd + lane, gqdd + lane,    scratch + lane};
+    local_reverse_part(plan, lanes_from(ground, lane), &arrays);
   }
 }
 
 static void jacobian(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                      const double *ground, double *jq, double *jqd, double *jqdd, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    forward_world_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane),
-                       scratch + lane);
+    world_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane), scratch + lane);
     if (plan->grounded) {
-      jacobian_ground_part(plan, qd + lane, ground + lane, jq + lane, jqd + lane, jqdd + lane,
-                           scratch + lane);
+      jacobian_ground_part(plan, ground + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
     } else {
-      jacobian_part(plan, qd + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+      jacobian_part(plan, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
     }
   }
 }

@@ -212,7 +212,7 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
-  if (status == AMBULO_OK && !plan->grounded) status = ambulo__plan_local_build(plan);
+  if (status == AMBULO_OK) status = ambulo__plan_local_build(plan);
   if (status == AMBULO_OK && ground_height) status = ambulo__plan_ground_terms(plan);
 done:
   ambulo__free(allocator, placings);

@@ -84,8 +84,10 @@ typedef struct ambulo__kernels {
                   const double *ground, const double *weights, double *gq, double *gqd,
                   double *gqdd, double *scratch);
 
-  /* Jacobian entries in pattern order: jq [count], jqd and jqdd [dynamic_count]. Needs no
-   * forward before; reverse needs one after it. */
+  /* Jacobian entries in pattern order: jq [count], jqd and jqdd [dynamic_count]. The arrays must be
+   * zero before the first call: entries that vanish identically (what a displacement of the whole
+   * body leaves as it is) are never written. Needs no forward before; reverse needs one after it.
+   */
   void (*jacobian)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                    const double *ground, double *jq, double *jqd, double *jqdd, double *scratch);
 } ambulo__kernels;

@@ -20,25 +20,15 @@
 #include "mechanics/plan_steps.h"
 
 typedef struct ambulo__frame {
-  int column_at[3];    /* orientation, world components of the frame's axes */
-  int rate_at;         /* angular velocity and angular acceleration (6) */
-  int place_at;        /* origin, and acceleration of the origin less gravity (6) */
-  int spin_at;         /* Omega, the matrix of r -> acceleration relative to the origin
-                          (9); -1: unused */
-  int load_at;         /* wrench of the subtree about the world origin: moment, force
-                          (6) */
-  int moment_at;       /* moment of the load about the frame's origin (3) */
-  int virtual_at;      /* reverse: virtual angular velocity (3); by orientation */
-  int slide_at;        /* reverse: virtual velocity of the origin (3); by origin */
-  int adjoint_at;      /* reverse: adjoints of the chain (15), see kernel_reverse.h
-                        */
-  int spin_adjoint_at; /* reverse: adjoint of Omega (9); -1 where spin_at is */
-  int velocity_at;     /* Jacobian: velocity of the origin (3); by origin */
-  int composite_at;    /* Jacobian: composite inertia of the load's subtree (21) */
-  int body;            /* index, -1: none */
-  int own_spin;        /* spin_at belongs to this frame */
-  int zero_load;       /* the load starts at zero (no body, not exactly one child) */
-  int zero_adjoint;    /* the adjoints start at zero */
+  int column_at[3]; /* orientation, world components of the frame's axes */
+  int rate_at;      /* angular velocity and angular acceleration (6) */
+  int place_at;     /* origin, and acceleration of the origin less gravity (6) */
+  int load_at;      /* wrench of the subtree about the world origin: moment, force
+                       (6) */
+  int velocity_at;  /* velocity of the origin (3); by origin */
+  int composite_at; /* composite inertia of the load's subtree (21) */
+  int body;         /* index, -1: none */
+  int zero_load;    /* the load starts at zero (no body, not exactly one child) */
   double subtree_mass;
 } ambulo__frame;
 
@@ -50,22 +40,19 @@ typedef struct ambulo__joint {
   double shift;   /* angle = sign * (q + shift) */
   int has_offset; /* the origin moves by `offset` (parent frame) */
   double offset[3];
-  int turned;        /* the axis is oblique: columns of the turned frame are computed first */
-  double turn[9];    /* rows; turned frame in parent frame */
-  int turn_at[3];    /* columns of the turned frame */
-  int axis;          /* which column of the (turned) frame is the axis */
-  int axis_at;       /* that column */
-  int from_at[2];    /* columns that the rotation mixes, in cyclic order after the axis ... */
-  int to_at[2];      /* ... and where they go */
-  int own_origin;    /* place_at differs from the parent's */
-  int new_moment;    /* the moment is computed at this joint */
-  int correction_at; /* reverse: change of rho across the joint (3) */
-  int own_load;      /* load_at differs from the parent's */
-  int own_adjoint;   /* adjoint_at differs from the parent's */
-  int feet;          /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
-  int torque_row;    /* ambulo__torque_row of a grounded plan */
-  int reaction_at;   /* Jacobian: rows that meet the changes of the root wrench (17) */
-  int motion_at;     /* Jacobian: S and its first and second derivative (18) */
+  int turned;      /* the axis is oblique: columns of the turned frame are computed first */
+  double turn[9];  /* rows; turned frame in parent frame */
+  int turn_at[3];  /* columns of the turned frame */
+  int axis;        /* which column of the (turned) frame is the axis */
+  int axis_at;     /* that column */
+  int from_at[2];  /* columns that the rotation mixes, in cyclic order after the axis ... */
+  int to_at[2];    /* ... and where they go */
+  int own_origin;  /* place_at differs from the parent's */
+  int own_load;    /* load_at differs from the parent's */
+  int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
+  int torque_row;  /* ambulo__torque_row of a grounded plan */
+  int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (17) */
+  int motion_at;   /* Jacobian: S and its first and second derivative (18) */
 } ambulo__joint;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint, all coordinates (what
@@ -110,7 +97,6 @@ struct ambulo__plan {
   double gravity[3];
   double fixed_load[6]; /* wrench that holds the bodies fixed to the world */
   int angle_at;         /* sine and cosine of the joint angles (2 per coordinate) */
-  int nowhere_at;       /* reverse: what nobody reads (3) */
   int positions_at;     /* Jacobian: positions of the points (3 per point) */
   size_t scratch;       /* doubles */
 

@@ -89,7 +89,8 @@ static void set_forks(ambulo__plan *plan) {
   }
 }
 
-/* Frames down to each point. Groups of points are in order of frames. */
+/* Frames down to each point, and to each body where the centre of mass counts. Groups of points are
+ * in order of frames. */
 static void set_points(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
   plan->local.world_group = -1;
@@ -104,7 +105,8 @@ static void set_points(ambulo__plan *plan) {
   for (int k = plan->coordinates - 1; k >= 0; k--) {
     int parent = plan->joints[k].parent;
     ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
-    if (step->group >= 0) step->pointed = 1;
+    if (step->group >= 0 || step->weighs) step->pointed = 1;
+    if (step->group >= 0 || step->kept) step->placed = 1;
     if (!step->pointed || !above) continue;
     above->pointed = 1;
     if (step->carried) {
@@ -116,12 +118,37 @@ static void set_points(ambulo__plan *plan) {
   }
 }
 
+/* Who carries the feet, in the order in which the feet's wrenches go down. */
+static void set_ground(ambulo__plan *plan) {
+  static const int feet[3] = {3, 1, 2};
+  ambulo__local_plan *local = &plan->local;
+  int count = 0;
+  for (int path = 0; path < 3; path++) {
+    local->carrier_first[path] = count;
+    for (int k = 0; k < plan->coordinates; k++) {
+      ambulo__local_step *step = &local->steps[k];
+      int parent = plan->joints[k].parent;
+      if (plan->joints[k].feet != feet[path]) continue;
+      step->vanishes = plan->joints[k].torque_row == AMBULO__ROW_VANISHES;
+      if (step->vanishes) continue;
+      if (count == local->carrier_first[path] && parent > 0) local->steps[parent - 1].placed = 1;
+      local->carrier[count++] = k;
+    }
+  }
+  local->carrier_first[3] = count;
+  for (int k = 0; k < plan->coordinates; k++) {
+    local->steps[k].weighs = local->steps[k].body != AMBULO__BODY_NONE;
+    for (int f = 0; f < 2; f++) local->steps[k].feet |= (plan->foot_frame[f] == k + 1) << f;
+  }
+}
+
 ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   size_t d = (size_t)plan->coordinates + 1;
   int slots = (int)plan->scratch;
   ambulo__local_plan *local = &plan->local;
   local->steps = ambulo__alloc(&plan->allocator, d, sizeof *local->steps);
-  if (!local->steps) return AMBULO_E_MEMORY;
+  local->carrier = ambulo__alloc(&plan->allocator, d, sizeof *local->carrier);
+  if (!local->steps || !local->carrier) return AMBULO_E_MEMORY;
   local->world_at = slots;
   for (int k = 0; k < plan->coordinates; k++) {
     ambulo__local_step *step = &local->steps[k];
@@ -134,6 +161,7 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
     if (body >= 0) set_body(step, &plan->body[body]);
   }
   set_forks(plan);
+  if (plan->grounded) set_ground(plan);
   set_points(plan);
   plan->scratch += d * local_slot;
   return AMBULO_OK;
@@ -141,4 +169,5 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
 
 void ambulo__plan_local_free(ambulo__plan *plan) {
   ambulo__free(&plan->allocator, plan->local.steps);
+  ambulo__free(&plan->allocator, plan->local.carrier);
 }

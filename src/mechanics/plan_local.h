@@ -23,8 +23,9 @@ enum {
   local_angle = 36 * AMBULO__LANES,   /* sine, cosine; q if prismatic */
   local_axis = 38 * AMBULO__LANES,    /* points, world axes: axis of the joint, */
   local_columns = 41 * AMBULO__LANES, /* orientation (9), */
-  local_origin = 50 * AMBULO__LANES,  /* origin */
-  local_slot = 53 * AMBULO__LANES
+  local_origin = 50 * AMBULO__LANES,  /* origin, */
+  local_first = 53 * AMBULO__LANES,   /* ground reaction: first mass moment of the body */
+  local_slot = 57 * AMBULO__LANES     /* odd: else the same vectors of all slots share cache sets */
 };
 
 typedef enum ambulo__joint_kind {
@@ -72,6 +73,10 @@ typedef struct ambulo__local_step {
   int group;                            /* of points, in plan_steps.h; -1: none */
   int carries_points;                   /* carries, and the step after is pointed */
   int weighted, first_weight;           /* as loaded and first, for the points' weights */
+  int placed;                           /* its columns in world axes are read by other steps */
+  int vanishes;                         /* ground reaction: tau is zero, see plan_ground.c */
+  int weighs;                           /* ground reaction: the body counts in the centre of mass */
+  int feet;                             /* ground reaction: feet on this frame (1, 2, both: 3) */
   double sign, shift;                   /* angle = sign (q + shift) */
   double turn[9];                       /* oblique axis: the turned frame in the parent frame */
   double slide[3];                      /* prismatic: the axis in the frame */
@@ -87,6 +92,9 @@ typedef struct ambulo__local_plan {
   int world_at;              /* slot of the world */
   int branched;              /* local_load of the world is used */
   int world_group;           /* points fixed to the world, -1: none */
+  /* Ground reaction: the joints that carry both feet but whose tau does not vanish, then those that
+   * carry foot 0 alone, then foot 1, each from the root on. */
+  int *carrier, carrier_first[4];
 } ambulo__local_plan;
 
 #endif

@@ -32,8 +32,6 @@ typedef struct ambulo__hinge_step {
   int from[2], to[2]; /* columns */
   int rate_from, rate_to;
   double sign, shift;
-  int virtual_from, virtual_to, moment, adjoint;
-  int correction_from, correction; /* reverse: what the offset adds, or zero */
   int place, velocity, motion;
 } ambulo__hinge_step;
 
@@ -45,15 +43,12 @@ typedef struct ambulo__origin_step {
   double sign;
   double offset[3]; /* in the parent's columns */
   int columns[3];
-  int place_from, place_to, spin, rate;
-  int virtual_from, slide_from, slide_to, load, adjoint, adjoint_above, spin_adjoint, correction;
+  int place_from, place_to, rate;
   int velocity_from, velocity_to, motion;
 } ambulo__origin_step;
 
 typedef struct ambulo__body {
   int frame;
-  int at; /* c (3), force (3), rate of angular momentum (3), angular momentum
-             (3), inertia about c (6), all world axes */
   double mass;
   double com[3]; /* in the frame */
   /* inertia about the centre of mass = base 1 + first u u' + second w w', with
@@ -62,24 +57,9 @@ typedef struct ambulo__body {
   double base, first, second, lower[3];
   int order[3];
   int diagonal; /* lower = 0 */
-  int columns[3], ordered[3], place, rate, spin, load;
-  int turn, slide; /* virtual rate, virtual velocity of the origin */
-  int adjoint, spin_adjoint;
-  int adds_spin; /* not the first to write spin_adjoint */
+  int columns[3], ordered[3], place, rate, load;
   int velocity, composite;
 } ambulo__body;
-
-/* Virtual angular velocity across a revolute joint. */
-typedef struct ambulo__virtual_step {
-  int axis, input, from, to;
-  int carried; /* from is where the step before has just written */
-  double sign;
-} ambulo__virtual_step;
-
-/* Omega of a frame, and where its adjoint goes. */
-typedef struct ambulo__spin_step {
-  int rate, spin, spin_adjoint, adjoint;
-} ambulo__spin_step;
 
 /* Something of a subtree, added to its parent's. */
 typedef struct ambulo__add_step {
@@ -87,41 +67,25 @@ typedef struct ambulo__add_step {
   int carried; /* from is where the step before has just written */
 } ambulo__add_step;
 
-typedef struct ambulo__moment_step {
-  int place, load, moment;
-} ambulo__moment_step;
-
-/* tau = sign * axis . push */
-typedef struct ambulo__push_step {
-  int axis, push, output;
-  double sign;
-} ambulo__push_step;
-
-/* rho of the parent = add + rho + correction; dq = sign * axis . rho if output
- * >= 0. */
-typedef struct ambulo__turning_step {
-  int axis, rho, correction, add, to, output;
-  int carried; /* rho is where the step before has just written */
-  double sign;
-} ambulo__turning_step;
-
 /* A joint's row and column of the Jacobians: pairs first .. first + count of
  * ancestors, and the joint itself. */
 typedef struct ambulo__change_step {
   int composite, motion, load, column;
-  int first, fixed, count, lower;
+  int first, straight, count, lower; /* the first `straight` pairs are with straight joints */
+  int is_straight;                   /* prismatic along an axis that stands still */
   double mass;
 } ambulo__change_step;
 
+/* axis: 0, 1, 2 if the ancestor is straight along that world axis, else -1. */
 typedef struct ambulo__pair {
-  int motion, upper;
+  int motion, upper, axis;
 } ambulo__pair;
 
 /* The points of one frame. */
 typedef struct ambulo__group_step {
-  int place, columns[3], adjoint; /* adjoint -1: fixed to the world */
-  int first, count;               /* points */
-  int chain, chain_count;         /* motions of the joints that move them */
+  int place, columns[3];
+  int first, count;       /* points */
+  int chain, chain_count; /* motions of the joints that move them */
 } ambulo__group_step;
 
 typedef struct ambulo__point_step {
@@ -132,25 +96,19 @@ typedef struct ambulo__point_step {
 typedef struct ambulo__steps {
   ambulo__angle_step *angles;
   ambulo__turn_step *turns;
-  ambulo__hinge_step *hinges;     /* as many as angles; parents first */
-  ambulo__virtual_step *virtuals; /* as many; in order of coordinates */
+  ambulo__hinge_step *hinges; /* as many as angles; parents first */
   ambulo__origin_step *origins;
-  ambulo__spin_step *spins;
-  ambulo__moment_step *moments;
-  ambulo__push_step *pushes;      /* all coordinates */
-  ambulo__turning_step *turnings; /* all coordinates, children first */
-  ambulo__add_step *loads;        /* children first */
-  ambulo__add_step *composites;   /* children first */
-  ambulo__add_step *adjoints;     /* children first */
-  int *zero_loads, *zero_composites, *zero_adjoints, *zero_spins;
+  ambulo__add_step *loads;      /* children first */
+  ambulo__add_step *composites; /* children first */
+  int *zero_loads, *zero_composites;
   ambulo__change_step *changes; /* all coordinates */
   ambulo__pair *pairs;
   ambulo__group_step *groups;
   ambulo__point_step *points; /* all points, by group */
   int *chains;
   int angle_count, turn_count, late_turn; /* turns from late_turn on: axes of prismatic joints */
-  int origin_count, spin_count, moment_count, load_count, composite_count, adjoint_count;
-  int zero_load_count, zero_composite_count, zero_adjoint_count, zero_spin_count;
+  int origin_count, load_count, composite_count;
+  int zero_load_count, zero_composite_count;
   int group_count;
 } ambulo__steps;
 

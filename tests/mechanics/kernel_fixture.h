@@ -50,6 +50,12 @@ static inline double *lane_array(size_t count) {
   return at;
 }
 
+static inline double *zero_lane_array(size_t count) {
+  double *at = lane_array(count);
+  memset(at, 0, (count + 1) * 64);
+  return at;
+}
+
 static inline void case_open(kernel_case *c, int number) {
   random_source source = {1000 + (uint64_t)number};
   c->number = number;

@@ -84,7 +84,7 @@ static void gradients_equal_complex_steps(void **state) {
 static double *entries_of(ground_case *c, const ambulo__kernels *kernels) {
   kernel_case *b = &c->body;
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(b->plan);
-  double *entries = lane_array((size_t)(pattern.count + 2 * pattern.dynamic_count));
+  double *entries = zero_lane_array((size_t)(pattern.count + 2 * pattern.dynamic_count));
   double *jqd = entries + pattern.count * AMBULO__LANES;
   kernels->jacobian(b->plan, b->q, b->qd, b->qdd, c->ground, entries, jqd,
                     jqd + pattern.dynamic_count * AMBULO__LANES, b->scratch);

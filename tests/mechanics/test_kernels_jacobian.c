@@ -7,7 +7,7 @@ static const char *const group_names[] = {"Jacobian by q", "Jacobian by qd", "Ja
 /* Entries in pattern order: by q, by qd, by qdd. */
 static double *jacobian_entries(kernel_case *c, const ambulo__kernels *kernels) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(c->plan);
-  double *entries = lane_array((size_t)(pattern.count + 2 * pattern.dynamic_count));
+  double *entries = zero_lane_array((size_t)(pattern.count + 2 * pattern.dynamic_count));
   double *jqd = entries + pattern.count * AMBULO__LANES;
   kernels->jacobian(c->plan, c->q, c->qd, c->qdd, NULL, entries, jqd,
                     jqd + pattern.dynamic_count * AMBULO__LANES, c->scratch);

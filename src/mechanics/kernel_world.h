@@ -1,26 +1,38 @@
-/* mechanics/kernel_forward.h - inverse dynamics in world axes, one block of time nodes.
+/* mechanics/kernel_world.h - motion and loads of the subtrees in world axes, where the Jacobians
+ * are taken, one block of time nodes.
  *
  * Down the tree, with z the joint's axis, p the parent frame and r the constant offset between
  * the origins (in world axes), frame by frame:
  *   w     = w_p + z qd                                       angular velocity
  *   alpha = alpha_p + z qdd + w_p x z qd                     angular acceleration
- *   Omega = [alpha x] + w w^T - (w.w) 1                      so that rdd = Omega r for fixed r
+ *   Omega r = alpha x r + w x (w x r)                        acceleration of a fixed r
  *   o     = o_p + r,      a = a_p + Omega_p r                origin (revolute)
  *   o     = o_p + z q,    a = a_p + Omega_p z q + 2 w_p x z qd + z qdd      (prismatic)
  * The world's a is -gravity, so that weight needs no term of its own. Then for every body, c the
  * vector from the origin to its centre of mass and I its inertia about it, in world axes:
  *   F = m (a + Omega c),  L = I w,  H = I alpha + w x L                     (15')
  * and up the tree the load of each subtree: moment N about the world origin, force F:
- *   N = sum (o + c) x F + H,   tau = z . (N - o x F)  or  z . F             (10) in world axes
- * The load of the whole tree is the root wrench.
+ *   N = sum (o + c) x F + H                                         (10) in world axes
+ * The load of the whole tree is the root wrench. The velocities of the origins, v = v_p + w_p x r
+ * or v_p + w_p x z q + z qd, and the composite inertias of the subtrees are those of
+ * kernel_jacobian.h.
  */
-#ifndef AMBULO_MECHANICS_KERNEL_FORWARD_H
-#define AMBULO_MECHANICS_KERNEL_FORWARD_H
+#ifndef AMBULO_MECHANICS_KERNEL_WORLD_H
+#define AMBULO_MECHANICS_KERNEL_WORLD_H
 
 #include <math.h>
 
 #include "mechanics/kernel_ground.h"
 #include "mechanics/kernel_sincos.h"
+
+/* The inertia of a subtree, by vectors. */
+enum {
+  composite_first = 0,
+  composite_momentum = three,
+  composite_inertia = 2 * three,
+  composite_coriolis = 4 * three,
+  composite_vectors = 7
+};
 
 static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, const double *q,
                                                   double *scratch) {
@@ -46,7 +58,7 @@ static int angles_inside(const ambulo__steps *steps, const double *q) {
   return inside;
 }
 
-static void forward_world(const ambulo__plan *plan, double *scratch) {
+static void world_frame(const ambulo__plan *plan, double *scratch) {
   const ambulo__frame *world = &plan->frames[0];
   const wide3 zero = {{0}, {0}, {0}};
   for (int i = 0; i < 3; i++) {
@@ -57,12 +69,12 @@ static void forward_world(const ambulo__plan *plan, double *scratch) {
   store3(scratch + world->rate_at, zero);
   store3(scratch + world->rate_at + three, zero);
   store3(scratch + world->place_at, zero);
+  store3(scratch + world->velocity_at, zero);
   store3(scratch + world->place_at + three,
          (wide3){spread(-plan->gravity[0]), spread(-plan->gravity[1]), spread(-plan->gravity[2])});
-  if (world->spin_at >= 0) store33(scratch + world->spin_at, (wide33){zero, zero, zero});
 }
 
-AMBULO__INLINE void forward_turn(const ambulo__turn_step *step, double *scratch) {
+AMBULO__INLINE void world_turn(const ambulo__turn_step *step, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   for (int i = step->first; i < 3; i++) {
     const double column[3] = {step->turn[i], step->turn[3 + i], step->turn[6 + i]};
@@ -72,11 +84,11 @@ AMBULO__INLINE void forward_turn(const ambulo__turn_step *step, double *scratch)
 
 /* Orientations and their rates; sines and cosines from the table that libm_angles has made, or
  * on the way. */
-AMBULO__INLINE void forward_hinges(const ambulo__steps *steps, const double *q, const double *qd,
-                                   const double *qdd, int from_table, double *scratch) {
+AMBULO__INLINE void world_hinges(const ambulo__steps *steps, const double *q, const double *qd,
+                                 const double *qdd, int from_table, double *scratch) {
   for (int i = 0; i < steps->angle_count; i++) {
     const ambulo__hinge_step *step = &steps->hinges[i];
-    if (step->turn >= 0) forward_turn(&steps->turns[step->turn], scratch);
+    if (step->turn >= 0) world_turn(&steps->turns[step->turn], scratch);
     wide s, c;
     if (from_table) {
       s = load(scratch + step->angle);
@@ -94,41 +106,41 @@ AMBULO__INLINE void forward_hinges(const ambulo__steps *steps, const double *q, 
     store3(scratch + step->rate_to + three, add3(load3(scratch + step->rate_from + three), gain));
   }
   for (int i = steps->late_turn; i < steps->turn_count; i++) {
-    forward_turn(&steps->turns[i], scratch);
+    world_turn(&steps->turns[i], scratch);
   }
 }
 
-static void forward_spins(const ambulo__steps *steps, double *scratch) {
-  for (int i = 0; i < steps->spin_count; i++) {
-    const ambulo__spin_step *step = &steps->spins[i];
-    wide3 w = load3(scratch + step->rate), alpha = load3(scratch + step->rate + three);
-    wide xx = w.x * w.x, yy = w.y * w.y, zz = w.z * w.z;
-    wide xy = w.x * w.y, xz = w.x * w.z, yz = w.y * w.z;
-    wide33 spin = {{-(yy + zz), xy - alpha.z, xz + alpha.y},
-                   {xy + alpha.z, -(xx + zz), yz - alpha.x},
-                   {xz - alpha.y, yz + alpha.x, -(xx + yy)}};
-    store33(scratch + step->spin, spin);
-  }
+/* A vector that turns with a frame: its velocity and acceleration, w x r and alpha x r + w x w x r.
+ */
+AMBULO__INLINE wide_pair swept(const double *rate, wide3 r) {
+  wide3 w = load3(rate), velocity = cross3(w, r);
+  return (wide_pair){velocity, add_cross3(cross3(load3(rate + three), r), w, velocity)};
 }
 
-/* Origins that move, and their accelerations. What comes from the parent is added last: the next
- * step waits for it. */
-static void forward_origins(const ambulo__steps *steps, const double *q, const double *qd,
-                            const double *qdd, double *scratch) {
+/* Origins that move, their accelerations and velocities. What comes from the parent is added last:
+ * the next step waits for it. */
+static void world_origins(const ambulo__steps *steps, const double *q, const double *qd,
+                          const double *qdd, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   for (int i = 0; i < steps->origin_count; i++) {
     const ambulo__origin_step *step = &steps->origins[i];
-    wide3 r = add_rotated(zero, scratch, step->columns, step->offset), gain = zero;
+    wide3 r = add_rotated(zero, scratch, step->columns, step->offset), gain = zero, v = zero;
     if (step->prismatic) {
       wide3 z = load3(scratch + step->axis);
       r = axpy3(r, step->sign * load(q + step->input), z);
+      v = scale3(step->sign * load(qd + step->input), z);
       gain = scale3(step->sign * load(qdd + step->input), z);
       if (!step->still) {
         wide3 twice = scale3(2 * step->sign * load(qd + step->input), z);
         gain = add_cross3(gain, load3(scratch + step->rate), twice);
       }
     }
-    if (!step->still) gain = add_multiply33(gain, load33(scratch + step->spin), r);
+    if (!step->still) {
+      wide_pair turn = swept(scratch + step->rate, r);
+      v = add3(v, turn.angular);
+      gain = add3(gain, turn.linear);
+    }
+    store3(scratch + step->velocity_to, add3(load3(scratch + step->velocity_from), v));
     store3(scratch + step->place_to, add3(load3(scratch + step->place_from), r));
     wide3 a = load3(scratch + step->place_from + three);
     store3(scratch + step->place_to + three, add3(a, gain));
@@ -152,81 +164,84 @@ AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const double *scratc
                  u.y * x.z + w.y * y.z};
 }
 
-/* Force and moment that move each body; the first part of its frame's load. */
-static void forward_bodies(const ambulo__plan *plan, double *scratch) {
+/* h, P, I and E of a body at x with the velocity v. */
+AMBULO__INLINE void body_composite(const ambulo__body *body, wide3 x, wide3 v, wide3 w, wide6 j,
+                                   double *out) {
+  wide3 h = scale3(spread(body->mass), x);
+  wide square = dot3(h, x), trace = dot3(v, h), half = 0.5 * (j.xx + j.yy + j.zz);
+  wide6 inertia = {j.xx + square - h.x * x.x, j.yy + square - h.y * x.y, j.zz + square - h.z * x.z,
+                   j.xy - h.x * x.y,          j.xz - h.x * x.z,          j.yz - h.y * x.z};
+  /* columns of [w x] (half - J), which has no trace; E = (v.h) 1 - v h^T - [w x] (...) */
+  wide3 k1 = cross3(w, (wide3){half - j.xx, -j.xy, -j.xz});
+  wide3 k2 = cross3(w, (wide3){-j.xy, half - j.yy, -j.yz});
+  wide3 k3 = cross3(w, (wide3){-j.xz, -j.yz, half - j.zz});
+  wide33 coriolis = {{trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x},
+                     {-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y},
+                     {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
+  store3(out + composite_first, h);
+  store3(out + composite_momentum, scale3(spread(body->mass), v));
+  store6(out + composite_inertia, inertia);
+  store33(out + composite_coriolis, coriolis);
+}
+
+/* Force and moment that move each body, the first part of its frame's load, and its inertia. */
+static void world_bodies(const ambulo__plan *plan, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   for (int i = 0; i < plan->bodies; i++) {
     const ambulo__body *body = &plan->body[i];
-    double *at = scratch + body->at;
     const double *place = scratch + body->place;
     wide3 w = load3(scratch + body->rate), alpha = load3(scratch + body->rate + three);
-    wide3 c = add_rotated(zero, scratch, body->columns, body->com);
-    wide3 force = add_multiply33(load3(place + three), load33(scratch + body->spin), c);
-    force = scale3(spread(body->mass), force);
+    wide3 c = add_rotated(zero, scratch, body->columns, body->com), x = add3(load3(place), c);
+    wide_pair turn = swept(scratch + body->rate, c);
+    wide3 v = add3(load3(scratch + body->velocity), turn.angular);
+    wide3 force = scale3(spread(body->mass), add3(load3(place + three), turn.linear));
     wide6 inertia = body_inertia(body, scratch);
-    wide3 momentum = multiply6(inertia, w);
-    wide3 rate = add_cross3(multiply6(inertia, alpha), w, momentum);
-    store3(at, c);
-    store3(at + three, force);
-    store3(at + 2 * three, rate);
-    store3(at + 3 * three, momentum);
-    store6(at + 4 * three, inertia);
-    store3(scratch + body->load, add_cross3(rate, add3(load3(place), c), force));
+    wide3 rate = add_cross3(multiply6(inertia, alpha), w, multiply6(inertia, w));
+    store3(scratch + body->load, add_cross3(rate, x, force));
     store3(scratch + body->load + three, force);
+    body_composite(body, x, v, w, inertia, scratch + body->composite);
   }
 }
 
-/* Two vectors of each subtree, `first` doubles into its place, added to the
- * parent's. A sum that the next step goes on with stays in registers: memory
- * would make it wait. */
-AMBULO__INLINE void sum_up(const ambulo__add_step *steps, int count, int first, double *scratch) {
-  wide3 a = {{0}, {0}, {0}}, b = a;
-  scratch += first;
-  for (int i = 0; i < count; i++) {
+AMBULO__INLINE void zero_vectors(double *at, int count) {
+  const wide3 zero = {{0}, {0}, {0}};
+  for (int n = 0; n < count; n++) store3(at + n * three, zero);
+}
+
+/* `count` vectors of each subtree, added to its parent's. A sum that the next step goes on with
+ * stays in registers: memory would make it wait. */
+AMBULO__INLINE void sum_up(const ambulo__add_step *steps, int step_count, int count,
+                           double *scratch) {
+  wide3 sum[composite_vectors] = {{{0}, {0}, {0}}};
+  for (int i = 0; i < step_count; i++) {
     double *to = scratch + steps[i].to;
     const double *from = scratch + steps[i].from;
-    wide3 above_a = load3(to), above_b = load3(to + three);
     if (!steps[i].carried) {
-      a = load3(from);
-      b = load3(from + three);
+      for (int n = 0; n < count; n++) sum[n] = load3(from + n * three);
     }
-    a = add3(above_a, a);
-    b = add3(above_b, b);
-    store3(to, a);
-    store3(to + three, b);
+    for (int n = 0; n < count; n++) {
+      sum[n] = add3(load3(to + n * three), sum[n]);
+      store3(to + n * three, sum[n]);
+    }
   }
 }
 
-/* Loads up the tree. */
-static void forward_loads(const ambulo__plan *plan, double *scratch) {
+static void world_sums(const ambulo__plan *plan, double *scratch) {
+  const ambulo__steps *steps = &plan->steps;
   double *root = scratch + plan->frames[0].load_at;
   for (int i = 0; i < 6; i++) store(root + i * AMBULO__LANES, spread(plan->fixed_load[i]));
-  sum_up(plan->steps.loads, plan->steps.load_count, 0, scratch);
-}
-
-/* The forces at the joints, and the root wrench. */
-static void forward_forces(const ambulo__plan *plan, double *out, double *scratch) {
-  const ambulo__steps *steps = &plan->steps;
-  const double *root = scratch + plan->frames[0].load_at;
-  for (int i = 0; i < steps->moment_count; i++) {
-    const ambulo__moment_step *step = &steps->moments[i];
-    wide3 o = load3(scratch + step->place), force = load3(scratch + step->load + three);
-    store3(scratch + step->moment, add_cross3(load3(scratch + step->load), force, o));
+  for (int i = 0; i < steps->zero_load_count; i++) zero_vectors(scratch + steps->zero_loads[i], 2);
+  for (int i = 0; i < steps->zero_composite_count; i++) {
+    zero_vectors(scratch + steps->zero_composites[i], composite_vectors);
   }
-  for (int i = 0; i < plan->coordinates; i++) {
-    const ambulo__push_step *step = &steps->pushes[i];
-    wide work = dot3(load3(scratch + step->axis), load3(scratch + step->push));
-    store(out + step->output, step->sign * work);
-  }
-  out += plan->coordinates * AMBULO__LANES;
-  store3(out, load3(root));
-  store3(out + three, load3(root + three));
+  sum_up(steps->loads, steps->load_count, 2, scratch);
+  sum_up(steps->composites, steps->composite_count, composite_vectors, scratch);
 }
 
 /* Positions of the points, to their rows or, packed, one after the other in
  * order of groups. */
-AMBULO__INLINE void forward_positions(const ambulo__steps *steps, double *out, int packed,
-                                      const double *scratch) {
+AMBULO__INLINE void world_positions(const ambulo__steps *steps, double *out, int packed,
+                                    const double *scratch) {
   for (int g = 0; g < steps->group_count; g++) {
     const ambulo__group_step *group = &steps->groups[g];
     wide3 o = load3(scratch + group->place), x = load3(scratch + group->columns[0]);
@@ -240,35 +255,21 @@ AMBULO__INLINE void forward_positions(const ambulo__steps *steps, double *out, i
   }
 }
 
-/* Motion of the frames, and the loads of their subtrees. */
-static void forward_world_part(const ambulo__plan *plan, const double *q, const double *qd,
-                               const double *qdd, const double *ground, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
+/* Motion of the frames, the loads and composite inertias of their subtrees. */
+static void world_part(const ambulo__plan *plan, const double *q, const double *qd,
+                       const double *qdd, const double *ground, double *scratch) {
   const ambulo__steps *steps = &plan->steps;
-  forward_world(plan, scratch);
+  world_frame(plan, scratch);
   if (angles_inside(steps, q)) {
-    forward_hinges(steps, q, qd, qdd, 0, scratch);
+    world_hinges(steps, q, qd, qdd, 0, scratch);
   } else {
     libm_angles(steps, q, scratch);
-    forward_hinges(steps, q, qd, qdd, 1, scratch);
+    world_hinges(steps, q, qd, qdd, 1, scratch);
   }
-  forward_spins(steps, scratch);
-  forward_origins(steps, q, qd, qdd, scratch);
-  for (int i = 0; i < steps->zero_load_count; i++) {
-    store3(scratch + steps->zero_loads[i], zero);
-    store3(scratch + steps->zero_loads[i] + three, zero);
-  }
-  forward_bodies(plan, scratch);
+  world_origins(steps, q, qd, qdd, scratch);
+  world_bodies(plan, scratch);
+  world_sums(plan, scratch);
   if (plan->grounded) ground_split(plan, ground, scratch);
-  forward_loads(plan, scratch);
-}
-
-static void forward_part(const ambulo__plan *plan, const double *q, const double *qd,
-                         const double *qdd, const double *ground, double *out, double *scratch) {
-  forward_world_part(plan, q, qd, qdd, ground, scratch);
-  forward_forces(plan, out, scratch);
-  if (plan->grounded) ground_rows(plan, ground, out, scratch);
-  forward_positions(&plan->steps, out, 0, scratch);
 }
 
 #endif
