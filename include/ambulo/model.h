@@ -140,6 +140,27 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
 /* Accepts NULL. */
 AMBULO_API void ambulo_model_free(ambulo_model *model);
 
+/* --------------------------------------------------------- other conditions */
+
+/* What a body climbs and carries: `ground` and `load` of a problem file. */
+typedef struct ambulo_conditions {
+  int cookie;              /* set by ambulo_conditions_default() */
+  double slope;            /* rad, -0.6 to 0.6: the ground rises so much along forward. The world's
+                              axes stay with the ground, gravity is turned instead; 0: as it was */
+  int load_link;           /* link that a mass without extent is fixed on; -1: none */
+  double load_mass;        /* kg, 1e-6 to 1000 */
+  double load_position[3]; /* link frame, m */
+} ambulo_conditions;
+AMBULO_API ambulo_conditions ambulo_conditions_default(void); /* as it was, no load */
+
+/* A copy of `model` under other conditions; free it too. Loads add up, a slope replaces the one
+ * before. `diagnostics` may be NULL. Errors: E_ARGUMENT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model *model,
+                                                             const ambulo_conditions *conditions,
+                                                             const ambulo_allocator *allocator,
+                                                             ambulo_diagnostics *diagnostics,
+                                                             ambulo_model **adapted);
+
 /* ------------------------------------------------------------------ queries */
 /* Pointers belong to the model. Out-of-range indices give NULL; names that do
  * not exist give -1. */

@@ -14,6 +14,8 @@
 
 #include "model/reader.h"
 
+enum { CONDITIONS_COOKIE = 0x616d636f };
+
 void ambulo__model_carry(ambulo_model *model, int link, double mass, const double position[3]) {
   ambulo_link *carrier = &model->links[link];
   ambulo__part whole = {.mass = carrier->mass}, load = {.mass = mass};
@@ -32,4 +34,70 @@ void ambulo__model_tilt(ambulo_model *model, double slope) {
   double g = sqrt(old[0] * old[0] + old[1] * old[1] + old[2] * old[2]);
   for (int i = 0; i < 3; i++)
     model->gravity[i] = -g * (cos(slope) * model->up[i] + sin(slope) * model->forward[i]);
+}
+
+/* --------------------------------------------------------------- in the open */
+
+ambulo_conditions ambulo_conditions_default(void) {
+  return (ambulo_conditions){.cookie = CONDITIONS_COOKIE, .load_link = -1};
+}
+
+static int in_range(const ambulo_model *model, const ambulo_conditions *c) {
+  if (!(fabs(c->slope) <= AMBULO__LARGEST_SLOPE)) return 0;
+  if (c->load_link < 0) return c->load_link == -1;
+  double position = c->load_position[0] + c->load_position[1] + c->load_position[2];
+  return c->load_link < model->link_count && c->load_mass >= 1e-6 && c->load_mass <= 1000.0 &&
+         isfinite(position);
+}
+
+/* built anew from its own parts; the directions are copied, not derived again, bit for bit */
+static ambulo_status copy_model(const ambulo_model *model, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo_model **copy) {
+  ambulo_model_definition d = ambulo_model_definition_default();
+  d.name = model->name;
+  d.links = model->links;
+  d.link_count = model->link_count;
+  d.coordinates = model->coordinates;
+  d.coordinate_count = model->coordinate_count;
+  d.points = model->points;
+  d.point_count = model->point_count;
+  d.feet = model->feet;
+  d.foot_count = model->foot_count;
+  d.stature = model->stature;
+  for (int i = 0; i < 3; i++) {
+    d.gravity[i] = -9.81 * model->up[i];
+    d.forward[i] = model->forward[i];
+  }
+  ambulo_status status = ambulo_model_create(&d, allocator, diagnostics, copy);
+  if (status) return status;
+  memcpy((*copy)->gravity, model->gravity, sizeof model->gravity);
+  memcpy((*copy)->up, model->up, sizeof model->up);
+  memcpy((*copy)->forward, model->forward, sizeof model->forward);
+  memcpy((*copy)->left, model->left, sizeof model->left);
+  (*copy)->mass = model->mass;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_model_adapt(const ambulo_model *model, const ambulo_conditions *conditions,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo_model **adapted) {
+  if (!model || !conditions || !adapted || conditions->cookie != CONDITIONS_COOKIE)
+    return AMBULO_E_ARGUMENT;
+  if (!in_range(model, conditions)) {
+    ambulo__place nowhere = {0};
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "the conditions are out of range (slope %g rad, %g kg on link %d); "
+                         "expected a slope of -%g to %g rad and 1e-6 to 1000 kg on a link",
+                         conditions->slope, conditions->load_mass, conditions->load_link,
+                         AMBULO__LARGEST_SLOPE, AMBULO__LARGEST_SLOPE);
+  }
+  ambulo_model *copy = NULL;
+  ambulo_status status = copy_model(model, allocator, diagnostics, &copy);
+  if (status) return status;
+  if (conditions->load_link >= 0)
+    ambulo__model_carry(copy, conditions->load_link, conditions->load_mass,
+                        conditions->load_position);
+  if (conditions->slope != 0.0) ambulo__model_tilt(copy, conditions->slope);
+  *adapted = copy;
+  return AMBULO_OK;
 }

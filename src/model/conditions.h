@@ -7,6 +7,8 @@
 
 #include "model/model.h"
 
+#define AMBULO__LARGEST_SLOPE 0.6 /* rad */
+
 /* Fixes a body of `mass` (kg) without extent at `position` (link frame, m). */
 void ambulo__model_carry(ambulo_model *model, int link, double mass, const double position[3]);
 

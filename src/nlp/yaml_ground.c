@@ -5,9 +5,8 @@
 #include "model/conditions.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
-
-static const double largest_slope = 0.6; /* rad */
 
 double ambulo__read_plain_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                                 double fallback) {
@@ -27,13 +26,26 @@ static void read_slope(ambulo__problem_reader *reader, const ambulo__yaml_node *
   if (!section) return;
   const ambulo__yaml_node *node = ambulo__yaml_get(section, "slope");
   double slope = ambulo__read_plain_angle(reader, node, 0.0);
-  if (fabs(slope) > largest_slope)
+  if (fabs(slope) > AMBULO__LARGEST_SLOPE)
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                             "a slope of %g rad; expected -%g to %g rad", slope, largest_slope,
-                             largest_slope);
+                             "a slope of %g rad; expected -%g to %g rad", slope,
+                             AMBULO__LARGEST_SLOPE, AMBULO__LARGEST_SLOPE);
   else if (slope != 0.0)
     ambulo__model_tilt(reader->model, slope);
   ambulo__yaml_close(section);
+}
+
+static void unknown_link(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         const char *name) {
+  const ambulo_model *model = reader->model;
+  size_t count = (size_t)model->link_count;
+  const char **names = ambulo__reader_alloc(reader, count, sizeof *names);
+  char hint[100];
+  for (size_t i = 0; names && i < count; i++) names[i] = model->links[i].name;
+  const char *nearest = names ? ambulo__nearest(name, names, count) : NULL;
+  if (nearest) (void)snprintf(hint, sizeof hint, "did you mean '%s'?", nearest);
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, nearest ? hint : NULL,
+                           "unknown link (got '%s'); expected a link of the model", name);
 }
 
 static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
@@ -45,9 +57,7 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   int placed = ambulo__yaml_numbers(ambulo__yaml_require(section, "position"), 3, position);
   ambulo__yaml_close(section);
   int link = name ? ambulo_model_find_link(reader->model, name) : -1;
-  if (name && link < 0)
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                             "unknown link (got '%s'); expected a link of the model", name);
+  if (name && link < 0) unknown_link(reader, node, name);
   if (link >= 0 && placed) ambulo__model_carry(reader->model, link, mass, position);
 }
 

@@ -93,8 +93,9 @@ static void find_extent(strip *s, const ambulo__stride *stride) {
 /* as many figures as stand apart, as large as fits */
 static void choose_scale(strip *s) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
-  const double side_room = 108.0;
-  const double overlap = 0.56; /* part of a figure's width that its neighbour leaves it */
+  const double side_room = s->model->foot_count ? 108.0 : 78.0;
+  /* part of a figure's width that its neighbour leaves it: legs may cross, an arm stands free */
+  const double overlap = s->model->foot_count ? 0.56 : 1.08;
   s->scale = (s->panel->height - head_room) / height;
   /* the first and the last figure stay on the page */
   if (s->right * s->scale > side_room) s->scale = side_room / s->right;
@@ -146,6 +147,16 @@ static void draw_head(const strip *s, double t, ambulo__text_buffer *text) {
   }
 }
 
+/* what hangs on the world, hangs there: the origin of the first link that moves */
+static void draw_pivot(const strip *s, double t, ambulo__text_buffer *text) {
+  int link = s->reference >= 0 ? s->model->links[s->reference].parent : -1;
+  ambulo__bone bone = {.link = {-1, link}};
+  double at[2], page[2];
+  flat_point(s, &bone, 1, t, at);
+  to_page(s, t, at, page);
+  if (isfinite(page[0] + page[1])) ambulo__svg_circle(text, "head", page[0], page[1], 4.0);
+}
+
 /* a mark under the part of the foot that is on its foothold */
 static void draw_contacts(const strip *s, const ambulo__stride *stride, double t,
                           ambulo__text_buffer *text) {
@@ -189,8 +200,14 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
     draw_head(s, t, text);
     draw_side(s, t, AMBULO__RIGHT, "right", text);
     draw_contacts(s, stride, t, text);
+    if (!s->model->foot_count) draw_pivot(s, t, text);
     ambulo__svg_group_end(text);
   }
+}
+
+/* radians that the ground rises along forward: gravity is not along its normal then */
+static double slope_of(const ambulo_model *model) {
+  return atan2(-along(model->forward, model->gravity), -along(model->up, model->gravity));
 }
 
 /* how far the drawing departs from the truth */
@@ -204,6 +221,12 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
     ambulo__text_append(&label, "\xc3\x97");
   } else {
     ambulo__text_append(&label, "side view, one figure beside the other in time");
+  }
+  double slope = 57.295779513082321 * slope_of(s->model);
+  if (s->model->foot_count && fabs(slope) > 0.05) {
+    ambulo__text_append(&label, slope > 0.0 ? ", uphill " : ", downhill ");
+    ambulo__label_number(&label, fabs(slope), 1);
+    ambulo__text_append(&label, "\xc2\xb0 (drawn level)");
   }
   ambulo__svg_label(text, "end", s->panel->x + s->panel->width + 80.0, s->panel->y - 23.0,
                     ambulo__text_data(&label));

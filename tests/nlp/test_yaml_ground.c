@@ -97,6 +97,38 @@ static void loads_are_carried(void **state) {
   ambulo_problem_free(free_handed);
 }
 
+/* the same in code: the hash sees every number of model and problem, the values every bit */
+static void code_and_file_give_one_problem(void **state) {
+  (void)state;
+  ambulo_problem *from_file =
+      problem_of(HEAD REST "angles: radians\nground: {slope: 0.09}\n"
+                           "load: {link: pelvis, mass: 20, position: [-0.2, 0.3, 0.01]}\n"
+                           "ground_reaction: {kind: two_step}\n");
+  ambulo_model *plain = NULL, *adapted = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &plain), 0);
+  ambulo_conditions conditions = ambulo_conditions_default();
+  conditions.slope = 0.09;
+  conditions.load_link = ambulo_model_find_link(plain, "pelvis");
+  conditions.load_mass = 20.0;
+  const double position[3] = {-0.2, 0.3, 0.01};
+  memcpy(conditions.load_position, position, sizeof position);
+  assert_int_equal(ambulo_model_adapt(plain, &conditions, NULL, NULL, &adapted), AMBULO_OK);
+  ambulo_problem_definition definition = from_file->definition;
+  definition.model = adapted;
+  ambulo_problem *from_code = NULL;
+  assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &from_code), AMBULO_OK);
+  assert_true(ambulo_problem_hash(from_code) == ambulo_problem_hash(from_file));
+  definition.model = plain;
+  ambulo_problem *level = NULL;
+  assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &level), AMBULO_OK);
+  assert_true(ambulo_problem_hash(level) != ambulo_problem_hash(from_file));
+  ambulo_problem_free(level);
+  ambulo_problem_free(from_code);
+  ambulo_problem_free(from_file);
+  ambulo_model_free(adapted);
+  ambulo_model_free(plain);
+}
+
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(HEAD REST "ground: {slope: 5}\n", AMBULO_E_SCHEMA,
@@ -104,7 +136,8 @@ static void faults_are_placed(void **state) {
   expect_refusal(HEAD REST "angles: degrees\nground: {slope: 50}\n", AMBULO_E_SCHEMA,
                  "p.yaml:8:17: error[E_SCHEMA]: a slope of");
   expect_refusal(HEAD REST "load: {link: pelvs, mass: 20, position: [0, 0, 0]}\n", AMBULO_E_PROBLEM,
-                 "unknown link (got 'pelvs')");
+                 "unknown link (got 'pelvs'); expected a link of the model\n"
+                 "  hint: did you mean 'pelvis'?");
   expect_refusal(HEAD REST "ground_reaction: {kind: twostep}\n", AMBULO_E_SCHEMA, "two_step");
   expect_refusal(HEAD REST "ground_reaction: {pressure: {toe: [0.1, 0]}}\n", AMBULO_E_PROBLEM,
                  "expected lower < upper");
@@ -118,9 +151,11 @@ static void faults_are_placed(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(everything_is_read), cmocka_unit_test(defaults),
-      cmocka_unit_test(slopes_turn_gravity), cmocka_unit_test(loads_are_carried),
-      cmocka_unit_test(faults_are_placed)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(everything_is_read),
+                                     cmocka_unit_test(defaults),
+                                     cmocka_unit_test(slopes_turn_gravity),
+                                     cmocka_unit_test(loads_are_carried),
+                                     cmocka_unit_test(code_and_file_give_one_problem),
+                                     cmocka_unit_test(faults_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

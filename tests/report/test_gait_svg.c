@@ -1,4 +1,5 @@
 /* gait.svg: well-formed, one group a figure, survives motions that are not finite. */
+#include "model/conditions.h"
 #include "report/gait_svg.h"
 #include "support/arm.h"
 #include "support/walker_result.h"
@@ -73,8 +74,26 @@ static void test_arm(void **state) {
   ambulo_model_free(model);
 }
 
+/* what is drawn level although it is not says so */
+static void test_slope(void **state) {
+  (void)state;
+  walk w;
+  walk_open(&w, 12);
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, NULL);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+  assert_null(strstr(ambulo__text_data(&text), "hill"));
+  ambulo__text_clear(&text);
+  ambulo_model *model = w.model;
+  ambulo__model_tilt(model, 5.0 / 57.295779513082321);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+  assert_non_null(strstr(ambulo__text_data(&text), "uphill 5\xc2\xb0 (drawn level)"));
+  ambulo__text_free(&text);
+  walk_close(&w);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_walk), cmocka_unit_test(test_not_finite),
-                                     cmocka_unit_test(test_arm)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_walk), cmocka_unit_test(test_slope),
+                                     cmocka_unit_test(test_not_finite), cmocka_unit_test(test_arm)};
   return cmocka_run_group_tests_name("report/gait_svg", tests, NULL, NULL);
 }

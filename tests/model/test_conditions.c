@@ -1,0 +1,146 @@
+/* A model that climbs and carries: what changes, what stays, what is refused. */
+#include "model/conditions.h"
+#include "support/fail_alloc.h"
+#include "support/messages.h"
+#include "support/test.h"
+
+#include "ambulo/ambulo.h"
+
+#include <math.h>
+#include <string.h>
+
+static ambulo_model *shipped(void) {
+  ambulo_model *model = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &model), 0);
+  return model;
+}
+
+static void nothing_asked_is_a_copy(void **state) {
+  (void)state;
+  ambulo_model *model = shipped(), *copy = NULL;
+  ambulo_conditions conditions = ambulo_conditions_default();
+  assert_int_equal(ambulo_model_adapt(model, &conditions, NULL, NULL, &copy), AMBULO_OK);
+  assert_ptr_not_equal(copy, model);
+  assert_string_equal(copy->name, model->name);
+  assert_int_equal(copy->foot_count, model->foot_count);
+  assert_memory_equal(copy->gravity, model->gravity, 3 * sizeof(double));
+  assert_memory_equal(copy->up, model->up, 3 * sizeof(double));
+  assert_memory_equal(copy->forward, model->forward, 3 * sizeof(double));
+  assert_memory_equal(copy->left, model->left, 3 * sizeof(double));
+  assert_memory_equal(&copy->mass, &model->mass, sizeof(double));
+  assert_memory_equal(&copy->stature, &model->stature, sizeof(double));
+  for (int i = 0; i < model->link_count; i++) {
+    assert_string_equal(copy->links[i].name, model->links[i].name);
+    assert_int_equal(copy->links[i].parent, model->links[i].parent);
+    assert_memory_equal(copy->links[i].inertia, model->links[i].inertia, 6 * sizeof(double));
+  }
+  for (int i = 0; i < model->coordinate_count; i++)
+    assert_int_equal(copy->coordinates[i].mirror, model->coordinates[i].mirror);
+  ambulo_model_free(model);
+  ambulo_model_free(copy);
+}
+
+/* uphill, gravity has a part against the way; its size, and the ground's axes, stay */
+static void a_slope_turns_gravity(void **state) {
+  (void)state;
+  ambulo_model *model = shipped(), *uphill = NULL, *again = NULL;
+  ambulo_conditions conditions = ambulo_conditions_default();
+  conditions.slope = 0.1;
+  assert_int_equal(ambulo_model_adapt(model, &conditions, NULL, NULL, &uphill), AMBULO_OK);
+  const double *g = ambulo_model_gravity(uphill), *f = ambulo_model_forward(uphill);
+  const double *n = ambulo_model_up(uphill);
+  assert_memory_equal(n, ambulo_model_up(model), 3 * sizeof(double));
+  assert_close(g[0] * f[0] + g[1] * f[1] + g[2] * f[2], -9.81 * sin(0.1), 1e-13);
+  assert_close(g[0] * n[0] + g[1] * n[1] + g[2] * n[2], -9.81 * cos(0.1), 1e-13);
+  conditions.slope = -0.2;
+  assert_int_equal(ambulo_model_adapt(uphill, &conditions, NULL, NULL, &again), AMBULO_OK);
+  g = ambulo_model_gravity(again);
+  assert_close(g[0] * f[0] + g[1] * f[1] + g[2] * f[2], 9.81 * sin(0.2), 1e-13);
+  ambulo_model_free(model);
+  ambulo_model_free(uphill);
+  ambulo_model_free(again);
+}
+
+/* twice 5 kg at one place weigh as much as 10 kg there; the first model stays as it is */
+static void loads_add_up(void **state) {
+  (void)state;
+  ambulo_model *model = shipped(), *once = NULL, *twice = NULL, *whole = NULL;
+  double mass = ambulo_model_mass(model);
+  ambulo_conditions c = ambulo_conditions_default();
+  c.load_link = ambulo_model_find_link(model, "pelvis");
+  c.load_mass = 5.0;
+  c.load_position[0] = -0.15;
+  assert_int_equal(ambulo_model_adapt(model, &c, NULL, NULL, &once), AMBULO_OK);
+  assert_int_equal(ambulo_model_adapt(once, &c, NULL, NULL, &twice), AMBULO_OK);
+  c.load_mass = 10.0;
+  assert_int_equal(ambulo_model_adapt(model, &c, NULL, NULL, &whole), AMBULO_OK);
+  assert_close(ambulo_model_mass(model), mass, 0.0);
+  assert_close(ambulo_model_mass(twice), mass + 10.0, 1e-12);
+  const ambulo_link *a = ambulo_model_link(twice, c.load_link);
+  const ambulo_link *b = ambulo_model_link(whole, c.load_link);
+  for (int i = 0; i < 3; i++) assert_close(a->com[i], b->com[i], 1e-14);
+  for (int i = 0; i < 6; i++) assert_close(a->inertia[i], b->inertia[i], 1e-13);
+  ambulo_model_free(model);
+  ambulo_model_free(once);
+  ambulo_model_free(twice);
+  ambulo_model_free(whole);
+}
+
+static void what_is_refused(void **state) {
+  (void)state;
+  ambulo_model *model = shipped(), *untouched = model;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_conditions zero;
+  memset(&zero, 0, sizeof zero);
+  assert_int_equal(ambulo_model_adapt(model, &zero, NULL, list, &untouched), AMBULO_E_ARGUMENT);
+  ambulo_conditions wrong[6];
+  for (int i = 0; i < 6; i++) wrong[i] = ambulo_conditions_default();
+  wrong[0].slope = 0.7;
+  wrong[1].slope = (double)NAN;
+  wrong[2].load_link = 1000;
+  wrong[3].load_link = -2;
+  wrong[4].load_link = 0; /* no mass */
+  wrong[5] = (ambulo_conditions){.cookie = wrong[0].cookie,
+                                 .load_link = 0,
+                                 .load_mass = 1.0,
+                                 .load_position = {(double)INFINITY}};
+  for (int i = 0; i < 6; i++) {
+    ambulo_diagnostics_clear(list);
+    assert_int_equal(ambulo_model_adapt(model, &wrong[i], NULL, list, &untouched),
+                     AMBULO_E_ARGUMENT);
+    assert_message(list, 0, "the conditions are out of range");
+  }
+  ambulo_conditions level = ambulo_conditions_default();
+  assert_int_equal(ambulo_model_adapt(NULL, &level, NULL, NULL, &untouched), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_model_adapt(model, NULL, NULL, NULL, &untouched), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_model_adapt(model, &level, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_ptr_equal(untouched, model);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(model);
+}
+
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  ambulo_model *model = shipped();
+  ambulo_conditions conditions = ambulo_conditions_default();
+  conditions.slope = 0.1;
+  for (long k = 0; k < 1000; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_model *adapted = NULL;
+    ambulo_status status = ambulo_model_adapt(model, &conditions, &allocator, NULL, &adapted);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    ambulo_model_free(adapted);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  ambulo_model_free(model);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(nothing_asked_is_a_copy), cmocka_unit_test(a_slope_turns_gravity),
+      cmocka_unit_test(loads_add_up), cmocka_unit_test(what_is_refused),
+      cmocka_unit_test(every_allocation_may_fail)};
+  return cmocka_run_group_tests_name("model/conditions", tests, NULL, NULL);
+}
