@@ -24,9 +24,9 @@ static ambulo_result *solve_from_zero(const ambulo_problem *problem) {
 
 static void every_walk_is_solved_from_zero(void **state) {
   (void)state;
-  static const char *const walks[] = {"walk_normal",    "walk_normal_21", "walk_slow",
-                                      "walk_fast",      "walk_loaded",    "walk_uphill",
-                                      "walk_asymmetric"};
+  static const char *const walks[] = {"walk_normal",     "walk_normal_21", "walk_slow",
+                                      "walk_fast",       "walk_loaded",    "walk_uphill",
+                                      "walk_asymmetric", "walk_tracking"};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
     ambulo_problem *problem = load_walk(walks[i]);
     ambulo_result *result = solve_from_zero(problem);
@@ -38,6 +38,45 @@ static void every_walk_is_solved_from_zero(void **state) {
     ambulo_result_free(result);
     ambulo_problem_free(problem);
   }
+}
+
+/* the six angles of models/walk_tracking_angles.csv, every 0.02 s, are met within a degree */
+static void measured_curves_are_followed(void **state) {
+  (void)state;
+  enum { ROWS = 28, ANGLES = 6, COORDINATES = 18 };
+  static const char *const names[ANGLES] = {"hip_flexion_r", "knee_angle_r", "ankle_angle_r",
+                                            "hip_flexion_l", "knee_angle_l", "ankle_angle_l"};
+  ambulo_problem *problem = load_walk("walk_tracking");
+  ambulo_result *result = solve_from_zero(problem);
+  ambulo_workspace *workspace = NULL;
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  double times[ROWS], q[ROWS * COORDINATES], given[1 + ANGLES], sum = 0.0;
+  for (int k = 0; k < ROWS; k++) times[k] = 0.02 * k;
+  ambulo_motion motion = {.q = q};
+  assert_int_equal(
+      ambulo_problem_motion(problem, workspace, ambulo_result_x(result), ROWS, times, &motion),
+      AMBULO_OK);
+  FILE *file = fopen(AMBULO_SOURCE_DIR "/models/walk_tracking_angles.csv", "r");
+  assert_non_null(file);
+  char line[400];
+  for (int k = 0; k < ROWS && fgets(line, sizeof line, file);) {
+    if (line[0] == '#' || line[0] == 't') continue;
+    char *at = line;
+    for (int i = 0; i <= ANGLES; i++, at++) given[i] = strtod(at, &at);
+    assert_close(given[0], times[k], 1e-9);
+    for (int i = 0; i < ANGLES; i++) {
+      int c = ambulo_model_find_coordinate(ambulo_problem_model(problem), names[i]);
+      double error = 57.295779513082321 * q[k * COORDINATES + c] - given[1 + i];
+      assert_true(fabs(error) < 1.0);
+      sum += error * error;
+    }
+    k++;
+  }
+  fclose(file);
+  assert_true(sqrt(sum / (ROWS * ANGLES)) < 0.3 && sum > 0.0);
+  ambulo_workspace_free(workspace);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
 }
 
 /* ------------------------------------------------- measured against people */
@@ -139,6 +178,7 @@ static void the_body_with_a_lumbar_joint_walks_as_people_do(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(measured_curves_are_followed),
       cmocka_unit_test(every_walk_is_solved_from_zero),
       cmocka_unit_test_setup_teardown(the_body_with_18_coordinates_walks_as_people_do, scratch_open,
                                       scratch_close),
