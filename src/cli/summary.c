@@ -39,7 +39,8 @@ static void print_audit(const ambulo_result *result) {
   printf("audit\n");
   print_violation("violation at nodes", &audit->violation);
   print_violation("violation between nodes", &audit->dense_violation);
-  printf("  %-24s %.2e\n", "KKT residual", audit->kkt);
+  printf("  %-24s %.2e%s\n", "KKT residual", audit->kkt,
+         audit->at_lower_bound ? "; the objective is at its lower bound, zero" : "");
   printf("  %-24s %d, rank %d", "active rows", audit->active_rows, audit->rank);
   if (audit->dropped_equalities) printf(", %d dependent equalities", audit->dropped_equalities);
   printf("\n");

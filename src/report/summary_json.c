@@ -70,6 +70,7 @@ static void audit(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_integer(json, "active_rows", a->active_rows);
   ambulo__json_integer(json, "rank", a->rank);
   ambulo__json_integer(json, "dropped_equalities", a->dropped_equalities);
+  ambulo__json_integer(json, "at_lower_bound", a->at_lower_bound);
   ambulo__json_close(json, '}');
   ambulo__json_open(json, "families", '[');
   for (int i = 0; i < ambulo_result_family_count(result); i++)

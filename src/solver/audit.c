@@ -10,6 +10,9 @@
  * with the right signs (Moreau's decomposition of -g by the cone of feasible directions).
  * kkt = |d| / |g| in infinity norms. It is solved by the piecewise quadratic model of
  * model_step.c with H0 = I, a large penalty, and the method of multipliers.
+ *
+ * kkt is relative to g, which vanishes where the objective reaches zero, its lower bound: there
+ * the bound itself is the proof (engine.c, negligible_objective).
  */
 #include "solver/audit.h"
 
@@ -186,6 +189,7 @@ ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
     return AMBULO_OK;
   }
   result->objective = e->workspace->objective;
+  result->audit.at_lower_bound = result->objective <= e->negligible;
   memcpy(result->term, e->workspace->term_value, (size_t)result->terms * sizeof *result->term);
   memcpy(result->row, e->workspace->row_value, (size_t)result->rows * sizeof *result->row);
   audit_violations(p, result);

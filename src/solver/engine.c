@@ -45,6 +45,18 @@ static void create_vectors(ambulo__engine *e) {
   e->cap = ambulo__pool_doubles(pool, (size_t)e->problem->coordinates);
 }
 
+/* An objective of terms that cannot be negative is at its lower bound, for all purposes, when
+ * it is this small beside that of the motionless body. Multipliers and gradient vanish there
+ * together, and their ratio says nothing. */
+static double negligible_objective(ambulo__engine *e) {
+  const ambulo_problem_definition *d = &e->problem->definition;
+  for (int t = 0; t < d->term_count; t++) {
+    if (d->terms[t].kind == AMBULO_USER_TERM) return -1.0;
+  }
+  if (ambulo__evaluate(e->workspace, e->center)) return -1.0; /* zeros so far */
+  return e->run->options->optimality_tolerance * e->workspace->objective;
+}
+
 static ambulo_status create_parts(ambulo__engine *e, const double *start,
                                   ambulo_diagnostics *diagnostics) {
   const ambulo_problem *p = e->problem;
@@ -70,6 +82,7 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   if (status) return status;
   for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(&p->model->coordinates[i]);
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
+  e->negligible = negligible_objective(e);
   return AMBULO_OK;
 }
 

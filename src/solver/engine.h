@@ -41,9 +41,10 @@ typedef struct ambulo__engine {
   ambulo__kkt kkt;       /* the same H with the equalities' gradients at the centre */
   ambulo__mixing retraction, adjoint;
   double objective_scale, mu, rho;
-  double *cap;                     /* [coordinates]: largest change in one step, rad or m */
-  double *center;                  /* [n] */
-  double *lambda;                  /* [inequalities] */
+  double negligible; /* objective (not scaled) that counts as its lower bound 0; < 0: it has none */
+  double *cap;       /* [coordinates]: largest change in one step, rad or m */
+  double *center;    /* [n] */
+  double *lambda;    /* [inequalities] */
   double *equality_multiplier;     /* [equalities]: G + J' l + C' m = 0 at a solution */
   double *border_multiplier;       /* [borders]: m, after a model step */
   double *h, *b, *dual, *balanced; /* [equalities], [borders], [equalities] twice */

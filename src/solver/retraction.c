@@ -31,7 +31,7 @@
 enum { MAX_CHORD = 16, MAX_ADJOINT = 14 };
 static const double tolerance = 1e-8;
 static const double wild_step = 3.0; /* rad, m */
-static const double adjoint_tolerance = 1e-5;
+static const double adjoint_tolerance = 1e-4;
 static const double adjoint_floor = 1e-7;
 
 static void chord(ambulo__engine *e, double *y) {

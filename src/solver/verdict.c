@@ -28,7 +28,7 @@ ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_option
   if (!isfinite(audit->violation.worst)) return AMBULO_NUMERIC_FAILURE;
   int feasible = audit->violation.worst <= options->feasibility_tolerance;
   int stationary = audit->kkt <= options->optimality_tolerance;
-  if (feasible && stationary) return AMBULO_OPTIMAL;
+  if (feasible && (stationary || audit->at_lower_bound)) return AMBULO_OPTIMAL;
   if (ending == AMBULO__ENDED_BY_CALLER) return AMBULO_INTERRUPTED;
   if (feasible) return AMBULO_FEASIBLE;
   return ending == AMBULO__ENDED_BY_LIMIT ? AMBULO_LIMIT_REACHED : AMBULO_INFEASIBLE;

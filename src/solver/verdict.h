@@ -10,7 +10,8 @@ typedef enum ambulo__ending_kind {
   AMBULO__ENDED_BY_CALLER /* the progress callback said stop */
 } ambulo__ending_kind;
 
-/* A point that is a feasible KKT point is optimal however the solver ended. */
+/* A feasible point that is a KKT point or at the objective's lower bound is optimal however the
+ * solver ended. */
 ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_options *options,
                                   ambulo__ending_kind ending);
 

@@ -22,6 +22,16 @@ static void each_is_reached(void **state) {
   assert_int_equal(verdict(HUGE_VAL, 0.0, AMBULO__ENDED_BY_CALLER), AMBULO_NUMERIC_FAILURE);
 }
 
+static void a_lower_bound_is_a_proof(void **state) {
+  (void)state;
+  ambulo_options options = ambulo_options_default();
+  ambulo_audit audit = {.kkt = 0.9, .at_lower_bound = 1};
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO__ENDED_BY_ITSELF), AMBULO_OPTIMAL);
+  audit.violation.worst = 1e-3;
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO__ENDED_BY_ITSELF),
+                   AMBULO_INFEASIBLE);
+}
+
 static void names_are_distinct(void **state) {
   (void)state;
   for (int a = AMBULO_OPTIMAL; a <= AMBULO_INTERRUPTED; a++) {
@@ -36,6 +46,7 @@ static void names_are_distinct(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(each_is_reached),
+                                     cmocka_unit_test(a_lower_bound_is_a_proof),
                                      cmocka_unit_test(names_are_distinct)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
