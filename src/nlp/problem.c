@@ -74,6 +74,11 @@ static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagn
   return status;
 }
 
+static const char *point_name(const ambulo_model *model, int index) {
+  const ambulo_point *point = ambulo_model_point(model, index);
+  return point ? point->name : "(none)";
+}
+
 /* two different points of one link */
 static int is_line(const ambulo_model *model, const int point[2]) {
   const ambulo_point *a = ambulo_model_point(model, point[0]);
@@ -103,8 +108,9 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
     return REFUSE(list, "objective[%d] (%s): height is %g m; expected a positive length", t,
                   info->name, term->height);
   if (term->kind == AMBULO_UPRIGHT && !is_line(d->model, term->point))
-    return REFUSE(list, "objective[%d] (%s): points %d and %d; expected two points of one link", t,
-                  info->name, term->point[0], term->point[1]);
+    return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points of one link", t,
+                  info->name, point_name(d->model, term->point[0]),
+                  point_name(d->model, term->point[1]));
   if (term->kind == AMBULO_TRACKING && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
   if (term->kind == AMBULO_USER_TERM && !term->function)
