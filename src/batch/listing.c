@@ -45,26 +45,44 @@ static char *copy_text(const ambulo__listing *l, const ambulo__yaml_node *node) 
   return text ? ambulo__strdup(&l->allocator, text) : NULL;
 }
 
+static void free_texts(const ambulo_allocator *a, char **texts, int count) {
+  for (int i = 0; texts && i < count; i++) ambulo__free(a, texts[i]);
+  ambulo__free(a, texts);
+}
+
+/* a list of `count` texts under a key; NULL: another list, or no memory */
+static char **copy_texts(const ambulo__listing *l, const ambulo__yaml_node *root, const char *key,
+                         int count) {
+  const ambulo__yaml_node *node = ambulo__yaml_require(root, key);
+  char **texts = ambulo__alloc(&l->allocator, (size_t)count, sizeof *texts);
+  int copied = 0;
+  for (int i = 0; texts && node && i < count && i < ambulo__yaml_count(node); i++) {
+    texts[i] = copy_text(l, ambulo__yaml_item(node, i));
+    copied += texts[i] != NULL;
+  }
+  if (copied == count) return texts;
+  free_texts(&l->allocator, texts, count);
+  return NULL;
+}
+
 static ambulo_status read_description(ambulo__listing *l, const char *path,
                                       ambulo_diagnostics *diagnostics) {
   ambulo__yaml *document = NULL;
   ambulo_status status = ambulo__yaml_load(path, &l->allocator, diagnostics, &document);
   if (status) return status;
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
-  const ambulo__yaml_node *outputs = ambulo__yaml_require(root, "outputs");
   l->name = copy_text(l, ambulo__yaml_require(root, "name"));
   l->version = copy_text(l, ambulo__yaml_require(root, "version"));
   l->problem_hash = copy_text(l, ambulo__yaml_require(root, "problem_hash"));
   l->text_hash = copy_text(l, ambulo__yaml_require(root, "text_hash"));
-  int count = ambulo__yaml_count(outputs);
-  l->output = ambulo__alloc(&l->allocator, (size_t)count, sizeof *l->output);
-  for (int i = 0; l->output && i < count; i++) {
-    l->output[i] = copy_text(l, ambulo__yaml_item(outputs, i));
-    if (l->output[i]) l->outputs++;
-  }
+  l->outputs = ambulo__yaml_count(ambulo__yaml_get(root, "outputs"));
+  l->axes = ambulo__yaml_count(ambulo__yaml_get(root, "axis_units"));
+  l->output = copy_texts(l, root, "outputs", l->outputs);
+  l->output_unit = copy_texts(l, root, "output_units", l->outputs);
+  l->axis_unit = copy_texts(l, root, "axis_units", l->axes);
   status = ambulo__yaml_finish(document);
-  if (!status && (!l->output || l->outputs < count || !l->name || !l->version || !l->problem_hash ||
-                  !l->text_hash))
+  if (!status && (!l->output || !l->output_unit || !l->axis_unit || !l->name || !l->version ||
+                  !l->problem_hash || !l->text_hash))
     status = AMBULO_E_MEMORY;
   ambulo__yaml_free(document);
   return status;
@@ -83,6 +101,7 @@ ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator
   if (!status)
     status = ambulo__read_file(list, MOST_LIST_BYTES, &l.allocator, diagnostics, &l.text, &length);
   if (!status) status = length ? cut(&l, length, list, diagnostics) : corrupt(diagnostics, list, 1);
+  if (!status && l.columns != AMBULO__LISTING_AXES + l.axes) status = corrupt(diagnostics, list, 1);
   ambulo__free(&l.allocator, list);
   ambulo__free(&l.allocator, description);
   if (status) {
@@ -95,8 +114,9 @@ ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator
 
 void ambulo__listing_free(ambulo__listing *l) {
   const ambulo_allocator *a = &l->allocator;
-  for (int i = 0; l->output && i < l->outputs; i++) ambulo__free(a, l->output[i]);
-  ambulo__free(a, l->output);
+  free_texts(a, l->output, l->outputs);
+  free_texts(a, l->output_unit, l->outputs);
+  free_texts(a, l->axis_unit, l->axes);
   ambulo__free(a, l->name);
   ambulo__free(a, l->version);
   ambulo__free(a, l->problem_hash);

@@ -17,13 +17,16 @@ enum {
   AMBULO__LISTING_AXES /* first axis */
 };
 
+enum { AMBULO__LISTING_NAMES = 256 }; /* looked through for the nearest name */
+
 typedef struct ambulo__listing {
   ambulo_allocator allocator;
   char *text;
   const char **cell; /* [cases + 1][columns]; row 0: titles */
   int cases, columns;
-  char **output; /* [outputs] */
-  int outputs;
+  char **output, **output_unit; /* [outputs] */
+  char **axis_unit;             /* [columns - AMBULO__LISTING_AXES] */
+  int outputs, axes;
   char *name, *version, *problem_hash, *text_hash;
 } ambulo__listing;
 

@@ -8,6 +8,7 @@
 #include "batch/listing.h"
 #include "batch/paths.h"
 #include "batch/sweep.h"
+#include "batch/units.h"
 #include "report/json_text.h"
 
 #include <dirent.h>
@@ -61,6 +62,16 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   ambulo__json_integer(&json, "cases", s->case_count);
   ambulo__json_open(&json, "outputs", '[');
   for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output[i]);
+  ambulo__json_close(&json, ']');
+  ambulo__json_open(&json, "output_units", '[');
+  for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output_unit[i]);
+  ambulo__json_close(&json, ']');
+  ambulo__json_open(&json, "axes", '[');
+  for (int i = 0; i < s->axes; i++) ambulo__json_text(&json, NULL, s->axis[i].key);
+  ambulo__json_close(&json, ']');
+  ambulo__json_open(&json, "axis_units", '[');
+  for (int i = 0; i < s->axes; i++)
+    ambulo__json_text(&json, NULL, ambulo__unit_of_key(s->axis[i].key));
   ambulo__json_close(&json, ']');
   ambulo__json_close(&json, '}');
 }

@@ -1,20 +1,30 @@
-/* batch/plot.c - choosing the points of a drawing: which axes, which output, which cases. */
+/* batch/plot.c - choosing what a drawing shows: which axes, which output, which cases. */
 #include "batch/plot.h"
+#include "ambulo/solve.h"
 #include "base/atomic_file.h"
-#include "base/numtext.h"
 #include "batch/paths.h"
+#include "report/svg.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { WORD = 200 };
 
-static ambulo_status no_such(ambulo_diagnostics *diagnostics, const char *directory,
-                             const char *what, const char *name) {
+static ambulo_status no_such(ambulo_diagnostics *diagnostics, const ambulo__listing *l,
+                             const char *directory, const char *what, const char *name) {
+  const char *known[AMBULO__LISTING_NAMES];
+  int count = 0, axis = strcmp(what, "axis") == 0;
+  for (int i = AMBULO__LISTING_AXES; axis && i < l->columns && count < AMBULO__LISTING_NAMES; i++)
+    known[count++] = ambulo__listing_title(l, i);
+  for (int i = 0; !axis && i < l->outputs && count < AMBULO__LISTING_NAMES; i++)
+    known[count++] = l->output[i];
+  const char *near = ambulo__nearest(name, known, (size_t)count);
+  char hint[WORD + 40] = "the first line of results.csv names axes and outputs";
+  if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.200s'?", near);
   ambulo__place place = {directory, 0, 0, NULL};
-  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, place,
-                       "the first line of results.csv names axes and outputs",
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, place, hint,
                        "no %s '%s' in this batch; expected X:OUTPUT or X,Y:OUTPUT", what, name);
 }
 
@@ -27,69 +37,64 @@ static int find_axis(const ambulo__listing *l, const char *name) {
 /* "X:OUTPUT" or "X,Y:OUTPUT" */
 static ambulo_status parse(ambulo__plot *p, const char *directory, const char *text,
                            ambulo_diagnostics *diagnostics) {
+  const ambulo__listing *l = p->listing;
   char axes[WORD], *second;
   const char *colon = strchr(text, ':');
   if (!colon || (size_t)(colon - text) >= sizeof axes)
-    return no_such(diagnostics, directory, "plot", text);
+    return no_such(diagnostics, l, directory, "plot", text);
   memcpy(axes, text, (size_t)(colon - text));
   axes[colon - text] = '\0';
   second = strchr(axes, ',');
   if (second) *second++ = '\0';
-  p->x_column = find_axis(p->listing, axes);
-  p->y_column = second ? find_axis(p->listing, second) : -1;
-  if (p->x_column < 0) return no_such(diagnostics, directory, "axis", axes);
-  if (second && p->y_column < 0) return no_such(diagnostics, directory, "axis", second);
-  for (p->output = 0; p->output < p->listing->outputs; p->output++)
-    if (strcmp(p->listing->output[p->output], colon + 1) == 0) return AMBULO_OK;
-  return no_such(diagnostics, directory, "output", colon + 1);
+  p->axis[0].column = find_axis(l, axes);
+  p->axis[1].column = second ? find_axis(l, second) : -1;
+  if (p->axis[0].column < 0) return no_such(diagnostics, l, directory, "axis", axes);
+  if (second && p->axis[1].column < 0) return no_such(diagnostics, l, directory, "axis", second);
+  for (p->output = 0; p->output < l->outputs; p->output++)
+    if (strcmp(l->output[p->output], colon + 1) == 0) return AMBULO_OK;
+  return no_such(diagnostics, l, directory, "output", colon + 1);
 }
 
-static int find_seen(const ambulo__plot *p, int axis, const char *text) {
-  int place = 0;
-  while (place < p->seen_count[axis] && strcmp(p->seen[axis][place], text) != 0) place++;
-  return place;
-}
-
-/* the number of a cell; on an axis that is listed: its place in the list */
-static double place_of(const ambulo__plot *p, int index, int axis) {
-  const char *text = ambulo__listing_cell(p->listing, index, axis ? p->y_column : p->x_column);
-  double number = 0.0;
-  if (p->seen[axis]) return find_seen(p, axis, text);
-  (void)ambulo__parse_double(text, strlen(text), &number);
-  return number;
-}
-
-/* lists the distinct texts of an axis: of words, and both axes of a heat map */
-static ambulo_status list_axis(ambulo__plot *p, int axis) {
-  const ambulo__listing *l = p->listing;
-  int column = axis ? p->y_column : p->x_column, listed = p->y_column >= 0;
-  double number;
-  for (int k = 0; column >= 0 && k < l->cases && !listed; k++) {
-    const char *text = ambulo__listing_cell(l, k, column);
-    listed = !ambulo__parse_double(text, strlen(text), &number);
-  }
-  if (column < 0 || !listed) return AMBULO_OK;
-  p->seen[axis] = ambulo__alloc(&l->allocator, (size_t)l->cases, sizeof *p->seen[axis]);
-  if (!p->seen[axis]) return AMBULO_E_MEMORY;
-  for (int k = 0; k < l->cases; k++) {
-    const char *text = ambulo__listing_cell(l, k, column);
-    int place = find_seen(p, axis, text);
-    p->seen[axis][place] = text;
-    p->seen_count[axis] += place == p->seen_count[axis];
-  }
-  return AMBULO_OK;
+static int is_valid(const char *state) {
+  return strcmp(state, ambulo_verdict_name(AMBULO_OPTIMAL)) == 0 ||
+         strcmp(state, ambulo_verdict_name(AMBULO_FEASIBLE)) == 0;
 }
 
 static ambulo_status add_point(void *user, const ambulo__gathered *one) {
   ambulo__plot *p = user;
   const ambulo__output *value = &one->value[p->output];
-  if (value->kind != AMBULO__OUTPUT_NUMBER) return AMBULO_OK;
   ambulo__plot_point *point = &p->point[p->points++];
   point->index = one->index;
-  point->value = value->number;
-  point->x = place_of(p, one->index, 0);
-  point->y = p->y_column < 0 ? 0.0 : place_of(p, one->index, 1);
+  (void)snprintf(point->state, sizeof point->state, "%.20s", one->state);
+  point->valid = is_valid(one->state);
+  point->has_value = value->kind == AMBULO__OUTPUT_NUMBER && isfinite(value->number);
+  point->value = point->has_value ? value->number : 0.0;
+  p->values += point->has_value;
+  for (int i = 0; i < 2 && p->axis[i].column >= 0; i++)
+    point->place[i] = ambulo__plot_axis_place(
+        &p->axis[i], ambulo__listing_cell(p->listing, one->index, p->axis[i].column));
   return AMBULO_OK;
+}
+
+/* Small and large numbers are shown as multiples of a thousand to some power. */
+static void scale(ambulo__plot *p) {
+  int all = 1;
+  double most = 0.0;
+  for (int i = 0; i < p->points; i++) {
+    if (p->point[i].has_value && p->point[i].valid) all = 0;
+    most = fmax(most, fabs(p->point[i].value));
+  }
+  if (most > 0.0 && (most < 0.01 || most >= 1e5))
+    p->exponent = 3 * (int)floor(log10(most) / 3.0 + 1e-9);
+  p->low = INFINITY;
+  p->high = -INFINITY;
+  for (int i = 0; i < p->points; i++) {
+    ambulo__plot_point *point = &p->point[i];
+    point->value /= pow(10.0, p->exponent);
+    if (!point->has_value || !(point->valid || all)) continue;
+    p->low = fmin(p->low, point->value);
+    p->high = fmax(p->high, point->value);
+  }
 }
 
 static char *file_name(const ambulo_allocator *a, const char *directory, const char *plot) {
@@ -100,18 +105,30 @@ static char *file_name(const ambulo_allocator *a, const char *directory, const c
   return ambulo__join_paths(a, directory, name, NULL);
 }
 
+static ambulo_status collect_points(ambulo__plot *p, const char *directory, const char *plot,
+                                    ambulo_diagnostics *diagnostics) {
+  const ambulo__listing *l = p->listing;
+  p->point = ambulo__alloc(&l->allocator, (size_t)l->cases, sizeof *p->point);
+  ambulo_status status = p->point ? AMBULO_OK : AMBULO_E_MEMORY;
+  for (int i = 0; i < 2 && !status && p->axis[i].column >= 0; i++)
+    status = ambulo__plot_axis_make(l, p->axis[i].column, &p->axis[i]);
+  if (!status) status = ambulo__gather(directory, l, 1, add_point, p, NULL);
+  if (!status && p->values == 0)
+    return no_such(diagnostics, l, directory, "number for the output of", plot);
+  if (!status) scale(p);
+  return status;
+}
+
 static ambulo_status draw(ambulo__plot *p, const char *directory, const char *plot,
                           ambulo_diagnostics *diagnostics, char **file) {
   const ambulo_allocator *a = &p->listing->allocator;
-  p->point = ambulo__alloc(a, (size_t)p->listing->cases, sizeof *p->point);
-  ambulo_status status = p->point ? list_axis(p, 0) : AMBULO_E_MEMORY;
-  if (!status) status = list_axis(p, 1);
-  if (!status) status = ambulo__gather(directory, p->listing, 1, add_point, p, NULL);
-  if (!status && p->points == 0)
-    status = no_such(diagnostics, directory, "number for the output of", plot);
+  ambulo_status status = collect_points(p, directory, plot, diagnostics);
   ambulo__text_buffer svg;
   ambulo__text_init(&svg, a);
-  if (!status) status = ambulo__plot_draw(p, &svg);
+  if (!status)
+    status = p->axis[1].column < 0 ? ambulo__plot_curves(p, &svg) : ambulo__plot_map(p, &svg);
+  ambulo__svg_end(&svg);
+  if (!status) status = ambulo__text_status(&svg);
   char *path = file_name(a, directory, plot);
   if (!status && !path) status = AMBULO_E_MEMORY;
   if (!status)
@@ -123,8 +140,7 @@ static ambulo_status draw(ambulo__plot *p, const char *directory, const char *pl
   }
   ambulo__text_free(&svg);
   ambulo__free(a, p->point);
-  ambulo__free(a, (void *)p->seen[0]);
-  ambulo__free(a, (void *)p->seen[1]);
+  for (int i = 0; i < 2; i++) ambulo__plot_axis_free(p->listing, &p->axis[i]);
   return status;
 }
 

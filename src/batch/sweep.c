@@ -4,6 +4,7 @@
 #include "ambulo/report.h"
 #include "base/read_file.h"
 #include "batch/paths.h"
+#include "batch/units.h"
 
 #include <string.h>
 
@@ -115,6 +116,9 @@ static ambulo_status read_base(ambulo_sweep *s) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   s->problem_hash = ambulo_problem_hash(problem);
+  s->output_unit = ambulo__alloc(&s->allocator, (size_t)s->outputs, sizeof *s->output_unit);
+  for (int i = 0; s->output_unit && i < s->outputs; i++)
+    s->output_unit[i] = ambulo__unit_of_output(s->output[i], ambulo_problem_model(problem));
   char *text = NULL;
   size_t length = 0;
   if (!ambulo__read_file(s->base, MOST_BASE_BYTES, &s->allocator, NULL, &text, &length))
@@ -125,7 +129,7 @@ static ambulo_status read_base(ambulo_sweep *s) {
   hash = ambulo__hash_text(hash, versions.ambulo);
   s->base_hash = ambulo__hash_text(hash, versions.nlopt);
   ambulo_problem_free(problem);
-  return AMBULO_OK;
+  return s->output_unit ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
 ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) {
@@ -201,6 +205,7 @@ void ambulo_sweep_free(ambulo_sweep *s) {
   }
   free_texts(&a, s->filter, s->filters);
   free_texts(&a, s->output, s->outputs);
+  ambulo__free(&a, (void *)s->output_unit);
   ambulo__free(&a, s->cases);
   ambulo__free(&a, s->value);
   ambulo__free(&a, s->name);

@@ -55,7 +55,8 @@ struct ambulo_sweep {
   int axes;
   ambulo__axis_group group[AMBULO__SWEEP_AXES];
   int groups;
-  char **filter, **output; /* [filters], [outputs] */
+  char **filter, **output;  /* [filters], [outputs] */
+  const char **output_unit; /* [outputs] */
   int filters, outputs;
   int chain_axis;      /* neighbours along it start from each other; -1: none */
   double case_seconds; /* 0: no limit */

@@ -35,6 +35,10 @@ static const char style_sheet[] =
     ".trunk-bar{fill:#1d2733}\n"
     ".partial{fill-opacity:.62}\n"
     ".lane{fill:#f3f5f7}\n"
+    ".thin{stroke-width:1.2}\n"
+    ".left-cross{stroke:#c8501c;stroke-width:2;stroke-linecap:round}\n"
+    ".on-light{fill:#1d2733;text-anchor:middle}\n"
+    ".on-dark{fill:#fff;text-anchor:middle}\n"
     "</style>\n";
 
 static void escape(ambulo__text_buffer *text, const char *string) {
