@@ -319,11 +319,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambu
                                                                       const double *x, int row,
                                                                       double *gradient);
 
-/* The motion at `count` times in [0, T]. Outputs [count][...] as in mechanics.h
+/* The motion at `count` >= 1 times in [0, T]. Outputs [count][...] as in mechanics.h
  * plus the ZMP [count][3] on the ground plane (NaN where n . F <= 0); each may be
  * NULL. With ground reaction also the force on each foot grf [count][feet][3] (N), its centre of
  * pressure cop [count][feet][3] (m; NaN in the air), its free moment about the normal
- * free_moment [count][feet] (N m); without it these are filled with NaN. */
+ * free_moment [count][feet] (N m); without it these are filled with NaN.
+ * E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not finite; the outputs are filled
+ * all the same. */
 typedef struct ambulo_motion {
   double *q, *qd, *qdd, *tau, *wrench, *points, *zmp;
   double *grf, *cop, *free_moment;

@@ -20,13 +20,14 @@ typedef struct ambulo_report_options {
 AMBULO_API ambulo_report_options ambulo_report_options_default(void);
 
 /* E_IO now if ambulo_report_write could not write `directory` later (it exists
- * and overwrite is 0; its parent is missing or not writable). */
+ * and overwrite is 0; its parent is missing or not writable). `options` and `diagnostics`
+ * may be NULL: the defaults, no messages; here and below. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_check(const char *directory,
                                                               const ambulo_report_options *options,
                                                               ambulo_diagnostics *diagnostics);
 
 /* Writes summary.json, motion.csv, motion.sto, solution.yaml and gait.svg into
- * `directory`, all or nothing. Errors: E_IO, E_MEMORY. */
+ * `directory`, all or nothing. Errors: E_ARGUMENT, E_IO, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_report_write(const ambulo_problem *problem,
                                                               const ambulo_result *result,
                                                               const char *directory,
@@ -121,7 +122,8 @@ typedef struct ambulo_landmark {
 
 typedef struct ambulo_comparison ambulo_comparison;
 
-/* Scores motion.csv of a result folder against a CSV of normative curves. Curves that only one
+/* Scores motion.csv of a result folder against a CSV of normative curves. `options` (NULL: the
+ * defaults), `allocator` and `diagnostics` may be NULL. Curves that only one
  * of the two has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line
  * and column; also when no curve is left), E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(const char *directory,

@@ -93,11 +93,20 @@ static void fill_feet(const ambulo_problem *p, const dense *d, int channels, int
   }
 }
 
+/* within the motion, but for rounding */
+static int times_valid(const ambulo_problem *p, const double *times, int count) {
+  double last = p->definition.duration, slack = 1e-9 * last;
+  for (int k = 0; k < count; k++)
+    if (!(times[k] >= -slack && times[k] <= last + slack)) return 0;
+  return 1;
+}
+
 ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *workspace,
                                     const double *x, int count, const double *times,
                                     const ambulo_motion *motion) {
   if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
     return AMBULO_E_ARGUMENT;
+  if (!times_valid(p, times, count)) return AMBULO_E_ARGUMENT;
   dense d = {NULL, NULL, NULL, NULL};
   const ambulo_allocator *a = &workspace->allocator;
   ambulo_status status = dense_create(p, a, times, count, &d);

@@ -154,9 +154,20 @@ static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagn
   return status;
 }
 
+static int listed(const void *array, int count) {
+  return count == 0 || (count > 0 && array);
+}
+
+static int arrays_are_there(const ambulo_problem_definition *d) {
+  return listed(d->contacts, d->contact_count) && listed(d->terms, d->term_count) &&
+         listed(d->end_values, d->end_value_count) && listed(d->tubes, d->tube_count) &&
+         listed(d->user_rows, d->user_row_count);
+}
+
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
                                        ambulo_diagnostics *diagnostics) {
-  if (!d || d->cookie != DEFINITION_COOKIE || !d->model) return AMBULO_E_ARGUMENT;
+  if (!d || d->cookie != DEFINITION_COOKIE || !d->model || !arrays_are_there(d))
+    return AMBULO_E_ARGUMENT;
   ambulo_status status = check_grid(d, diagnostics);
   ambulo_status terms = check_terms(d, diagnostics);
   ambulo_status ends = check_ends(d, diagnostics);

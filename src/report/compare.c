@@ -39,7 +39,7 @@ ambulo_compare_options ambulo_compare_options_default(void) {
 }
 
 static int options_valid(const ambulo_compare_options *o) {
-  if (!o || o->cookie != OPTIONS_COOKIE || !isfinite(o->pelvic_tilt)) return 0;
+  if (o->cookie != OPTIONS_COOKIE || !isfinite(o->pelvic_tilt)) return 0;
   if (!(o->mass >= 0.0) || !isfinite(o->mass)) return 0;
   return !o->foot || strcmp(o->foot, "left") == 0 || strcmp(o->foot, "right") == 0;
 }
@@ -207,6 +207,8 @@ ambulo_status ambulo_compare(const char *directory, const char *reference,
                              const ambulo_compare_options *options,
                              const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                              ambulo_comparison **comparison) {
+  ambulo_compare_options defaults = ambulo_compare_options_default();
+  if (!options) options = &defaults;
   if (!directory || !reference || !comparison || !options_valid(options)) return AMBULO_E_ARGUMENT;
   comparing c = {.options = options, .diagnostics = diagnostics};
   ambulo__sheet sheet = {.text = NULL};

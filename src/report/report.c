@@ -20,9 +20,10 @@ ambulo_report_options ambulo_report_options_default(void) {
   return options;
 }
 
-static int options_valid(const ambulo_report_options *options) {
-  return options && options->cookie == OPTIONS_COOKIE && options->samples >= 0 &&
-         options->samples != 1;
+/* NULL: the defaults. 0 when what was given is not valid */
+static int options_of(const ambulo_report_options *given, ambulo_report_options *options) {
+  *options = given ? *given : ambulo_report_options_default();
+  return options->cookie == OPTIONS_COOKIE && options->samples >= 0 && options->samples != 1;
 }
 
 static ambulo_status begin(const char *directory, const ambulo_report_options *options,
@@ -34,9 +35,10 @@ static ambulo_status begin(const char *directory, const ambulo_report_options *o
 
 ambulo_status ambulo_report_check(const char *directory, const ambulo_report_options *options,
                                   ambulo_diagnostics *diagnostics) {
-  if (!directory || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  ambulo_report_options own;
+  if (!directory || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
   ambulo__folder *folder = NULL;
-  ambulo_status status = begin(directory, options, NULL, diagnostics, &folder);
+  ambulo_status status = begin(directory, &own, NULL, diagnostics, &folder);
   if (!status) ambulo__folder_abort(folder);
   return status;
 }
@@ -102,13 +104,14 @@ ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_re
                                   const char *directory, const ambulo_report_options *options,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics) {
-  if (!problem || !result || !directory || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  ambulo_report_options own;
+  if (!problem || !result || !directory || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
   ambulo__folder *folder = NULL;
-  ambulo_status status = begin(directory, options, allocator, diagnostics, &folder);
+  ambulo_status status = begin(directory, &own, allocator, diagnostics, &folder);
   if (status) return status;
   ambulo__text_buffer text;
   ambulo__text_init(&text, allocator);
-  status = write_all(problem, result, options->samples, folder, &text, diagnostics);
+  status = write_all(problem, result, own.samples, folder, &text, diagnostics);
   ambulo__text_free(&text);
   if (status) {
     ambulo__folder_abort(folder);
