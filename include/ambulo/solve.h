@@ -37,6 +37,13 @@ typedef enum ambulo_algorithm {
   AMBULO_AUGLAG /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
 
+/* What follows the pipeline. */
+typedef enum ambulo_finisher {
+  AMBULO_FINISHER_NONE,
+  AMBULO_FINISHER_SLSQP /* a short run of NLopt's SLSQP; its point is kept if the audit finds it
+                           better. Dense: up to 750 unknowns */
+} ambulo_finisher;
+
 /* Progress of a solve, given to the callback after every refresh or, without
  * presolve, every evaluation that improves. */
 typedef struct ambulo_progress {
@@ -57,6 +64,7 @@ typedef struct ambulo_options {
   double optimality_tolerance;  /* relative KKT residual that counts as optimal; 1e-3 */
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
+  ambulo_finisher finisher;     /* with presolve */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+static const double adjoint_tolerance = 1e-4, retraction_tolerance = 1e-8;
 static const double usual_cap = 1.0; /* rad, m: unit of ambulo__engine_step_limit */
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
@@ -82,6 +83,8 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   if (status) return status;
   for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(&p->model->coordinates[i]);
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
+  e->adjoint_tolerance = adjoint_tolerance;
+  e->retraction_tolerance = retraction_tolerance;
   e->negligible = negligible_objective(e);
   return AMBULO_OK;
 }

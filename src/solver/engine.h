@@ -41,6 +41,8 @@ typedef struct ambulo__engine {
   ambulo__kkt kkt;       /* the same H with the equalities' gradients at the centre */
   ambulo__mixing retraction, adjoint;
   double objective_scale, mu, rho;
+  double adjoint_tolerance;    /* relative error of a reduced gradient */
+  double retraction_tolerance; /* worst equality of a retracted point */
   double negligible; /* objective (not scaled) that counts as its lower bound 0; < 0: it has none */
   double *cap;       /* [coordinates]: largest change in one step, rad or m */
   double *center;    /* [n] */
@@ -79,7 +81,7 @@ double ambulo__engine_step_limit(const ambulo__engine *engine, const double *ste
  * left; x moves. E_NUMERIC when no finite point was found. */
 ambulo_status ambulo__restore(ambulo__engine *engine, double *x, double *error);
 
-/* retraction.c: moves y along the metric's normal directions until |h| <= 1e-8; the
+/* retraction.c: moves y along the metric's normal directions until |h| <= retraction_tolerance; the
  * workspace then holds it. 0 when that fails. */
 int ambulo__retract(ambulo__engine *engine, double *y);
 /* retraction.c: z, the gradient's tangent representative: see there. p as in

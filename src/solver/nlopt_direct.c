@@ -182,7 +182,7 @@ static int add_sets(ambulo__direct *d, nlopt_opt opt, callback *rows_of) {
   return NLOPT_SUCCESS;
 }
 
-static const char *name_of(int result) {
+const char *ambulo__nlopt_name(int result) {
   switch (result) {
   case NLOPT_FAILURE:
     return "FAILURE";
@@ -230,7 +230,7 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algori
   if (d->result >= 0) d->result = add_sets(d, opt, s.rows);
   memset(d->w, 0, n * sizeof *d->w);
   if (d->result >= 0) d->result = nlopt_optimize(opt, d->w, &least);
-  d->message = name_of(d->result);
+  d->message = ambulo__nlopt_name(d->result);
   nlopt_destroy(opt);
   inside = d->workspace->seconds_evaluate - inside;
   d->run->seconds_nlopt += ambulo__seconds_now() - begin - inside;

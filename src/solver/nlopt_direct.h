@@ -39,6 +39,9 @@ ambulo_status ambulo__direct_create(ambulo__direct *direct, ambulo__pool *pool);
 ambulo_status ambulo__direct_minimize(ambulo__direct *direct, ambulo_algorithm algorithm,
                                       int evaluations);
 
+/* NLopt's name of its result, without the prefix. */
+const char *ambulo__nlopt_name(int result);
+
 /* presolve: off - the rows as they are, from x (in and out). Of the engine only workspace and
  * rows are used. */
 ambulo_status ambulo__solve_plain(ambulo__engine *engine, ambulo_algorithm algorithm,

@@ -29,6 +29,9 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
   if (options->algorithm < AMBULO_AUTO || options->algorithm > AMBULO_AUGLAG)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "unknown solver algorithm %d", (int)options->algorithm);
+  if (options->finisher < AMBULO_FINISHER_NONE || options->finisher > AMBULO_FINISHER_SLSQP)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "unknown solver finisher %d", (int)options->finisher);
   if (options->maximum_evaluations < 1)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver.maximum_evaluations is %d; expected at least 1",

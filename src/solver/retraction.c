@@ -29,9 +29,7 @@
 #include <string.h>
 
 enum { MAX_CHORD = 16, MAX_ADJOINT = 14 };
-static const double tolerance = 1e-8;
 static const double wild_step = 3.0; /* rad, m */
-static const double adjoint_tolerance = 1e-4;
 static const double adjoint_floor = 1e-7;
 
 static void chord(ambulo__engine *e, double *y) {
@@ -55,7 +53,7 @@ int ambulo__retract(ambulo__engine *e, double *y) {
   for (int k = 0; k < MAX_CHORD; k++) {
     if (ambulo__evaluate(e->workspace, y)) return 0;
     double error = ambulo__engine_equality_error(e);
-    if (error <= tolerance) return 1;
+    if (error <= e->retraction_tolerance) return 1;
     if (k >= 4 && error > 10.0 * least) return 0;
     least = fmin(least, error);
     chord(e, y);
@@ -95,7 +93,7 @@ void ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
     memcpy(e->previous, z, (size_t)e->n * sizeof *z);
     memcpy(e->previous_right, e->gradient, (size_t)e->n * sizeof *z);
     if (e->equalities == 0) break;
-    double limit = adjoint_tolerance * sqrt(fabs(size)) + adjoint_floor;
+    double limit = e->adjoint_tolerance * sqrt(fabs(size)) + adjoint_floor;
     if (k > 0 && fabs(change) <= limit * limit) break;
   }
 }

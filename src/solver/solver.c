@@ -9,6 +9,7 @@
  */
 #include "solver/audit.h"
 #include "solver/explain.h"
+#include "solver/finisher.h"
 #include "solver/nlopt_direct.h"
 #include "solver/options.h"
 #include "solver/refine.h"
@@ -17,7 +18,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SMALL = 60 }; /* unknowns */
+enum { SMALL = 60 };                      /* unknowns */
+static const double price_of_rows = 1e-5; /* relative change of the objective */
 static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
 typedef struct solve {
@@ -82,6 +84,50 @@ static ambulo_status solve_again(solve *s, double *x) {
   return status;
 }
 
+/* what the tolerances leave of a point's faults: below 1 it passes */
+static double faults_of(const ambulo_result *r, const ambulo_options *o) {
+  double kkt = r->audit.at_lower_bound ? 0.0 : r->audit.kkt;
+  return fmax(r->audit.violation.worst / o->feasibility_tolerance, kkt / o->optimality_tolerance);
+}
+
+/* 1 when the audit finds x better than before: fewer faults, and no dearer for it */
+static int is_better(const solve *s, const double *before, const double *x) {
+  ambulo_result *old = NULL, *new = NULL;
+  const ambulo_options *o = s->run.options;
+  int better = 0;
+  if (!ambulo_audit_point(s->problem, o, before, s->allocator, NULL, &old) &&
+      !ambulo_audit_point(s->problem, o, x, s->allocator, NULL, &new)) {
+    double allowed = old->objective + price_of_rows * fabs(old->objective);
+    better = faults_of(new, o) < faults_of(old, o) &&
+             (faults_of(old, o) > 1.0 || new->objective <= allowed);
+  }
+  ambulo_result_free(old);
+  ambulo_result_free(new);
+  return better;
+}
+
+static ambulo_status finish_by_slsqp(solve *s, double *x) {
+  ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
+  size_t n = (size_t)s->problem->variables;
+  if (n > AMBULO__FINISHER_UNKNOWNS) {
+    ambulo__note(s->diagnostics, nowhere, "finisher: slsqp left out: %zu unknowns are more than %d",
+                 n, AMBULO__FINISHER_UNKNOWNS);
+    return AMBULO_OK;
+  }
+  double *other = ambulo__alloc(&a, n, sizeof *other);
+  if (!other) return AMBULO_E_MEMORY;
+  memcpy(other, x, n * sizeof *x);
+  const char *message = NULL;
+  ambulo_status status = ambulo__finish(s->engine, other, &message);
+  if (!status && is_better(s, x, other)) {
+    memcpy(x, other, n * sizeof *x);
+    s->method = "AUGLAG with LBFGS, whitened, then SLSQP";
+    s->nlopt = message;
+  }
+  ambulo__free(&a, other);
+  return status;
+}
+
 static ambulo_status solve_by_pipeline(solve *s) {
   double *x = s->result->x;
   int levels = 0;
@@ -90,9 +136,11 @@ static ambulo_status solve_by_pipeline(solve *s) {
   if (s->from_zero && s->run.options->continuation)
     status = ambulo__refine(s->problem, s->allocator, &s->run, x, &levels);
   if (!status) status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
-  if (status || levels == 0 || s->run.stopped) return status;
-  if (violation_at(s->engine, x) <= s->run.options->feasibility_tolerance) return status;
-  return solve_again(s, x);
+  if (!status && levels > 0 && !s->run.stopped &&
+      !(violation_at(s->engine, x) <= s->run.options->feasibility_tolerance))
+    status = solve_again(s, x);
+  if (status || s->run.stopped || s->run.options->finisher != AMBULO_FINISHER_SLSQP) return status;
+  return finish_by_slsqp(s, x);
 }
 
 static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm) {

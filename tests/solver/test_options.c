@@ -34,6 +34,9 @@ static void each_fault_is_named(void **state) {
   o.feasibility_tolerance = 0.0;
   refuse(o, "tolerances");
   o = ambulo_options_default();
+  o.finisher = (ambulo_finisher)7;
+  refuse(o, "finisher");
+  o = ambulo_options_default();
   o.dense_samples = 0;
   refuse(o, "dense_samples");
 }
