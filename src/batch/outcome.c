@@ -91,6 +91,7 @@ static ambulo_status keep(ambulo__run *run, int index, const ambulo__record *rec
   ambulo_batch_progress *p = &run->progress;
   run->state[index] = AMBULO__CASE_DONE;
   run->solved[index] = (unsigned char)record->valid;
+  run->origin[index] = record->origin;
   run->finished_now++;
   p->done++;
   p->failed += !record->valid;
@@ -110,6 +111,7 @@ ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot,
   record.key = one->key;
   record.exit_code = -1;
   record.violation = -1.0;
+  record.origin = ambulo__schedule_origin(run, slot->index);
   if (slot->from >= 0)
     (void)snprintf(record.start, sizeof record.start, "%s", run->sweep->cases[slot->from].id);
   record.seconds = ambulo__run_clock() - slot->begin;

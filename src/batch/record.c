@@ -41,6 +41,7 @@ static int read_fields(const ambulo__yaml_node *root, const char *id, ambulo__re
   const char *start = text_at(root, "start");
   if (!start || strlen(start) >= sizeof r->start) return 0;
   (void)snprintf(r->start, sizeof r->start, "%s", start);
+  if (!parse_hex(text_at(root, "origin"), &r->origin)) return 0;
   r->valid = ambulo__yaml_boolean(ambulo__yaml_require(root, "valid"), 0);
   r->exit_code = ambulo__yaml_integer(ambulo__yaml_require(root, "exit_code"), -1, 255, -1);
   r->signal = ambulo__yaml_integer(ambulo__yaml_require(root, "signal"), 0, 255, 0);
@@ -84,6 +85,8 @@ ambulo_status ambulo__record_write(const char *directory, const char *id, const 
   ambulo__json_text(&json, "key", hex);
   ambulo__json_text(&json, "state", r->state);
   ambulo__json_text(&json, "start", r->start);
+  (void)snprintf(hex, sizeof hex, "%016llx", r->origin);
+  ambulo__json_text(&json, "origin", hex);
   ambulo__text_append_format(&text, ",\n  \"valid\": %s", r->valid ? "true" : "false");
   ambulo__json_integer(&json, "exit_code", r->exit_code);
   ambulo__json_integer(&json, "signal", r->signal);

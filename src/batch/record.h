@@ -17,6 +17,7 @@ typedef struct ambulo__record {
   double limit_seconds;  /* limits it ran under; 0: none */
   int limit_megabytes;
   char start[40];             /* id of the case whose solution it began from; "": none */
+  unsigned long long origin;  /* hash of that id, and of what that one began from, and so on */
   double violation;           /* worst of the audit; -1: no result */
   unsigned long long summary; /* hash of summary.json; 0: no result folder belongs to it */
 } ambulo__record;

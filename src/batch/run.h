@@ -30,11 +30,12 @@ typedef struct ambulo__run {
   ambulo_batch_options options;
   const ambulo_allocator *allocator;
   ambulo_diagnostics *diagnostics;
-  unsigned char *state;    /* [cases] ambulo__case_state */
-  unsigned char *solved;   /* [cases] 1: has a valid solution */
-  unsigned char *attempts; /* [cases] */
-  int *next;               /* [cases] the case that continues from this one; -1: none */
-  ambulo__slot *slot;      /* [workers] */
+  unsigned char *state;       /* [cases] ambulo__case_state */
+  unsigned char *solved;      /* [cases] 1: has a valid solution */
+  unsigned char *attempts;    /* [cases] */
+  unsigned long long *origin; /* [cases] of those that are done: see ambulo__record */
+  int *next;                  /* [cases] the case that continues from this one; -1: none */
+  ambulo__slot *slot;         /* [workers] */
   int workers, cursor, finished_now;
   double case_seconds, begin;
   int case_megabytes;
@@ -55,6 +56,8 @@ int ambulo__schedule_next(ambulo__run *run);
 int ambulo__schedule_follower(ambulo__run *run, int index);
 /* The nearest case before it in its chain with a solution; -1: none. */
 int ambulo__schedule_start_of(const ambulo__run *run, int index);
+/* Hash of the cases whose solutions lead to this start, one from another; 0: from zero. */
+unsigned long long ambulo__schedule_origin(const ambulo__run *run, int index);
 
 /* outcome.c: judges an ended worker and records the case. */
 ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot, int wait_status);

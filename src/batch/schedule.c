@@ -32,20 +32,19 @@ static int may_start(const ambulo__run *run, int k) {
 }
 
 /* Takes a waiting case as done when its record is what this run would compute: same key, same
- * start, limits no tighter than now. */
+ * origin, limits no tighter than now. */
 static void take_record(ambulo__run *run, int k) {
   const ambulo__sweep_case *one = &run->sweep->cases[k];
-  int from = ambulo__schedule_start_of(run, k);
   ambulo__record record;
   if (ambulo__record_read(run->directory, one->id, run->allocator, &record) != AMBULO__RECORD_READ)
     return;
-  if (record.key != one->key ||
-      strcmp(record.start, from < 0 ? "" : run->sweep->cases[from].id) != 0 ||
+  if (record.key != one->key || record.origin != ambulo__schedule_origin(run, k) ||
       ambulo__record_was_cut(&record, run->case_seconds, run->case_megabytes) ||
       !ambulo__record_summary_intact(run->directory, one->id, &record, run->allocator))
     return;
   run->state[k] = AMBULO__CASE_DONE;
   run->solved[k] = (unsigned char)record.valid;
+  run->origin[k] = record.origin;
   run->progress.done++;
   run->progress.resumed++;
   run->progress.failed += !record.valid;
@@ -57,9 +56,10 @@ ambulo_status ambulo__schedule_open(ambulo__run *run) {
   run->state = ambulo__alloc(a, cases, 1);
   run->solved = ambulo__alloc(a, cases, 1);
   run->attempts = ambulo__alloc(a, cases, 1);
+  run->origin = ambulo__alloc(a, cases, sizeof *run->origin);
   run->next = ambulo__alloc(a, cases, sizeof *run->next);
   run->slot = ambulo__alloc(a, (size_t)run->workers, sizeof *run->slot);
-  if (!run->state || !run->solved || !run->attempts || !run->next || !run->slot)
+  if (!run->state || !run->solved || !run->attempts || !run->origin || !run->next || !run->slot)
     return AMBULO_E_MEMORY;
   ambulo_status status = assign(run);
   for (int k = 0; k < run->sweep->case_count && !status; k++) {
@@ -73,6 +73,7 @@ void ambulo__schedule_free(ambulo__run *run) {
   ambulo__free(a, run->state);
   ambulo__free(a, run->solved);
   ambulo__free(a, run->attempts);
+  ambulo__free(a, run->origin);
   ambulo__free(a, run->next);
   ambulo__free(a, run->slot);
 }
@@ -103,6 +104,13 @@ int ambulo__schedule_follower(ambulo__run *run, int index) {
     next = run->next[next];
   }
   return next;
+}
+
+unsigned long long ambulo__schedule_origin(const ambulo__run *run, int index) {
+  int from = ambulo__schedule_start_of(run, index);
+  if (from < 0) return 0;
+  unsigned long long hash = ambulo__hash_text(AMBULO__HASH_START, run->sweep->cases[from].id);
+  return ambulo__hash_word(hash, run->origin[from]);
 }
 
 int ambulo__schedule_start_of(const ambulo__run *run, int index) {

@@ -4,13 +4,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cli/batch_dry_run.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 
-enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000 };
+enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };
 
 /* all that a signal handler touches */
 static volatile sig_atomic_t signals_seen = 0, last_signal = 0;
@@ -35,25 +36,36 @@ typedef struct view {
   int line_done;
 } view;
 
-static void print_line(const ambulo_batch_progress *p, const char *begin, const char *end) {
-  char left[48] = "", worst[96] = "";
+/* letters that fit into a line of the terminal, which a longer one would break */
+static int line_room(void) {
+#ifdef TIOCGWINSZ
+  struct winsize size;
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col - 1;
+#endif
+  return LINE;
+}
+
+static void print_line(const ambulo_batch_progress *p, int room, const char *begin,
+                       const char *end) {
+  char left[48] = "", worst[96] = "", line[LINE];
   double rate = p->seconds > 0.0 ? 60.0 * (p->done - p->resumed) / p->seconds : 0.0;
   if (p->seconds_left >= 0.0)
     ambulo__cli_format(left, sizeof left, ", %.0f s left", p->seconds_left);
   if (p->worst)
     ambulo__cli_format(worst, sizeof worst, ", worst violation %.1e (%.40s)", p->worst_violation,
                        p->worst);
-  fprintf(stderr, "%s%d of %d done, %d failed, %d running, %.1f cases/min%s%s%s", begin, p->done,
-          p->cases, p->failed, p->running, rate, left, worst, end);
+  ambulo__cli_format(line, sizeof line, "%d of %d done, %d failed, %d running, %.1f cases/min%s%s",
+                     p->done, p->cases, p->failed, p->running, rate, left, worst);
+  fprintf(stderr, "%s%.*s%s", begin, room, line, end);
   fflush(stderr);
 }
 
 static int show(void *user, const ambulo_batch_progress *p) {
   view *v = user;
   if (!v->quiet && v->terminal) {
-    print_line(p, "\r", "\033[K");
+    print_line(p, line_room(), "\r", "\033[K");
   } else if (!v->quiet && p->done != v->line_done && p->seconds >= v->line_at + 5.0) {
-    print_line(p, "", "\n");
+    print_line(p, LINE, "", "\n");
     v->line_at = p->seconds;
     v->line_done = p->done;
   }

@@ -10,6 +10,7 @@ static ambulo__record sample(void) {
                       .exit_code = -1,
                       .signal = 9,
                       .start = "000000000-00000000",
+                      .origin = 0x123456789abcdef0ULL,
                       .seconds = 1.25,
                       .limit_seconds = 1.0,
                       .violation = 0.1,
@@ -29,6 +30,7 @@ static void a_round_trip(void **state) {
   assert_int_equal(ambulo__record_read(*state, id, &plain, &back), AMBULO__RECORD_ABSENT);
   assert_int_equal(ambulo__record_write(*state, id, &r, &plain, NULL), AMBULO_OK);
   assert_int_equal(ambulo__record_read(*state, id, &plain, &back), AMBULO__RECORD_READ);
+  assert_true(back.origin == r.origin);
   assert_true(back.key == r.key && back.summary == r.summary && back.signal == 9);
   assert_string_equal(back.state, "timeout");
   assert_string_equal(back.start, r.start);
