@@ -219,11 +219,12 @@ AMBULO__INLINE void body_down(const ambulo__local_step *step, local_state s, dou
   }
 }
 
-/* Sines and cosines; 0 if an angle was out of the range of sincos_wide. The sum of magnitudes
- * is what is compared to the limit: a NaN or an infinity shows, too. */
-static int local_angles(const ambulo__plan *plan, const double *q, double *scratch) {
+/* Sines and cosines of a limb; 0 if an angle was out of the range of sincos_wide. The sum of
+ * magnitudes is what is compared to the limit: a NaN or an infinity shows, too. */
+AMBULO__INLINE int limb_angles(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
+                               double *scratch) {
   wide total = {0};
-  for (int i = 0; i < plan->coordinates; i++) {
+  for (int i = limb->first; i <= limb->leaf; i++) {
     const ambulo__local_step *step = &plan->local.steps[i];
     if (step->joint == AMBULO__SLIDES) continue;
     double *at = scratch + step->at + local_angle;
@@ -238,9 +239,10 @@ static int local_angles(const ambulo__plan *plan, const double *q, double *scrat
   return inside;
 }
 
-static __attribute__((noinline)) void local_libm_angles(const ambulo__plan *plan, const double *q,
-                                                        double *scratch) {
-  for (int i = 0; i < plan->coordinates; i++) {
+static __attribute__((noinline)) void limb_libm_angles(const ambulo__plan *plan,
+                                                       const ambulo__limb *limb, const double *q,
+                                                       double *scratch) {
+  for (int i = limb->first; i <= limb->leaf; i++) {
     const ambulo__local_step *step = &plan->local.steps[i];
     if (step->joint == AMBULO__SLIDES) continue;
     for (int lane = 0; lane < AMBULO__WIDTH; lane++) {
@@ -251,17 +253,12 @@ static __attribute__((noinline)) void local_libm_angles(const ambulo__plan *plan
   }
 }
 
-static void local_down(const ambulo__plan *plan, const double *q, const double *qd,
-                       const double *qdd, double *scratch) {
+/* Down to a leaf. */
+AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
+                              const double *qd, const double *qdd, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
-  double *world = scratch + plan->local.world_at;
   local_state s = {zero, zero, scale3(spread(-1), spread3(plan->gravity))};
-  if (plan->local.branched) {
-    store3(world + local_rate, s.w);
-    store3(world + local_gain, s.alpha);
-    store3(world + local_pull, s.a);
-  }
-  for (int i = 0; i < plan->coordinates; i++) {
+  for (int i = limb->first; i <= limb->leaf; i++) {
     const ambulo__local_step *step = &plan->local.steps[i];
     if (!step->carried) {
       const double *above = scratch + step->above;
@@ -343,26 +340,42 @@ AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum,
   return sum;
 }
 
-static void local_up(const ambulo__plan *plan, const double *q, double *out, double *scratch) {
-  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}}, one = zero;
-  const double *fixed = plan->fixed_load;
-  double *root = scratch + plan->local.world_at + local_load;
-  wide_pair sum = one;
-  if (plan->local.branched) store_pair(root, zero);
-  for (int i = plan->coordinates - 1; i >= 0; i--) {
-    const ambulo__local_step *step = &plan->local.steps[i];
-    if (!step->carries) sum = zero;
+/* Up from the leaf. */
+AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
+                            double *out, double *scratch) {
+  wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  const ambulo__local_step *steps = plan->local.steps, *step = &steps[limb->leaf];
+  for (;; step = &steps[step->parent]) {
     if (step->loaded) {
       sum = axpy_pair(load_pair(scratch + step->at + local_load), spread(1), sum);
     }
     sum = joint_up(step, sum, q, out, scratch);
-    if (step->carried) continue;
-    double *above = scratch + step->above + local_load;
-    store_pair(above, step->first ? sum : axpy_pair(load_pair(above), spread(1), sum));
+    if (step == &steps[limb->top]) break;
   }
-  if (plan->local.branched) sum = axpy_pair(load_pair(root), spread(1), sum);
-  sum.angular = add3(sum.angular, spread3(fixed));
-  sum.linear = add3(sum.linear, spread3(fixed + 3));
+  double *above = scratch + step->above + local_load;
+  store_pair(above, step->first ? sum : axpy_pair(load_pair(above), spread(1), sum));
+}
+
+/* tau and the root wrench. */
+static void local_dynamics(const ambulo__plan *plan, const double *q, const double *qd,
+                           const double *qdd, double *out, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  double *world = scratch + plan->local.world_at;
+  if (plan->local.branched) {
+    store3(world + local_rate, zero);
+    store3(world + local_gain, zero);
+    store3(world + local_pull, scale3(spread(-1), spread3(plan->gravity)));
+  }
+  for (int i = 0; i < plan->local.limb_count; i++) {
+    const ambulo__limb *limb = &plan->local.limbs[i];
+    if (!limb_angles(plan, limb, q, scratch)) limb_libm_angles(plan, limb, q, scratch);
+    limb_down(plan, limb, q, qd, qdd, scratch);
+    limb_up(plan, limb, q, out, scratch);
+  }
+  wide_pair sum = {zero, zero};
+  if (plan->local.limb_count > 0) sum = load_pair(world + local_load);
+  sum.angular = add3(sum.angular, spread3(plan->fixed_load));
+  sum.linear = add3(sum.linear, spread3(plan->fixed_load + 3));
   store_pair(out + plan->coordinates * AMBULO__LANES, sum);
 }
 

@@ -174,7 +174,7 @@ static void local_point_weights(const ambulo__plan *plan, const local_pulls *pul
     const double *at = scratch + step->at;
     if (!step->pointed) continue;
     if (!step->carries_points) sum = zero;
-    if (step->weighted) sum = axpy_pair(load_pair(at + local_load), spread(1), sum);
+    if (step->weighted) sum = axpy_pair(load_pair(at + local_weight), spread(1), sum);
     if (step->group >= 0) sum = weights_of_points(&plan->steps, step->group, sum, weights, at);
     sum = add_pulls(step, sum, pulls, at);
     wide3 z = load3(at + local_axis), push = sum.linear;
@@ -185,7 +185,7 @@ static void local_point_weights(const ambulo__plan *plan, const local_pulls *pul
     }
     store(gq + step->input, load(gq + step->input) + sign * dot3(z, push));
     if (step->carried || step->from_world) continue;
-    double *above = scratch + step->above + local_load;
+    double *above = scratch + step->above + local_weight;
     store_pair(above, step->first_weight ? sum : axpy_pair(load_pair(above), spread(1), sum));
   }
 }

@@ -48,25 +48,30 @@ AMBULO__INLINE wide_pair hinge_virtual(const ambulo__local_step *step, wide_pair
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 eta = into_frame(cycled(v.angular, k), s, c), u = into_frame(cycled(v.linear, k), s, c);
   if (!step->vanishes) eta.z += step->sign * load(x->weights + step->input);
-  store_across(at + local_turn, eta, k);
-  store_across(at + local_slide, u, k);
-  return (wide_pair){uncycled(eta, k), uncycled(u, k)};
+  wide_pair moved = {uncycled(eta, k), uncycled(u, k)};
+  if (step->kept || step->body != AMBULO__BODY_NONE) {
+    store_pair(at + local_turn, moved);
+  } else {
+    store_across(at + local_turn, eta, k);
+    store_across(at + local_slide, u, k);
+  }
+  return moved;
 }
 
 AMBULO__INLINE wide_pair slider_virtual(const ambulo__local_step *step, wide_pair v,
                                         const local_arrays *x) {
   wide3 z = spread3(step->slide), r = scale3(load(x->scratch + step->at + local_angle), z);
-  store3(x->scratch + step->at + local_turn, v.angular);
   v.linear = add_cross3(v.linear, v.angular, r);
   if (!step->vanishes) v.linear = axpy3(v.linear, load(x->weights + step->input), z);
+  store_pair(x->scratch + step->at + local_turn, v);
   return v;
 }
 
-/* Virtual motion down the tree. */
-static void local_virtual(const ambulo__plan *plan, wide_pair root, const local_arrays *x) {
+/* Virtual motion down to a leaf. */
+AMBULO__INLINE void limb_virtual(const ambulo__plan *plan, const ambulo__limb *limb, wide_pair root,
+                                 const local_arrays *x) {
   wide_pair v = root;
-  if (plan->local.branched) store_pair(x->scratch + plan->local.world_at + local_turn, root);
-  for (int i = 0; i < plan->coordinates; i++) {
+  for (int i = limb->first; i <= limb->leaf; i++) {
     const ambulo__local_step *step = &plan->local.steps[i];
     if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
     v = offset_down(step, v);
@@ -82,9 +87,6 @@ static void local_virtual(const ambulo__plan *plan, wide_pair root, const local_
       break;
     default:
       v = slider_virtual(step, v, x);
-    }
-    if (step->kept || step->body != AMBULO__BODY_NONE) {
-      store_pair(x->scratch + step->at + local_turn, v);
     }
   }
 }
@@ -267,22 +269,30 @@ AMBULO__INLINE local_state add_stored(local_state s, const double *at) {
                        add3(s.a, load3(at + 2 * three))};
 }
 
-/* Adjoints up the tree. */
-static void local_adjoints(const ambulo__plan *plan, const local_arrays *x) {
-  const local_state zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};
-  local_state s = zero;
-  for (int i = plan->coordinates - 1; i >= 0; i--) {
-    const ambulo__local_step *step = &plan->local.steps[i];
-    if (!step->carries) s = zero;
+/* Adjoints up from a leaf; the world's are not asked for. */
+AMBULO__INLINE void limb_adjoints(const ambulo__plan *plan, const ambulo__limb *limb,
+                                  const local_arrays *x) {
+  local_state s = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  const ambulo__local_step *steps = plan->local.steps, *step = &steps[limb->leaf];
+  for (;; step = &steps[step->parent]) {
     if (step->adjoined) s = add_stored(s, x->scratch + step->at + local_adjoint);
     s = body_adjoint(step, s, x->scratch);
     s = joint_adjoint(step, s, x);
-    if (step->carried || step->from_world) continue;
-    double *above = x->scratch + step->above + local_adjoint;
-    if (!step->first_adjoint) s = add_stored(s, above);
-    store3(above, s.w);
-    store3(above + three, s.alpha);
-    store3(above + 2 * three, s.a);
+    if (step == &steps[limb->top]) break;
+  }
+  if (step->from_world) return;
+  double *above = x->scratch + step->above + local_adjoint;
+  if (!step->first_adjoint) s = add_stored(s, above);
+  store3(above, s.w);
+  store3(above + three, s.alpha);
+  store3(above + 2 * three, s.a);
+}
+
+static void local_adjoints(const ambulo__plan *plan, wide_pair root, const local_arrays *x) {
+  if (plan->local.branched) store_pair(x->scratch + plan->local.world_at + local_turn, root);
+  for (int i = 0; i < plan->local.limb_count; i++) {
+    limb_virtual(plan, &plan->local.limbs[i], root, x);
+    limb_adjoints(plan, &plan->local.limbs[i], x);
   }
 }
 
@@ -291,8 +301,7 @@ static void local_reverse_part(const ambulo__plan *plan, const double *ground,
   wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES);
   local_pulls pulls;
   if (plan->grounded) pulls = local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
-  local_virtual(plan, root, x);
-  local_adjoints(plan, x);
+  local_adjoints(plan, root, x);
   if (plan->points > 0) local_point_weights(plan, &pulls, x->weights, x->gq, x->scratch);
 }
 

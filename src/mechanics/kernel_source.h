@@ -20,9 +20,7 @@ static const double *lanes_from(const double *ground, int lane) {
 static void local_forward_part(const ambulo__plan *plan, const double *q, const double *qd,
                                const double *qdd, const double *ground, double *out,
                                double *scratch) {
-  if (!local_angles(plan, q, scratch)) local_libm_angles(plan, q, scratch);
-  local_down(plan, q, qd, qdd, scratch);
-  local_up(plan, q, out, scratch);
+  local_dynamics(plan, q, qd, qdd, out, scratch);
   if (plan->points == 0) return;
   wide3 first = local_places(plan, out, scratch);
   if (plan->grounded) local_ground(plan, ground, first, out, scratch);

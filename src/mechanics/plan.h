@@ -78,7 +78,7 @@ typedef struct ambulo__kernels {
   void (*forward)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                   const double *ground, double *out, double *scratch);
 
-  /* After forward on the same scratch: given weights on the outputs [rows], the
+  /* After forward on the same scratch, as often as wanted: given weights on the outputs [rows], the
    * gradient of sum_r weight_r out_r with respect to q, qd, qdd ([d] each). */
   void (*reverse)(const ambulo__plan *plan, const double *qd, const double *qdd,
                   const double *ground, const double *weights, double *gq, double *gqd,

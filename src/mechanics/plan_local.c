@@ -68,24 +68,43 @@ static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
   if (axis < 3) step->length = step->move[axis];
 }
 
-/* Who writes where: a limb that does not carry on into its parent adds to the parent's slot. */
+/* Who goes on from registers, and who reads what the parent has stored. */
 static void set_forks(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
-  for (int k = plan->coordinates - 1; k >= 0; k--) {
-    int parent = plan->joints[k].parent;
-    ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
-    step->carried = parent == k;
-    step->from_world = parent == 0;
-    if (step->carried && above) above->carries = 1;
-    if (step->body != AMBULO__BODY_NONE) step->loaded = 1;
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__local_step *step = &steps[k];
+    step->parent = plan->joints[k].parent - 1;
+    step->carried = step->parent == k - 1;
+    step->from_world = step->parent < 0;
+    step->loaded = step->body != AMBULO__BODY_NONE;
     if (step->carried) continue;
-    if (!above) {
+    if (step->from_world) {
       plan->local.branched = 1;
-      continue;
+    } else {
+      steps[step->parent].kept = 1;
     }
-    step->first = !above->loaded && above->body == AMBULO__BODY_NONE;
-    step->first_adjoint = !above->adjoined;
-    above->kept = above->loaded = above->adjoined = 1;
+  }
+}
+
+/* The order of the passes; open: children of each frame that are not done yet (0: the world). */
+static void set_limbs(ambulo__plan *plan, int *open) {
+  ambulo__local_plan *local = &plan->local;
+  int first = 0, rooted = 0;
+  for (int k = 0; k < plan->coordinates; k++) open[plan->joints[k].parent]++;
+  for (int k = 0; k < plan->coordinates; k++) {
+    int top = k;
+    if (open[k + 1] > 0) continue;
+    while (local->steps[top].parent >= 0 && --open[local->steps[top].parent + 1] == 0) {
+      top = local->steps[top].parent;
+    }
+    local->limbs[local->limb_count++] = (ambulo__limb){first, k, top};
+    first = k + 1;
+    ambulo__local_step *step = &local->steps[top];
+    ambulo__local_step *above = step->parent >= 0 ? &local->steps[step->parent] : NULL;
+    step->first = above ? !above->loaded : !rooted;
+    step->first_adjoint = above && !above->adjoined;
+    rooted |= !above;
+    if (above) above->loaded = above->adjoined = 1;
   }
 }
 
@@ -148,7 +167,12 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   ambulo__local_plan *local = &plan->local;
   local->steps = ambulo__alloc(&plan->allocator, d, sizeof *local->steps);
   local->carrier = ambulo__alloc(&plan->allocator, d, sizeof *local->carrier);
-  if (!local->steps || !local->carrier) return AMBULO_E_MEMORY;
+  local->limbs = ambulo__alloc(&plan->allocator, d, sizeof *local->limbs);
+  int *open = ambulo__alloc(&plan->allocator, d, sizeof *open);
+  if (!local->steps || !local->carrier || !local->limbs || !open) {
+    ambulo__free(&plan->allocator, open);
+    return AMBULO_E_MEMORY;
+  }
   local->world_at = slots;
   for (int k = 0; k < plan->coordinates; k++) {
     ambulo__local_step *step = &local->steps[k];
@@ -161,6 +185,8 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
     if (body >= 0) set_body(step, &plan->body[body]);
   }
   set_forks(plan);
+  set_limbs(plan, open);
+  ambulo__free(&plan->allocator, open);
   if (plan->grounded) set_ground(plan);
   set_points(plan);
   plan->scratch += d * local_slot;
@@ -170,4 +196,5 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
 void ambulo__plan_local_free(ambulo__plan *plan) {
   ambulo__free(&plan->allocator, plan->local.steps);
   ambulo__free(&plan->allocator, plan->local.carrier);
+  ambulo__free(&plan->allocator, plan->local.limbs);
 }

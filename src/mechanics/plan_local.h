@@ -1,31 +1,35 @@
 /* mechanics/plan_local.h - the program of the kernels that work in the bodies' own axes.
  *
  * One step for each coordinate, parents first. A step that is `carried` follows its parent, whose
- * vectors are still in registers. Kinds tell which constants are structurally zero: an axis k
- * of the frame is 0, 1 or 2.
+ * vectors are still in registers. A pass down the tree and the pass up that follows take one limb
+ * after the other, so that what the one has stored is still at hand when the other reads it: a body
+ * of many limbs costs as much per coordinate as one of a few. Kinds tell which constants are
+ * structurally zero: an axis k of the frame is 0, 1 or 2.
  */
 #ifndef AMBULO_MECHANICS_PLAN_LOCAL_H
 #define AMBULO_MECHANICS_PLAN_LOCAL_H
 
 #include "mechanics/plan.h"
 
-/* Vectors of a slot, in the frame's axes about its origin (3 entries each). */
+/* Vectors of a slot, in the frame's axes about its origin (3 entries each). The load that a frame
+ * has of its own is read just before that of its subtree is known, and shares its place. */
 enum {
-  local_rate = 0,                     /* w */
-  local_gain = 3 * AMBULO__LANES,     /* alpha */
-  local_pull = 6 * AMBULO__LANES,     /* a */
-  local_moment = 9 * AMBULO__LANES,   /* n of the subtree */
-  local_force = 12 * AMBULO__LANES,   /* f of the subtree */
-  local_turn = 15 * AMBULO__LANES,    /* eta */
-  local_slide = 18 * AMBULO__LANES,   /* u */
-  local_load = 21 * AMBULO__LANES,    /* moment and force of the body and of branches (6) */
-  local_adjoint = 27 * AMBULO__LANES, /* adjoints of w, alpha and a from branches (9) */
-  local_angle = 36 * AMBULO__LANES,   /* sine, cosine; q if prismatic */
-  local_axis = 38 * AMBULO__LANES,    /* points, world axes: axis of the joint, */
-  local_columns = 41 * AMBULO__LANES, /* orientation (9), */
-  local_origin = 50 * AMBULO__LANES,  /* origin, */
-  local_first = 53 * AMBULO__LANES,   /* ground reaction: first mass moment of the body */
-  local_slot = 57 * AMBULO__LANES     /* odd: else the same vectors of all slots share cache sets */
+  local_rate = 0,                   /* w */
+  local_gain = 3 * AMBULO__LANES,   /* alpha */
+  local_pull = 6 * AMBULO__LANES,   /* a */
+  local_moment = 9 * AMBULO__LANES, /* n of the subtree */
+  local_force = 12 * AMBULO__LANES, /* f of the subtree */
+  local_load = local_moment,        /* moment and force of the body and of branches (6) */
+  local_turn = 15 * AMBULO__LANES,  /* eta */
+  local_slide = 18 * AMBULO__LANES, /* u */
+  local_weight = local_turn,        /* points' weights from branches, when eta and u are done (6) */
+  local_adjoint = 21 * AMBULO__LANES, /* adjoints of w, alpha and a from branches (9) */
+  local_angle = 30 * AMBULO__LANES,   /* sine, cosine; q if prismatic */
+  local_axis = 32 * AMBULO__LANES,    /* points, world axes: axis of the joint, */
+  local_columns = 35 * AMBULO__LANES, /* orientation (9), */
+  local_origin = 44 * AMBULO__LANES,  /* origin, */
+  local_first = 47 * AMBULO__LANES,   /* ground reaction: first mass moment of the body */
+  local_slot = 51 * AMBULO__LANES     /* odd: else the same vectors of all slots share cache sets */
 };
 
 typedef enum ambulo__joint_kind {
@@ -57,13 +61,13 @@ typedef struct ambulo__local_step {
   ambulo__offset_kind offset;
   ambulo__offset_kind moving; /* none if still: the offset then has no acceleration */
   ambulo__body_kind body;
+  int parent;    /* step, -1: the world */
   int input;     /* entries of the coordinate in the arrays of the caller */
   int at, above; /* slots of the frame and of its parent */
   int carried;   /* the parent is the frame of the step before, or the world at the first step */
-  int carries;   /* the step after is carried */
   int kept;      /* a step that is not carried starts from this frame */
   int loaded;    /* local_load holds something when the pass up the tree arrives */
-  int first;     /* first to write the parent's local_load */
+  int first;     /* top of a rise: first to write the local_load above it */
   int adjoined;  /* the same two for local_adjoint */
   int first_adjoint;
   int from_world;
@@ -71,7 +75,7 @@ typedef struct ambulo__local_step {
   int turned;
   int pointed;                          /* points hang on the frame or further down */
   int group;                            /* of points, in plan_steps.h; -1: none */
-  int carries_points;                   /* carries, and the step after is pointed */
+  int carries_points;                   /* the step after is carried and pointed */
   int weighted, first_weight;           /* as loaded and first, for the points' weights */
   int placed;                           /* its columns in world axes are read by other steps */
   int vanishes;                         /* ground reaction: tau is zero, see plan_ground.c */
@@ -87,11 +91,19 @@ typedef struct ambulo__local_step {
   double difference[3];                 /* zz - yy, xx - zz, yy - xx */
 } ambulo__local_step;
 
+/* Down the steps from `first` to `leaf`, which has no children; then up from there to `top`, the
+ * last frame of which all is known: it adds what it carries to its parent's. */
+typedef struct ambulo__limb {
+  int first, leaf, top;
+} ambulo__limb;
+
 typedef struct ambulo__local_plan {
   ambulo__local_step *steps; /* [coordinates] */
-  int world_at;              /* slot of the world */
-  int branched;              /* local_load of the world is used */
-  int world_group;           /* points fixed to the world, -1: none */
+  ambulo__limb *limbs;       /* [limb_count] */
+  int limb_count;
+  int world_at;    /* slot of the world */
+  int branched;    /* several joints stand on the world */
+  int world_group; /* points fixed to the world, -1: none */
   /* Ground reaction: the joints that carry both feet but whose tau does not vanish, then those that
    * carry foot 0 alone, then foot 1, each from the root on. */
   int *carrier, carrier_first[4];

@@ -63,6 +63,29 @@ static void instruction_sets_agree(void **state) {
   }
 }
 
+/* weights differ from call to call, the motion does not */
+static void one_forward_serves_many_sweeps(void **state) {
+  (void)state;
+  static kernel_case c;
+  for (int number = 0; number < case_count; number += 4) {
+    case_open(&c, number);
+    int n = c.d * AMBULO__LANES, where = 0;
+    double *first = lane_array((size_t)(3 * c.d)), *again = lane_array((size_t)(3 * c.d));
+    for (int i = 0; i < isa_count; i++) {
+      const ambulo__kernels *kernels = ambulo__kernels_by_name(isa_names[i]);
+      if (!kernels) continue;
+      case_reverse(&c, kernels, first);
+      kernels->reverse(c.plan, c.qd, c.qdd, NULL, c.weights, again, again + n, again + 2 * n,
+                       c.scratch);
+      double error = difference(again, 1, first, 3 * n, &where);
+      report_difference(&c, isa_names[i], "second sweep against the first", where, error, 1e-300);
+    }
+    free(first);
+    free(again);
+    case_close(&c);
+  }
+}
+
 static double weighted_sum(kernel_case *c, const ambulo__kernels *kernels, int lane) {
   double sum = 0;
   case_forward(c, kernels);
@@ -103,6 +126,7 @@ static void equals_central_differences(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(equals_complex_steps_of_the_reference),
                                      cmocka_unit_test(instruction_sets_agree),
+                                     cmocka_unit_test(one_forward_serves_many_sweeps),
                                      cmocka_unit_test(equals_central_differences)};
   return cmocka_run_group_tests_name("mechanics/kernels reverse", tests, NULL, NULL);
 }
