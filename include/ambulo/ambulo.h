@@ -14,8 +14,8 @@
  * Threads: models and problems may be shared; workspaces, diagnostics and results
  * belong to one thread at a time. The library has no global state, never prints and
  * never exits. OpenBLAS starts a thread per core unless OPENBLAS_NUM_THREADS=1 is set
- * before the process starts; the library does not change that (the matrices here are
- * too small to gain from it).
+ * before the process starts: set it, the matrices here are too small to gain from
+ * threads. The library does not change it, for it is a setting of the whole process.
  */
 #ifndef AMBULO_AMBULO_H
 #define AMBULO_AMBULO_H

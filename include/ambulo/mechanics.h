@@ -57,7 +57,8 @@ AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_mechanics_jacobians(ambulo_mechanics *mechanics, int nodes, const double *q,
                            const double *qd, const double *qdd, const ambulo_jacobians *jacobians);
 
-/* Instruction set the kernels run on: "avx512", "avx2", "baseline". */
+/* Instruction set the kernels run on: "avx512", "avx2", "baseline", or "scalar". The best that the
+ * processor has, or what AMBULO_ISA in the environment names. */
 AMBULO_API const char *ambulo_instruction_set(void);
 
 /* ------------------------------------------------------- reference recursion */

@@ -88,7 +88,7 @@ typedef struct ambulo_diagnostic {
   const char *hint;     /* "did you mean 'mass'?"; NULL: none */
 } ambulo_diagnostic;
 
-/* A list of messages; keeps the first 20 errors and counts the rest. */
+/* A list of messages; keeps the first 20 errors, 64 messages in all, and counts further errors. */
 typedef struct ambulo_diagnostics ambulo_diagnostics;
 
 /* NULL on failure to allocate. `allocator` may be NULL. */
