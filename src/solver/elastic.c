@@ -85,7 +85,7 @@ ambulo_status ambulo__elastic_create(const ambulo_problem *problem, ambulo_works
   e->workspace = workspace;
   e->run = run;
   e->n = problem->variables;
-  e->deadline = HUGE_VAL;
+  e->deadline = e->time_limit = HUGE_VAL;
   ambulo_status status = create_rows(e, pool);
   if (!status) status = create_vectors(e, pool);
   int kd = ambulo__metric_diagonals(problem);
@@ -114,7 +114,7 @@ int ambulo__elastic_over(ambulo__elastic *e) {
     e->cancelled = ambulo__run_progress(run, e->workspace->objective, NAN);
     run->stopped |= stopped;
   }
-  return e->cancelled || ambulo__seconds_now() >= e->deadline;
+  return e->cancelled || e->work >= e->deadline || ambulo__seconds_now() >= e->time_limit;
 }
 
 /* ------------------------------------------------------------------- model */
@@ -231,6 +231,7 @@ static double damping(const ambulo__elastic *e, double mu, double t) {
 
 /* one Newton step on phi; 1 when A repeats, -1 when the factorization failed */
 static int newton(ambulo__elastic *e, double mu, double *phi) {
+  e->work += 1.0;
   if (factor(e, mu)) return -1;
   for (int j = 0; j < e->n; j++) e->right[j] = -mu * e->total[j];
   add_pull(e, &e->local, e->linear_local, e->active_local, e->right);

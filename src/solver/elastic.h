@@ -32,7 +32,8 @@ typedef struct ambulo__elastic {
   double *linear_local, *linear_border, *along_local, *along_border, *pull;
   int *active_local, *active_border;
   double *step, *total, *right, *trial; /* [n] */
-  double deadline;                      /* s, monotonic clock */
+  double work, deadline;                /* model steps done; where to stop */
+  double time_limit;                    /* s, monotonic clock: the end of the solve's own limit */
   int cancelled;
 } ambulo__elastic;
 
@@ -42,10 +43,10 @@ ambulo_status ambulo__elastic_create(const ambulo_problem *problem, ambulo_works
                                      ambulo__elastic *elastic);
 
 /* Moves x downhill until E has settled, vanishes, or the deadline is met. 1: settled;
- * 0: out of time, cancelled, or no finite value at x. */
+ * 0: out of steps or time, cancelled, or no finite value at x. */
 int ambulo__elastic_minimize(ambulo__elastic *elastic, double *x);
 
-/* 1 when the deadline has passed or the caller's callback said stop. */
+/* 1 when the steps or the time are used up or the caller's callback said stop. */
 int ambulo__elastic_over(ambulo__elastic *elastic);
 
 /* e_r for the value of row r: violations relative to its size, >= 0. */

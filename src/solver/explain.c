@@ -1,7 +1,9 @@
 /* solver/explain.c - see explain.h.
  *
- * Time: from the end of the solve as long again as the solve took, at least 0.3 s so that
- * solves that fail at once are explained too, and never past the time limit of the solve.
+ * Budget: two model steps (elastic.h) for each evaluation of the solve, about as long again as
+ * it took, and at least what takes some tenths of a second, so that solves that fail at once are
+ * explained too. Steps and not seconds, so that the same problem gets the same explanation on a
+ * busy machine; but never past the time limit of the solve.
  */
 #include "solver/explain.h"
 #include "solver/audit.h"
@@ -9,8 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double least_time = 0.3;    /* s */
-static const double on_limit_gap = 1e-4; /* relative to the row's size */
+static const double steps_per_evaluation = 2.0;
+static const double least_work = 3e9, step_overhead = 1e5; /* operations */
+static const double on_limit_gap = 1e-4;                   /* relative to the row's size */
 
 static ambulo_violation violation_of(const ambulo_problem *p, int row, double worst) {
   const ambulo__table_row *r = &p->table.rows[row];
@@ -74,10 +77,10 @@ static void list_on_limits(const ambulo__elastic *e, ambulo__explanation *out) {
 
 /* --------------------------------------------------------------------- all */
 
-static double deadline_of(const ambulo__run *run) {
-  const ambulo_options *o = run->options;
-  double now = ambulo__seconds_now(), deadline = now + fmax(least_time, now - run->started);
-  return o->time_limit > 0.0 ? fmin(deadline, run->started + o->time_limit) : deadline;
+/* a model step factors a band matrix */
+static double budget_of(const ambulo__elastic *e, const ambulo__run *run) {
+  double step = (double)e->n * (double)e->base.kd * (double)e->base.kd + step_overhead;
+  return fmax(least_work / step, steps_per_evaluation * (double)run->evaluations);
 }
 
 /* the point to start from: the result, or zero where that has no finite values */
@@ -93,14 +96,16 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
   ambulo__elastic elastic;
   ambulo__remedy remedy = {.conflict = -1, .row = -1};
   double *x = ambulo__pool_doubles(pool, (size_t)e->n);
-  double deadline = deadline_of(e->run);
   if (pool->failed) return AMBULO_E_MEMORY;
   list_contradictions(e, result, out);
   ambulo_status status = start_point(e, result, x);
   if (!status) status = ambulo__elastic_create(e->problem, e->workspace, e->run, pool, &elastic);
   if (status == AMBULO_E_MEMORY) return status;
   if (!status) {
-    elastic.deadline = deadline;
+    const ambulo__run *run = e->run;
+    elastic.deadline = budget_of(&elastic, run);
+    if (run->options->time_limit > 0.0)
+      elastic.time_limit = run->started + run->options->time_limit;
     status = ambulo__relax(&elastic, e->run->options->feasibility_tolerance, x, pool, out, &remedy);
     if (status) return status;
     list_on_limits(&elastic, out);

@@ -237,7 +237,7 @@ static void narrow(relaxing *s, double deadline, const ambulo__explanation *out,
   double most = is_ends(c->shared.family) ? HUGE_VAL : narrowed_most * s->family_worst;
   s->family = c->shared.family;
   for (int i = 0; i < tries && !s->elastic->cancelled; i++) {
-    double now = ambulo__seconds_now();
+    double now = s->elastic->work;
     if (now >= deadline) break;
     s->elastic->deadline = now + (deadline - now) / (double)(tries - i);
     s->only = row_like(s->elastic->problem, i == 0 ? &c->relaxation : &c->others[i - 1]);
@@ -254,7 +254,7 @@ static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
   int count = out->view.conflict_count;
   for (int i = 0; i < count; i++) {
     ambulo_conflict *c = &out->conflict[i];
-    double now = ambulo__seconds_now();
+    double now = s->elastic->work;
     if (now >= deadline || s->elastic->cancelled) break;
     s->elastic->deadline = now + (deadline - now) / (double)(count - i + 1);
     s->family = c->shared.family;
@@ -273,7 +273,7 @@ static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
 
 ambulo_status ambulo__relax(ambulo__elastic *e, double tolerance, double *x, ambulo__pool *pool,
                             ambulo__explanation *out, ambulo__remedy *remedy) {
-  double now = ambulo__seconds_now(), deadline = e->deadline;
+  double now = e->work, deadline = e->deadline;
   relaxing s = {.elastic = e, .x = x};
   s.candidate = ambulo__pool_doubles(pool, (size_t)e->n);
   s.value = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
