@@ -25,7 +25,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SMALL_PROBLEM = 200, SWEEPS = 500 };
+enum { SMALL_PROBLEM = 200, SWEEPS = 500, MOST_WARNINGS = 5 };
 static const double shift_size = 0.1;     /* rad, m */
 static const double dependence = 1e-8;    /* relative */
 static const double contradiction = 1e-7; /* row unit, relative to 1 + |value| */
@@ -184,26 +184,19 @@ static int widest_group(const ambulo__sparse_rows *s) {
   return width > p->variables || p->variables <= SMALL_PROBLEM ? p->variables : width;
 }
 
+/* Rows that follow from others are left out in silence: contacts of rigid soles and repeated ends
+ * have them by nature, and the audit counts them. */
 static void report(const ambulo_problem *p, const int *rank, ambulo_diagnostics *diagnostics) {
   static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-  int dropped = 0, first = -1, warnings = 0;
-  for (int r = 0; r < p->rows; r++) {
+  int warnings = 0;
+  for (int r = 0; r < p->rows && warnings < MOST_WARNINGS; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
-    if (rank[r] == AMBULO__ROW_DEPENDENT) {
-      if (first < 0) first = r;
-      dropped++;
-    }
-    if (rank[r] != AMBULO__ROW_CONTRADICTORY || warnings++ >= 5) continue;
+    if (rank[r] != AMBULO__ROW_CONTRADICTORY) continue;
+    warnings++;
     ambulo__warning(diagnostics, nowhere, NULL,
                     "equality %s of %s (%s) at t = %.6g s contradicts the equalities before it",
                     row->family, row->subject, row->detail, row->time);
   }
-  if (first < 0) return;
-  const ambulo__table_row *row = &p->table.rows[first];
-  ambulo__note(diagnostics, nowhere,
-               "%d equality rows follow from the others and are left out of the solve; the first "
-               "is %s of %s (%s) at t = %.6g s",
-               dropped, row->family, row->subject, row->detail, row->time);
 }
 
 ambulo_status ambulo__rank_sort(const ambulo__sparse_rows *rows, const double *value,

@@ -12,8 +12,8 @@ typedef enum ambulo__row_rank {
 } ambulo__row_rank;
 
 /* Sorts the equality rows: rank[rows] (inequalities are left independent). The check is
- * made at a generic point near `start`. Each dropped family is named in `diagnostics`
- * (may be NULL): a note, or a warning with name and time for a contradiction. */
+ * made at a generic point near `start`. `diagnostics` may be NULL: a warning with name and time for
+ * each contradiction. */
 ambulo_status ambulo__presolve_rank(const ambulo_problem *problem, ambulo_workspace *workspace,
                                     const double *start, ambulo__pool *pool,
                                     ambulo_diagnostics *diagnostics, int *rank);
