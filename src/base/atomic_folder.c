@@ -154,12 +154,28 @@ const char *ambulo__folder_path(const ambulo__folder *folder) {
   return folder->temporary;
 }
 
+static int write_and_flush(const char *path, const char *data, size_t length) {
+  int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) return -1;
+  int failed = ambulo__write_all(file, data, length) != 0 || fsync(file) != 0;
+  int reason = errno;
+  if (close(file) != 0 && !failed) return -1;
+  errno = reason;
+  return failed ? -1 : 0;
+}
+
+/* The folder is a temporary as a whole, so its files need none of their own, and its entries are
+ * flushed once, by the commit. */
 ambulo_status ambulo__folder_write(ambulo__folder *folder, const char *name, const char *data,
                                    size_t length, ambulo_diagnostics *diagnostics) {
   if (name[0] == '\0' || is_dot(name) || strchr(name, '/')) return AMBULO_E_ARGUMENT;
   char *path = ambulo__join_path(&folder->allocator, folder->temporary, name);
   if (!path) return ambulo__io_memory_error(diagnostics, name);
-  ambulo_status status = ambulo__write_file(path, data, length, 1, &folder->allocator, diagnostics);
+  ambulo_status status = AMBULO_OK;
+  if (write_and_flush(path, data, length) != 0) {
+    status = ambulo__io_error(diagnostics, path, "write");
+    (void)unlink(path);
+  }
   ambulo__free(&folder->allocator, path);
   return status;
 }

@@ -13,8 +13,8 @@ daemons=()
 trap '[ ${#daemons[@]} = 0 ] || kill "${daemons[@]}" 2>/dev/null; sleep 0.5; rm -rf "$scratch"' EXIT
 passed=0 failed=0
 
-same_table() {
-  "$AMBULO" collect "$scratch/$1" && cmp "$scratch/whole/results.csv" "$scratch/$1/results.csv"
+same_table() { # folder, what it is, the folder of the whole run
+  "$AMBULO" collect "$scratch/$1" && cmp "$scratch/${3:-whole}/results.csv" "$scratch/$1/results.csv"
   local status=$?
   echo "$2: exit status $status"
   if [ "$status" = 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
@@ -82,9 +82,33 @@ CONF
   return 1
 }
 
+done_in() { "$AMBULO" batch --status "$1" 2>/dev/null | awk '/^done/ { print $2 }'; }
+
+# cancelled in the middle, as at its time limit, and submitted again; walks, so that there is one
+cancel_and_resume() {
+  printf '%s\n' 'ambulo: 1' 'kind: sweep' 'name: walks' "base: $here/../../models/walk_slow.yaml" \
+    'axes:' '  - {key: subject.mass, name: mass, range: [56, 78, 1]}' 'outputs: [objective]' \
+    >"$scratch/walks.yaml"
+  SWEEP=$scratch/walks.yaml
+  "$AMBULO" batch "$SWEEP" -o "$scratch/walks" --quiet && "$AMBULO" collect "$scratch/walks"
+  local job
+  job=$(cd "$scratch" && DIR=$scratch/cancelled sbatch --parsable --export=ALL "$here/slurm_array.sh")
+  for _ in $(seq 400); do
+    [ "$(done_in "$scratch/cancelled")" -ge 2 ] 2>/dev/null && break
+    sleep 0.05
+  done
+  scancel "$job"
+  while squeue -h -j "$job" 2>/dev/null | grep -q .; do sleep 0.2; done
+  echo "cancelled after $(done_in "$scratch/cancelled") of 23 cases; accounts of the tasks:"
+  cat "$scratch"/slurm-*.log
+  (cd "$scratch" && DIR=$scratch/cancelled timeout 120 sbatch --wait --export=ALL "$here/slurm_array.sh")
+  same_table cancelled 'Slurm array, cancelled and submitted again' walks
+}
+
 if start_slurm; then
   (cd "$scratch" && DIR=$scratch/array timeout 120 sbatch --wait --export=ALL "$here/slurm_array.sh")
   same_table array 'Slurm array'
+  cancel_and_resume
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
