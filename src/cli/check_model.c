@@ -138,8 +138,9 @@ ambulo_status ambulo__cli_check_model(const char *file, ambulo_diagnostics *diag
   t.size[0] = t.d;
   t.size[1] = 6;
   t.size[2] = 3 * ambulo_model_point_count(model);
-  printf("%s: model '%s', %d links, %d coordinates, %.3f kg\n", file, ambulo_model_name(model),
-         ambulo_model_link_count(model), t.d, ambulo_model_mass(model));
+  int links = ambulo_model_link_count(model);
+  printf("%s: model '%s', %d link%s, %d coordinate%s, %.3f kg\n", file, ambulo_model_name(model),
+         links, links == 1 ? "" : "s", t.d, t.d == 1 ? "" : "s", ambulo_model_mass(model));
   status = allocate(&t) ? AMBULO_E_MEMORY : check(&t);
   if (!status) *wrong += print_table(&t, tolerance);
   release(&t);

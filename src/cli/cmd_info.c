@@ -162,9 +162,14 @@ static int run(const ambulo__cli_input *input) {
   ambulo_model *model = NULL;
   ambulo_problem *problem = NULL;
   ambulo_file_kind kind = AMBULO_FILE_MODEL;
+  int misused = 0;
   ambulo_status status =
       overrides ? ambulo_file_kind_of(file, NULL, diagnostics, &kind) : AMBULO_E_MEMORY;
-  if (!status && kind == AMBULO_FILE_MODEL) {
+  if (!status && kind == AMBULO_FILE_MODEL && ambulo__cli_flag(input, "set")) {
+    misused =
+        ambulo__cli_usage_error("info", "the 'subject' of a problem scales its model",
+                                "--set replaces values of problem files; '%s' is a model", file);
+  } else if (!status && kind == AMBULO_FILE_MODEL) {
     status = ambulo_model_load(file, NULL, NULL, diagnostics, &model);
     if (!status) print_model(model);
   } else if (!status) {
@@ -172,7 +177,7 @@ static int run(const ambulo__cli_input *input) {
     status = ambulo_problem_load(file, overrides, count, NULL, diagnostics, &problem);
     if (!status) print_problem(problem);
   }
-  int code = ambulo__cli_diagnostics(diagnostics, status, file);
+  int code = misused ? misused : ambulo__cli_diagnostics(diagnostics, status, file);
   ambulo_model_free(model);
   ambulo_problem_free(problem);
   ambulo_diagnostics_free(diagnostics);
