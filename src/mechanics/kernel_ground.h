@@ -82,16 +82,6 @@ AMBULO__INLINE void ground_divide(const ambulo__plan *plan, const double *ground
   }
 }
 
-/* The split, from the bodies' inertias and the loads that have been summed up. */
-static void ground_split(const ambulo__plan *plan, const double *ground, double *scratch) {
-  wide3 first = {{0}, {0}, {0}};
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
-    if (joint->parent == 0) first = add3(first, load3(scratch + plan->frames[k + 1].composite_at));
-  }
-  ground_divide(plan, ground, load_pair(scratch + plan->frames[0].load_at), first, scratch);
-}
-
 /* Outputs: feet, centre of mass. */
 static void ground_rows(const ambulo__plan *plan, const double *ground, double *out,
                         const double *scratch) {

@@ -1,4 +1,5 @@
-/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after world_part.
+/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after world_part
+ * of kernel_world.h.
  *
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
  * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =
@@ -34,7 +35,10 @@
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 
-#include "mechanics/kernel_world.h"
+#include "mechanics/kernel_subtree.h"
+
+/* A step of its own keeps its constants in registers; inlined together they would not fit. */
+#define AMBULO__STEP static __attribute__((noinline))
 
 /* S, 2 Sd and Sdd of the revolute joints. */
 static void jacobian_hinges(const ambulo__steps *steps, double *scratch) {
@@ -77,14 +81,14 @@ typedef struct subtree_changes {
   wide3 turned;
 } subtree_changes;
 
-/* f: the force of the subtree's bodies. */
-AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__change_step *step, wide_pair f,
-                                                const double *scratch) {
-  const double *composite = scratch + step->composite, *motion = scratch + step->motion;
+AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__change_step *step,
+                                                const wide_subtree *sum, const double *scratch) {
+  const double *motion = scratch + step->motion;
   wide mass = spread(step->mass);
-  wide3 h = load3(composite + composite_first), p = load3(composite + composite_momentum);
-  wide6 inertia = load6(composite + composite_inertia);
-  wide33 e = load33(composite + composite_coriolis);
+  wide3 h = sum->first, p = sum->momentum;
+  wide6 inertia = sum->inertia;
+  wide33 e = sum->coriolis;
+  wide_pair f = sum->load;
   wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
   wide_pair sdd = load_pair(motion + 4 * three);
   wide3 z = s.angular, z2 = scale3(spread(2), z);
@@ -168,18 +172,17 @@ AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo
 }
 
 /* Column of the root wrench for a displacement s along an axis that stands still: no rates, no
- * turning; f: the force of the subtree's bodies. */
-AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, wide_pair f, double *jq,
-                                      double *jqdd, const double *scratch) {
+ * turning. */
+AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, const wide_subtree *sum,
+                                      double *jq, double *jqdd, const double *scratch) {
   const ambulo__change_step *step = &plan->steps.changes[k];
   const int row = plan->coordinates * AMBULO__LANES;
   double *moment = jq + (plan->start[plan->coordinates] + k) * AMBULO__LANES;
-  wide3 s = load3(scratch + step->motion + three), turn = cross3(s, f.linear);
-  wide3 h = load3(scratch + step->composite + composite_first);
+  wide3 s = load3(scratch + step->motion + three), turn = cross3(s, sum->load.linear);
   store(moment, turn.x);
   store(moment + row, turn.y);
   store(moment + 2 * row, turn.z);
-  jacobian_wrench(plan, k, (wide_pair){cross3(h, s), scale3(spread(step->mass), s)}, jqdd);
+  jacobian_wrench(plan, k, (wide_pair){cross3(sum->first, s), scale3(spread(step->mass), s)}, jqdd);
 }
 
 /* Its row and column of tau: all joints above are straight, too. */
@@ -215,24 +218,36 @@ static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratc
   }
 }
 
+/* Row and column of a joint whose subtree is known. */
+AMBULO__STEP void jacobian_column(const ambulo__plan *plan, int k, const wide_subtree *sum,
+                                  double *jq, double *jqd, double *jqdd, const double *scratch) {
+  const ambulo__change_step *step = &plan->steps.changes[k];
+  const ambulo__pair *pairs = plan->steps.pairs;
+  if (step->is_straight) {
+    jacobian_straight(plan, k, sum, jq, jqdd, scratch);
+    straight_pairs(step, pairs, jqdd, scratch);
+    return;
+  }
+  subtree_changes t = jacobian_changes(step, sum, scratch);
+  jacobian_wrench(plan, k, t.q, jq);
+  jacobian_wrench(plan, k, t.qd, jqd);
+  jacobian_wrench(plan, k, t.qdd, jqdd);
+  jacobian_pairs(step, pairs, &t, jq, jqd, jqdd, scratch);
+}
+
 static void jacobian_part(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
                           double *scratch) {
-  const ambulo__steps *steps = &plan->steps;
-  jacobian_hinges(steps, scratch);
-  jacobian_sliders(steps, scratch);
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__change_step *step = &steps->changes[k];
-    wide_pair f = load_pair(scratch + step->load);
-    if (step->is_straight) {
-      jacobian_straight(plan, k, f, jq, jqdd, scratch);
-      straight_pairs(step, steps->pairs, jqdd, scratch);
-      continue;
+  jacobian_hinges(&plan->steps, scratch);
+  jacobian_sliders(&plan->steps, scratch);
+  for (int i = 0; i < plan->local.limb_count; i++) {
+    const ambulo__limb *limb = &plan->local.limbs[i];
+    wide_subtree sum = {0};
+    for (int k = limb->leaf;; k = plan->local.steps[k].parent) {
+      complete_subtree(plan, k, &sum, scratch);
+      jacobian_column(plan, k, &sum, jq, jqd, jqdd, scratch);
+      if (k == limb->top) break;
     }
-    subtree_changes t = jacobian_changes(step, f, scratch);
-    jacobian_wrench(plan, k, t.q, jq);
-    jacobian_wrench(plan, k, t.qd, jqd);
-    jacobian_wrench(plan, k, t.qdd, jqdd);
-    jacobian_pairs(step, steps->pairs, &t, jq, jqd, jqdd, scratch);
+    pass_subtree_on(plan, limb->top, &sum, scratch);
   }
   jacobian_points(plan, jq, scratch);
 }

@@ -29,10 +29,8 @@
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_GROUND_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_GROUND_H
 
+#include "mechanics/kernel_ground.h"
 #include "mechanics/kernel_jacobian.h"
-
-/* A step of its own keeps its constants in registers; inlined together they would not fit. */
-#define AMBULO__STEP static __attribute__((noinline))
 
 /* What a column needs of the split. */
 typedef struct ground_slopes {
@@ -94,11 +92,11 @@ typedef struct row_changes {
 /* Adds -R_i . t_j and -e_i dz of joints j that carry the whole body, `row` = (-R, -e / m). */
 AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_changes c,
                                             const double *row, const double *scratch) {
-  const double *whole = scratch + plan->frames[plan->whole].composite_at;
+  const wide_subtree whole = load_subtree(scratch + plan->frames[plan->whole].subtree_at);
   wide mass = spread(plan->mass);
-  wide3 h = load3(whole + composite_first), p = load3(whole + composite_momentum);
-  wide6 inertia = load6(whole + composite_inertia);
-  wide33 e = load33(whole + composite_coriolis);
+  wide3 h = whole.first, p = whole.momentum;
+  wide6 inertia = whole.inertia;
+  wide33 e = whole.coriolis;
   wide_pair r = load_pair(row), w = load_pair(scratch + plan->ground_at + ground_wrench);
   wide3 up = scale3(load(row + 2 * three), ground_up(plan));
   c.force.angular = add_cross3(add3(c.force.angular, multiply6(inertia, r.angular)), h, r.linear);
@@ -167,27 +165,46 @@ AMBULO__INLINE wide_pair ground_wrench_column(const double *at, int row) {
                      {load(at + 3 * row), load(at + 4 * row), load(at + 5 * row)}};
 }
 
-/* Changes of the subtrees: columns of the root wrench; and rows without feet. */
-AMBULO__STEP void ground_changes(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
-                                 double *scratch) {
-  for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__change_step *step = &plan->steps.changes[k];
-    wide_pair bodies = load_pair(scratch + step->load);
-    if (joint->torque_row == AMBULO__ROW_VANISHES && step->is_straight) {
-      jacobian_straight(plan, k, bodies, jq, jqdd, scratch);
-      continue;
-    }
-    subtree_changes t = jacobian_changes(step, bodies, scratch);
-    jacobian_wrench(plan, k, t.q, jq);
-    jacobian_wrench(plan, k, t.qd, jqd);
-    jacobian_wrench(plan, k, t.qdd, jqdd);
-    if (joint->torque_row == AMBULO__ROW_SPARSE) {
-      ground_sparse_pairs(plan, k, &t, jq, jqd, jqdd, scratch);
-    } else if (joint->torque_row == AMBULO__ROW_DENSE) {
-      store3(scratch + joint->reaction_at + 14 * AMBULO__LANES, t.turned);
-    }
+/* Changes of a subtree: the column of the root wrench; and the rows without feet. */
+AMBULO__STEP void ground_changes(const ambulo__plan *plan, int k, const wide_subtree *sum,
+                                 double *jq, double *jqd, double *jqdd, double *scratch) {
+  const ambulo__joint *joint = &plan->joints[k];
+  const ambulo__change_step *step = &plan->steps.changes[k];
+  if (joint->torque_row == AMBULO__ROW_VANISHES && step->is_straight) {
+    jacobian_straight(plan, k, sum, jq, jqdd, scratch);
+    return;
   }
+  subtree_changes t = jacobian_changes(step, sum, scratch);
+  jacobian_wrench(plan, k, t.q, jq);
+  jacobian_wrench(plan, k, t.qd, jqd);
+  jacobian_wrench(plan, k, t.qdd, jqdd);
+  if (joint->torque_row == AMBULO__ROW_SPARSE) {
+    ground_sparse_pairs(plan, k, &t, jq, jqd, jqdd, scratch);
+  } else if (joint->torque_row == AMBULO__ROW_DENSE) {
+    store3(scratch + joint->reaction_at + 14 * AMBULO__LANES, t.turned);
+  }
+}
+
+/* All of them, and the split of what they sum up to. */
+static void ground_subtrees(const ambulo__plan *plan, const double *ground, double *jq, double *jqd,
+                            double *jqdd, double *scratch) {
+  const double *fixed = plan->fixed_load;
+  for (int i = 0; i < plan->local.limb_count; i++) {
+    const ambulo__limb *limb = &plan->local.limbs[i];
+    wide_subtree sum = {0};
+    for (int k = limb->leaf;; k = plan->local.steps[k].parent) {
+      complete_subtree(plan, k, &sum, scratch);
+      if (k + 1 == plan->whole) store_subtree(scratch + plan->frames[k + 1].subtree_at, &sum);
+      ground_changes(plan, k, &sum, jq, jqd, jqdd, scratch);
+      if (k == limb->top) break;
+    }
+    pass_subtree_on(plan, limb->top, &sum, scratch);
+  }
+  wide_subtree all = {0};
+  if (plan->local.limb_count > 0) all = load_subtree(scratch + plan->frames[0].subtree_at);
+  all.load.angular = add3(all.load.angular, spread3(fixed));
+  all.load.linear = add3(all.load.linear, spread3(fixed + 3));
+  ground_divide(plan, ground, all.load, all.first, scratch);
 }
 
 /* Entries of the dense rows in the columns of the joints above. */
@@ -298,9 +315,9 @@ static void jacobian_ground_part(const ambulo__plan *plan, const double *ground,
   const wide inverse_mass = spread(1 / plan->mass);
   jacobian_hinges(&plan->steps, scratch);
   jacobian_sliders(&plan->steps, scratch);
+  ground_subtrees(plan, ground, jq, jqd, jqdd, scratch);
   const ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
   ground_reaction_rows(plan, &slopes.shares, scratch);
-  ground_changes(plan, jq, jqd, jqdd, scratch);
   ground_rows_above(plan, jq, jqd, jqdd, scratch);
   ground_columns(plan, jq, jqd, jqdd, scratch);
   ground_feet(&slopes, d, jq + wrench, jqdd + wrench, jq + feet);

@@ -20,7 +20,10 @@
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 
-#include "mechanics/kernel_world.h"
+#include <math.h>
+
+#include "mechanics/kernel_sincos.h"
+#include "mechanics/kernel_wide.h"
 
 typedef struct local_state {
   wide3 w, alpha, a;
@@ -57,10 +60,6 @@ AMBULO__INLINE wide3 into_frame(wide3 v, wide s, wide c) {
 
 AMBULO__INLINE wide3 from_frame(wide3 v, wide s, wide c) {
   return (wide3){c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-}
-
-AMBULO__INLINE wide3 spread3(const double v[3]) {
-  return (wide3){spread(v[0]), spread(v[1]), spread(v[2])};
 }
 
 /* T v and T^T v with a constant matrix. */

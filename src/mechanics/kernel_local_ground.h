@@ -26,6 +26,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_GROUND_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_GROUND_H
 
+#include "mechanics/kernel_ground.h"
 #include "mechanics/kernel_local_points.h"
 
 /* A pair that goes as a motion does, across the offset and the constant turn of a joint. */

@@ -8,7 +8,6 @@
 #ifndef AMBULO_MECHANICS_KERNEL_SOURCE_H
 #define AMBULO_MECHANICS_KERNEL_SOURCE_H
 
-#include "mechanics/kernel_world.h"
 #include "mechanics/kernel_jacobian.h"
 #include "mechanics/kernel_jacobian_ground.h"
 #include "mechanics/kernel_local_reverse.h"
@@ -48,7 +47,7 @@ static void reverse(const ambulo__plan *plan, const double *qd, const double *qd
 static void jacobian(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                      const double *ground, double *jq, double *jqd, double *jqdd, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    world_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane), scratch + lane);
+    world_part(plan, q + lane, qd + lane, qdd + lane, scratch + lane);
     if (plan->grounded) {
       jacobian_ground_part(plan, ground + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
     } else {

@@ -43,6 +43,10 @@ AMBULO__INLINE wide spread(double value) {
   return value - (wide){0};
 }
 
+AMBULO__INLINE wide3 spread3(const double v[3]) {
+  return (wide3){spread(v[0]), spread(v[1]), spread(v[2])};
+}
+
 AMBULO__INLINE wide load(const double *at) {
   return *(const wide *)at;
 }

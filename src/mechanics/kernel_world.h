@@ -1,5 +1,5 @@
-/* mechanics/kernel_world.h - motion and loads of the subtrees in world axes, where the Jacobians
- * are taken, one block of time nodes.
+/* mechanics/kernel_world.h - motion of the frames in world axes, where the Jacobians are taken, one
+ * block of time nodes.
  *
  * Down the tree, with z the joint's axis, p the parent frame and r the constant offset between
  * the origins (in world axes), frame by frame:
@@ -8,31 +8,16 @@
  *   Omega r = alpha x r + w x (w x r)                        acceleration of a fixed r
  *   o     = o_p + r,      a = a_p + Omega_p r                origin (revolute)
  *   o     = o_p + z q,    a = a_p + Omega_p z q + 2 w_p x z qd + z qdd      (prismatic)
- * The world's a is -gravity, so that weight needs no term of its own. Then for every body, c the
- * vector from the origin to its centre of mass and I its inertia about it, in world axes:
- *   F = m (a + Omega c),  L = I w,  H = I alpha + w x L                     (15')
- * and up the tree the load of each subtree: moment N about the world origin, force F:
- *   N = sum (o + c) x F + H                                         (10) in world axes
- * The load of the whole tree is the root wrench. The velocities of the origins, v = v_p + w_p x r
- * or v_p + w_p x z q + z qd, and the composite inertias of the subtrees are those of
- * kernel_jacobian.h.
+ *   v     = v_p + w_p x r,   or v_p + w_p x z q + z qd
+ * The world's a is -gravity, so that weight needs no term of its own.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_WORLD_H
 #define AMBULO_MECHANICS_KERNEL_WORLD_H
 
 #include <math.h>
 
-#include "mechanics/kernel_ground.h"
+#include "mechanics/kernel_wide.h"
 #include "mechanics/kernel_sincos.h"
-
-/* The inertia of a subtree, by vectors. */
-enum {
-  composite_first = 0,
-  composite_momentum = three,
-  composite_inertia = 2 * three,
-  composite_coriolis = 4 * three,
-  composite_vectors = 7
-};
 
 static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, const double *q,
                                                   double *scratch) {
@@ -147,97 +132,6 @@ static void world_origins(const ambulo__steps *steps, const double *q, const dou
   }
 }
 
-/* base 1 + first u u^T + second w w^T, see plan_mass.c. */
-AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const double *scratch) {
-  wide3 x = load3(scratch + body->ordered[0]), y = load3(scratch + body->ordered[1]);
-  if (!body->diagonal) {
-    wide3 z = load3(scratch + body->ordered[2]);
-    x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
-    y = axpy3(y, spread(body->lower[2]), z);
-  }
-  wide3 u = scale3(spread(body->first), x), w = scale3(spread(body->second), y);
-  return (wide6){body->base + u.x * x.x + w.x * y.x,
-                 body->base + u.y * x.y + w.y * y.y,
-                 body->base + u.z * x.z + w.z * y.z,
-                 u.x * x.y + w.x * y.y,
-                 u.x * x.z + w.x * y.z,
-                 u.y * x.z + w.y * y.z};
-}
-
-/* h, P, I and E of a body at x with the velocity v. */
-AMBULO__INLINE void body_composite(const ambulo__body *body, wide3 x, wide3 v, wide3 w, wide6 j,
-                                   double *out) {
-  wide3 h = scale3(spread(body->mass), x);
-  wide square = dot3(h, x), trace = dot3(v, h), half = 0.5 * (j.xx + j.yy + j.zz);
-  wide6 inertia = {j.xx + square - h.x * x.x, j.yy + square - h.y * x.y, j.zz + square - h.z * x.z,
-                   j.xy - h.x * x.y,          j.xz - h.x * x.z,          j.yz - h.y * x.z};
-  /* columns of [w x] (half - J), which has no trace; E = (v.h) 1 - v h^T - [w x] (...) */
-  wide3 k1 = cross3(w, (wide3){half - j.xx, -j.xy, -j.xz});
-  wide3 k2 = cross3(w, (wide3){-j.xy, half - j.yy, -j.yz});
-  wide3 k3 = cross3(w, (wide3){-j.xz, -j.yz, half - j.zz});
-  wide33 coriolis = {{trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x},
-                     {-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y},
-                     {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
-  store3(out + composite_first, h);
-  store3(out + composite_momentum, scale3(spread(body->mass), v));
-  store6(out + composite_inertia, inertia);
-  store33(out + composite_coriolis, coriolis);
-}
-
-/* Force and moment that move each body, the first part of its frame's load, and its inertia. */
-static void world_bodies(const ambulo__plan *plan, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  for (int i = 0; i < plan->bodies; i++) {
-    const ambulo__body *body = &plan->body[i];
-    const double *place = scratch + body->place;
-    wide3 w = load3(scratch + body->rate), alpha = load3(scratch + body->rate + three);
-    wide3 c = add_rotated(zero, scratch, body->columns, body->com), x = add3(load3(place), c);
-    wide_pair turn = swept(scratch + body->rate, c);
-    wide3 v = add3(load3(scratch + body->velocity), turn.angular);
-    wide3 force = scale3(spread(body->mass), add3(load3(place + three), turn.linear));
-    wide6 inertia = body_inertia(body, scratch);
-    wide3 rate = add_cross3(multiply6(inertia, alpha), w, multiply6(inertia, w));
-    store3(scratch + body->load, add_cross3(rate, x, force));
-    store3(scratch + body->load + three, force);
-    body_composite(body, x, v, w, inertia, scratch + body->composite);
-  }
-}
-
-AMBULO__INLINE void zero_vectors(double *at, int count) {
-  const wide3 zero = {{0}, {0}, {0}};
-  for (int n = 0; n < count; n++) store3(at + n * three, zero);
-}
-
-/* `count` vectors of each subtree, added to its parent's. A sum that the next step goes on with
- * stays in registers: memory would make it wait. */
-AMBULO__INLINE void sum_up(const ambulo__add_step *steps, int step_count, int count,
-                           double *scratch) {
-  wide3 sum[composite_vectors] = {{{0}, {0}, {0}}};
-  for (int i = 0; i < step_count; i++) {
-    double *to = scratch + steps[i].to;
-    const double *from = scratch + steps[i].from;
-    if (!steps[i].carried) {
-      for (int n = 0; n < count; n++) sum[n] = load3(from + n * three);
-    }
-    for (int n = 0; n < count; n++) {
-      sum[n] = add3(load3(to + n * three), sum[n]);
-      store3(to + n * three, sum[n]);
-    }
-  }
-}
-
-static void world_sums(const ambulo__plan *plan, double *scratch) {
-  const ambulo__steps *steps = &plan->steps;
-  double *root = scratch + plan->frames[0].load_at;
-  for (int i = 0; i < 6; i++) store(root + i * AMBULO__LANES, spread(plan->fixed_load[i]));
-  for (int i = 0; i < steps->zero_load_count; i++) zero_vectors(scratch + steps->zero_loads[i], 2);
-  for (int i = 0; i < steps->zero_composite_count; i++) {
-    zero_vectors(scratch + steps->zero_composites[i], composite_vectors);
-  }
-  sum_up(steps->loads, steps->load_count, 2, scratch);
-  sum_up(steps->composites, steps->composite_count, composite_vectors, scratch);
-}
-
 /* Positions of the points, to their rows or, packed, one after the other in
  * order of groups. */
 AMBULO__INLINE void world_positions(const ambulo__steps *steps, double *out, int packed,
@@ -255,9 +149,8 @@ AMBULO__INLINE void world_positions(const ambulo__steps *steps, double *out, int
   }
 }
 
-/* Motion of the frames, the loads and composite inertias of their subtrees. */
 static void world_part(const ambulo__plan *plan, const double *q, const double *qd,
-                       const double *qdd, const double *ground, double *scratch) {
+                       const double *qdd, double *scratch) {
   const ambulo__steps *steps = &plan->steps;
   world_frame(plan, scratch);
   if (angles_inside(steps, q)) {
@@ -267,9 +160,6 @@ static void world_part(const ambulo__plan *plan, const double *q, const double *
     world_hinges(steps, q, qd, qdd, 1, scratch);
   }
   world_origins(steps, q, qd, qdd, scratch);
-  world_bodies(plan, scratch);
-  world_sums(plan, scratch);
-  if (plan->grounded) ground_split(plan, ground, scratch);
 }
 
 #endif

@@ -23,12 +23,10 @@ typedef struct ambulo__frame {
   int column_at[3]; /* orientation, world components of the frame's axes */
   int rate_at;      /* angular velocity and angular acceleration (6) */
   int place_at;     /* origin, and acceleration of the origin less gravity (6) */
-  int load_at;      /* wrench of the subtree about the world origin: moment, force
-                       (6) */
   int velocity_at;  /* velocity of the origin (3); by origin */
-  int composite_at; /* composite inertia of the load's subtree (21) */
+  int subtree_at;   /* load and inertia of subtrees (27), see kernel_subtree.h: where limbs meet, of
+                       the whole body, and the world's */
   int body;         /* index, -1: none */
-  int zero_load;    /* the load starts at zero (no body, not exactly one child) */
   double subtree_mass;
 } ambulo__frame;
 
@@ -48,7 +46,6 @@ typedef struct ambulo__joint {
   int from_at[2];  /* columns that the rotation mixes, in cyclic order after the axis ... */
   int to_at[2];    /* ... and where they go */
   int own_origin;  /* place_at differs from the parent's */
-  int own_load;    /* load_at differs from the parent's */
   int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
   int torque_row;  /* ambulo__torque_row of a grounded plan */
   int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (17) */

@@ -3,7 +3,6 @@
  * Sharing keeps the scratch small and saves additions:
  *   - a joint keeps its axis column, a prismatic joint keeps the whole orientation;
  *   - a revolute joint whose axis meets the parent's origin keeps the origin;
- *   - a frame without a body and with one child carries the same load as that child.
  * The kernels in the frames' own axes have slots of their own, behind this (plan_local.c).
  */
 #include <stddef.h>
@@ -16,19 +15,10 @@ static int take(size_t *used, int entries) {
   return (int)at;
 }
 
-static int child_count(const ambulo__plan *plan, int frame, int *only) {
+static int child_count(const ambulo__plan *plan, int frame) {
   int count = 0;
-  for (int k = 0; k < plan->coordinates; k++) {
-    if (plan->joints[k].parent != frame) continue;
-    *only = k + 1;
-    count++;
-  }
+  for (int k = 0; k < plan->coordinates; k++) count += plan->joints[k].parent == frame;
   return count;
-}
-
-/* Whether the frame's load is that of its only child. */
-static int passes_load_on(const ambulo__plan *plan, int frame, int *only) {
-  return child_count(plan, frame, only) == 1 && plan->frames[frame].body < 0;
 }
 
 /* The frame whose orientation (or, with `place`, origin) this frame has. */
@@ -81,33 +71,19 @@ static void place_motion(ambulo__plan *plan, size_t *used) {
   }
 }
 
-/* Loads, children first. */
-static void place_loads(ambulo__plan *plan, size_t *used) {
-  for (int f = plan->coordinates; f >= 1; f--) {
-    ambulo__frame *frame = &plan->frames[f];
-    int only = 0, shared = passes_load_on(plan, f, &only);
-    frame->zero_load = frame->body < 0 && !shared;
-    frame->load_at = shared ? plan->frames[only].load_at : take(used, 6);
-    if (shared) plan->joints[only - 1].own_load = 0;
-    plan->joints[f - 1].own_load = 1;
-  }
-  plan->frames[0].load_at = take(used, 6);
-}
-
-/* Composite inertias by load; the mass is a constant. */
+/* Motions of the joints, and sums over subtrees where they are stored; masses are constants. */
 static void place_jacobian(ambulo__plan *plan, size_t *used) {
   for (int f = 0; f <= plan->coordinates; f++) {
     ambulo__frame *frame = &plan->frames[f];
     frame->velocity_at = owner(plan, f, 1) == f ? take(used, 3) : 0;
     frame->velocity_at = plan->frames[owner(plan, f, 1)].velocity_at;
     frame->subtree_mass = frame->body >= 0 ? plan->body[frame->body].mass : 0;
+    frame->subtree_at = -1;
+    if (f == 0 || f == plan->whole || child_count(plan, f) > 1) frame->subtree_at = take(used, 27);
   }
   for (int f = plan->coordinates; f >= 1; f--) {
     ambulo__joint *joint = &plan->joints[f - 1];
-    ambulo__frame *frame = &plan->frames[f];
-    int only = 0, shared = passes_load_on(plan, f, &only);
-    frame->composite_at = shared ? plan->frames[only].composite_at : take(used, 21);
-    plan->frames[joint->parent].subtree_mass += frame->subtree_mass;
+    plan->frames[joint->parent].subtree_mass += plan->frames[f].subtree_mass;
     joint->motion_at = take(used, 18);
     if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 17);
   }
@@ -134,7 +110,6 @@ void ambulo__plan_place(ambulo__plan *plan) {
   size_t *used = &plan->scratch;
   place_order(plan);
   place_motion(plan, used);
-  place_loads(plan, used);
   if (plan->grounded) plan->ground_at = take(used, 23);
   plan->angle_at = take(used, 2 * plan->coordinates);
   place_jacobian(plan, used);

@@ -84,16 +84,7 @@ static void emit_joints(ambulo__plan *plan) {
   }
 }
 
-/* What belongs to frames: Omega, bodies, and what starts at zero. */
-static void emit_frames(ambulo__plan *plan) {
-  ambulo__steps *steps = &plan->steps;
-  for (int i = 0; i < plan->coordinates; i++) {
-    const ambulo__frame *frame = &plan->frames[plan->order[i] + 1];
-    if (frame->zero_load) {
-      steps->zero_loads[steps->zero_load_count++] = frame->load_at;
-      steps->zero_composites[steps->zero_composite_count++] = frame->composite_at;
-    }
-  }
+static void emit_bodies(ambulo__plan *plan) {
   for (int i = 0; i < plan->bodies; i++) {
     ambulo__body *body = &plan->body[i];
     const ambulo__frame *frame = &plan->frames[body->frame];
@@ -101,38 +92,8 @@ static void emit_frames(ambulo__plan *plan) {
     for (int k = 0; k < 3; k++) body->ordered[k] = frame->column_at[body->order[k]];
     body->place = frame->place_at;
     body->rate = frame->rate_at;
-    body->load = frame->load_at;
     body->velocity = frame->velocity_at;
-    body->composite = frame->composite_at;
   }
-}
-
-/* Sums over subtrees, up the tree. */
-static void emit_sums(ambulo__plan *plan) {
-  ambulo__steps *steps = &plan->steps;
-  for (int k = plan->coordinates - 1; k >= 0; k--) {
-    const ambulo__joint *joint = &plan->joints[k];
-    const ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[joint->parent];
-    if (joint->own_load) {
-      steps->loads[steps->load_count++] = (ambulo__add_step){frame->load_at, parent->load_at, 0};
-    }
-    if (joint->own_load && joint->parent != 0) {
-      steps->composites[steps->composite_count++] =
-          (ambulo__add_step){frame->composite_at, parent->composite_at, 0};
-    }
-  }
-}
-
-static void mark_carried(ambulo__add_step *steps, int count) {
-  for (int i = 1; i < count; i++) steps[i].carried = steps[i].from == steps[i - 1].to;
-}
-
-/* Chains in order of coordinates run along one limb after the other: what a
- * step needs is mostly what the step before has written. */
-static void emit_chains(ambulo__plan *plan) {
-  ambulo__steps *steps = &plan->steps;
-  mark_carried(steps->loads, steps->load_count);
-  mark_carried(steps->composites, steps->composite_count);
 }
 
 static int is_straight(const ambulo__joint *joint) {
@@ -157,9 +118,7 @@ static void emit_changes(ambulo__plan *plan) {
       straight++;
     }
     plan->steps.changes[k] = (ambulo__change_step){
-        .composite = frame->composite_at,
         .motion = plan->joints[k].motion_at,
-        .load = frame->load_at,
         .column = lanes(k),
         .first = first,
         .straight = straight,
@@ -209,10 +168,6 @@ ambulo_status ambulo__plan_steps_build(ambulo__plan *plan) {
            (s->turns = ambulo__alloc(memory, d, sizeof *s->turns)) &&
            (s->hinges = ambulo__alloc(memory, d, sizeof *s->hinges)) &&
            (s->origins = ambulo__alloc(memory, d, sizeof *s->origins)) &&
-           (s->loads = ambulo__alloc(memory, d, sizeof *s->loads)) &&
-           (s->composites = ambulo__alloc(memory, d, sizeof *s->composites)) &&
-           (s->zero_loads = ambulo__alloc(memory, d, sizeof *s->zero_loads)) &&
-           (s->zero_composites = ambulo__alloc(memory, d, sizeof *s->zero_composites)) &&
            (s->changes = ambulo__alloc(memory, d, sizeof *s->changes)) &&
            (s->pairs = ambulo__alloc(memory, pairs, sizeof *s->pairs)) &&
            (s->groups = ambulo__alloc(memory, points, sizeof *s->groups)) &&
@@ -220,9 +175,7 @@ ambulo_status ambulo__plan_steps_build(ambulo__plan *plan) {
            (s->chains = ambulo__alloc(memory, points * d, sizeof *s->chains));
   if (!ok) return AMBULO_E_MEMORY;
   emit_joints(plan);
-  emit_frames(plan);
-  emit_sums(plan);
-  emit_chains(plan);
+  emit_bodies(plan);
   emit_changes(plan);
   emit_points(plan);
   return AMBULO_OK;
@@ -230,9 +183,8 @@ ambulo_status ambulo__plan_steps_build(ambulo__plan *plan) {
 
 void ambulo__plan_steps_free(ambulo__plan *plan) {
   const ambulo__steps *s = &plan->steps;
-  void *const lists[] = {s->angles,     s->turns,      s->hinges,          s->origins, s->loads,
-                         s->composites, s->zero_loads, s->zero_composites, s->changes, s->pairs,
-                         s->groups,     s->points,     s->chains};
+  void *const lists[] = {s->angles, s->turns,  s->hinges, s->origins, s->changes,
+                         s->pairs,  s->groups, s->points, s->chains};
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
     ambulo__free(&plan->allocator, lists[i]);
   }

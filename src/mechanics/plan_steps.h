@@ -57,20 +57,13 @@ typedef struct ambulo__body {
   double base, first, second, lower[3];
   int order[3];
   int diagonal; /* lower = 0 */
-  int columns[3], ordered[3], place, rate, load;
-  int velocity, composite;
+  int columns[3], ordered[3], place, rate, velocity;
 } ambulo__body;
-
-/* Something of a subtree, added to its parent's. */
-typedef struct ambulo__add_step {
-  int from, to;
-  int carried; /* from is where the step before has just written */
-} ambulo__add_step;
 
 /* A joint's row and column of the Jacobians: pairs first .. first + count of
  * ancestors, and the joint itself. */
 typedef struct ambulo__change_step {
-  int composite, motion, load, column;
+  int motion, column;
   int first, straight, count, lower; /* the first `straight` pairs are with straight joints */
   int is_straight;                   /* prismatic along an axis that stands still */
   double mass;
@@ -98,17 +91,13 @@ typedef struct ambulo__steps {
   ambulo__turn_step *turns;
   ambulo__hinge_step *hinges; /* as many as angles; parents first */
   ambulo__origin_step *origins;
-  ambulo__add_step *loads;      /* children first */
-  ambulo__add_step *composites; /* children first */
-  int *zero_loads, *zero_composites;
   ambulo__change_step *changes; /* all coordinates */
   ambulo__pair *pairs;
   ambulo__group_step *groups;
   ambulo__point_step *points; /* all points, by group */
   int *chains;
   int angle_count, turn_count, late_turn; /* turns from late_turn on: axes of prismatic joints */
-  int origin_count, load_count, composite_count;
-  int zero_load_count, zero_composite_count;
+  int origin_count;
   int group_count;
 } ambulo__steps;
 
