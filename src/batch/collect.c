@@ -53,7 +53,8 @@ ambulo_status ambulo__gather(const char *directory, const ambulo__listing *l, in
   for (int k = 0; k < l->cases && !status; k++) {
     ambulo__record record;
     memset(&record, 0, sizeof record);
-    ambulo__gathered one = {k, classify(directory, l, k, &record, &counted), value};
+    ambulo__gathered one = {k, classify(directory, l, k, &record, &counted), 0, value};
+    one.valid = one.state == record.state && record.valid;
     if (room > 0) memset(value, 0, room * sizeof *value);
     if (room > 0 && has_result(one.state, &record))
       ambulo__outputs_of(directory, ambulo__listing_cell(l, k, AMBULO__LISTING_ID), l->output,
@@ -83,6 +84,8 @@ ambulo_status ambulo_batch_status(const char *directory, const ambulo_allocator 
 
 typedef struct table {
   const ambulo__listing *listing;
+  int *found; /* [outputs] cases that have a value */
+  int solved; /* a case with a valid solution; -1: none */
   ambulo__text_buffer csv, lines;
 } table;
 
@@ -142,7 +145,9 @@ static ambulo_status add_row(void *user, const ambulo__gathered *one) {
     csv_cell(&t->csv, ambulo__listing_cell(l, one->index, i));
     json_pair(&json, ambulo__listing_title(l, i), ambulo__listing_cell(l, one->index, i));
   }
+  if (one->valid) t->solved = one->index;
   for (int i = 0; i < l->outputs; i++) {
+    t->found[i] += one->value[i].kind != AMBULO__OUTPUT_NONE;
     ambulo__text_append_char(&t->csv, ',');
     csv_cell(&t->csv, one->value[i].text);
     json_pair(&json, l->output[i], one->value[i].text);
@@ -150,6 +155,21 @@ static ambulo_status add_row(void *user, const ambulo__gathered *one) {
   ambulo__text_append_char(&t->csv, '\n');
   ambulo__text_append(&t->lines, "}\n");
   return ambulo__text_status(&t->csv);
+}
+
+/* an output that no case has is most likely misspelt */
+static void warn_of_strangers(const char *directory, const table *t,
+                              ambulo_diagnostics *diagnostics) {
+  const ambulo__listing *l = t->listing;
+  for (int i = 0; i < l->outputs && t->solved >= 0; i++) {
+    if (t->found[i] > 0) continue;
+    char near[128], hint[160] = "outputs are keys of summary.json or columns of motion.csv";
+    const char *id = ambulo__listing_cell(l, t->solved, AMBULO__LISTING_ID);
+    if (ambulo__output_nearest(directory, id, l->output[i], &l->allocator, near, sizeof near))
+      (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near);
+    ambulo__place place = {directory, 0, 0, NULL};
+    ambulo__warning(diagnostics, place, hint, "no case has the output '%s'", l->output[i]);
+  }
 }
 
 static ambulo_status write_table(const char *directory, const char *name,
@@ -171,14 +191,18 @@ ambulo_status ambulo_batch_collect(const char *directory, const ambulo_allocator
   ambulo_status status = ambulo__listing_load(directory, allocator, diagnostics, &listing);
   if (status) return status;
   const ambulo_allocator *a = &listing.allocator;
-  table t = {.listing = &listing};
+  table t = {.listing = &listing, .solved = -1};
+  t.found = ambulo__alloc(a, (size_t)listing.outputs, sizeof *t.found);
   ambulo__text_init(&t.csv, a);
   ambulo__text_init(&t.lines, a);
   csv_titles(&t);
-  status = ambulo__gather(directory, &listing, 1, add_row, &t, &counted);
+  status =
+      t.found ? ambulo__gather(directory, &listing, 1, add_row, &t, &counted) : AMBULO_E_MEMORY;
   if (!status) status = write_table(directory, "results.csv", &t.csv, a, diagnostics);
   if (!status) status = write_table(directory, "results.jsonl", &t.lines, a, diagnostics);
   ambulo__lock_holder(directory, a, counted.holder);
+  if (!status) warn_of_strangers(directory, &t, diagnostics);
+  ambulo__free(a, t.found);
   ambulo__text_free(&t.csv);
   ambulo__text_free(&t.lines);
   ambulo__listing_free(&listing);

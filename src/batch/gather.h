@@ -8,6 +8,7 @@
 typedef struct ambulo__gathered {
   int index;
   const char *state;           /* of the record, or missing, stale, corrupt */
+  int valid;                   /* it has a valid solution */
   const ambulo__output *value; /* [outputs]; NULL: none were asked for */
 } ambulo__gathered;
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_MOTION_BYTES = 1 << 30, PART = 128 };
+enum { MOST_MOTION_BYTES = 1 << 30, PART = 128, MOST_NAMES = 256 };
 
 static void set_number(ambulo__output *value, double number) {
   value->kind = AMBULO__OUTPUT_NUMBER;
@@ -149,4 +149,72 @@ void ambulo__outputs_of(const char *directory, const char *id, char *const *outp
   ambulo__free(a, text);
   ambulo__free(a, summary);
   ambulo__free(a, file);
+}
+
+/* -------------------------------------------------------------- nearest names */
+
+static const char *nearest_key(const ambulo__yaml_node *node, const char *path, char *near,
+                               size_t size) {
+  char word[PART];
+  const char *key[MOST_NAMES];
+  for (;;) {
+    const char *from = path;
+    size_t length = strcspn(path, ".[]");
+    const ambulo__yaml_node *next = node && *path ? step(node, &path) : NULL;
+    if (next) {
+      node = next;
+      continue;
+    }
+    if (!node || ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING || length >= sizeof word)
+      return NULL;
+    memcpy(word, from, length);
+    word[length] = '\0';
+    int count = ambulo__yaml_count(node) < MOST_NAMES ? ambulo__yaml_count(node) : MOST_NAMES;
+    for (int i = 0; i < count; i++) key[i] = ambulo__yaml_key(node, i);
+    const char *found = ambulo__nearest(word, key, (size_t)count);
+    (void)snprintf(near, size, "%s", found ? found : "");
+    return found ? near : NULL;
+  }
+}
+
+static const char *nearest_column(const motion *m, const char *column, char *near, size_t size) {
+  ambulo__table_cell cell;
+  size_t position = 0;
+  const char *found = NULL;
+  /* one at a time against the best so far: ambulo__nearest takes the nearer of two */
+  while (ambulo__table_next_cell(&m->header, AMBULO__CELLS_COMMA, &position, &cell)) {
+    char name[PART];
+    if (cell.length >= sizeof name) continue;
+    memcpy(name, cell.start, cell.length);
+    name[cell.length] = '\0';
+    const char *both[] = {found ? near : name, name};
+    const char *winner = ambulo__nearest(column, both, 2);
+    if (winner == name || (winner && !found)) {
+      (void)snprintf(near, size, "%s", name);
+      found = near;
+    }
+  }
+  return found;
+}
+
+int ambulo__output_nearest(const char *directory, const char *id, const char *output,
+                           const ambulo_allocator *a, char *near, size_t size) {
+  char *summary = ambulo__case_path(a, directory, id, "/summary.json");
+  char *file = ambulo__case_path(a, directory, id, "/motion.csv"), *text = NULL;
+  char column[PART];
+  const char *found = NULL;
+  ambulo__yaml *document = NULL;
+  motion m = {NULL, 0, {NULL, 0, 0, 0}};
+  if (parse(output, column) == PATH) {
+    if (summary && !ambulo__yaml_load(summary, a, NULL, &document))
+      found = nearest_key(ambulo__yaml_root(document), output, near, size);
+  } else if (file && !ambulo__read_file(file, MOST_MOTION_BYTES, a, NULL, &text, &m.length)) {
+    m.text = text;
+    if (open_motion(&m)) found = nearest_column(&m, column, near, size);
+  }
+  ambulo__yaml_free(document);
+  ambulo__free(a, text);
+  ambulo__free(a, summary);
+  ambulo__free(a, file);
+  return found != NULL;
 }

@@ -23,4 +23,9 @@ typedef struct ambulo__output {
 void ambulo__outputs_of(const char *directory, const char *id, char *const *output, int count,
                         const ambulo_allocator *allocator, ambulo__output *value);
 
+/* The name that an output without a value most likely means: a key of the case's summary, a
+ * column of its motion. 0: nothing near. */
+int ambulo__output_nearest(const char *directory, const char *id, const char *output,
+                           const ambulo_allocator *allocator, char *near, size_t size);
+
 #endif

@@ -1,6 +1,5 @@
 /* batch/plot.c - choosing what a drawing shows: which axes, which output, which cases. */
 #include "batch/plot.h"
-#include "ambulo/solve.h"
 #include "base/atomic_file.h"
 #include "batch/paths.h"
 #include "report/svg.h"
@@ -55,18 +54,13 @@ static ambulo_status parse(ambulo__plot *p, const char *directory, const char *t
   return no_such(diagnostics, l, directory, "output", colon + 1);
 }
 
-static int is_valid(const char *state) {
-  return strcmp(state, ambulo_verdict_name(AMBULO_OPTIMAL)) == 0 ||
-         strcmp(state, ambulo_verdict_name(AMBULO_FEASIBLE)) == 0;
-}
-
 static ambulo_status add_point(void *user, const ambulo__gathered *one) {
   ambulo__plot *p = user;
   const ambulo__output *value = &one->value[p->output];
   ambulo__plot_point *point = &p->point[p->points++];
   point->index = one->index;
   (void)snprintf(point->state, sizeof point->state, "%.20s", one->state);
-  point->valid = is_valid(one->state);
+  point->valid = one->valid;
   point->has_value = value->kind == AMBULO__OUTPUT_NUMBER && isfinite(value->number);
   point->value = point->has_value ? value->number : 0.0;
   p->values += point->has_value;

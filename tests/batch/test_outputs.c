@@ -36,6 +36,23 @@ static void values_are_found(void **state) {
   }
 }
 
+static void misspelt_names_have_a_nearest(void **state) {
+  const ambulo_allocator plain = ambulo__allocator_or_default(NULL);
+  static const char *const pairs[][2] = {{"objectiv", "objective"},
+                                         {"objective.totl", "total"},
+                                         {"body.upp[1]", "up"},
+                                         {"max(q.pni)", "q.pin"},
+                                         {"min(zpm.x)", "zmp.x"}};
+  char near[64];
+  make_result(state);
+  for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+    assert_true(ambulo__output_nearest(*state, id, pairs[i][0], &plain, near, sizeof near));
+    assert_string_equal(near, pairs[i][1]);
+  }
+  assert_false(ambulo__output_nearest(*state, id, "something.else", &plain, near, sizeof near));
+  assert_false(ambulo__output_nearest(*state, id, "max(ground)", &plain, near, sizeof near));
+}
+
 static void without_a_result_there_are_none(void **state) {
   const ambulo_allocator plain = ambulo__allocator_or_default(NULL);
   char *output[] = {"verdict", "max(q.pin)"};
@@ -48,6 +65,7 @@ static void without_a_result_there_are_none(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(values_are_found, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(misspelt_names_have_a_nearest, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(without_a_result_there_are_none, scratch_open, scratch_close),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
