@@ -27,8 +27,11 @@ static ambulo_status read_open_file(int file, const char *path, size_t limit,
   struct stat info;
   if (fstat(file, &info) != 0) return ambulo__io_error(diagnostics, path, "inspect");
   if (!S_ISREG(info.st_mode)) {
-    return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL, "not a regular file%s",
-                         S_ISDIR(info.st_mode) ? " (it is a folder)" : "");
+    int folder = S_ISDIR(info.st_mode);
+    int result = folder && fstatat(file, "solution.yaml", &info, 0) == 0;
+    return ambulo__error(diagnostics, AMBULO_E_IO, place,
+                         result ? "a result folder: name its solution.yaml or motion.csv" : NULL,
+                         "not a regular file%s", folder ? " (it is a folder)" : "");
   }
   if ((unsigned long long)info.st_size > (unsigned long long)limit) {
     return ambulo__error(diagnostics, AMBULO_E_LIMIT, place, NULL,
