@@ -105,9 +105,7 @@ static ambulo_status check_gaps(const ambulo_problem_definition *definition,
       continue;
     }
     double next = next_contact(definition, time + time_tolerance);
-    status = REFUSE(list,
-                    "the rows asked for (ground_penetration, foot_strike, zmp) need support "
-                    "at all times",
+    status = REFUSE(list, "rows on contacts, zmp and ground_reaction need support at all times",
                     "contacts: no foot touches the ground from %.6g s to %.6g s; "
                     "expected at least one contact at every time",
                     time, next);
