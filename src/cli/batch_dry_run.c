@@ -56,11 +56,13 @@ static int time_first_case(const ambulo_sweep *sweep, double *seconds, double *b
 }
 
 static void print_cases(const ambulo_sweep *sweep) {
-  ambulo_case one;
+  ambulo_case one, before;
   for (int k = 0; k < ambulo_sweep_case_count(sweep); k++) {
     if (ambulo_sweep_case(sweep, k, &one)) continue;
     printf("%s  %s ", one.id, one.name);
     for (int i = 0; i < one.override_count; i++) printf(" %s", one.overrides[i]);
+    if (one.previous >= 0 && !ambulo_sweep_case(sweep, one.previous, &before))
+      printf("  continues %s", before.id);
     printf("\n");
   }
 }
