@@ -1,6 +1,8 @@
 /* cli/cmd_collect.c - ambulo collect: one table, and pictures, of a batch folder. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/commands.h"
 #include "cli/output.h"
@@ -17,8 +19,22 @@ static int print_census(const char *directory, const ambulo_batch_census *c) {
   return incomplete ? 1 : 0;
 }
 
+/* a folder, but none that a batch has filled: most likely a result folder */
+static int is_no_batch(const char *directory) {
+  char path[4096];
+  struct stat info;
+  if (stat(directory, &info) || !S_ISDIR(info.st_mode)) return 0;
+  ambulo__cli_format(path, sizeof path, "%s/batch.json", directory);
+  return stat(path, &info) && errno == ENOENT;
+}
+
 static int run(const ambulo__cli_input *input) {
   const char *directory = input->arguments[0], *plot = ambulo__cli_value(input, "plot");
+  if (is_no_batch(directory)) {
+    ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' fills one",
+                      "%s: no batch folder (it has no batch.json)", directory);
+    return ambulo_status_exit_code(AMBULO_E_IO);
+  }
   ambulo_batch_census census;
   memset(&census, 0, sizeof census);
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);

@@ -44,13 +44,22 @@ static int unknown_command(const char *word) {
                                  word[0] == '-' ? "option" : "command", word);
 }
 
+/* the overview, or the page of a command */
+static int print_help(const char *word) {
+  if (!word) print_overview();
+  for (int i = 0; word && i < COMMAND_COUNT; i++) {
+    if (strcmp(word, commands[i]->name) != 0) continue;
+    ambulo__cli_print_help(commands[i]);
+    return 0;
+  }
+  return word ? unknown_command(word) : 0;
+}
+
 static int dispatch(int argc, char **argv) {
   if (argc < 2) return ambulo__cli_usage_error(NULL, NULL, "no command given");
   const char *word = argv[1];
-  if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
-    print_overview();
-    return 0;
-  }
+  if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help"))
+    return print_help(argc > 2 ? argv[2] : NULL);
   if (!strcmp(word, "--version") || !strcmp(word, "version")) {
     print_version();
     return 0;
