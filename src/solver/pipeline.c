@@ -13,8 +13,8 @@
  *         at the bound raises the bound tenfold, twice at most
  *     until f has settled, the reduced gradient is small, and v <= tolerance, or small enough
  *     for a few Newton steps on the rows                   (polish.c); f has also settled
- *     when it has fallen to a thousandth of its first value and is negligible (engine.c) or
- *     changes by 1e-5 of that
+ *     when it has fallen to a thousandth of its first value and is negligible (engine.c), or of
+ *     its third one and changes by 1e-5 of that
  *
  * Equalities hold all along: every point is a retracted one.
  */
@@ -23,7 +23,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 8, MAX_BACKTRACKS = 6, STALL = 15 };
+enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 8, MAX_BACKTRACKS = 6, STALL = 15, EARLY = 3 };
 /* mu_0. Central differences want less: with 0.3 they take two to three times the refreshes at
  * N = 12, for a minimum that is lower by a tenth. */
 static const double mu_start = 0.3, mu_start_differences = 0.06;
@@ -34,7 +34,7 @@ static const double step_cap = 0.5; /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5; /* relative */
 static const double value_floor = 1e-9;  /* scaled objective */
-static const double vanished = 1e-3;     /* of the first f: an objective that goes to zero */
+static const double vanished = 1e-3;     /* of an early f: an objective that goes to zero */
 static const double moving = 1e-3;       /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
 static const double polishable = 1e-5;   /* excess, row's own unit */
@@ -43,10 +43,10 @@ static const double loose_violation = 1e-3, loose_change = 1e-3; /* on coarse gr
 
 typedef struct progress {
   double objective, measure, least_violation;
-  int settled, since_better, loose;
+  int settled, since_better, loose, refreshes;
   double rho_limit;
-  double first;   /* f after the first refresh */
-  double damping; /* mu at the beginning */
+  double first, early; /* f after the first refresh, after the third */
+  double damping;      /* mu at the beginning */
 } progress;
 
 /* F before the step, after it, and what the model made of it (<= 0) */
@@ -111,11 +111,12 @@ static void update_multipliers(ambulo__engine *e, progress *p) {
 }
 
 /* Relative tests never end a solve whose objective goes to zero (nodes whose forces can all
- * vanish): then its size counts, and changes count against the first f. */
+ * vanish): then its size counts, and changes count against an early f. Not the first: from a
+ * wild start that can be a thousand times a good one. */
 static int has_vanished(const ambulo__engine *e, const progress *p, double change) {
   double objective = e->best.objective;
-  if (!(fabs(objective) <= vanished * p->first)) return 0;
-  return objective <= e->objective_scale * e->negligible || change <= value_change * p->first;
+  if (objective <= vanished * p->first && objective <= e->objective_scale * e->negligible) return 1;
+  return objective <= vanished * p->early && change <= value_change * p->early;
 }
 
 /* follows the best point; 1 when the loop is to end */
@@ -128,7 +129,8 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   int small = best->gradient_norm <= gradient_small * fmax(1.0, fabs(best->objective));
   int near = violation <= fmax(tolerance, polishable);
   p->settled = near && steady ? p->settled + 1 : 0;
-  if (!(p->first < HUGE_VAL)) p->first = fabs(best->objective);
+  if (p->refreshes++ == 0) p->first = fabs(best->objective);
+  if (p->refreshes <= EARLY) p->early = fabs(best->objective);
   p->objective = best->objective;
   p->since_better++;
   if (violation < 0.9 * p->least_violation || change > moving * fabs(best->objective))
@@ -167,7 +169,11 @@ static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, doub
 ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose, double *x) {
   const ambulo_problem *p = e->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
-  progress state = {HUGE_VAL, HUGE_VAL, HUGE_VAL, 0, 0, loose, rho_largest, HUGE_VAL, 0.0};
+  progress state = {.objective = HUGE_VAL,
+                    .measure = HUGE_VAL,
+                    .least_violation = HUGE_VAL,
+                    .loose = loose,
+                    .rho_limit = rho_largest};
   double error;
   int differences = p->definition.discretization == AMBULO_CENTRAL_DIFFERENCE;
   e->mu = state.damping = (differences ? mu_start_differences : mu_start) * interval;
