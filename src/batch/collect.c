@@ -128,6 +128,13 @@ static void json_pair(ambulo__json *json, const char *key, const char *text) {
   }
 }
 
+/* a text, also when it looks like a number */
+static void json_word(ambulo__json *json, const char *key, const char *text) {
+  ambulo__json inner = {json->text, 0, 1};
+  ambulo__text_append(json->text, ", ");
+  ambulo__json_text(&inner, key, text);
+}
+
 static ambulo_status add_row(void *user, const ambulo__gathered *one) {
   table *t = user;
   const ambulo__listing *l = t->listing;
@@ -137,9 +144,9 @@ static ambulo_status add_row(void *user, const ambulo__gathered *one) {
   csv_cell(&t->csv, ambulo__listing_cell(l, one->index, AMBULO__LISTING_ID));
   ambulo__text_append_char(&t->csv, ',');
   csv_cell(&t->csv, ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME));
-  json_pair(&json, "name", ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME));
+  json_word(&json, "name", ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME));
   ambulo__text_append_format(&t->csv, ",%s", one->state);
-  json_pair(&json, "state", one->state);
+  json_word(&json, "state", one->state);
   for (int i = AMBULO__LISTING_AXES; i < l->columns; i++) {
     ambulo__text_append_char(&t->csv, ',');
     csv_cell(&t->csv, ambulo__listing_cell(l, one->index, i));

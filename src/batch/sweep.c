@@ -132,8 +132,17 @@ static ambulo_status read_base(ambulo_sweep *s) {
   return s->output_unit ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
+/* a fault in one key must not make strangers of those that would have been read after it */
+static void expect_all(const ambulo__yaml_node *root) {
+  static const char *const keys[] = {"axes",   "combine", "table",   "latin_hypercube",
+                                     "random", "filters", "outputs", "start_from",
+                                     "along",  "limits",  "cases"};
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) ambulo__yaml_expect(root, keys[i]);
+}
+
 ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) {
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
+  expect_all(root);
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
   static const char *const kinds[] = {"sweep"};
   (void)ambulo__yaml_choice(ambulo__yaml_require(root, "kind"), kinds, 1, 0);

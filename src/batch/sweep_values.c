@@ -137,6 +137,10 @@ static ambulo_status add_list(ambulo_sweep *sweep, ambulo__axis *axis,
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < count && !status; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(node, i);
+    if (ambulo__yaml_kind_of(item) != AMBULO__YAML_SCALAR)
+      return ambulo__yaml_error(item, AMBULO_E_SCHEMA, "lists stand in quotes: \"[12, 24]\"",
+                                "a value of '%s' is a list or a mapping; expected a text",
+                                axis->name);
     const char *text = ambulo__yaml_text(item);
     status = text ? ambulo__axis_add_text(sweep, axis, text, strlen(text), ambulo__spot_of(item))
                   : AMBULO_E_SCHEMA;

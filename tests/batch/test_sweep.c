@@ -244,6 +244,8 @@ static void faults_are_named(void **state) {
   refused(state, TWO_AXES "filters: [\"n ~ 3\"]\n", "is no comparison");
   refused(state, TWO_AXES "filters: [\"n > 100\"]\n", "no case left");
   refused(state, TWO_AXES "colour: red\n", "colour");
+  refused(state, "axes:\n  - {key: ends.final, values: [{pin: 1}]}\noutputs: [objective]\n",
+          "lists stand in quotes");
   refused(state, "table: nothing.csv\n", "nothing.csv");
   refused(state, "", "no case left");
 }
