@@ -1,34 +1,11 @@
 /* Sweep files: what case lists follow from them. */
-#include "ambulo/batch.h"
 #include "support/messages.h"
-#include "support/scratch.h"
-
-static const char problem[] =
-    "ambulo: 1\nkind: problem\nname: swing\nmodel: one.yaml\n"
-    "angles: radians\ntime: {duration: 1.0, intervals: 10}\ntrajectory: {intervals: 6}\n"
-    "ends: {initial: {pin: 0}, final: {pin: 1}}\n"
-    "objective:\n  - {term: torque_squared, weight: 1}\n";
-static const char model[] =
-    "ambulo: 1\nkind: model\nname: one\nunits: {angle: radians}\ngravity: [0, -9.81, 0]\nforward: "
-    "[1, 0, 0]\nlinks:\n"
-    "  - {name: rod, parent: none, joint: revolute, dh: [-1.5708, 0, 1, 0], coordinate: {name: "
-    "pin, range: [-3, 3]},\n"
-    "     body: {mass: 1, com: [-0.5, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0]}}\n";
-
-static ambulo_status load(void **state, const char *text, ambulo_diagnostics *list,
-                          ambulo_sweep **sweep) {
-  char whole[2048];
-  snprintf(whole, sizeof whole, "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\n%s", text);
-  scratch_write(scratch_path(state, "p.yaml"), problem);
-  scratch_write(scratch_path(state, "one.yaml"), model);
-  scratch_write(scratch_path(state, "s.yaml"), whole);
-  return ambulo_sweep_load(scratch_path(state, "s.yaml"), NULL, list, sweep);
-}
+#include "support/sweep_files.h"
 
 static ambulo_sweep *loaded(void **state, const char *text) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_sweep *sweep = NULL;
-  ambulo_status status = load(state, text, list, &sweep);
+  ambulo_status status = sweep_load(state, text, list, &sweep);
   char buffer[1024] = "";
   ambulo_diagnostics_format(list, 0, buffer, sizeof buffer);
   if (status) print_error("%s\n", buffer);
@@ -40,7 +17,7 @@ static ambulo_sweep *loaded(void **state, const char *text) {
 static void refused(void **state, const char *text, const char *message) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_sweep *sweep = NULL;
-  assert_int_not_equal(load(state, text, list, &sweep), AMBULO_OK);
+  assert_int_not_equal(sweep_load(state, text, list, &sweep), AMBULO_OK);
   assert_null(sweep);
   assert_message(list, 0, message);
   ambulo_diagnostics_free(list);
@@ -175,10 +152,10 @@ static void explicit_cases_come_last(void **state) {
 
 static void a_named_file_is_part_of_the_key(void **state) {
   const char *text = "axes:\n  - {key: model, values: [two.yaml]}\n";
-  scratch_write(scratch_path(state, "two.yaml"), model);
+  scratch_write(scratch_path(state, "two.yaml"), sweep_model);
   ambulo_sweep *s = loaded(state, text);
-  char changed_model[sizeof model + 20];
-  snprintf(changed_model, sizeof changed_model, "# changed\n%s", model);
+  char changed_model[sizeof sweep_model + 20];
+  snprintf(changed_model, sizeof changed_model, "# changed\n%s", sweep_model);
   scratch_write(scratch_path(state, "two.yaml"), changed_model);
   ambulo_sweep *changed = loaded(state, text);
   assert_string_equal(case_of(s, 0).id, case_of(changed, 0).id);
