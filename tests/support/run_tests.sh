@@ -9,7 +9,8 @@ logs=$out/logs
 rm -rf "$logs"
 mkdir -p "$logs"
 export logs TEST_WRAPPER=${TEST_WRAPPER:-} TEST_TIMEOUT=${TEST_TIMEOUT:-900}
-export OPENBLAS_NUM_THREADS=1 AMBULO=$PWD/$out/ambulo
+export OPENBLAS_NUM_THREADS=1 AMBULO
+AMBULO=$(cd "$out" && pwd)/ambulo
 
 # a locale with a decimal comma, for the tests that numbers do not follow it
 if command -v localedef >/dev/null 2>&1; then
