@@ -88,9 +88,9 @@ typedef struct ambulo_audit {
   double complementarity; /* largest |multiplier * row| / max(1, |J|) */
   int active_rows, rank;  /* of the rows active at the point */
   int dropped_equalities; /* dependent on the others */
-  int at_lower_bound;     /* 1: no term of the objective can be negative, and their sum is at most
-                             optimality_tolerance times its value with all unknowns zero: no
-                             point is better by more than that, whatever kkt says */
+  int at_lower_bound;     /* 1: no term of the objective can be negative, none follows a reference,
+                             and each is at most optimality_tolerance times its value with all
+                             unknowns zero: no point is better by more, whatever kkt says */
 } ambulo_audit;
 
 typedef struct ambulo_timing {

@@ -189,7 +189,7 @@ ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
     return AMBULO_OK;
   }
   result->objective = e->workspace->objective;
-  result->audit.at_lower_bound = result->objective <= e->negligible;
+  result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
   memcpy(result->term, e->workspace->term_value, (size_t)result->terms * sizeof *result->term);
   memcpy(result->row, e->workspace->row_value, (size_t)result->rows * sizeof *result->row);
   audit_violations(p, result);

@@ -43,19 +43,32 @@ static void create_vectors(ambulo__engine *e) {
   e->b = ambulo__pool_doubles(pool, (size_t)e->borders);
   e->border_multiplier = ambulo__pool_doubles(pool, (size_t)e->borders);
   e->row_weight = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
+  e->negligible_term = ambulo__pool_doubles(pool, (size_t)e->problem->definition.term_count);
   e->cap = ambulo__pool_doubles(pool, (size_t)e->problem->coordinates);
 }
 
-/* An objective of terms that cannot be negative is at its lower bound, for all purposes, when
- * it is this small beside that of the motionless body. Multipliers and gradient vanish there
- * together, and their ratio says nothing. */
+/* An objective of terms that cannot be negative is at its lower bound, for all purposes, when each
+ * of them is this small beside its value for the motionless body. Multipliers and gradient vanish
+ * there together, and their ratio says nothing. Distances to a reference have no such measure: a
+ * motionless body is far from it by any standard. */
 static double negligible_objective(ambulo__engine *e) {
   const ambulo_problem_definition *d = &e->problem->definition;
+  double tolerance = e->run->options->optimality_tolerance;
   for (int t = 0; t < d->term_count; t++) {
-    if (d->terms[t].kind == AMBULO_USER_TERM) return -1.0;
+    if (d->terms[t].kind == AMBULO_USER_TERM || d->terms[t].kind == AMBULO_TRACKING) return -1.0;
   }
   if (ambulo__evaluate(e->workspace, e->center)) return -1.0; /* zeros so far */
-  return e->run->options->optimality_tolerance * e->workspace->objective;
+  for (int t = 0; t < d->term_count; t++) {
+    e->negligible_term[t] = tolerance * e->workspace->term_value[t];
+  }
+  return tolerance * e->workspace->objective;
+}
+
+int ambulo__engine_at_lower_bound(const ambulo__engine *e) {
+  for (int t = 0; t < e->problem->definition.term_count; t++) {
+    if (e->negligible < 0.0 || e->workspace->term_value[t] > e->negligible_term[t]) return 0;
+  }
+  return e->negligible >= 0.0;
 }
 
 static ambulo_status create_parts(ambulo__engine *e, const double *start,

@@ -44,9 +44,10 @@ typedef struct ambulo__engine {
   double adjoint_tolerance;    /* relative error of a reduced gradient */
   double retraction_tolerance; /* worst equality of a retracted point */
   double negligible; /* objective (not scaled) that counts as its lower bound 0; < 0: it has none */
-  double *cap;       /* [coordinates]: largest change in one step, rad or m */
-  double *center;    /* [n] */
-  double *lambda;    /* [inequalities] */
+  double *negligible_term;         /* [terms]: the same, each */
+  double *cap;                     /* [coordinates]: largest change in one step, rad or m */
+  double *center;                  /* [n] */
+  double *lambda;                  /* [inequalities] */
   double *equality_multiplier;     /* [equalities]: G + J' l + C' m = 0 at a solution */
   double *border_multiplier;       /* [borders]: m, after a model step */
   double *h, *b, *dual, *balanced; /* [equalities], [borders], [equalities] twice */
@@ -66,6 +67,8 @@ ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double 
                                     const ambulo_allocator *allocator, ambulo__run *run,
                                     ambulo_diagnostics *diagnostics, ambulo__engine **engine);
 void ambulo__engine_free(ambulo__engine *engine); /* accepts NULL */
+/* Whether the point that the workspace holds has an objective next to its lower bound, zero. */
+int ambulo__engine_at_lower_bound(const ambulo__engine *engine);
 
 /* Worst |h| and |C x - b| at the point that the workspace holds; fills engine->h, b. */
 double ambulo__engine_equality_error(ambulo__engine *engine);

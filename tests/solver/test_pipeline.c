@@ -68,14 +68,37 @@ static void vanishing_objective_ends_the_solve(void **state) {
   assert_true(evaluations <= 900);
   assert_close(ambulo_result_audit(result)->violation.worst, 0.0, 1e-6);
   assert_close(ambulo_result_objective(result), 0.0, 1e-4);
+  assert_int_equal(ambulo_result_audit(result)->at_lower_bound, 1);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
+}
+
+/* the motionless body is far from any reference: near to it is not next to nothing */
+static void tracking_has_no_lower_bound_to_rest_on(void **state) {
+  (void)state;
+  static const char *const names[] = {"walk_tracking", "walk_normal"};
+  for (int i = 0; i < 2; i++) {
+    engine_fixture f;
+    engine_open(&f, names[i]);
+    assert_int_equal(f.engine->negligible < 0.0, i == 0);
+    assert_int_equal(ambulo__evaluate(f.engine->workspace, f.engine->center), AMBULO_OK);
+    assert_int_equal(ambulo__engine_at_lower_bound(f.engine), 0);
+    /* every term at its bound, but for one */
+    int terms = f.problem->definition.term_count;
+    for (int t = 0; t < terms; t++) f.engine->workspace->term_value[t] = 0.0;
+    assert_int_equal(ambulo__engine_at_lower_bound(f.engine), i == 1);
+    f.engine->workspace->term_value[terms - 1] = 1.0;
+    assert_int_equal(ambulo__engine_at_lower_bound(f.engine), 0);
+    engine_close(&f);
+  }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_reaches_its_optimum),
                                      cmocka_unit_test(both_inner_solvers_agree),
                                      cmocka_unit_test(polish_closes_what_is_left),
-                                     cmocka_unit_test(vanishing_objective_ends_the_solve)};
+                                     cmocka_unit_test(vanishing_objective_ends_the_solve),
+                                     cmocka_unit_test(tracking_has_no_lower_bound_to_rest_on)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
