@@ -120,7 +120,7 @@ static wide3 local_places(const ambulo__plan *plan, double *out, double *scratch
     if (step->group >= 0) places_of_points(&plan->steps, step->group, &p, out);
     if (step->weighs) {
       wide3 moment = first_moment_of(step, &p);
-      store3(scratch + step->at + local_first, moment);
+      if (!step->placed) store3(scratch + step->at + local_first, moment);
       first = add3(first, moment);
     }
   }
@@ -156,7 +156,9 @@ typedef struct local_pulls {
 AMBULO__INLINE wide_pair add_pulls(const ambulo__local_step *step, wide_pair sum,
                                    const local_pulls *pulls, const double *at) {
   if (step->weighs) {
-    sum.angular = add_cross3(sum.angular, load3(at + local_first), pulls->center);
+    local_place p = place_load(at);
+    wide3 moment = step->placed ? first_moment_of(step, &p) : load3(at + local_first);
+    sum.angular = add_cross3(sum.angular, moment, pulls->center);
     sum.linear = axpy3(sum.linear, spread(step->mass), pulls->center);
   }
   if (step->feet & 1) sum = axpy_pair(pulls->feet[0], spread(1), sum);

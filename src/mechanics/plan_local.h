@@ -28,7 +28,7 @@ enum {
   local_axis = 32 * AMBULO__LANES,    /* points, world axes: axis of the joint, */
   local_columns = 35 * AMBULO__LANES, /* orientation (9), */
   local_origin = 44 * AMBULO__LANES,  /* origin, */
-  local_first = 47 * AMBULO__LANES,   /* ground reaction: first mass moment of the body */
+  local_first = 47 * AMBULO__LANES,   /* ground reaction: first mass moment, if not placed */
   local_slot = 51 * AMBULO__LANES     /* odd: else the same vectors of all slots share cache sets */
 };
 
