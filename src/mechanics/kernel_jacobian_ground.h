@@ -20,8 +20,8 @@
  *   R . t3_j = I(R) . Sdd_j + b . 2 zd_j + (M x rho + F x sigma, F x rho) . S_j
  *   dz       = (h x n / m, n) . S_j
  * so that I(R), b etc. are taken off t1_i, t4_i once for all of these j, whose own rows vanish.
- * The centre of mass: c / dq_j is the linear part of t1_j over the mass, dz = n . dc. Feet:
- *   dF_0 = a_0 dF - gain (dF_n - F_n dz / z) D,   dF_1 = dF - dF_0
+ * The centre of mass: dc / dq_j is the linear part of t1_j over the mass, dz = n . dc. Feet:
+ *   dF_0 = a_0 dF - gain (dF_n - F_n dz / z) D,   dF_1 = dF - dF_0 (not stored: plan.h)
  *   dT   = (F . dM + M . dF - T dF_n) / F_n,      dT_f = a_f dT
  * Stored per joint with a dense row: S - R, -e / m, -R, -e / m, t4; -e / m goes with m dz = n .
  * t1_j.
@@ -267,8 +267,9 @@ AMBULO__STEP void ground_columns(const ambulo__plan *plan, double *jq, double *j
   }
 }
 
-/* The feet's rows from those of the root wrench: `wrench` and `out` are the first entries of
- * both. The centre of mass rises by n . t1 / m with q, `masses` is the first entry of t1. */
+/* Foot 0's rows and foot 1's free moment from the rows of the root wrench: `wrench` and `out` are
+ * the first entries of both. The centre of mass rises by n . t1 / m with q, `masses` is the first
+ * entry of t1. */
 AMBULO__STEP void ground_feet(const ground_slopes *slopes, int d, const double *wrench,
                               const double *masses, double *out) {
   const ground_slopes g = *slopes;
@@ -287,10 +288,7 @@ AMBULO__STEP void ground_feet(const ground_slopes *slopes, int d, const double *
     store(out + row, first.y);
     store(out + 2 * row, first.z);
     store(out + 3 * row, s->share[0] * twist);
-    store(out + 4 * row, t.linear.x - first.x);
-    store(out + 5 * row, t.linear.y - first.y);
-    store(out + 6 * row, t.linear.z - first.z);
-    store(out + 7 * row, s->share[1] * twist);
+    store(out + 4 * row, s->share[1] * twist);
   }
 }
 
@@ -311,8 +309,6 @@ static void jacobian_ground_part(const ambulo__plan *plan, const double *ground,
   const int row = ambulo__plan_first_foot_row(plan), d = plan->coordinates;
   const int wrench = plan->start[d] * AMBULO__LANES, feet = plan->start[row] * AMBULO__LANES;
   const int rates = plan->rate_start[row] * AMBULO__LANES;
-  const int center = plan->start[row + 8] * AMBULO__LANES;
-  const wide inverse_mass = spread(1 / plan->mass);
   jacobian_hinges(&plan->steps, scratch);
   jacobian_sliders(&plan->steps, scratch);
   ground_subtrees(plan, ground, jq, jqd, jqdd, scratch);
@@ -323,9 +319,6 @@ static void jacobian_ground_part(const ambulo__plan *plan, const double *ground,
   ground_feet(&slopes, d, jq + wrench, jqdd + wrench, jq + feet);
   ground_feet(&slopes, d, jqd + wrench, NULL, jqd + rates);
   ground_feet(&slopes, d, jqdd + wrench, NULL, jqdd + rates);
-  for (int e = 0; e < 3 * d * AMBULO__LANES; e += AMBULO__LANES) {
-    store(jq + center + e, inverse_mass * load(jqdd + wrench + 3 * d * AMBULO__LANES + e));
-  }
   jacobian_points(plan, jq, scratch);
 }
 

@@ -51,10 +51,11 @@ static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
 /* Structural nonzeros of the Jacobian of output row r: columns
  * column[start[r] .. start[r+1]), ascending coordinate indices. Rows tau, moment
  * and force, and those of the feet, depend on q, qd and qdd through the same
- * columns; rows of points and of the centre of mass on q only. Entry e of row r
- * stands at e in jq, and at rate_start[r] + e - start[r] in jqd and jqdd. With
- * ground reaction, rows of tau that vanish identically (joints that carry the
- * whole body) have no entries. */
+ * columns; rows of points on q only. Entry e of row r stands at e in jq, and at
+ * rate_start[r] + e - start[r] in jqd and jqdd. With ground reaction, rows of tau
+ * that vanish identically (joints that carry the whole body) have no entries; nor
+ * have the force on foot 1 and the centre of mass, which follow from other rows
+ * (ambulo__plan_parts): what is not stored need not be written. */
 typedef struct ambulo__plan_pattern {
   const int *start;      /* [rows + 1] */
   const int *column;     /* [start[rows]] */
@@ -63,6 +64,16 @@ typedef struct ambulo__plan_pattern {
   int count;             /* start[rows] */
 } ambulo__plan_pattern;
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan);
+
+/* The gradient of a row, made of those of one or two rows with entries: by q, qd
+ * and qdd it is `factor` times theirs, summed; a `by_acceleration` part gives the
+ * row's gradient by q by that of its own row by qdd, and nothing by qd and qdd. */
+typedef struct ambulo__row_part {
+  int row, by_acceleration;
+  double factor;
+} ambulo__row_part;
+/* Returns how many parts there are. All rows but those named above: the row itself. */
+int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[2]);
 
 /* What a block's ground reaction is told, [AMBULO__GROUND_ENTRIES][lanes]: share a of
  * foot 0 (that of foot 1 is 1 - a), nominal centre of pressure of foot 0 less that

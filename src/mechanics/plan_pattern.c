@@ -43,9 +43,10 @@ static void count_entries(ambulo__plan *plan, size_t *pairs) {
     for (int j = 0; j < d; j++) count += in_torque_row(plan, i, j);
   }
   count += 6 * d;
-  plan->dynamic_count = count + (plan->grounded ? 8 * d : 0);
+  count += plan->grounded ? 5 * d : 0;
+  plan->dynamic_count = count;
   for (int i = 0; i < plan->points; i++) count += 3 * depth_of(plan, plan->point[i].frame - 1);
-  plan->count = count + (plan->grounded ? 11 * d : 0);
+  plan->count = count;
 }
 
 /* Rows that depend on all coordinates. */
@@ -72,8 +73,11 @@ static void fill_rows(ambulo__plan *plan) {
     write_chain(plan, coordinate, plan->column + at);
     at += depth_of(plan, coordinate);
   }
-  if (plan->grounded) {
-    fill_full_rows(plan, row, 11, &at);
+  if (plan->grounded) { /* of foot 0, the force on foot 1, its free moment, the centre of mass */
+    fill_full_rows(plan, row, 4, &at);
+    for (int i = 4; i < 7; i++) plan->start[row + i] = at;
+    fill_full_rows(plan, row + 7, 1, &at);
+    for (int i = 8; i < 11; i++) plan->start[row + i] = at;
     row += 11;
   }
   plan->start[row] = at;
@@ -84,7 +88,7 @@ static void fill_rate_starts(ambulo__plan *plan) {
   for (int row = 0; row < ambulo__plan_rows(plan); row++) {
     plan->rate_start[row] = -1;
     if (row < wrench_end) plan->rate_start[row] = plan->start[row];
-    if (row < feet || row >= feet + 8) continue;
+    if (row < feet || plan->start[row] == plan->start[row + 1]) continue;
     plan->rate_start[row] = plan->start[row] - plan->start[feet] + plan->start[wrench_end];
   }
 }
@@ -126,6 +130,19 @@ ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   fill_rate_starts(plan);
   fill_ancestors(plan);
   return AMBULO_OK;
+}
+
+int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[2]) {
+  int feet = ambulo__plan_first_foot_row(plan), force = plan->coordinates + 3;
+  part[0] = (ambulo__row_part){row, 0, 1};
+  if (!plan->grounded || row < feet + 4 || row == feet + 7) return 1;
+  if (row > feet + 7) { /* a step of q_j moves it as qdd_j accelerates it */
+    part[0] = (ambulo__row_part){force + row - feet - 8, 1, 1 / plan->mass};
+    return 1;
+  }
+  part[0].row = force + row - feet - 4;
+  part[1] = (ambulo__row_part){row - 4, 0, -1};
+  return 2;
 }
 
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan) {

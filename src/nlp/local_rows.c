@@ -20,27 +20,40 @@ static void add_motion(const ambulo__basis_point *point, int d, int order, int i
   for (int c = 0; c < point->span; c++) gradient[c * d + i] += factor * point->weight[order][c];
 }
 
-/* adds factor * (gradient of mechanics output row `output`) */
-static void add_output(const ambulo_workspace *workspace, int node, int output, double factor,
-                       double *gradient) {
+/* adds factor * (gradient of a row of the mechanics that has entries) */
+static void add_entries(const ambulo_workspace *workspace, int node, ambulo__row_part part,
+                        double factor, double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  int d = p->coordinates, rates = pattern.rate_start[output];
-  for (int e = pattern.start[output]; e < pattern.start[output + 1]; e++) {
+  int d = p->coordinates, start = pattern.start[part.row], rates = pattern.rate_start[part.row];
+  for (int e = start; e < pattern.start[part.row + 1]; e++) {
     int i = pattern.column[e];
     double jq = factor * workspace->jq[ambulo__lane_index(node, pattern.count, e)];
     double jqd = 0.0, jqdd = 0.0;
     if (rates >= 0) {
-      int entry = rates + e - pattern.start[output];
-      size_t at = ambulo__lane_index(node, pattern.dynamic_count, entry);
+      size_t at = ambulo__lane_index(node, pattern.dynamic_count, rates + e - start);
       jqd = factor * workspace->jqd[at];
       jqdd = factor * workspace->jqdd[at];
+    }
+    if (part.by_acceleration) {
+      jq = jqdd;
+      jqd = jqdd = 0.0;
     }
     for (int c = 0; c < point->span; c++) {
       gradient[c * d + i] +=
           point->weight[0][c] * jq + point->weight[1][c] * jqd + point->weight[2][c] * jqdd;
     }
+  }
+}
+
+/* adds factor * (gradient of mechanics output row `output`) */
+static void add_output(const ambulo_workspace *workspace, int node, int output, double factor,
+                       double *gradient) {
+  ambulo__row_part part[2];
+  int parts = ambulo__plan_parts(workspace->problem->plan, output, part);
+  for (int k = 0; k < parts; k++) {
+    add_entries(workspace, node, part[k], factor * part[k].factor, gradient);
   }
 }
 

@@ -54,8 +54,10 @@ static void mark_channel(const ambulo_problem *p, int node, int channel, double 
   const ambulo__basis_point *point = point_of(p, node);
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
   int d = p->coordinates, output = channel - ambulo__channel_outputs(&p->channels);
-  int from = output < 0 ? 0 : pattern.start[output];
-  int to = output < 0 ? 1 : pattern.start[output + 1];
+  ambulo__row_part part[2]; /* two depend on the same unknowns */
+  if (output >= 0) (void)ambulo__plan_parts(p->plan, output, part);
+  int from = output < 0 ? 0 : pattern.start[part[0].row];
+  int to = output < 0 ? 1 : pattern.start[part[0].row + 1];
   for (int e = from; e < to; e++) {
     int i = output < 0 ? channel % d : pattern.column[e];
     for (int c = 0; c < point->span; c++) mark[(point->first + c) * d + i] = 1.0;

@@ -97,12 +97,18 @@ static void dense_of(const ground_case *c, const double *entries, int order, int
   const kernel_case *b = &c->body;
   ambulo__plan_pattern p = ambulo__plan_get_pattern(b->plan);
   memset(dense, 0, (size_t)(b->rows * b->d) * sizeof *dense);
-  if (order > 0) entries += (p.count + (order - 1) * p.dynamic_count) * AMBULO__LANES;
   for (int row = 0; row < b->rows; row++) {
-    if (order > 0 && p.rate_start[row] < 0) continue;
-    int at = order > 0 ? p.rate_start[row] : p.start[row];
-    for (int e = p.start[row]; e < p.start[row + 1]; e++, at++) {
-      dense[row * b->d + p.column[e]] = entries[at * AMBULO__LANES + lane];
+    ambulo__row_part part[2];
+    int parts = ambulo__plan_parts(b->plan, row, part);
+    for (int k = 0; k < parts; k++) {
+      int from = part[k].row, by = part[k].by_acceleration ? 2 : order;
+      if (by > 0 && p.rate_start[from] < 0) continue;
+      if (part[k].by_acceleration && order > 0) continue;
+      int block = by > 0 ? p.count + (by - 1) * p.dynamic_count : 0;
+      int at = block + (by > 0 ? p.rate_start[from] : p.start[from]);
+      for (int e = p.start[from]; e < p.start[from + 1]; e++, at++) {
+        dense[row * b->d + p.column[e]] += part[k].factor * entries[at * AMBULO__LANES + lane];
+      }
     }
   }
 }

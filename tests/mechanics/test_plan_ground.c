@@ -18,8 +18,12 @@ static void rows_of_a_walking_body(void **state) {
       assert_int_equal(p.start[k + 1] - p.start[k], k < 6 ? 0 : 18);
     }
     for (int row = c.foot_row; row < c.body.rows; row++) {
-      assert_int_equal(p.start[row + 1] - p.start[row], 18);
-      assert_int_equal(p.rate_start[row] < 0, row >= c.foot_row + 8);
+      int of = row - c.foot_row, stored = of < 4 || of == 7;
+      ambulo__row_part part[2];
+      assert_int_equal(p.start[row + 1] - p.start[row], stored ? 18 : 0);
+      assert_int_equal(p.rate_start[row] < 0, !stored);
+      assert_int_equal(ambulo__plan_parts(plan, row, part), of > 3 && of < 7 ? 2 : 1);
+      assert_int_equal(part[0].row == row, stored);
     }
     ground_case_close(&c);
   }
@@ -40,8 +44,8 @@ static void pattern_is_well_formed(void **state) {
         assert_in_range(p.column[e], 0, c.body.d - 1);
         assert_true(e == p.start[row] || p.column[e] > p.column[e - 1]);
       }
-      int point = row >= c.body.d + 6 && row < c.foot_row, center = row >= c.foot_row + 8;
-      if (point || center) {
+      int point = row >= c.body.d + 6 && row < c.foot_row, of = row - c.foot_row;
+      if (point || (of > 3 && of != 7)) {
         assert_int_equal(p.rate_start[row], -1);
       } else {
         assert_int_equal(p.rate_start[row], rates);
