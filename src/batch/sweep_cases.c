@@ -39,13 +39,13 @@ static ambulo_status passes(builder *b, int *pass) {
 }
 
 static ambulo_status grow(ambulo_sweep *s) {
-  if (s->case_count < s->case_capacity) return AMBULO_OK;
   if (s->case_count >= AMBULO__SWEEP_CASES) {
     ambulo__place place = {s->path, 0, 0, NULL};
-    return ambulo__error(s->diagnostics, AMBULO_E_LIMIT, place, NULL,
-                         "more than %d cases; expected fewer: split the sweep",
+    return ambulo__error(s->diagnostics, AMBULO_E_LIMIT, place, "split the sweep",
+                         "more than %d cases; expected at most %d", AMBULO__SWEEP_CASES,
                          AMBULO__SWEEP_CASES);
   }
+  if (s->case_count < s->case_capacity) return AMBULO_OK;
   int capacity = s->case_capacity ? 2 * s->case_capacity : 64;
   ambulo__sweep_case *cases =
       ambulo__realloc(&s->allocator, s->cases, (size_t)capacity, sizeof *cases);
@@ -119,16 +119,26 @@ static ambulo_status add_case(builder *b, const char *pattern) {
 
 /* ----------------------------------------------------------------- product */
 
-static ambulo_status product(builder *b) {
+/* Told before any case is stored; how many pass filters is only known afterwards (grow), but
+ * going through the combinations should end within minutes. */
+static ambulo_status check_size(const ambulo_sweep *s, double combinations, int explicit_cases) {
+  double count = combinations + explicit_cases, most = AMBULO__SWEEP_CASES;
+  if (s->filters > 0) {
+    count = combinations;
+    most *= 100.0;
+  }
+  if (count <= most) return AMBULO_OK;
+  ambulo__place place = {s->path, 0, 0, NULL};
+  return ambulo__error(s->diagnostics, AMBULO_E_LIMIT, place, "split the sweep",
+                       "%.0f %s; expected at most %.0f", count,
+                       s->filters > 0 ? "combinations before filters" : "cases", most);
+}
+
+static ambulo_status product(builder *b, int explicit_cases) {
   ambulo_sweep *s = b->sweep;
   double total = s->groups > 0 ? 1.0 : 0.0;
   for (int g = 0; g < s->groups; g++) total *= s->group[g].count;
-  if (total > 100.0 * AMBULO__SWEEP_CASES) {
-    ambulo__place place = {s->path, 0, 0, NULL};
-    return ambulo__error(s->diagnostics, AMBULO_E_LIMIT, place, NULL,
-                         "%.0f combinations; expected at most %d", total, AMBULO__SWEEP_CASES);
-  }
-  ambulo_status status = AMBULO_OK;
+  ambulo_status status = check_size(s, total, explicit_cases);
   for (; b->place < (long long)total && !status; b->place++) {
     long long rest = b->place;
     int pass = 1;
@@ -201,7 +211,7 @@ ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
   ambulo_status status = add_explicit_axes(sweep, explicit_cases);
   sweep->stride = sweep->axes > 0 ? sweep->axes : 1;
   if (!status) status = ambulo__sweep_check_case_name(sweep);
-  if (!status) status = product(&b);
+  if (!status) status = product(&b, ambulo__yaml_count(explicit_cases));
   for (int i = 0; i < ambulo__yaml_count(explicit_cases) && !status; i++)
     status = explicit_case(&b, ambulo__yaml_item(explicit_cases, i));
   if (status) return status;

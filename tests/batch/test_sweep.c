@@ -227,6 +227,26 @@ static void faults_are_named(void **state) {
   refused(state, "", "no case left");
 }
 
+#define SQUARE(side)                                                                               \
+  "axes:\n  - {key: time.duration, name: T, range: [1, " side ", 1]}\n"                            \
+  "  - {key: \"objective[0].weight\", name: w, range: [1, 1000, 1]}\n"
+
+/* not one case above the bound, wherever the last one comes from */
+static void at_most_a_million_cases(void **state) {
+  ambulo_sweep *s = loaded(state, SQUARE("1000"));
+  assert_int_equal(ambulo_sweep_case_count(s), 1000000);
+  ambulo_sweep_free(s);
+  refused(state, SQUARE("1001"), "s.yaml: error[E_LIMIT]: 1001000 cases; expected at most 1000000");
+  refused(state, SQUARE("1000") "cases:\n  - {name: own, set: {time.intervals: 30}}\n",
+          "1000001 cases; expected at most 1000000");
+  refused(state, SQUARE("1001") "filters: [\"T <= 1001\"]\n",
+          "more than 1000000 cases; expected at most 1000000\n  hint: split the sweep");
+  refused(state, SQUARE("1000") "filters: [\"T > 0\"]\ncases:\n  - {name: own, set: {name: b}}\n",
+          "more than 1000000 cases");
+  refused(state, SQUARE("100001") "filters: [\"T == 1\"]\n",
+          "100001000 combinations before filters; expected at most 100000000");
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {
@@ -243,6 +263,7 @@ int main(void) {
       TEST(names_are_used_once),
       TEST(a_bad_cell_is_told_with_line_and_column),
       TEST(faults_are_named),
+      TEST(at_most_a_million_cases),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
