@@ -142,10 +142,10 @@ static void expect_all(const ambulo__yaml_node *root) {
 
 ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) {
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
+  static const char *const kinds[] = {"sweep"};
+  if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return ambulo__yaml_finish(document);
   expect_all(root);
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
-  static const char *const kinds[] = {"sweep"};
-  (void)ambulo__yaml_choice(ambulo__yaml_require(root, "kind"), kinds, 1, 0);
   s->name = copy_scalar(s, ambulo__yaml_require(root, "name"));
   const ambulo__yaml_node *pattern = ambulo__yaml_get(root, "case_name");
   s->case_name = copy_scalar(s, pattern);
