@@ -7,7 +7,6 @@ set -u
 out=${OUT:-build}
 cc=${CC:-cc} mode="${MODE:-} ${CFLAGS:-} ${LDFLAGS:-}"
 case $cc in *clang*) cxx=${cc/clang/clang++} ;; *gcc*) cxx=${cc/gcc/g++} ;; *) cxx=c++ ;; esac
-case $out in build) variant=release ;; *) variant=${out#build/} ;; esac
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 unset MAKEFLAGS MFLAGS MAKELEVEL
@@ -124,7 +123,7 @@ pages_are_linked() {
 check 'README leads to every page' pages_are_linked
 check 'links of the pages' links_lead_somewhere
 # what was built is what gets installed: "all" counts as made
-check 'make install' make --no-print-directory -o all VARIANT="$variant" CC="$cc" install \
+check 'make install' make --no-print-directory -o all OUT="$out" CC="$cc" install \
   DESTDIR="$work/root" PREFIX=/usr
 if [ ! -f "$work/root/usr/lib/pkgconfig/ambulo.pc" ]; then
   echo "$passed passed, $failed failed"
