@@ -60,6 +60,7 @@ for program in "${present[@]}"; do
     printf '\n----- %s: ran no test\n' "$program"
     bad=1
   fi
+  grep '^skipped' "$log"
   passed=$((passed + good))
   failed=$((failed + bad))
 done
