@@ -77,7 +77,7 @@ int main(int argc, char **argv) {
   ambulo__cli_guard_streams();
   ambulo__cli_single_threaded_blas(argv);
   /* a closed pipe and a file size limit show up as failed writes, so that files are whole */
-  int may_die = signal(SIGPIPE, SIG_IGN) == SIG_DFL;
+  signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
-  return ambulo__cli_finish(dispatch(argc, argv), may_die);
+  return ambulo__cli_finish(dispatch(argc, argv));
 }

@@ -95,14 +95,11 @@ static int reader_is_gone(void) {
   return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
-int ambulo__cli_finish(int code, int sigpipe) {
+int ambulo__cli_finish(int code) {
   errno = 0;
   int failed = ferror(stdout);
   failed |= fflush(stdout) != 0;
-  if (failed && sigpipe && reader_is_gone()) {
-    signal(SIGPIPE, SIG_DFL);
-    (void)raise(SIGPIPE);
-  }
+  if (failed && reader_is_gone()) return ambulo_status_exit_code(AMBULO_E_IO);
   failed |= close(STDOUT_FILENO) != 0;
   if (!failed) return code;
   ambulo__cli_error("E_IO", NULL, "standard output could not be written: %s",

@@ -21,9 +21,9 @@ int ambulo__cli_usage_error(const char *command, const char *hint, const char *f
 int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
                             const char *subject);
 
-/* Flushes stdout. `code` if all output arrived, else a message and 4. With `sigpipe`, output whose
- * reader has gone away ends the process quietly by that signal, as it ends other tools. */
-int ambulo__cli_finish(int code, int sigpipe);
+/* Flushes stdout. `code` if all output arrived, else 4 and a message; the message is left out where
+ * the reader of a pipe has gone away, as `head` does when it has seen enough. */
+int ambulo__cli_finish(int code);
 
 /* Descriptors 0, 1 and 2 exist afterwards, so that no file that is opened later takes
  * their place; a missing stdout then fails to be written, as it should. */
