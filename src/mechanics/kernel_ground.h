@@ -14,8 +14,8 @@
  *   gain = kappa a_0 a_1 / z,   V = n x M + height F,   Y = a_0 a_1 F + gain V
  *   X = D x Y,   h = gain F_n D,   T = M . F / F_n,   T_f = a_f T
  *   (M_0, F_0) = a_0 (M, F) + (X, -h),    (M_1, F_1) = a_1 (M, F) - (X, -h)
- * The torques are tau_i = S_i . (f_i - sum of W_f over the feet f that joint i carries): the
- * wrenches are taken off the loads of the feet's frames before the pass up the tree.
+ * The torques are tau_i = S_i . (f_i - sum of W_f over the feet f that joint i carries):
+ * kernel_local_ground.h takes the wrenches off along the legs.
  *
  * Adjoints. Weights y on tau give each foot a virtual motion (about the world origin), the sum of
  * S_i y_i over the joints that carry it; W_f has its negative as adjoint (A_f, B_f), plus the

@@ -1,5 +1,4 @@
-/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after world_part
- * of kernel_world.h.
+/* mechanics/kernel_jacobian.h - Jacobians of all outputs in closed form, after kernel_world.h.
  *
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
  * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =
@@ -26,11 +25,8 @@
  *   dtau_j/dq_i = S_j . t3,                   dtau_j/dqd_i = S_j . t2,           j above i
  *   dtau_i/dq_j = t4 . 2 zd_j + t1 . Sdd_j,   dtau_i/dqd_j = 2 t4 . z_j + t1 . 2 Sd_j,
  *   dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,                                    j above or = i
- * E, P, h, I are sums over the subtree; those of one body with centre of mass x, velocity v and
- * inertia J about x are
- *   h = m x,  P = m v,  I = J + (h.x) 1 - h x^T,  K = v h^T + [w x] (tr(J)/2 1 - J).
- * Point p:  dp/dq_j = s_j + z_j x p.
- * Stored per joint: S, 2 Sd, Sdd; per load: h, P, I, E.
+ * E, P, h, I are sums over the subtree (kernel_subtree.h). Point p:  dp/dq_j = s_j + z_j x p.
+ * Stored per joint: S, 2 Sd, Sdd.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_H
@@ -201,7 +197,7 @@ AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo
 static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratch) {
   const ambulo__steps *steps = &plan->steps;
   double *places = scratch + plan->positions_at;
-  world_positions(steps, places, 1, scratch);
+  world_positions(steps, places, scratch);
   for (int g = 0; g < steps->group_count; g++) {
     const ambulo__group_step *group = &steps->groups[g];
     int row = group->chain_count * AMBULO__LANES, last = group->first + group->count;

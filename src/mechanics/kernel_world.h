@@ -16,8 +16,8 @@
 
 #include <math.h>
 
-#include "mechanics/kernel_wide.h"
 #include "mechanics/kernel_sincos.h"
+#include "mechanics/kernel_wide.h"
 
 static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, const double *q,
                                                   double *scratch) {
@@ -132,19 +132,17 @@ static void world_origins(const ambulo__steps *steps, const double *q, const dou
   }
 }
 
-/* Positions of the points, to their rows or, packed, one after the other in
- * order of groups. */
-AMBULO__INLINE void world_positions(const ambulo__steps *steps, double *out, int packed,
+/* Positions of the points, one after the other in order of groups. */
+AMBULO__INLINE void world_positions(const ambulo__steps *steps, double *out,
                                     const double *scratch) {
   for (int g = 0; g < steps->group_count; g++) {
     const ambulo__group_step *group = &steps->groups[g];
     wide3 o = load3(scratch + group->place), x = load3(scratch + group->columns[0]);
     wide3 y = load3(scratch + group->columns[1]), z = load3(scratch + group->columns[2]);
     for (int i = group->first; i < group->first + group->count; i++) {
-      const ambulo__point_step *point = &steps->points[i];
-      const double *r = point->position;
+      const double *r = steps->points[i].position;
       wide3 p = axpy3(axpy3(axpy3(o, spread(r[0]), x), spread(r[1]), y), spread(r[2]), z);
-      store3(out + (packed ? i * three : point->output), p);
+      store3(out + i * three, p);
     }
   }
 }

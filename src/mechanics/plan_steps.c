@@ -1,8 +1,7 @@
 /* mechanics/plan_steps.c - writing the lists of steps.
  *
- * Lists that lead down the tree follow plan->order, parents first; lists that
- * lead up run the other way. A step is independent of its neighbours wherever
- * the tree allows it.
+ * They lead down the tree and follow plan->order, parents first, so that a step is independent of
+ * its neighbours wherever the tree allows it. The way up goes limb by limb (plan_local.h).
  */
 #include <string.h>
 
@@ -119,7 +118,6 @@ static void emit_changes(ambulo__plan *plan) {
     }
     plan->steps.changes[k] = (ambulo__change_step){
         .motion = plan->joints[k].motion_at,
-        .column = lanes(k),
         .first = first,
         .straight = straight,
         .is_straight = is_straight(&plan->joints[k]),

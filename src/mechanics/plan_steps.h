@@ -63,7 +63,7 @@ typedef struct ambulo__body {
 /* A joint's row and column of the Jacobians: pairs first .. first + count of
  * ancestors, and the joint itself. */
 typedef struct ambulo__change_step {
-  int motion, column;
+  int motion;
   int first, straight, count, lower; /* the first `straight` pairs are with straight joints */
   int is_straight;                   /* prismatic along an axis that stands still */
   double mass;
