@@ -143,10 +143,50 @@ static void other_problems_have_no_forces_on_feet(void **state) {
   fixture_close(&f);
 }
 
+/* by central differences, of every channel: also of those whose rows are parts of others */
+static void channel_gradients_agree_with_differences(void **state) {
+  (void)state;
+  fixture f;
+  fixture_open(&f, "models/walk_normal.yaml");
+  ambulo_workspace *w = f.workspace;
+  const double step = 1e-5;
+  for (int node = 1; node < f.nodes; node += 9) {
+    int first = ambulo__node_first(f.problem, node), width = ambulo__node_width(f.problem, node);
+    size_t size = (size_t)(w->channel_count * width);
+    double *want = calloc(size, sizeof *want), *got = calloc(size, sizeof *got);
+    for (int j = 0; j < width; j++) {
+      double here = f.x[first + j];
+      for (int side = -1; side <= 1; side += 2) {
+        f.x[first + j] = here + side * step;
+        assert_int_equal(ambulo__evaluate(w, f.x), AMBULO_OK);
+        for (int c = 0; c < w->channel_count; c++)
+          want[c * width + j] +=
+              side * w->channel[ambulo__lane_index(node, w->channel_count, c)] / (2.0 * step);
+      }
+      f.x[first + j] = here;
+    }
+    assert_int_equal(ambulo__evaluate_jacobian(w, f.x), AMBULO_OK);
+    for (int c = 0; c < w->channel_count; c++) {
+      double largest = 1e-3, worst = 0.0;
+      ambulo__channel_local_gradient(w, node, c, got + c * width);
+      for (int j = 0; j < width; j++) {
+        largest = fmax(largest, fabs(want[c * width + j]));
+        worst = fmax(worst, fabs(got[c * width + j] - want[c * width + j]));
+      }
+      if (worst > 1e-6 * largest) print_error("node %d, channel %d: %g\n", node, c, worst);
+      assert_true(worst <= 1e-6 * largest);
+    }
+    free(want);
+    free(got);
+  }
+  fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(feet_supply_the_root_wrench),
                                      cmocka_unit_test(shares_reach_the_kernels),
                                      cmocka_unit_test(gradients_agree_with_differences),
+                                     cmocka_unit_test(channel_gradients_agree_with_differences),
                                      cmocka_unit_test(other_problems_have_no_forces_on_feet)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
