@@ -31,18 +31,21 @@ static void limits_at_nodes(void **state) {
   row_fixture_close(&f);
 }
 
+static void open_with_a_fixed_coordinate(row_fixture *f, ambulo__basis_kind kind, int intervals) {
+  row_fixture_open(f, 0);
+  ambulo__basis_free(f->basis);
+  f->basis = NULL;
+  assert_int_equal(ambulo__basis_create(kind, 3, intervals, 1.0, NULL, NULL, &f->basis), AMBULO_OK);
+  f->frame.basis = f->basis;
+  f->definition.joint_limits = AMBULO_LIMIT_NODES;
+  f->model->coordinates[1].range[0] = f->model->coordinates[1].range[1] = 0.2;
+  ambulo__limit_rows(&f->frame, &f->table);
+}
+
 static void a_range_of_no_width_is_one_equation(void **state) {
   (void)state;
   row_fixture f;
-  row_fixture_open(&f, 0);
-  ambulo__basis_free(f.basis);
-  f.basis = NULL;
-  assert_int_equal(ambulo__basis_create(AMBULO__HERMITE, 3, 4, 1.0, NULL, NULL, &f.basis),
-                   AMBULO_OK);
-  f.frame.basis = f.basis;
-  f.definition.joint_limits = AMBULO_LIMIT_NODES;
-  f.model->coordinates[1].range[0] = f.model->coordinates[1].range[1] = 0.2;
-  ambulo__limit_rows(&f.frame, &f.table);
+  open_with_a_fixed_coordinate(&f, AMBULO__HERMITE, 4);
   int row = row_find(&f, "joint_limit", "pelvis_ty", "fixed", 0.0);
   assert_int_equal(f.table.rows[row].relation, AMBULO_EQUAL);
   assert_string_equal(f.table.rows[row].unit, "m");
@@ -55,15 +58,7 @@ static void a_range_of_no_width_is_one_equation(void **state) {
 static void a_fixed_coordinate_is_fixed_everywhere(void **state) {
   (void)state;
   row_fixture f;
-  row_fixture_open(&f, 0);
-  ambulo__basis_free(f.basis);
-  f.basis = NULL;
-  assert_int_equal(ambulo__basis_create(AMBULO__BSPLINE, 3, 2, 1.0, NULL, NULL, &f.basis),
-                   AMBULO_OK);
-  f.frame.basis = f.basis;
-  f.definition.joint_limits = AMBULO_LIMIT_NODES;
-  f.model->coordinates[1].range[0] = f.model->coordinates[1].range[1] = 0.2;
-  ambulo__limit_rows(&f.frame, &f.table);
+  open_with_a_fixed_coordinate(&f, AMBULO__BSPLINE, 2);
   int fixed = 0;
   for (int r = 0; r < f.table.row_count; r++) {
     const ambulo__table_row *row = &f.table.rows[r];
