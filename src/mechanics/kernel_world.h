@@ -24,23 +24,11 @@ static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, co
   for (int i = 0; i < steps->angle_count; i++) {
     const ambulo__angle_step *step = &steps->angles[i];
     for (int lane = 0; lane < AMBULO__WIDTH; lane++) {
-      double angle = step->sign * (q[step->input + lane] + step->shift);
+      double angle = step->sign * q[step->input + lane] + step->shift;
       scratch[step->output + lane] = sin(angle);
       scratch[step->output + AMBULO__LANES + lane] = cos(angle);
     }
   }
-}
-
-/* Whether all angles are within the range of sincos_wide. The sum of the magnitudes is what is
- * compared to the limit: a NaN or an infinity shows, too. */
-static int angles_inside(const ambulo__steps *steps, const double *q) {
-  wide total = {0};
-  for (int i = 0; i < steps->angle_count; i++) {
-    total += magnitude(load(q + steps->angles[i].input) + steps->angles[i].shift);
-  }
-  int inside = 1;
-  for (int lane = 0; lane < AMBULO__WIDTH; lane++) inside &= total[lane] <= AMBULO__SINCOS_LIMIT;
-  return inside;
 }
 
 static void world_frame(const ambulo__plan *plan, double *scratch) {
@@ -68,9 +56,10 @@ AMBULO__INLINE void world_turn(const ambulo__turn_step *step, double *scratch) {
 }
 
 /* Orientations and their rates; sines and cosines from the table that libm_angles has made, or
- * on the way. */
-AMBULO__INLINE void world_hinges(const ambulo__steps *steps, const double *q, const double *qd,
+ * on the way. Returns the sum of the squares of the angles. */
+AMBULO__INLINE wide world_hinges(const ambulo__steps *steps, const double *q, const double *qd,
                                  const double *qdd, int from_table, double *scratch) {
+  wide squares = {0};
   for (int i = 0; i < steps->angle_count; i++) {
     const ambulo__hinge_step *step = &steps->hinges[i];
     if (step->turn >= 0) world_turn(&steps->turns[step->turn], scratch);
@@ -79,7 +68,9 @@ AMBULO__INLINE void world_hinges(const ambulo__steps *steps, const double *q, co
       s = load(scratch + step->angle);
       c = load(scratch + step->angle + AMBULO__LANES);
     } else {
-      sincos_wide(step->sign * (load(q + step->input) + step->shift), &s, &c);
+      wide angle = step->sign * load(q + step->input) + step->shift;
+      squares += angle * angle;
+      sincos_wide(angle, &s, &c);
     }
     wide3 u = load3(scratch + step->from[0]), v = load3(scratch + step->from[1]);
     store3(scratch + step->to[0], axpy3(scale3(c, u), s, v));
@@ -93,6 +84,7 @@ AMBULO__INLINE void world_hinges(const ambulo__steps *steps, const double *q, co
   for (int i = steps->late_turn; i < steps->turn_count; i++) {
     world_turn(&steps->turns[i], scratch);
   }
+  return squares;
 }
 
 /* A vector that turns with a frame: its velocity and acceleration, w x r and alpha x r + w x w x r.
@@ -151,9 +143,7 @@ static void world_part(const ambulo__plan *plan, const double *q, const double *
                        const double *qdd, double *scratch) {
   const ambulo__steps *steps = &plan->steps;
   world_frame(plan, scratch);
-  if (angles_inside(steps, q)) {
-    world_hinges(steps, q, qd, qdd, 0, scratch);
-  } else {
+  if (!sincos_inside(world_hinges(steps, q, qd, qdd, 0, scratch))) {
     libm_angles(steps, q, scratch);
     world_hinges(steps, q, qd, qdd, 1, scratch);
   }

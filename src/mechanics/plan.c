@@ -108,7 +108,7 @@ static void compile_revolute(ambulo__joint *joint, ambulo__placing *placing,
     joint->axis = 2;
   }
   joint->sign = placing->rotation[joint->axis][2];
-  joint->shift = constant ? 0 : link->theta;
+  joint->shift = constant ? 0 : joint->sign * link->theta;
   if (constant) rotate_columns(placing->rotation, 0, 1, link->theta);
   move(placing, link->a, d);
   rotate_columns(placing->rotation, 1, 2, link->alpha);

@@ -35,7 +35,7 @@ typedef struct ambulo__joint {
   int parent;     /* frame index; the joint's own frame is its coordinate + 1 */
   int still;      /* the parent's orientation is constant */
   double sign;    /* axis = sign * column */
-  double shift;   /* angle = sign * (q + shift) */
+  double shift;   /* angle = sign * q + shift */
   int has_offset; /* the origin moves by `offset` (parent frame) */
   double offset[3];
   int turned;      /* the axis is oblique: columns of the turned frame are computed first */

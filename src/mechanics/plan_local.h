@@ -83,7 +83,7 @@ typedef struct ambulo__local_step {
   int vanishes;                         /* ground reaction: tau is zero, see plan_ground.c */
   int weighs;                           /* ground reaction: the body counts in the centre of mass */
   int feet;                             /* ground reaction: feet on this frame (1, 2, both: 3) */
-  double sign, shift;                   /* angle = sign (q + shift) */
+  double sign, shift;                   /* angle = sign q + shift */
   double turn[9];                       /* oblique axis: the turned frame in the parent frame */
   double slide[3];                      /* prismatic: the axis in the frame */
   double move[3];                       /* offset of the origin, parent frame */

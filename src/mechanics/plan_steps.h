@@ -12,7 +12,7 @@
 
 #include "mechanics/plan.h"
 
-/* angle = sign * (q + shift) of a revolute joint. */
+/* angle = sign * q + shift of a revolute joint. */
 typedef struct ambulo__angle_step {
   int input, output;
   double sign, shift;
