@@ -17,8 +17,8 @@ enum { three = 3 * AMBULO__LANES };
 
 #define AMBULO__INLINE static inline __attribute__((always_inline, unused))
 
-typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias));
-typedef int64_t wide_bits __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias));
+typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH)));
+typedef int64_t wide_bits __attribute__((vector_size(8 * AMBULO__WIDTH)));
 
 typedef struct wide3 {
   wide x, y, z;
