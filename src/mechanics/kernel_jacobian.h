@@ -2,31 +2,23 @@
  *
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
  * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =
- * S_i(r) = s + z x r, with the unit motion of joint i about the world origin, S_i = (z, s) =
- * (z, o x z), or (0, z) if prismatic. It is fixed in the parent frame, so that with od, odd the
- * velocity and acceleration of the origin, zd = w_p x z, zdd = alpha_p x z + w_p x zd,
- *   Sd  = (zd,  od x z + o x zd),   Sdd = (zdd, odd x z + 2 od x zd + o x zdd)
- * or (0, zd), (0, zdd). For any motion r(t) of a mechanism d rdd/dqdd = dr/dq, d rdd/dqd =
- * 2 d/dt (dr/dq), d rdd/dq = d2/dt2 (dr/dq); here
- *   d rdd/dqdd = S(r),  d rdd/dqd = 2 Sd(r) + 2 z x rd,  d rdd/dq = Sdd(r) + 2 zd x rd + z x rdd
- * Summed over the mass points with their moments r x, where a field (z, s) gives the wrench
- *   I(z, s) = (I z + h x s, m s + z x h),   h = sum m r,  I the inertia about the origin,
- * 2 z x rd gives B(z) = 2 (E z, z x P),   P = sum m rd, K = sum m rd r^T, E = tr(K) 1 - K,
- * and z x rdd together with the change of r in r x m (rdd - g) gives S x* f, f = (N, F) the force
- * of the subtree (odd - g, which the forward pass has stored, stands for odd in Sdd: that turns
- * z x rdd into z x (rdd - g)):
- *   t1 = df/dqdd = I(S)
- *   t2 = df/dqd  = I(2 Sd) + B(z)
- *   t3 = df/dq   = I(Sdd) + B(zd) + S x* f,   S x* f = (z x N + s x F, z x F)
- * These are the columns of the root wrench. A step of joint i changes tau of an ancestor j, whose
- * S_j stays, by S_j . t. A step of the ancestor j moves, turns and accelerates the subtree of i by
- * the same three fields, but S_i turns along with it and S x* f drops out; what is left is turned
- * over to act on the fields of j, with t4 = E^T z_i + P x s_i:
- *   dtau_j/dq_i = S_j . t3,                   dtau_j/dqd_i = S_j . t2,           j above i
- *   dtau_i/dq_j = t4 . 2 zd_j + t1 . Sdd_j,   dtau_i/dqd_j = 2 t4 . z_j + t1 . 2 Sd_j,
- *   dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,                                    j above or = i
- * E, P, h, I are sums over the subtree (kernel_subtree.h). Point p:  dp/dq_j = s_j + z_j x p.
- * Stored per joint: S, 2 Sd, Sdd.
+ * S_i(r) = s + z x r; kernel_world.h gives S_i and its derivatives. For any motion r(t) of a
+ * mechanism d rdd/dqdd = dr/dq, d rdd/dqd = 2 d/dt (dr/dq), d rdd/dq = d2/dt2 (dr/dq); here d
+ * rdd/dqdd = S(r),  d rdd/dqd = 2 Sd(r) + 2 z x rd,  d rdd/dq = Sdd(r) + 2 zd x rd + z x rdd Summed
+ * over the mass points with their moments r x, where a field (z, s) gives the wrench I(z, s) = (I z
+ * + h x s, m s + z x h),   h = sum m r,  I the inertia about the origin, 2 z x rd gives B(z) = 2 (E
+ * z, z x P),   P = sum m rd, K = sum m rd r^T, E = tr(K) 1 - K, and z x rdd together with the
+ * change of r in r x m (rdd - g) gives S x* f, f = (N, F) the force of the subtree (the origin's
+ * acceleration less g stands for it in Sdd: that turns z x rdd into z x (rdd - g)): t1 = df/dqdd =
+ * I(S) t2 = df/dqd  = I(2 Sd) + B(z) t3 = df/dq   = I(Sdd) + B(zd) + S x* f,   S x* f = (z x N + s
+ * x F, z x F) These are the columns of the root wrench. A step of joint i changes tau of an
+ * ancestor j, whose S_j stays, by S_j . t. A step of the ancestor j moves, turns and accelerates
+ * the subtree of i by the same three fields, but S_i turns along with it and S x* f drops out; what
+ * is left is turned over to act on the fields of j, with t4 = E^T z_i + P x s_i: dtau_j/dq_i = S_j
+ * . t3,                   dtau_j/dqd_i = S_j . t2,           j above i dtau_i/dq_j = t4 . 2 zd_j +
+ * t1 . Sdd_j,   dtau_i/dqd_j = 2 t4 . z_j + t1 . 2 Sd_j, dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,
+ * j above or = i E, P, h, I are sums over the subtree (kernel_subtree.h). Point p:  dp/dq_j = s_j +
+ * z_j x p.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_H
@@ -35,41 +27,6 @@
 
 /* A step of its own keeps its constants in registers; inlined together they would not fit. */
 #define AMBULO__STEP static __attribute__((noinline))
-
-/* S, 2 Sd and Sdd of the revolute joints. */
-static void jacobian_hinges(const ambulo__steps *steps, double *scratch) {
-  for (int i = 0; i < steps->angle_count; i++) {
-    const ambulo__hinge_step *step = &steps->hinges[i];
-    double *out = scratch + step->motion;
-    wide3 z = scale3(spread(step->sign), load3(scratch + step->axis));
-    wide3 w = load3(scratch + step->rate_from), alpha = load3(scratch + step->rate_from + three);
-    wide3 o = load3(scratch + step->place), a = load3(scratch + step->place + three);
-    wide3 zd = cross3(w, z), zdd = add_cross3(cross3(w, zd), alpha, z);
-    wide3 zd2 = scale3(spread(2), zd), od2 = scale3(spread(2), load3(scratch + step->velocity));
-    store3(out, z);
-    store3(out + three, cross3(o, z));
-    store3(out + 2 * three, zd2);
-    store3(out + 3 * three, add_cross3(cross3(od2, z), o, zd2));
-    store3(out + 4 * three, zdd);
-    store3(out + 5 * three, add_cross3(add_cross3(cross3(a, z), od2, zd), o, zdd));
-  }
-}
-
-/* S, 2 Sd and Sdd of the prismatic joints. */
-static void jacobian_sliders(const ambulo__steps *steps, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  for (int i = 0; i < steps->origin_count; i++) {
-    const ambulo__origin_step *step = &steps->origins[i];
-    if (!step->prismatic) continue;
-    double *out = scratch + step->motion;
-    wide3 z = scale3(spread(step->sign), load3(scratch + step->axis));
-    wide3 w = load3(scratch + step->rate), zd = cross3(w, z);
-    wide3 zdd = add_cross3(cross3(w, zd), load3(scratch + step->rate + three), z);
-    store_pair(out, (wide_pair){zero, z});
-    store_pair(out + 2 * three, (wide_pair){zero, scale3(spread(2), zd)});
-    store_pair(out + 4 * three, (wide_pair){zero, zdd});
-  }
-}
 
 /* Change of the subtree's force with q, qd, qdd of its joint, and t4. */
 typedef struct subtree_changes {
@@ -194,10 +151,9 @@ AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo
   store(jqdd + lower, spread(step->mass));
 }
 
-static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratch) {
+static void jacobian_points(const ambulo__plan *plan, double *jq, const double *scratch) {
   const ambulo__steps *steps = &plan->steps;
-  double *places = scratch + plan->positions_at;
-  world_positions(steps, places, scratch);
+  const double *places = scratch + plan->positions_at;
   for (int g = 0; g < steps->group_count; g++) {
     const ambulo__group_step *group = &steps->groups[g];
     int row = group->chain_count * AMBULO__LANES, last = group->first + group->count;
@@ -215,35 +171,35 @@ static void jacobian_points(const ambulo__plan *plan, double *jq, double *scratc
 }
 
 /* Row and column of a joint whose subtree is known. */
-AMBULO__STEP void jacobian_column(const ambulo__plan *plan, int k, const wide_subtree *sum,
+AMBULO__STEP void jacobian_column(const ambulo__plan *plan, int k, const double *subtree,
                                   double *jq, double *jqd, double *jqdd, const double *scratch) {
+  const wide_subtree sum = load_subtree(subtree);
   const ambulo__change_step *step = &plan->steps.changes[k];
   const ambulo__pair *pairs = plan->steps.pairs;
   if (step->is_straight) {
-    jacobian_straight(plan, k, sum, jq, jqdd, scratch);
+    jacobian_straight(plan, k, &sum, jq, jqdd, scratch);
     straight_pairs(step, pairs, jqdd, scratch);
     return;
   }
-  subtree_changes t = jacobian_changes(step, sum, scratch);
+  subtree_changes t = jacobian_changes(step, &sum, scratch);
   jacobian_wrench(plan, k, t.q, jq);
   jacobian_wrench(plan, k, t.qd, jqd);
   jacobian_wrench(plan, k, t.qdd, jqdd);
   jacobian_pairs(step, pairs, &t, jq, jqd, jqdd, scratch);
 }
 
-static void jacobian_part(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
-                          double *scratch) {
-  jacobian_hinges(&plan->steps, scratch);
-  jacobian_sliders(&plan->steps, scratch);
+static void jacobian_part(const ambulo__plan *plan, const world_inputs *x, double *jq, double *jqd,
+                          double *jqdd, double *scratch) {
   for (int i = 0; i < plan->local.limb_count; i++) {
     const ambulo__limb *limb = &plan->local.limbs[i];
-    wide_subtree sum = {0};
+    const double *sum = NULL;
+    world_limb(plan, limb, x, scratch);
     for (int k = limb->leaf;; k = plan->local.steps[k].parent) {
-      complete_subtree(plan, k, &sum, scratch);
-      jacobian_column(plan, k, &sum, jq, jqd, jqdd, scratch);
+      sum = complete_subtree(plan, k, sum, scratch);
+      jacobian_column(plan, k, sum, jq, jqd, jqdd, scratch);
       if (k == limb->top) break;
     }
-    pass_subtree_on(plan, limb->top, &sum, scratch);
+    pass_subtree_on(plan, limb->top, sum, scratch);
   }
   jacobian_points(plan, jq, scratch);
 }

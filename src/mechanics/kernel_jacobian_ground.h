@@ -92,7 +92,7 @@ typedef struct row_changes {
 /* Adds -R_i . t_j and -e_i dz of joints j that carry the whole body, `row` = (-R, -e / m). */
 AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_changes c,
                                             const double *row, const double *scratch) {
-  const wide_subtree whole = load_subtree(scratch + plan->frames[plan->whole].subtree_at);
+  const wide_subtree whole = load_subtree(scratch + plan->steps.changes[plan->whole - 1].subtree);
   wide mass = spread(plan->mass);
   wide3 h = whole.first, p = whole.momentum;
   wide6 inertia = whole.inertia;
@@ -144,7 +144,18 @@ AMBULO__INLINE void ground_sparse_pairs(const ambulo__plan *plan, int k, const s
   int first = plan->ancestor_start[k], last = plan->ancestor_start[k + 1];
   int self = (plan->start[k] + last - first) * AMBULO__LANES;
   const double *own = scratch + plan->joints[k].motion_at;
-  for (int i = first; i < last; i++) {
+  int straight = first + plan->steps.changes[k].straight;
+  for (int i = first; i < straight; i++) {
+    const ambulo__ground_pair *pair = &plan->pairs[i];
+    wide3 s = load3(scratch + pair->motion + three);
+    wide mass = dot3(t->qdd.linear, s);
+    store(jqdd + pair->lower, mass);
+    if (pair->upper < 0) continue;
+    store(jq + pair->upper, dot3(t->q.linear, s));
+    store(jqd + pair->upper, dot3(t->qd.linear, s));
+    store(jqdd + pair->upper, mass);
+  }
+  for (int i = straight; i < last; i++) {
     const ambulo__ground_pair *pair = &plan->pairs[i];
     const double *motion = scratch + pair->motion;
     int upper = pair->upper;
@@ -166,15 +177,16 @@ AMBULO__INLINE wide_pair ground_wrench_column(const double *at, int row) {
 }
 
 /* Changes of a subtree: the column of the root wrench; and the rows without feet. */
-AMBULO__STEP void ground_changes(const ambulo__plan *plan, int k, const wide_subtree *sum,
-                                 double *jq, double *jqd, double *jqdd, double *scratch) {
+AMBULO__STEP void ground_changes(const ambulo__plan *plan, int k, const double *subtree, double *jq,
+                                 double *jqd, double *jqdd, double *scratch) {
+  const wide_subtree sum = load_subtree(subtree);
   const ambulo__joint *joint = &plan->joints[k];
   const ambulo__change_step *step = &plan->steps.changes[k];
   if (joint->torque_row == AMBULO__ROW_VANISHES && step->is_straight) {
-    jacobian_straight(plan, k, sum, jq, jqdd, scratch);
+    jacobian_straight(plan, k, &sum, jq, jqdd, scratch);
     return;
   }
-  subtree_changes t = jacobian_changes(step, sum, scratch);
+  subtree_changes t = jacobian_changes(step, &sum, scratch);
   jacobian_wrench(plan, k, t.q, jq);
   jacobian_wrench(plan, k, t.qd, jqd);
   jacobian_wrench(plan, k, t.qdd, jqdd);
@@ -186,19 +198,19 @@ AMBULO__STEP void ground_changes(const ambulo__plan *plan, int k, const wide_sub
 }
 
 /* All of them, and the split of what they sum up to. */
-static void ground_subtrees(const ambulo__plan *plan, const double *ground, double *jq, double *jqd,
-                            double *jqdd, double *scratch) {
+static void ground_subtrees(const ambulo__plan *plan, const world_inputs *x, const double *ground,
+                            double *jq, double *jqd, double *jqdd, double *scratch) {
   const double *fixed = plan->fixed_load;
   for (int i = 0; i < plan->local.limb_count; i++) {
     const ambulo__limb *limb = &plan->local.limbs[i];
-    wide_subtree sum = {0};
+    const double *sum = NULL;
+    world_limb(plan, limb, x, scratch);
     for (int k = limb->leaf;; k = plan->local.steps[k].parent) {
-      complete_subtree(plan, k, &sum, scratch);
-      if (k + 1 == plan->whole) store_subtree(scratch + plan->frames[k + 1].subtree_at, &sum);
-      ground_changes(plan, k, &sum, jq, jqd, jqdd, scratch);
+      sum = complete_subtree(plan, k, sum, scratch);
+      ground_changes(plan, k, sum, jq, jqd, jqdd, scratch);
       if (k == limb->top) break;
     }
-    pass_subtree_on(plan, limb->top, &sum, scratch);
+    pass_subtree_on(plan, limb->top, sum, scratch);
   }
   wide_subtree all = {0};
   if (plan->local.limb_count > 0) all = load_subtree(scratch + plan->frames[0].subtree_at);
@@ -304,14 +316,13 @@ static ground_slopes ground_slopes_of(const ambulo__plan *plan, const double *gr
   return slopes;
 }
 
-static void jacobian_ground_part(const ambulo__plan *plan, const double *ground, double *jq,
-                                 double *jqd, double *jqdd, double *scratch) {
+static void jacobian_ground_part(const ambulo__plan *plan, const world_inputs *x,
+                                 const double *ground, double *jq, double *jqd, double *jqdd,
+                                 double *scratch) {
   const int row = ambulo__plan_first_foot_row(plan), d = plan->coordinates;
   const int wrench = plan->start[d] * AMBULO__LANES, feet = plan->start[row] * AMBULO__LANES;
   const int rates = plan->rate_start[row] * AMBULO__LANES;
-  jacobian_hinges(&plan->steps, scratch);
-  jacobian_sliders(&plan->steps, scratch);
-  ground_subtrees(plan, ground, jq, jqd, jqdd, scratch);
+  ground_subtrees(plan, x, ground, jq, jqd, jqdd, scratch);
   const ground_slopes slopes = ground_slopes_of(plan, ground, scratch);
   ground_reaction_rows(plan, &slopes.shares, scratch);
   ground_rows_above(plan, jq, jqd, jqdd, scratch);

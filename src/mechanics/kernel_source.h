@@ -47,11 +47,13 @@ static void reverse(const ambulo__plan *plan, const double *qd, const double *qd
 static void jacobian(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                      const double *ground, double *jq, double *jqd, double *jqdd, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    world_part(plan, q + lane, qd + lane, qdd + lane, scratch + lane);
+    const world_inputs x = {q + lane, qd + lane, qdd + lane};
+    world_start(plan, x.q, scratch + lane);
     if (plan->grounded) {
-      jacobian_ground_part(plan, ground + lane, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+      jacobian_ground_part(plan, &x, ground + lane, jq + lane, jqd + lane, jqdd + lane,
+                           scratch + lane);
     } else {
-      jacobian_part(plan, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+      jacobian_part(plan, &x, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
     }
   }
 }

@@ -6,7 +6,8 @@
  *   E = tr(K) 1 - K
  * (kernel_jacobian.h says what the second line is for.) Those of a subtree are the sums over its
  * bodies; about the world origin they need no shifting. The load (N, F) of the whole tree is the
- * root wrench.
+ * root wrench. Bodies are done on the way down a limb, where their frames are in registers, and
+ * summed up on the way back.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_SUBTREE_H
 #define AMBULO_MECHANICS_KERNEL_SUBTREE_H
@@ -19,10 +20,6 @@ typedef struct wide_subtree {
   wide6 inertia;         /* I */
   wide33 coriolis;       /* E */
 } wide_subtree;
-
-AMBULO__INLINE wide6 add6(wide6 a, wide6 b) {
-  return (wide6){a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
-}
 
 AMBULO__INLINE wide_subtree load_subtree(const double *at) {
   return (wide_subtree){load_pair(at), load3(at + 2 * three), load3(at + 3 * three),
@@ -37,21 +34,28 @@ AMBULO__INLINE void store_subtree(double *at, const wide_subtree *s) {
   store33(at + 6 * three, s->coriolis);
 }
 
-AMBULO__INLINE void add_subtree(wide_subtree *sum, const double *at) {
-  const wide_subtree s = load_subtree(at);
-  wide33 *e = &sum->coriolis;
-  sum->load = axpy_pair(sum->load, spread(1), s.load);
-  sum->first = add3(sum->first, s.first);
-  sum->momentum = add3(sum->momentum, s.momentum);
-  sum->inertia = add6(sum->inertia, s.inertia);
-  *e = (wide33){add3(e->x, s.coriolis.x), add3(e->y, s.coriolis.y), add3(e->z, s.coriolis.z)};
+/* to = a + b */
+AMBULO__INLINE void add_subtrees(double *to, const double *a, const double *b) {
+  for (int i = 0; i < AMBULO__SUBTREE * AMBULO__LANES; i += AMBULO__LANES) {
+    store(to + i, load(a + i) + load(b + i));
+  }
+}
+
+AMBULO__INLINE void copy_subtree(double *to, const double *from) {
+  for (int i = 0; i < AMBULO__SUBTREE * AMBULO__LANES; i += AMBULO__LANES) {
+    store(to + i, load(from + i));
+  }
+}
+
+AMBULO__INLINE void clear_subtree(double *at) {
+  for (int i = 0; i < AMBULO__SUBTREE * AMBULO__LANES; i += AMBULO__LANES) store(at + i, (wide){0});
 }
 
 /* base 1 + first u u^T + second w w^T, see plan_mass.c. */
-AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const double *scratch) {
-  wide3 x = load3(scratch + body->ordered[0]), y = load3(scratch + body->ordered[1]);
+AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const wide3 columns[3]) {
+  wide3 x = columns[body->order[0]], y = columns[body->order[1]];
   if (!body->diagonal) {
-    wide3 z = load3(scratch + body->ordered[2]);
+    wide3 z = columns[body->order[2]];
     x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
     y = axpy3(y, spread(body->lower[2]), z);
   }
@@ -64,52 +68,101 @@ AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const double *scratc
                  u.y * x.z + w.y * y.z};
 }
 
-AMBULO__INLINE void add_body(wide_subtree *sum, const ambulo__body *body, const double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const double *place = scratch + body->place;
-  wide3 w = load3(scratch + body->rate), alpha = load3(scratch + body->rate + three);
-  wide3 c = add_rotated(zero, scratch, body->columns, body->com), x = add3(load3(place), c);
-  wide_pair turn = swept(scratch + body->rate, c);
-  wide3 v = add3(load3(scratch + body->velocity), turn.angular);
-  wide3 force = scale3(spread(body->mass), add3(load3(place + three), turn.linear));
-  wide6 j = body_inertia(body, scratch);
-  wide3 rate = add_cross3(multiply6(j, alpha), w, multiply6(j, w));
-  sum->load.angular = add3(sum->load.angular, add_cross3(rate, x, force));
-  sum->load.linear = add3(sum->load.linear, force);
-  wide3 h = scale3(spread(body->mass), x);
-  sum->first = add3(sum->first, h);
-  sum->momentum = axpy3(sum->momentum, spread(body->mass), v);
-  wide square = dot3(h, x), trace = dot3(v, h), half = 0.5 * (j.xx + j.yy + j.zz);
-  wide6 *i = &sum->inertia;
-  *i = (wide6){i->xx + (j.xx + square - h.x * x.x), i->yy + (j.yy + square - h.y * x.y),
-               i->zz + (j.zz + square - h.z * x.z), i->xy + (j.xy - h.x * x.y),
-               i->xz + (j.xz - h.x * x.z),          i->yz + (j.yz - h.y * x.z)};
-  /* columns of [w x] (half - J), which has no trace; E = (v.h) 1 - v h^T - [w x] (...) */
+/* The centre of mass from the frame's origin, in world axes. */
+AMBULO__INLINE wide3 body_center(const ambulo__local_step *step, const local_place *p) {
+  switch (step->body) {
+  case AMBULO__BODY_X:
+    return scale3(spread(step->com[0]), p->x);
+  case AMBULO__BODY_Y:
+    return scale3(spread(step->com[1]), p->y);
+  case AMBULO__BODY_Z:
+    return scale3(spread(step->com[2]), p->z);
+  default:
+    return place_of(p, (wide3){{0}, {0}, {0}}, step->com);
+  }
+}
+
+/* (v.h) 1 - v h^T - [w x] (tr(J)/2 1 - J); the last part has no trace. */
+AMBULO__INLINE wide33 body_coriolis(wide3 v, wide3 h, wide3 w, wide6 j) {
+  wide trace = dot3(v, h), half = 0.5 * (j.xx + j.yy + j.zz);
   wide3 k1 = cross3(w, (wide3){half - j.xx, -j.xy, -j.xz});
   wide3 k2 = cross3(w, (wide3){-j.xy, half - j.yy, -j.yz});
   wide3 k3 = cross3(w, (wide3){-j.xz, -j.yz, half - j.zz});
-  wide33 *e = &sum->coriolis;
-  e->x = add3(e->x, (wide3){trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x});
-  e->y = add3(e->y, (wide3){-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y});
-  e->z = add3(e->z, (wide3){-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z});
+  return (wide33){{trace - v.x * h.x - k1.x, -v.x * h.y - k2.x, -v.x * h.z - k3.x},
+                  {-v.y * h.x - k1.y, trace - v.y * h.y - k2.y, -v.y * h.z - k3.y},
+                  {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
 }
 
-/* The subtree of step k's frame, from that of its last child; the rest is stored. */
-AMBULO__INLINE void complete_subtree(const ambulo__plan *plan, int k, wide_subtree *sum,
-                                     const double *scratch) {
-  const ambulo__frame *frame = &plan->frames[k + 1];
-  if (frame->body >= 0) add_body(sum, &plan->body[frame->body], scratch);
-  if (plan->local.steps[k].adjoined) add_subtree(sum, scratch + frame->subtree_at);
+AMBULO__INLINE void store_body(const ambulo__local_step *step, const ambulo__body *body,
+                               const world_state *s, double *to) {
+  const wide3 columns[3] = {s->place.x, s->place.y, s->place.z};
+  wide3 w = s->w, c = body_center(step, &s->place), x = add3(s->place.o, c);
+  wide3 sweep = cross3(w, c), v = add3(s->v, sweep);
+  wide3 force = add_cross3(add_cross3(s->a, s->alpha, c), w, sweep);
+  wide mass = spread(step->mass);
+  wide6 j = body_inertia(body, columns);
+  wide_subtree sum;
+  sum.load.linear = force = scale3(mass, force);
+  sum.load.angular = add_cross3(multiply6(j, s->alpha), w, multiply6(j, w));
+  sum.load.angular = add_cross3(sum.load.angular, x, force);
+  wide3 h = sum.first = scale3(mass, x);
+  sum.momentum = scale3(mass, v);
+  sum.coriolis = body_coriolis(v, h, w, j);
+  wide square = dot3(h, x);
+  sum.inertia =
+      (wide6){j.xx + square - h.x * x.x, j.yy + square - h.y * x.y, j.zz + square - h.z * x.z,
+              j.xy - h.x * x.y,          j.xz - h.x * x.z,          j.yz - h.y * x.z};
+  store_subtree(to, &sum);
+}
+
+/* Down a limb: the joints' motions, the points, the bodies. */
+static void world_limb(const ambulo__plan *plan, const ambulo__limb *limb, const world_inputs *x,
+                       double *scratch) {
+  const world_state start = world_itself(plan);
+  world_state s = start;
+  for (int i = limb->first; i <= limb->leaf; i++) {
+    const ambulo__local_step *step = &plan->local.steps[i];
+    const ambulo__change_step *change = &plan->steps.changes[i];
+    double *motion = scratch + change->motion;
+    wide q = load(x->q + step->input), qd = load(x->qd + step->input);
+    wide qdd = load(x->qdd + step->input);
+    if (!step->carried) s = step->from_world ? start : load_state(scratch + step->above);
+    if (step->offset != AMBULO__OFFSET_NONE) world_offset(step, &s);
+    if (step->turned) world_turn(step, &s.place);
+    if (step->joint == AMBULO__SLIDES) {
+      world_slider(step, &s, q, qd, qdd, change->bare, motion);
+    } else {
+      world_hinge(step, &s, qd, qdd, motion, scratch);
+    }
+    if (step->kept) store_state(scratch + step->at, &s);
+    if (step->group >= 0) world_points(plan, step->group, &s.place, scratch);
+    if (step->body == AMBULO__BODY_NONE) {
+      if (i == limb->leaf) clear_subtree(scratch + change->subtree);
+      continue;
+    }
+    store_body(step, &plan->body[plan->frames[i + 1].body], &s, scratch + change->subtree);
+  }
+}
+
+/* Where the subtree of step k's frame stands, given that of its last child. A frame that has
+ * nothing of its own, neither body nor branches, has its child's. */
+AMBULO__INLINE const double *complete_subtree(const ambulo__plan *plan, int k, const double *child,
+                                              double *scratch) {
+  double *own = scratch + plan->steps.changes[k].subtree;
+  if (child && child != own) add_subtrees(own, own, child);
+  return own;
 }
 
 /* What a limb leaves to the frame above its top. */
-AMBULO__INLINE void pass_subtree_on(const ambulo__plan *plan, int top, wide_subtree *sum,
+AMBULO__INLINE void pass_subtree_on(const ambulo__plan *plan, int top, const double *sum,
                                     double *scratch) {
   const ambulo__local_step *step = &plan->local.steps[top];
   double *above = scratch + plan->frames[step->parent + 1].subtree_at;
-  int first = step->from_world ? step->first : step->first_adjoint;
-  if (!first) add_subtree(sum, above);
-  store_subtree(above, sum);
+  if (step->first) {
+    copy_subtree(above, sum);
+  } else {
+    add_subtrees(above, above, sum);
+  }
 }
 
 #endif

@@ -17,8 +17,8 @@ enum { three = 3 * AMBULO__LANES };
 
 #define AMBULO__INLINE static inline __attribute__((always_inline, unused))
 
-/* Both compilers let a vector alias its element type; were it let alias everything (may_alias), each
- * store would make the plan be read again. */
+/* Both compilers let a vector alias its element type; were it let alias everything (may_alias),
+ * each store would make the plan be read again. */
 typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH)));
 typedef int64_t wide_bits __attribute__((vector_size(8 * AMBULO__WIDTH)));
 

@@ -1,153 +1,167 @@
-/* mechanics/kernel_world.h - motion of the frames in world axes, where the Jacobians are taken, one
- * block of time nodes.
+/* mechanics/kernel_world.h - motion of the frames and of the joints' axes in world axes, where the
+ * Jacobians are taken, one block of time nodes.
  *
- * Down the tree, with z the joint's axis, p the parent frame and r the constant offset between
- * the origins (in world axes), frame by frame:
- *   w     = w_p + z qd                                       angular velocity
- *   alpha = alpha_p + z qdd + w_p x z qd                     angular acceleration
- *   Omega r = alpha x r + w x (w x r)                        acceleration of a fixed r
- *   o     = o_p + r,      a = a_p + Omega_p r                origin (revolute)
- *   o     = o_p + z q,    a = a_p + Omega_p z q + 2 w_p x z qd + z qdd      (prismatic)
- *   v     = v_p + w_p x r,   or v_p + w_p x z q + z qd
- * The world's a is -gravity, so that weight needs no term of its own.
+ * Down a limb, with z the joint's axis, p the parent frame and r the constant offset between the
+ * origins (in world axes):
+ *   revolute:   o = o_p + r,  v = v_p + w_p x r,  a = a_p + alpha_p x r + w_p x (w_p x r),
+ *               w = w_p + z qd,  alpha = alpha_p + z qdd + zd qd
+ *   prismatic:  the same r, then  o += z q,  v += z qd + zd q,  a += z qdd + 2 zd qd + zdd q
+ * with the axis fixed in the parent:  zd = w_p x z,  zdd = alpha_p x z + w_p x zd. The world's a is
+ * -gravity, so that weight needs no term of its own.
+ *
+ * The motion that joint i gives a point r of its subtree, dr/dq_i = S_i(r) = s + z x r, is that of
+ * S_i = (z, s) = (z, o x z), or (0, z) if prismatic, about the world origin. It goes along with the
+ * parent frame: with the velocity v and the acceleration a of the origin,
+ *   Sd  = (zd,  v x z + o x zd),   Sdd = (zdd, a x z + 2 v x zd + o x zdd)
+ * or (0, zd), (0, zdd). Stored per joint: S, 2 Sd, Sdd; S alone where nobody reads the others,
+ * which are zero. (a, which has -gravity in it, stands for the acceleration: see
+ * kernel_jacobian.h.)
+ *
+ * What a branch starts from is kept in the slots of the frames' own kernels.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_WORLD_H
 #define AMBULO_MECHANICS_KERNEL_WORLD_H
 
-#include <math.h>
+#include "mechanics/kernel_local_points.h"
 
-#include "mechanics/kernel_sincos.h"
-#include "mechanics/kernel_wide.h"
+/* [coordinates][lanes] */
+typedef struct world_inputs {
+  const double *q, *qd, *qdd;
+} world_inputs;
 
-static __attribute__((noinline)) void libm_angles(const ambulo__steps *steps, const double *q,
-                                                  double *scratch) {
-  for (int i = 0; i < steps->angle_count; i++) {
-    const ambulo__angle_step *step = &steps->angles[i];
-    for (int lane = 0; lane < AMBULO__WIDTH; lane++) {
-      double angle = step->sign * q[step->input + lane] + step->shift;
-      scratch[step->output + lane] = sin(angle);
-      scratch[step->output + AMBULO__LANES + lane] = cos(angle);
-    }
+typedef struct world_state {
+  local_place place;
+  wide3 v, a, w, alpha;
+} world_state;
+
+AMBULO__INLINE world_state world_itself(const ambulo__plan *plan) {
+  const wide zero = {0}, one = spread(1);
+  const wide3 none = {zero, zero, zero};
+  const local_place place = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}, none};
+  return (world_state){place, none, scale3(spread(-1), spread3(plan->gravity)), none, none};
+}
+
+AMBULO__INLINE world_state load_state(const double *at) {
+  return (world_state){place_load(at), load3(at + local_slide), load3(at + local_pull),
+                       load3(at + local_rate), load3(at + local_gain)};
+}
+
+AMBULO__INLINE void store_place(double *at, const local_place *p) {
+  store3(at + local_columns, p->x);
+  store3(at + local_columns + three, p->y);
+  store3(at + local_columns + 2 * three, p->z);
+  store3(at + local_origin, p->o);
+}
+
+AMBULO__INLINE void store_state(double *at, const world_state *s) {
+  store_place(at, &s->place);
+  store3(at + local_slide, s->v);
+  store3(at + local_pull, s->a);
+  store3(at + local_rate, s->w);
+  store3(at + local_gain, s->alpha);
+}
+
+/* The offset of the origin in world axes. */
+AMBULO__INLINE wide3 offset_of(const ambulo__local_step *step, const local_place *p) {
+  switch (step->offset) {
+  case AMBULO__OFFSET_X:
+    return scale3(spread(step->length), p->x);
+  case AMBULO__OFFSET_Y:
+    return scale3(spread(step->length), p->y);
+  case AMBULO__OFFSET_Z:
+    return scale3(spread(step->length), p->z);
+  default:
+    return place_of(p, (wide3){{0}, {0}, {0}}, step->move);
   }
 }
 
-static void world_frame(const ambulo__plan *plan, double *scratch) {
-  const ambulo__frame *world = &plan->frames[0];
+AMBULO__INLINE void world_offset(const ambulo__local_step *step, world_state *s) {
+  wide3 r = offset_of(step, &s->place);
+  s->place.o = add3(s->place.o, r);
+  if (step->still) return;
+  wide3 sweep = cross3(s->w, r);
+  s->v = add3(s->v, sweep);
+  s->a = add_cross3(add_cross3(s->a, s->alpha, r), s->w, sweep);
+}
+
+AMBULO__INLINE void world_turn(const ambulo__local_step *step, local_place *p) {
   const wide3 zero = {{0}, {0}, {0}};
-  for (int i = 0; i < 3; i++) {
-    double *column = scratch + world->column_at[i];
-    store3(column, zero);
-    store(column + i * AMBULO__LANES, spread(1));
-  }
-  store3(scratch + world->rate_at, zero);
-  store3(scratch + world->rate_at + three, zero);
-  store3(scratch + world->place_at, zero);
-  store3(scratch + world->velocity_at, zero);
-  store3(scratch + world->place_at + three,
-         (wide3){spread(-plan->gravity[0]), spread(-plan->gravity[1]), spread(-plan->gravity[2])});
+  const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
+  const double z[3] = {t[2], t[5], t[8]};
+  *p = (local_place){place_of(p, zero, x), place_of(p, zero, y), place_of(p, zero, z), p->o};
 }
 
-AMBULO__INLINE void world_turn(const ambulo__turn_step *step, double *scratch) {
+/* Turns the columns; returns the axis. */
+AMBULO__INLINE wide3 hinge_axis(const ambulo__local_step *step, local_place *p, const double *at) {
+  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  wide3 axis;
+  switch (step->joint) {
+  case AMBULO__TURNS_X:
+    axis = p->x;
+    mix_columns(&p->y, &p->z, s, c);
+    break;
+  case AMBULO__TURNS_Y:
+    axis = p->y;
+    mix_columns(&p->z, &p->x, s, c);
+    break;
+  default:
+    axis = p->z;
+    mix_columns(&p->x, &p->y, s, c);
+  }
+  return scale3(spread(step->sign), axis);
+}
+
+AMBULO__INLINE void world_hinge(const ambulo__local_step *step, world_state *s, wide qd, wide qdd,
+                                double *motion, const double *scratch) {
+  wide3 z = hinge_axis(step, &s->place, scratch + step->at), o = s->place.o;
+  wide3 zd = cross3(s->w, z), zdd = add_cross3(cross3(s->w, zd), s->alpha, z);
+  wide3 zd2 = scale3(spread(2), zd), v2 = scale3(spread(2), s->v);
+  store_pair(motion, (wide_pair){z, cross3(o, z)});
+  store_pair(motion + 2 * three, (wide_pair){zd2, add_cross3(cross3(v2, z), o, zd2)});
+  wide3 moved = add_cross3(add_cross3(cross3(s->a, z), v2, zd), o, zdd);
+  store_pair(motion + 4 * three, (wide_pair){zdd, moved});
+  s->alpha = axpy3(axpy3(s->alpha, qd, zd), qdd, z);
+  s->w = axpy3(s->w, qd, z);
+}
+
+AMBULO__INLINE void world_slider(const ambulo__local_step *step, world_state *s, wide q, wide qd,
+                                 wide qdd, int bare, double *motion) {
   const wide3 zero = {{0}, {0}, {0}};
-  for (int i = step->first; i < 3; i++) {
-    const double column[3] = {step->turn[i], step->turn[3 + i], step->turn[6 + i]};
-    store3(scratch + step->to[i], add_rotated(zero, scratch, step->from, column));
+  wide3 z = place_of(&s->place, zero, step->slide);
+  store_pair(motion, (wide_pair){zero, z});
+  s->place.o = axpy3(s->place.o, q, z);
+  s->v = axpy3(s->v, qd, z);
+  s->a = axpy3(s->a, qdd, z);
+  if (bare) return;
+  wide3 zd = cross3(s->w, z), zdd = add_cross3(cross3(s->w, zd), s->alpha, z);
+  wide3 zd2 = scale3(spread(2), zd);
+  store_pair(motion + 2 * three, (wide_pair){zero, zd2});
+  store_pair(motion + 4 * three, (wide_pair){zero, zdd});
+  s->v = axpy3(s->v, q, zd);
+  s->a = axpy3(axpy3(s->a, qd, zd2), q, zdd);
+}
+
+/* Positions of the points of a frame. */
+AMBULO__INLINE void world_points(const ambulo__plan *plan, int number, const local_place *p,
+                                 double *scratch) {
+  const ambulo__group_step *group = &plan->steps.groups[number];
+  double *out = scratch + plan->positions_at;
+  for (int i = group->first; i < group->first + group->count; i++) {
+    store3(out + i * three, place_of(p, p->o, plan->steps.points[i].position));
   }
 }
 
-/* Orientations and their rates; sines and cosines from the table that libm_angles has made, or
- * on the way. Returns the sum of the squares of the angles. */
-AMBULO__INLINE wide world_hinges(const ambulo__steps *steps, const double *q, const double *qd,
-                                 const double *qdd, int from_table, double *scratch) {
+/* Sines and cosines of all joints, in the slots, and the points that stand still. */
+static void world_start(const ambulo__plan *plan, const double *q, double *scratch) {
+  const ambulo__local_plan *local = &plan->local;
+  const world_state world = world_itself(plan);
   wide squares = {0};
-  for (int i = 0; i < steps->angle_count; i++) {
-    const ambulo__hinge_step *step = &steps->hinges[i];
-    if (step->turn >= 0) world_turn(&steps->turns[step->turn], scratch);
-    wide s, c;
-    if (from_table) {
-      s = load(scratch + step->angle);
-      c = load(scratch + step->angle + AMBULO__LANES);
-    } else {
-      wide angle = step->sign * load(q + step->input) + step->shift;
-      squares += angle * angle;
-      sincos_wide(angle, &s, &c);
-    }
-    wide3 u = load3(scratch + step->from[0]), v = load3(scratch + step->from[1]);
-    store3(scratch + step->to[0], axpy3(scale3(c, u), s, v));
-    store3(scratch + step->to[1], (wide3){c * v.x - s * u.x, c * v.y - s * u.y, c * v.z - s * u.z});
-    wide3 z = load3(scratch + step->axis), w = load3(scratch + step->rate_from);
-    wide3 turn = scale3(step->sign * load(qd + step->input), z);
-    wide3 gain = add_cross3(scale3(step->sign * load(qdd + step->input), z), w, turn);
-    store3(scratch + step->rate_to, add3(w, turn));
-    store3(scratch + step->rate_to + three, add3(load3(scratch + step->rate_from + three), gain));
+  if (local->world_group >= 0) world_points(plan, local->world_group, &world.place, scratch);
+  for (int i = 0; i < local->limb_count; i++) {
+    squares = limb_angles(plan, &local->limbs[i], q, squares, scratch);
   }
-  for (int i = steps->late_turn; i < steps->turn_count; i++) {
-    world_turn(&steps->turns[i], scratch);
-  }
-  return squares;
-}
-
-/* A vector that turns with a frame: its velocity and acceleration, w x r and alpha x r + w x w x r.
- */
-AMBULO__INLINE wide_pair swept(const double *rate, wide3 r) {
-  wide3 w = load3(rate), velocity = cross3(w, r);
-  return (wide_pair){velocity, add_cross3(cross3(load3(rate + three), r), w, velocity)};
-}
-
-/* Origins that move, their accelerations and velocities. What comes from the parent is added last:
- * the next step waits for it. */
-static void world_origins(const ambulo__steps *steps, const double *q, const double *qd,
-                          const double *qdd, double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  for (int i = 0; i < steps->origin_count; i++) {
-    const ambulo__origin_step *step = &steps->origins[i];
-    wide3 r = add_rotated(zero, scratch, step->columns, step->offset), gain = zero, v = zero;
-    if (step->prismatic) {
-      wide3 z = load3(scratch + step->axis);
-      r = axpy3(r, step->sign * load(q + step->input), z);
-      v = scale3(step->sign * load(qd + step->input), z);
-      gain = scale3(step->sign * load(qdd + step->input), z);
-      if (!step->still) {
-        wide3 twice = scale3(2 * step->sign * load(qd + step->input), z);
-        gain = add_cross3(gain, load3(scratch + step->rate), twice);
-      }
-    }
-    if (!step->still) {
-      wide_pair turn = swept(scratch + step->rate, r);
-      v = add3(v, turn.angular);
-      gain = add3(gain, turn.linear);
-    }
-    store3(scratch + step->velocity_to, add3(load3(scratch + step->velocity_from), v));
-    store3(scratch + step->place_to, add3(load3(scratch + step->place_from), r));
-    wide3 a = load3(scratch + step->place_from + three);
-    store3(scratch + step->place_to + three, add3(a, gain));
-  }
-}
-
-/* Positions of the points, one after the other in order of groups. */
-AMBULO__INLINE void world_positions(const ambulo__steps *steps, double *out,
-                                    const double *scratch) {
-  for (int g = 0; g < steps->group_count; g++) {
-    const ambulo__group_step *group = &steps->groups[g];
-    wide3 o = load3(scratch + group->place), x = load3(scratch + group->columns[0]);
-    wide3 y = load3(scratch + group->columns[1]), z = load3(scratch + group->columns[2]);
-    for (int i = group->first; i < group->first + group->count; i++) {
-      const double *r = steps->points[i].position;
-      wide3 p = axpy3(axpy3(axpy3(o, spread(r[0]), x), spread(r[1]), y), spread(r[2]), z);
-      store3(out + i * three, p);
-    }
-  }
-}
-
-static void world_part(const ambulo__plan *plan, const double *q, const double *qd,
-                       const double *qdd, double *scratch) {
-  const ambulo__steps *steps = &plan->steps;
-  world_frame(plan, scratch);
-  if (!sincos_inside(world_hinges(steps, q, qd, qdd, 0, scratch))) {
-    libm_angles(steps, q, scratch);
-    world_hinges(steps, q, qd, qdd, 1, scratch);
-  }
-  world_origins(steps, q, qd, qdd, scratch);
+  if (sincos_inside(squares)) return;
+  for (int i = 0; i < local->limb_count; i++) limb_libm_angles(plan, &local->limbs[i], q, scratch);
 }
 
 #endif

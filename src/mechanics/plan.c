@@ -233,10 +233,9 @@ static ambulo_status create(const ambulo_model *model, const double *ground_heig
   size_t frames = (size_t)plan->coordinates + 1;
   plan->frames = ambulo__alloc(&memory, frames, sizeof *plan->frames);
   plan->joints = ambulo__alloc(&memory, frames, sizeof *plan->joints);
-  plan->order = ambulo__alloc(&memory, frames, sizeof *plan->order);
   plan->body = ambulo__alloc(&memory, frames, sizeof *plan->body);
   plan->point = ambulo__alloc(&memory, (size_t)plan->points, sizeof *plan->point);
-  if (!plan->frames || !plan->joints || !plan->order || !plan->body || !plan->point) goto failed;
+  if (!plan->frames || !plan->joints || !plan->body || !plan->point) goto failed;
   status = compile(plan, model, ground_height);
   if (status != AMBULO_OK) goto failed;
   *out = plan;
@@ -264,7 +263,6 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__plan_local_free(plan);
   ambulo__free(&memory, plan->frames);
   ambulo__free(&memory, plan->joints);
-  ambulo__free(&memory, plan->order);
   ambulo__free(&memory, plan->body);
   ambulo__free(&memory, plan->point);
   ambulo__free(&memory, plan->start);

@@ -1,17 +1,12 @@
 /* mechanics/plan_layout.h - the inside of a plan.
  *
- * Frames: frame 0 is the world, frame k + 1 moves with coordinate k. A frame is
- * chosen so that a joint only mixes two columns of its parent's orientation:
- * its axis is a column of the parent frame (columns are shared, not copied),
- * unless the axis is oblique, when a constant rotation
- * ("turn") is put between. Frames along which the origin does not move share
- * the origin.
+ * Frame 0 is the world, frame k + 1 moves with coordinate k. A frame is chosen so that a joint only
+ * mixes two columns of its parent's orientation: its axis is a column of the parent frame, unless
+ * the axis is oblique, when a constant rotation ("turn") is put between. Where the axis meets the
+ * parent's origin, the frame has that origin.
  *
- * Scratch holds vectors and matrices of lanes; every member named *_at is the
- * offset in doubles of its first entry. A matrix is stored by rows, a symmetric
- * one as xx yy zz xy xz yz.
- *
- * Kernels do not walk the tree: they run lists of equal steps (plan_steps.h).
+ * Scratch holds vectors and matrices of lanes; every member named *_at is the offset in doubles of
+ * its first entry. A matrix is stored by rows, a symmetric one as xx yy zz xy xz yz.
  */
 #ifndef AMBULO_MECHANICS_PLAN_LAYOUT_H
 #define AMBULO_MECHANICS_PLAN_LAYOUT_H
@@ -19,14 +14,13 @@
 #include "mechanics/plan_local.h"
 #include "mechanics/plan_steps.h"
 
+/* Vectors of what kernel_subtree.h sums up. */
+#define AMBULO__SUBTREE 27
+
 typedef struct ambulo__frame {
-  int column_at[3]; /* orientation, world components of the frame's axes */
-  int rate_at;      /* angular velocity and angular acceleration (6) */
-  int place_at;     /* origin, and acceleration of the origin less gravity (6) */
-  int velocity_at;  /* velocity of the origin (3); by origin */
-  int subtree_at;   /* load and inertia of subtrees (27), see kernel_subtree.h: where limbs meet, of
-                       the whole body, and the world's */
-  int body;         /* index, -1: none */
+  int subtree_at; /* load and inertia (27, kernel_subtree.h) of the body and of finished branches;
+                     of the whole body, and the world's; -1: nothing */
+  int body;       /* index, -1: none */
   double subtree_mass;
 } ambulo__frame;
 
@@ -40,12 +34,7 @@ typedef struct ambulo__joint {
   double offset[3];
   int turned;      /* the axis is oblique: columns of the turned frame are computed first */
   double turn[9];  /* rows; turned frame in parent frame */
-  int turn_at[3];  /* columns of the turned frame */
   int axis;        /* which column of the (turned) frame is the axis */
-  int axis_at;     /* that column */
-  int from_at[2];  /* columns that the rotation mixes, in cyclic order after the axis ... */
-  int to_at[2];    /* ... and where they go */
-  int own_origin;  /* place_at differs from the parent's */
   int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
   int torque_row;  /* ambulo__torque_row of a grounded plan */
   int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (17) */
@@ -87,13 +76,10 @@ struct ambulo__plan {
   int coordinates, points, bodies;
   ambulo__frame *frames; /* [coordinates + 1] */
   ambulo__joint *joints; /* [coordinates] */
-  int *order;            /* [coordinates]: by depth, so that neighbours do not wait for
-                            another */
   ambulo__body *body;    /* [bodies] */
   ambulo__plan_point *point;
   double gravity[3];
   double fixed_load[6]; /* wrench that holds the bodies fixed to the world */
-  int angle_at;         /* sine and cosine of the joint angles (2 per coordinate) */
   int positions_at;     /* Jacobian: positions of the points (3 per point) */
   size_t scratch;       /* doubles */
 
