@@ -34,31 +34,49 @@ AMBULO__INLINE void store_subtree(double *at, const wide_subtree *s) {
   store33(at + 6 * three, s->coriolis);
 }
 
-/* to = a + b */
-AMBULO__INLINE void add_subtrees(double *to, const double *a, const double *b) {
-  for (int i = 0; i < AMBULO__SUBTREE * AMBULO__LANES; i += AMBULO__LANES) {
-    store(to + i, load(a + i) + load(b + i));
-  }
+AMBULO__INLINE wide_subtree add_subtrees(wide_subtree a, wide_subtree b) {
+  const wide6 i = a.inertia, j = b.inertia;
+  const wide33 e = a.coriolis, f = b.coriolis;
+  return (wide_subtree){
+      axpy_pair(a.load, spread(1), b.load),
+      add3(a.first, b.first),
+      add3(a.momentum, b.momentum),
+      {i.xx + j.xx, i.yy + j.yy, i.zz + j.zz, i.xy + j.xy, i.xz + j.xz, i.yz + j.yz},
+      {add3(e.x, f.x), add3(e.y, f.y), add3(e.z, f.z)}};
+}
+
+/* Adds what stands at `from` to what stands at `to`. */
+AMBULO__INLINE void add_subtree(double *to, const double *from) {
+  const wide_subtree sum = add_subtrees(load_subtree(to), load_subtree(from));
+  store_subtree(to, &sum);
 }
 
 AMBULO__INLINE void copy_subtree(double *to, const double *from) {
-  for (int i = 0; i < AMBULO__SUBTREE * AMBULO__LANES; i += AMBULO__LANES) {
-    store(to + i, load(from + i));
-  }
+  const wide_subtree copy = load_subtree(from);
+  store_subtree(to, &copy);
 }
 
 AMBULO__INLINE void clear_subtree(double *at) {
-  for (int i = 0; i < AMBULO__SUBTREE * AMBULO__LANES; i += AMBULO__LANES) store(at + i, (wide){0});
+  const wide_subtree none = {0};
+  store_subtree(at, &none);
+}
+
+/* Of a diagonal inertia: zz 1 + (xx - zz) x x^T + (yy - zz) y y^T, x and y columns of the frame. */
+AMBULO__INLINE wide6 diagonal_inertia(const ambulo__local_step *step, const local_place *p) {
+  wide3 x = p->x, y = p->y, u = scale3(spread(step->difference[1]), x);
+  wide3 w = scale3(spread(-step->difference[0]), y);
+  wide base = spread(step->inertia[2]);
+  return (wide6){base + u.x * x.x + w.x * y.x, base + u.y * x.y + w.y * y.y,
+                 base + u.z * x.z + w.z * y.z, u.x * x.y + w.x * y.y,
+                 u.x * x.z + w.x * y.z,        u.y * x.z + w.y * y.z};
 }
 
 /* base 1 + first u u^T + second w w^T, see plan_mass.c. */
-AMBULO__INLINE wide6 body_inertia(const ambulo__body *body, const wide3 columns[3]) {
-  wide3 x = columns[body->order[0]], y = columns[body->order[1]];
-  if (!body->diagonal) {
-    wide3 z = columns[body->order[2]];
-    x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
-    y = axpy3(y, spread(body->lower[2]), z);
-  }
+AMBULO__INLINE wide6 oblique_inertia(const ambulo__body *body, const local_place *p) {
+  const wide3 columns[3] = {p->x, p->y, p->z};
+  wide3 x = columns[body->order[0]], y = columns[body->order[1]], z = columns[body->order[2]];
+  x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
+  y = axpy3(y, spread(body->lower[2]), z);
   wide3 u = scale3(spread(body->first), x), w = scale3(spread(body->second), y);
   return (wide6){body->base + u.x * x.x + w.x * y.x,
                  body->base + u.y * x.y + w.y * y.y,
@@ -95,12 +113,12 @@ AMBULO__INLINE wide33 body_coriolis(wide3 v, wide3 h, wide3 w, wide6 j) {
 
 AMBULO__INLINE void store_body(const ambulo__local_step *step, const ambulo__body *body,
                                const world_state *s, double *to) {
-  const wide3 columns[3] = {s->place.x, s->place.y, s->place.z};
   wide3 w = s->w, c = body_center(step, &s->place), x = add3(s->place.o, c);
   wide3 sweep = cross3(w, c), v = add3(s->v, sweep);
   wide3 force = add_cross3(add_cross3(s->a, s->alpha, c), w, sweep);
   wide mass = spread(step->mass);
-  wide6 j = body_inertia(body, columns);
+  wide6 j = step->body == AMBULO__BODY_ANY ? oblique_inertia(body, &s->place)
+                                           : diagonal_inertia(step, &s->place);
   wide_subtree sum;
   sum.load.linear = force = scale3(mass, force);
   sum.load.angular = add_cross3(multiply6(j, s->alpha), w, multiply6(j, w));
@@ -149,7 +167,7 @@ static void world_limb(const ambulo__plan *plan, const ambulo__limb *limb, const
 AMBULO__INLINE const double *complete_subtree(const ambulo__plan *plan, int k, const double *child,
                                               double *scratch) {
   double *own = scratch + plan->steps.changes[k].subtree;
-  if (child && child != own) add_subtrees(own, own, child);
+  if (child && child != own) add_subtree(own, child);
   return own;
 }
 
@@ -161,7 +179,7 @@ AMBULO__INLINE void pass_subtree_on(const ambulo__plan *plan, int top, const dou
   if (step->first) {
     copy_subtree(above, sum);
   } else {
-    add_subtrees(above, above, sum);
+    add_subtree(above, sum);
   }
 }
 
