@@ -66,8 +66,8 @@ AMBULO__INLINE wide jacobian_lower(const subtree_changes *t, wide_pair s, const 
                                    int lower, double *jq, double *jqd) {
   wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
   wide turned = dot3(t->turned, s.angular);
-  store(jq + lower, dot3(t->turned, sd.angular) + dot_pair(t->qdd, sdd));
-  store(jqd + lower, 2 * turned + dot_pair(t->qdd, sd));
+  store(jq + lower, add_dot_pair(dot3(t->turned, sd.angular), t->qdd, sdd));
+  store(jqd + lower, add_dot_pair(2 * turned, t->qdd, sd));
   return dot_pair(t->qdd, s);
 }
 

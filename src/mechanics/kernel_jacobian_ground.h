@@ -114,8 +114,9 @@ AMBULO__INLINE void ground_above(const row_changes *row, const double *motion, d
   wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
   wide_pair sdd = load_pair(motion + 4 * three);
   wide turned = dot3(row->turned, s.angular);
-  store(q, dot3(row->turned, sd.angular) + dot_pair(row->force, sdd) + dot_pair(row->turn, s));
-  store(qd, 2 * turned + dot_pair(row->force, sd));
+  wide by_q = add_dot_pair(dot3(row->turned, sd.angular), row->force, sdd);
+  store(q, add_dot_pair(by_q, row->turn, s));
+  store(qd, add_dot_pair(2 * turned, row->force, sd));
   store(qdd, dot_pair(row->force, s));
 }
 
@@ -247,6 +248,28 @@ AMBULO__STEP void ground_rows_above(const ambulo__plan *plan, double *jq, double
   }
 }
 
+/* What a column of the root wrench adds to some dense rows. */
+typedef struct ground_column {
+  wide_pair q, qd, qdd;
+  wide rise;
+} ground_column;
+
+AMBULO__INLINE void ground_terms(const ground_column *column, const ambulo__reaction_term *term,
+                                 const ambulo__reaction_term *last, int fresh, double *jq,
+                                 double *jqd, double *jqdd, const double *scratch) {
+  const ground_column c = *column;
+  for (; term < last; term++) {
+    const double *row = scratch + term->row_at;
+    double *q = jq + term->entry, *qd = jqd + term->entry, *qdd = jqdd + term->entry;
+    wide_pair r = load_pair(row);
+    wide by_q = load(row + 2 * three) * c.rise;
+    if (!fresh) by_q += load(q);
+    store(q, add_dot_pair(by_q, r, c.q));
+    store(qd, fresh ? dot_pair(r, c.qd) : add_dot_pair(load(qd), r, c.qd));
+    store(qdd, fresh ? dot_pair(r, c.qdd) : add_dot_pair(load(qdd), r, c.qdd));
+  }
+}
+
 /* What the dense rows have in all columns but those of the joints that carry the whole body. */
 AMBULO__STEP void ground_columns(const ambulo__plan *plan, double *jq, double *jqd, double *jqdd,
                                  const double *scratch) {
@@ -254,28 +277,16 @@ AMBULO__STEP void ground_columns(const ambulo__plan *plan, double *jq, double *j
   const int wrench = plan->start[plan->coordinates] * AMBULO__LANES;
   const wide3 up = ground_up(plan);
   for (int k = 0; k < plan->coordinates; k++) {
-    const ambulo__reaction_term *term = plan->term + k * dense;
-    const int fresh = plan->term_fresh[k], at = wrench + k * AMBULO__LANES;
+    const ambulo__reaction_term *term = plan->term + k * dense, *fresh = term + plan->term_fresh[k];
+    const int at = wrench + k * AMBULO__LANES;
+    ground_column c;
     if (plan->joints[k].torque_row == AMBULO__ROW_VANISHES) continue;
-    const wide_pair q = ground_wrench_column(jq + at, full);
-    const wide_pair qd = ground_wrench_column(jqd + at, full);
-    const wide_pair qdd = ground_wrench_column(jqdd + at, full);
-    const wide rise = dot3(up, qdd.linear);
-    for (int i = 0; i < dense; i++) {
-      int entry = term[i].entry;
-      const double *row = scratch + term[i].row_at;
-      wide_pair r = load_pair(row);
-      wide by_q = dot_pair(r, q) + load(row + 2 * three) * rise;
-      wide by_qd = dot_pair(r, qd), by_qdd = dot_pair(r, qdd);
-      if (i >= fresh) {
-        by_q += load(jq + entry);
-        by_qd += load(jqd + entry);
-        by_qdd += load(jqdd + entry);
-      }
-      store(jq + entry, by_q);
-      store(jqd + entry, by_qd);
-      store(jqdd + entry, by_qdd);
-    }
+    c.q = ground_wrench_column(jq + at, full);
+    c.qd = ground_wrench_column(jqd + at, full);
+    c.qdd = ground_wrench_column(jqdd + at, full);
+    c.rise = dot3(up, c.qdd.linear);
+    ground_terms(&c, term, fresh, 1, jq, jqd, jqdd, scratch);
+    ground_terms(&c, fresh, term + dense, 0, jq, jqd, jqdd, scratch);
   }
 }
 

@@ -113,6 +113,11 @@ AMBULO__INLINE wide dot3(wide3 a, wide3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* c + a . b */
+AMBULO__INLINE wide add_dot3(wide c, wide3 a, wide3 b) {
+  return ((c + a.x * b.x) + a.y * b.y) + a.z * b.z;
+}
+
 AMBULO__INLINE wide3 cross3(wide3 a, wide3 b) {
   return (wide3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -161,8 +166,13 @@ AMBULO__INLINE void store_pair(double *at, wide_pair pair) {
   store3(at + three, pair.linear);
 }
 
+/* One chain of multiply-adds: an addition less than the sum of two dot products. */
+AMBULO__INLINE wide add_dot_pair(wide c, wide_pair a, wide_pair b) {
+  return add_dot3(add_dot3(c, a.angular, b.angular), a.linear, b.linear);
+}
+
 AMBULO__INLINE wide dot_pair(wide_pair a, wide_pair b) {
-  return dot3(a.angular, b.angular) + dot3(a.linear, b.linear);
+  return add_dot3(dot3(a.angular, b.angular), a.linear, b.linear);
 }
 
 /* a + s b */

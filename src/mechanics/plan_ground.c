@@ -6,7 +6,7 @@
  * ground's wrench cancel, and tau vanishes identically.
  *
  * The terms list, for each column k, the entries of the dense rows in it
- * (kernel_ground_jacobian.h).
+ * (kernel_jacobian_ground.h).
  */
 #include <string.h>
 
