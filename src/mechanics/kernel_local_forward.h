@@ -20,10 +20,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 
-#include <math.h>
-
-#include "mechanics/kernel_sincos.h"
-#include "mechanics/kernel_wide.h"
+#include "mechanics/kernel_local_angles.h"
 
 typedef struct local_state {
   wide3 w, alpha, a;
@@ -218,36 +215,6 @@ AMBULO__INLINE void body_down(const ambulo__local_step *step, local_state s, dou
   }
 }
 
-/* Sines and cosines of a limb; returns `squares` plus those of the angles. */
-AMBULO__INLINE wide limb_angles(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
-                                wide squares, double *scratch) {
-  for (int i = limb->first; i <= limb->leaf; i++) {
-    const ambulo__local_step *step = &plan->local.steps[i];
-    if (step->joint == AMBULO__SLIDES) continue;
-    double *at = scratch + step->at + local_angle;
-    wide angle = step->sign * load(q + step->input) + step->shift, s, c;
-    squares += angle * angle;
-    sincos_wide(angle, &s, &c);
-    store(at, s);
-    store(at + AMBULO__LANES, c);
-  }
-  return squares;
-}
-
-static __attribute__((noinline)) void limb_libm_angles(const ambulo__plan *plan,
-                                                       const ambulo__limb *limb, const double *q,
-                                                       double *scratch) {
-  for (int i = limb->first; i <= limb->leaf; i++) {
-    const ambulo__local_step *step = &plan->local.steps[i];
-    if (step->joint == AMBULO__SLIDES) continue;
-    for (int lane = 0; lane < AMBULO__WIDTH; lane++) {
-      double angle = step->sign * q[step->input + lane] + step->shift;
-      scratch[step->at + local_angle + lane] = sin(angle);
-      scratch[step->at + local_angle + AMBULO__LANES + lane] = cos(angle);
-    }
-  }
-}
-
 /* Down to a leaf. */
 AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
                               const double *qd, const double *qdd, double *scratch) {
@@ -351,23 +318,6 @@ AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, 
   store_pair(above, step->first ? sum : axpy_pair(load_pair(above), spread(1), sum));
 }
 
-/* All limbs, angles by libm if asked to; returns the sum of the squares of the angles. */
-static wide local_limbs(const ambulo__plan *plan, int by_libm, const double *q, const double *qd,
-                        const double *qdd, double *out, double *scratch) {
-  wide squares = {0};
-  for (int i = 0; i < plan->local.limb_count; i++) {
-    const ambulo__limb *limb = &plan->local.limbs[i];
-    if (by_libm) {
-      limb_libm_angles(plan, limb, q, scratch);
-    } else {
-      squares = limb_angles(plan, limb, q, squares, scratch);
-    }
-    limb_down(plan, limb, q, qd, qdd, scratch);
-    limb_up(plan, limb, q, out, scratch);
-  }
-  return squares;
-}
-
 /* tau and the root wrench. */
 static void local_dynamics(const ambulo__plan *plan, const double *q, const double *qd,
                            const double *qdd, double *out, double *scratch) {
@@ -378,8 +328,10 @@ static void local_dynamics(const ambulo__plan *plan, const double *q, const doub
     store3(world + local_gain, zero);
     store3(world + local_pull, scale3(spread(-1), spread3(plan->gravity)));
   }
-  if (!sincos_inside(local_limbs(plan, 0, q, qd, qdd, out, scratch))) {
-    local_limbs(plan, 1, q, qd, qdd, out, scratch);
+  local_angles(&plan->local, q, scratch);
+  for (int i = 0; i < plan->local.limb_count; i++) {
+    limb_down(plan, &plan->local.limbs[i], q, qd, qdd, scratch);
+    limb_up(plan, &plan->local.limbs[i], q, out, scratch);
   }
   wide_pair sum = {zero, zero};
   if (plan->local.limb_count > 0) sum = load_pair(world + local_load);

@@ -155,13 +155,8 @@ AMBULO__INLINE void world_points(const ambulo__plan *plan, int number, const loc
 static void world_start(const ambulo__plan *plan, const double *q, double *scratch) {
   const ambulo__local_plan *local = &plan->local;
   const world_state world = world_itself(plan);
-  wide squares = {0};
   if (local->world_group >= 0) world_points(plan, local->world_group, &world.place, scratch);
-  for (int i = 0; i < local->limb_count; i++) {
-    squares = limb_angles(plan, &local->limbs[i], q, squares, scratch);
-  }
-  if (sincos_inside(squares)) return;
-  for (int i = 0; i < local->limb_count; i++) limb_libm_angles(plan, &local->limbs[i], q, scratch);
+  local_angles(local, q, scratch);
 }
 
 #endif

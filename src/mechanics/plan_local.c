@@ -51,7 +51,6 @@ static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
                                               AMBULO__OFFSET_ANY};
   step->joint = joint->revolute ? (ambulo__joint_kind)joint->axis : AMBULO__SLIDES;
   step->sign = joint->sign;
-  step->shift = joint->shift;
   step->still = joint->still;
   step->turned = joint->revolute && joint->turned;
   memcpy(step->turn, joint->turn, sizeof step->turn);
@@ -105,6 +104,19 @@ static void set_limbs(ambulo__plan *plan, int *open) {
     step->first_adjoint = above && !above->adjoined;
     rooted |= !above;
     if (above) above->loaded = above->adjoined = 1;
+  }
+}
+
+static void set_angles(ambulo__plan *plan) {
+  ambulo__local_plan *local = &plan->local;
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__local_step *step = &local->steps[k];
+    if (step->joint == AMBULO__SLIDES) continue;
+    local->angles[local->angle_count++] = (ambulo__local_angle){step->input, step->at + local_angle,
+                                                                step->sign, plan->joints[k].shift};
+  }
+  for (int last = local->angle_count - 1; local->angle_count % ambulo__angle_row != 0;) {
+    local->angles[local->angle_count++] = local->angles[last];
   }
 }
 
@@ -168,8 +180,9 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   local->steps = ambulo__alloc(&plan->allocator, d, sizeof *local->steps);
   local->carrier = ambulo__alloc(&plan->allocator, d, sizeof *local->carrier);
   local->limbs = ambulo__alloc(&plan->allocator, d, sizeof *local->limbs);
+  local->angles = ambulo__alloc(&plan->allocator, d + ambulo__angle_row, sizeof *local->angles);
   int *open = ambulo__alloc(&plan->allocator, d, sizeof *open);
-  if (!local->steps || !local->carrier || !local->limbs || !open) {
+  if (!local->steps || !local->carrier || !local->limbs || !local->angles || !open) {
     ambulo__free(&plan->allocator, open);
     return AMBULO_E_MEMORY;
   }
@@ -186,6 +199,7 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   }
   set_forks(plan);
   set_limbs(plan, open);
+  set_angles(plan);
   ambulo__free(&plan->allocator, open);
   if (plan->grounded) set_ground(plan);
   set_points(plan);
@@ -197,4 +211,5 @@ void ambulo__plan_local_free(ambulo__plan *plan) {
   ambulo__free(&plan->allocator, plan->local.steps);
   ambulo__free(&plan->allocator, plan->local.carrier);
   ambulo__free(&plan->allocator, plan->local.limbs);
+  ambulo__free(&plan->allocator, plan->local.angles);
 }

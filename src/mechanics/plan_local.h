@@ -83,7 +83,7 @@ typedef struct ambulo__local_step {
   int vanishes;                         /* ground reaction: tau is zero, see plan_ground.c */
   int weighs;                           /* ground reaction: the body counts in the centre of mass */
   int feet;                             /* ground reaction: feet on this frame (1, 2, both: 3) */
-  double sign, shift;                   /* angle = sign q + shift */
+  double sign;                          /* of a revolute joint's axis */
   double turn[9];                       /* oblique axis: the turned frame in the parent frame */
   double slide[3];                      /* prismatic: the axis in the frame */
   double move[3];                       /* offset of the origin, parent frame */
@@ -92,6 +92,14 @@ typedef struct ambulo__local_step {
   double inertia[6];                    /* about the centre of mass: xx yy zz xy xz yz */
   double difference[3];                 /* zz - yy, xx - zz, yy - xx */
 } ambulo__local_step;
+
+/* The angle sign q + shift, and where its sine and cosine go. */
+typedef struct ambulo__local_angle {
+  int input, at;
+  double sign, shift;
+} ambulo__local_angle;
+
+enum { ambulo__angle_row = 4 };
 
 /* Down the steps from `first` to `leaf`, which has no children; then up from there to `top`, the
  * last frame of which all is known: it adds what it carries to its parent's. */
@@ -103,6 +111,9 @@ typedef struct ambulo__local_plan {
   ambulo__local_step *steps; /* [coordinates] */
   ambulo__limb *limbs;       /* [limb_count] */
   int limb_count;
+  ambulo__local_angle *angles; /* [angle_count]; the last is repeated to fill a row of
+                                  ambulo__angle_row */
+  int angle_count;
   int world_at;    /* slot of the world */
   int branched;    /* several joints stand on the world */
   int world_group; /* points fixed to the world, -1: none */

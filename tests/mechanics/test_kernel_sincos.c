@@ -53,6 +53,40 @@ static void exact_at_zero(void **state) {
   assert_true(cosine[0] == 1 && cosine[1] == 1);
 }
 
+/* What is left out for small angles changes nothing. */
+static void small_angles_need_no_reduction(void **state) {
+  (void)state;
+  random_source source = {5};
+  for (int k = 0; k < 20000; k++) {
+    wide x[sincos_row], z[sincos_row], sine[sincos_row], cosine[sincos_row];
+    for (int i = 0; i < sincos_row; i++) {
+      x[i] = (wide){random_between(&source, -1.414, 1.414), k % 3 ? 1.4142 : 0};
+      z[i] = x[i] * x[i];
+    }
+    assert_true(sincos_small(sincos_row, z));
+    sincos_series(sincos_row, x, z, sine, cosine);
+    for (int i = 0; i < sincos_row; i++) {
+      wide s, c;
+      sincos_wide(x[i], &s, &c);
+      for (int lane = 0; lane < 2; lane++) {
+        assert_true(s[lane] == sine[i][lane] && c[lane] == cosine[i][lane]);
+      }
+    }
+  }
+}
+
+static void large_angles_are_not_small(void **state) {
+  (void)state;
+  static const double large[] = {1.415, -1.415, 2, -3, 1e5, 1e200, INFINITY, NAN};
+  for (size_t i = 0; i < sizeof large / sizeof *large; i++) {
+    for (int place = 0; place < 4; place++) {
+      wide z[2] = {{0.5, 0.1}, {1, 1e-3}};
+      z[place / 2][place % 2] = large[i] * large[i];
+      assert_false(sincos_small(2, z));
+    }
+  }
+}
+
 static void range_shows_what_is_not_a_number(void **state) {
   (void)state;
   assert_true(sincos_inside((wide){1e10, 0}));
@@ -65,6 +99,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(accurate_everywhere),
                                      cmocka_unit_test(accurate_near_multiples_of_the_quarter),
                                      cmocka_unit_test(exact_at_zero),
+                                     cmocka_unit_test(small_angles_need_no_reduction),
+                                     cmocka_unit_test(large_angles_are_not_small),
                                      cmocka_unit_test(range_shows_what_is_not_a_number)};
   return cmocka_run_group_tests_name("mechanics/kernel_sincos", tests, NULL, NULL);
 }
