@@ -1,6 +1,7 @@
 /* tests/mechanics/kernel_fixture.h - random trees, states and the reference's derivatives.
  *
- * A case is a tree, its plan, and one block of states in one of the pose regimes; the reference
+ * A case is a tree, its plan, and one block of states in one of the pose regimes; from number
+ * rooted_cases on, the tree stands on a chain of sliders along (mostly) world axes. The reference
  * gives the outputs of any lane, and their Jacobians by complex steps of 1e-40, which are as
  * accurate as the values themselves. Differences are relative to the largest entry of a group
  * (tau and wrench; points). */
@@ -12,7 +13,12 @@
 #include "support/random_model.h"
 #include "support/test.h"
 
-enum { case_count = 240, max_d = 64, max_rows = max_d + 6 + 3 * random_max_points };
+enum {
+  rooted_cases = 240,
+  case_count = 340,
+  max_d = 64,
+  max_rows = max_d + 6 + 3 * random_max_points
+};
 
 static const char *const isa_names[] = {"scalar", "baseline", "avx2", "avx512"};
 enum { isa_count = 4 };
@@ -59,7 +65,12 @@ static inline double *zero_lane_array(size_t count) {
 static inline void case_open(kernel_case *c, int number) {
   random_source source = {1000 + (uint64_t)number};
   c->number = number;
-  random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 60);
+  if (number < rooted_cases) {
+    random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 60);
+  } else {
+    random_tree_make(&c->tree, 77 * (uint64_t)number + 5, 1 + number % 20);
+    random_tree_put_on_root(&c->tree, 31 * (uint64_t)number + 2);
+  }
   c->model = NULL;
   c->plan = NULL;
   assert_int_equal(ambulo_model_create(&c->tree.definition, NULL, NULL, &c->model), AMBULO_OK);
@@ -124,6 +135,28 @@ static inline void case_jacobian(const kernel_case *c, const double *state, doub
     z[2 * k + 1] = 0;
     for (int row = 0; row < c->rows; row++) {
       jacobian[(k / c->d * c->rows + row) * c->d + k % c->d] = out[2 * row + 1] / step;
+    }
+  }
+}
+
+/* Dense [rows][d] of one order (by q, qd or qdd) in one lane of the entries jq, jqd, jqdd, one
+ * after the other; every row is made of its parts, and what the pattern does not name is zero. */
+static inline void case_dense(const kernel_case *c, const double *entries, int order, int lane,
+                              double *dense) {
+  ambulo__plan_pattern p = ambulo__plan_get_pattern(c->plan);
+  memset(dense, 0, (size_t)(c->rows * c->d) * sizeof *dense);
+  for (int row = 0; row < c->rows; row++) {
+    ambulo__row_part part[2];
+    int parts = ambulo__plan_parts(c->plan, row, part);
+    for (int k = 0; k < parts; k++) {
+      int from = part[k].row, by = part[k].by_acceleration ? 2 : order;
+      if (by > 0 && p.rate_start[from] < 0) continue;
+      if (part[k].by_acceleration && order > 0) continue;
+      int block = by > 0 ? p.count + (by - 1) * p.dynamic_count : 0;
+      int at = block + (by > 0 ? p.rate_start[from] : p.start[from]);
+      for (int e = p.start[from]; e < p.start[from + 1]; e++, at++) {
+        dense[row * c->d + p.column[e]] += part[k].factor * entries[at * AMBULO__LANES + lane];
+      }
     }
   }
 }

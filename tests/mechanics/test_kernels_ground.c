@@ -91,35 +91,13 @@ static double *entries_of(ground_case *c, const ambulo__kernels *kernels) {
   return entries;
 }
 
-/* Dense [rows][d] of one order in one lane; what the pattern does not name is zero. */
-static void dense_of(const ground_case *c, const double *entries, int order, int lane,
-                     double *dense) {
-  const kernel_case *b = &c->body;
-  ambulo__plan_pattern p = ambulo__plan_get_pattern(b->plan);
-  memset(dense, 0, (size_t)(b->rows * b->d) * sizeof *dense);
-  for (int row = 0; row < b->rows; row++) {
-    ambulo__row_part part[2];
-    int parts = ambulo__plan_parts(b->plan, row, part);
-    for (int k = 0; k < parts; k++) {
-      int from = part[k].row, by = part[k].by_acceleration ? 2 : order;
-      if (by > 0 && p.rate_start[from] < 0) continue;
-      if (part[k].by_acceleration && order > 0) continue;
-      int block = by > 0 ? p.count + (by - 1) * p.dynamic_count : 0;
-      int at = block + (by > 0 ? p.rate_start[from] : p.start[from]);
-      for (int e = p.start[from]; e < p.start[from + 1]; e++, at++) {
-        dense[row * b->d + p.column[e]] += part[k].factor * entries[at * AMBULO__LANES + lane];
-      }
-    }
-  }
-}
-
 static void check_jacobian(const ground_case *c, const char *isa, const double *entries,
                            const double *want, int lane) {
   static double dense[ground_max_rows * max_d];
   int d = c->body.d, ends[ground_groups];
   ground_group_ends(c, ends);
   for (int order = 0; order < 3; order++, want += c->body.rows * d) {
-    dense_of(c, entries, order, lane, dense);
+    case_dense(&c->body, entries, order, lane, dense);
     for (int group = 0, from = 0; group < ground_groups; from = ends[group++]) {
       int where = 0, at = from * d;
       double error = difference(dense + at, 1, want + at, (ends[group] - from) * d, &where);

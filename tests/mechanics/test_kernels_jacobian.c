@@ -14,19 +14,11 @@ static double *jacobian_entries(kernel_case *c, const ambulo__kernels *kernels) 
   return entries;
 }
 
-/* Dense [3][rows][d] of one lane; what the pattern does not name is zero. */
+/* Dense [3][rows][d] of one lane. */
 static double *dense_jacobian(const kernel_case *c, const double *entries, int lane) {
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(c->plan);
-  double *dense = calloc((size_t)(3 * c->rows * c->d + 1), sizeof *dense);
-  assert_non_null(dense);
-  for (int group = 0; group < 3; group++) {
-    for (int row = 0; row < (group ? c->d + 6 : c->rows); row++) {
-      for (int e = pattern.start[row]; e < pattern.start[row + 1]; e++) {
-        dense[(group * c->rows + row) * c->d + pattern.column[e]] =
-            entries[e * AMBULO__LANES + lane];
-      }
-    }
-    entries += (group ? pattern.dynamic_count : pattern.count) * AMBULO__LANES;
+  double *dense = lane_array((size_t)(3 * c->rows * c->d));
+  for (int order = 0; order < 3; order++) {
+    case_dense(c, entries, order, lane, dense + order * c->rows * c->d);
   }
   return dense;
 }

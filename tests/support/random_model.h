@@ -14,7 +14,7 @@
 
 #include "ambulo/model.h"
 
-enum { random_max_links = 160, random_max_points = 6 };
+enum { random_max_links = 160, random_max_points = 6, random_max_root = 6 };
 
 typedef struct random_source {
   uint64_t state;
@@ -130,6 +130,59 @@ static inline void random_tree_make(random_tree *tree, uint64_t seed, int coordi
   tree->definition.point_count = points;
   tree->definition.gravity[0] = random_between(&source, -2, 2);
   tree->definition.gravity[2] = random_between(&source, -2, 2);
+}
+
+/* A link of the chain that random_tree_put_on_root puts below a tree: most often a slider along a
+ * world axis. */
+static inline void random_root_link(random_source *source, ambulo_link *link, int parent) {
+  static const char *const names[random_max_root] = {"root_0", "root_1", "root_2",
+                                                     "root_3", "root_4", "post"};
+  const double quarter = 0.5 * acos(-1);
+  double kind = random_unit(source);
+  *link = ambulo_link_default();
+  link->name = names[parent + 1];
+  link->parent = parent;
+  link->type = kind < 0.6 ? AMBULO_PRISMATIC : kind < 0.9 ? AMBULO_FIXED : AMBULO_REVOLUTE;
+  link->theta = (random_below(source, 5) - 2) * quarter;
+  link->alpha = (random_below(source, 5) - 2) * quarter;
+  if (random_unit(source) < 0.1) link->alpha = random_between(source, -3, 3);
+  link->a = random_length(source);
+  link->d = random_length(source);
+  if (random_unit(source) < 0.15) random_body(source, link);
+}
+
+/* Puts what stands on the world on a chain of random_max_root - 1 links instead, each tree three
+ * times out of four, and may fix a body to the world. The chain's joints come first; returns how
+ * many they are. */
+static inline int random_tree_put_on_root(random_tree *tree, uint64_t seed) {
+  random_source source = {seed};
+  ambulo_model_definition *definition = &tree->definition;
+  ambulo_link root[random_max_root];
+  const int count = random_max_root, end = count - 2;
+  int moving = 0;
+  for (int i = 0; i < count; i++) random_root_link(&source, &root[i], i - 1);
+  root[end + 1].parent = -1;
+  root[end + 1].type = AMBULO_FIXED;
+  for (int i = 0; i < count; i++) moving += root[i].type != AMBULO_FIXED;
+  for (int i = 0; i < definition->link_count; i++) {
+    int *parent = &tree->links[i].parent;
+    *parent = *parent >= 0 ? *parent + count : random_unit(&source) < 0.75 ? end : -1;
+  }
+  memmove(tree->links + count, tree->links, (size_t)definition->link_count * sizeof *root);
+  memmove(tree->coordinates + moving, tree->coordinates,
+          (size_t)definition->coordinate_count * sizeof *tree->coordinates);
+  memcpy(tree->links, root, sizeof root);
+  definition->link_count += count;
+  definition->coordinate_count += moving;
+  for (int i = 0, k = 0; i < count; i++) {
+    if (root[i].type == AMBULO_FIXED) continue;
+    tree->coordinates[k] = ambulo_coordinate_default();
+    tree->coordinates[k].name = root[i].name;
+    tree->coordinates[k++].type = root[i].type;
+  }
+  for (int k = 0; k < definition->coordinate_count; k++) tree->coordinates[k].mirror = k;
+  for (int i = 0; i < definition->point_count; i++) tree->points[i].link += count;
+  return moving;
 }
 
 #endif
