@@ -98,12 +98,16 @@ AMBULO__INLINE wide straight_part(const ambulo__pair *pair, wide3 v, const doubl
 }
 
 /* Row and column of a joint in the Jacobians of tau. Straight joints come first among its
- * ancestors: S = (0, s), Sd = Sdd = 0, and what vanishes with them is not written. */
+ * ancestors: S = (0, s), Sd = Sdd = 0, and what vanishes with them is not written; nor are the rows
+ * of the first of them that are rows of the root force. */
 AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
                                    const subtree_changes *t, double *jq, double *jqd, double *jqdd,
                                    const double *scratch) {
   const ambulo__pair *pair = pairs + step->first, *last = pair + step->count;
   int lower = step->lower;
+  for (; pair < pairs + step->first + step->followers; pair++, lower += AMBULO__LANES) {
+    store(jqdd + lower, straight_part(pair, t->qdd.linear, scratch));
+  }
   for (; pair < pairs + step->first + step->straight; pair++, lower += AMBULO__LANES) {
     wide mass = straight_part(pair, t->qdd.linear, scratch);
     store(jqdd + lower, mass);
@@ -138,15 +142,18 @@ AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, const wid
   jacobian_wrench(plan, k, (wide_pair){cross3(sum->first, s), scale3(spread(step->mass), s)}, jqdd);
 }
 
-/* Its row and column of tau: all joints above are straight, too. */
+/* Its row and column of tau: all joints above are straight, too. Those that have no rows of their
+ * own do not have its column either. */
 AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
                                    double *jqdd, const double *scratch) {
   wide3 force = scale3(spread(step->mass), load3(scratch + step->motion + three));
   int lower = step->lower;
-  for (int i = step->first; i < step->first + step->count; i++, lower += AMBULO__LANES) {
-    wide mass = straight_part(&pairs[i], force, scratch);
+  if (step->follows) return;
+  for (int i = 0; i < step->count; i++, lower += AMBULO__LANES) {
+    const ambulo__pair *pair = &pairs[step->first + i];
+    wide mass = straight_part(pair, force, scratch);
     store(jqdd + lower, mass);
-    store(jqdd + pairs[i].upper, mass);
+    if (i >= step->followers) store(jqdd + pair->upper, mass);
   }
   store(jqdd + lower, spread(step->mass));
 }

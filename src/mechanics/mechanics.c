@@ -219,7 +219,8 @@ ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const do
   return AMBULO_OK;
 }
 
-/* values[node][row - from][column] for rows from..to of the pattern; zeros elsewhere. */
+/* values[node][row - from][column] for rows from..to, which have one part each without ground
+ * reaction; zeros elsewhere. */
 static void scatter_rows(const ambulo_mechanics *m, double *values, const double *entries, int from,
                          int to, int first, int nodes) {
   if (!values) return;
@@ -230,8 +231,10 @@ static void scatter_rows(const ambulo_mechanics *m, double *values, const double
     memset(matrix, 0, size * sizeof *matrix);
     for (int row = from; row < to; row++) {
       double *to_row = matrix + (size_t)(row - from) * d;
-      for (int e = pattern.start[row]; e < pattern.start[row + 1]; e++) {
-        to_row[pattern.column[e]] = entries[e * AMBULO__LANES + lane];
+      ambulo__row_part part[2];
+      (void)ambulo__plan_parts(m->plan, row, part);
+      for (int e = pattern.start[part[0].row]; e < pattern.start[part[0].row + 1]; e++) {
+        to_row[pattern.column[e]] += part[0].factor * entries[e * AMBULO__LANES + lane];
       }
     }
   }

@@ -52,10 +52,12 @@ static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
  * column[start[r] .. start[r+1]), ascending coordinate indices. Rows tau, moment
  * and force, and those of the feet, depend on q, qd and qdd through the same
  * columns; rows of points on q only. Entry e of row r stands at e in jq, and at
- * rate_start[r] + e - start[r] in jqd and jqdd. With ground reaction, rows of tau
- * that vanish identically (joints that carry the whole body) have no entries; nor
- * have the force on foot 1 and the centre of mass, which follow from other rows
- * (ambulo__plan_parts): what is not stored need not be written. */
+ * rate_start[r] + e - start[r] in jqd and jqdd. What is not stored need not be
+ * written, so that there are rows without entries: of tau with ground reaction, those
+ * that vanish identically (joints that carry the whole body); without, those that are
+ * rows of the root force (the sliders along world axes with which the whole body
+ * stands on the world); the force on foot 1; and the centre of mass. All but the
+ * first kind follow from other rows (ambulo__plan_parts). */
 typedef struct ambulo__plan_pattern {
   const int *start;      /* [rows + 1] */
   const int *column;     /* [start[rows]] */
@@ -72,7 +74,9 @@ typedef struct ambulo__row_part {
   int row, by_acceleration;
   double factor;
 } ambulo__row_part;
-/* Returns how many parts there are. All rows but those named above: the row itself. */
+/* Returns how many parts there are; one for tau, wrench and points, not by acceleration. A row of
+ * the root force for the rows of tau named above; of other rows with entries, and of rows that
+ * vanish, the row itself. */
 int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[2]);
 
 /* What a block's ground reaction is told, [AMBULO__GROUND_ENTRIES][lanes]: share a of

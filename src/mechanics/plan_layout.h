@@ -36,17 +36,19 @@ typedef struct ambulo__joint {
   double turn[9];  /* rows; turned frame in parent frame */
   int axis;        /* which column of the (turned) frame is the axis */
   int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
-  int torque_row;  /* ambulo__torque_row of a grounded plan */
+  int torque_row;  /* ambulo__torque_row */
   int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (17) */
   int motion_at;   /* Jacobian: S and its first and second derivative (18) */
 } ambulo__joint;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint, all coordinates (what
- * it carries stands on the ground), or none (it carries the whole body: tau = 0). */
+ * it carries stands on the ground), or none: with ground reaction, because it carries the whole
+ * body (tau = 0); without, because it is a row of the root force (plan_pattern.c). */
 typedef enum ambulo__torque_row {
   AMBULO__ROW_SPARSE = 0,
   AMBULO__ROW_DENSE,
-  AMBULO__ROW_VANISHES
+  AMBULO__ROW_VANISHES,
+  AMBULO__ROW_FOLLOWS
 } ambulo__torque_row;
 
 /* Part of a Jacobian column: where it goes (doubles), and the row that makes it. */
@@ -94,7 +96,8 @@ struct ambulo__plan {
   int dynamic_count, count;
   int *ancestor_start; /* [coordinates + 1] into: */
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */
-  int *upper;          /* same length: position of column i in the row of that ancestor */
+  int *upper;          /* same length: entry of column i in the row of that ancestor; -1 where
+                          that row is not sparse */
 
   /* Grounded, for the Jacobians; pairs: as long as `ancestor`. */
   ambulo__ground_pair *pairs;

@@ -4,6 +4,13 @@
  * before i and its descendants after it. Moment and force depend on every coordinate, a point on
  * the coordinates between it and the world; with ground reaction, what carries a foot depends on
  * every coordinate, as do the wrenches of the feet and the centre of mass.
+ *
+ * Without ground reaction, a displacement of all moving bodies along s meets the force on all of
+ * them: tau = s . (F - F_0), with F_0 the weight, constant, of the bodies fixed to the world. If s
+ * is plus or minus a world axis k, and stands still, then the row is plus or minus that of F_k. A
+ * chain of such joints, beginning at the world, has no entries: the root of most bodies. (Behind
+ * another joint, as an oblique one, they keep their rows, so that kernels find those without
+ * entries first among the ancestors.)
  */
 #include "mechanics/plan_build.h"
 
@@ -29,10 +36,33 @@ static void write_chain(const ambulo__plan *plan, int coordinate, int *out) {
   for (int k = coordinate; k >= 0; k = parent_of(plan, k)) out[--place] = k;
 }
 
+/* Whether the row of tau is, but for its sign, the row of a component of the root force. */
+static int follows_force(const ambulo__plan *plan, int k) {
+  const ambulo__joint *joint = &plan->joints[k];
+  int above = parent_of(plan, k);
+  if (plan->grounded || joint->revolute || joint->turned) return 0;
+  if (above >= 0 && plan->joints[above].torque_row != AMBULO__ROW_FOLLOWS) return 0;
+  for (int i = 0; i < plan->bodies; i++) {
+    if (!is_ancestor(plan, k, plan->body[i].frame - 1)) return 0;
+  }
+  return 1;
+}
+
+static void find_followers(ambulo__plan *plan) {
+  for (int k = 0; k < plan->coordinates; k++) {
+    if (follows_force(plan, k)) plan->joints[k].torque_row = AMBULO__ROW_FOLLOWS;
+  }
+}
+
 static int in_torque_row(const ambulo__plan *plan, int i, int j) {
-  if (plan->joints[i].torque_row == AMBULO__ROW_VANISHES) return 0;
-  if (plan->joints[i].torque_row == AMBULO__ROW_DENSE) return 1;
-  return is_ancestor(plan, j, i) || is_ancestor(plan, i, j);
+  switch (plan->joints[i].torque_row) {
+  case AMBULO__ROW_SPARSE:
+    return is_ancestor(plan, j, i) || is_ancestor(plan, i, j);
+  case AMBULO__ROW_DENSE:
+    return 1;
+  default:
+    return 0;
+  }
 }
 
 static void count_entries(ambulo__plan *plan, size_t *pairs) {
@@ -115,6 +145,7 @@ static void fill_ancestors(ambulo__plan *plan) {
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   const ambulo_allocator *allocator = &plan->allocator;
   size_t pairs, rows = (size_t)ambulo__plan_rows(plan);
+  find_followers(plan);
   count_entries(plan, &pairs);
   plan->start = ambulo__alloc(allocator, rows + 1, sizeof(int));
   plan->column = ambulo__alloc(allocator, (size_t)plan->count, sizeof(int));
@@ -135,6 +166,11 @@ ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
 int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[2]) {
   int feet = ambulo__plan_first_foot_row(plan), force = plan->coordinates + 3;
   part[0] = (ambulo__row_part){row, 0, 1};
+  if (row < plan->coordinates && plan->joints[row].torque_row == AMBULO__ROW_FOLLOWS) {
+    const ambulo__joint *joint = &plan->joints[row]; /* its axis is one of the world frame */
+    part[0] = (ambulo__row_part){force + joint->axis, 0, joint->sign};
+    return 1;
+  }
   if (!plan->grounded || row < feet + 4 || row == feet + 7) return 1;
   if (row > feet + 7) { /* a step of q_j moves it as qdd_j accelerates it */
     part[0] = (ambulo__row_part){force + row - feet - 8, 1, 1 / plan->mass};

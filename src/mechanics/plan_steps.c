@@ -28,30 +28,42 @@ static int subtree_of(const ambulo__plan *plan, int frame) {
   return -1;
 }
 
+static int follows(const ambulo__joint *joint) {
+  return joint->torque_row == AMBULO__ROW_FOLLOWS;
+}
+
+/* How many of the first `count` joints of a list are of a kind. */
+static int count_first(const ambulo__plan *plan, const int *joints, int count,
+                       int (*is_of_kind)(const ambulo__joint *)) {
+  int n = 0;
+  while (n < count && is_of_kind(&plan->joints[joints[n]])) n++;
+  return n;
+}
+
 static void emit_changes(ambulo__plan *plan) {
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__frame *frame = &plan->frames[k + 1];
     int bare = is_straight(&plan->joints[k]) &&
                (!plan->grounded || plan->joints[k].torque_row == AMBULO__ROW_VANISHES);
-    int first = plan->ancestor_start[k], straight = 0, count = plan->ancestor_start[k + 1] - first;
-    while (straight < count && is_straight(&plan->joints[plan->ancestor[first + straight]])) {
-      straight++;
-    }
+    int first = plan->ancestor_start[k], count = plan->ancestor_start[k + 1] - first;
+    const int *above = plan->ancestor + first;
     plan->steps.changes[k] = (ambulo__change_step){
         .motion = plan->joints[k].motion_at,
         .bare = bare,
         .subtree = subtree_of(plan, k + 1),
         .first = first,
-        .straight = straight,
+        .followers = count_first(plan, above, count, follows),
+        .straight = count_first(plan, above, count, is_straight),
         .is_straight = is_straight(&plan->joints[k]),
+        .follows = follows(&plan->joints[k]),
         .count = count,
         .lower = lanes(plan->start[k]),
         .mass = frame->subtree_mass,
     };
     for (int i = first; i < first + count; i++) {
-      const ambulo__joint *above = &plan->joints[plan->ancestor[i]];
+      const ambulo__joint *joint = &plan->joints[plan->ancestor[i]];
       plan->steps.pairs[i] =
-          (ambulo__pair){above->motion_at, lanes(plan->upper[i]), world_axis(above)};
+          (ambulo__pair){joint->motion_at, lanes(plan->upper[i]), world_axis(joint)};
     }
   }
 }

@@ -21,16 +21,20 @@ typedef struct ambulo__body {
 } ambulo__body;
 
 /* A joint's row and column of the Jacobians: pairs first .. first + count of
- * ancestors, and the joint itself. */
+ * ancestors, and the joint itself. The first `straight` pairs are with straight
+ * joints, the first `followers` of these with joints whose own rows of tau are
+ * rows of the root force and have no entries. */
 typedef struct ambulo__change_step {
   int motion, bare; /* bare: only S is read, for its derivatives vanish */
   int subtree;      /* where its subtree stands: with the frame, or the child whose it is, too */
-  int first, straight, count, lower; /* the first `straight` pairs are with straight joints */
-  int is_straight;                   /* prismatic along an axis that stands still */
+  int first, followers, straight, count, lower;
+  int is_straight; /* prismatic along an axis that stands still */
+  int follows;     /* its own row has no entries; then nor have those of its ancestors */
   double mass;
 } ambulo__change_step;
 
-/* axis: 0, 1, 2 if the ancestor is straight along that world axis, else -1. */
+/* axis: 0, 1, 2 if the ancestor is straight along that world axis, else -1; upper: the joint's
+ * column in the ancestor's row. */
 typedef struct ambulo__pair {
   int motion, upper, axis;
 } ambulo__pair;

@@ -170,8 +170,11 @@ static double acceleration_slope(const ambulo_workspace *workspace, int node, in
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
   int output = channel - ambulo__channel_outputs(&p->channels);
   if (output < 0 || output >= p->coordinates + 6) return 1.0;
+  ambulo__row_part part[2]; /* tau and wrench have one, as large as themselves */
+  (void)ambulo__plan_parts(p->plan, output, part);
+  int row = part[0].row, count = pattern.start[row + 1] - pattern.start[row];
   double sum = 0.0;
-  for (int e = pattern.start[output]; e < pattern.start[output + 1]; e++) {
+  for (int e = pattern.rate_start[row]; e < pattern.rate_start[row] + count; e++) {
     double slope = workspace->jqdd[ambulo__lane_index(node, pattern.dynamic_count, e)];
     sum += slope * slope;
   }

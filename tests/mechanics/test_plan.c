@@ -127,11 +127,13 @@ static void inertia_factors_multiply_out(void **state) {
   }
 }
 
-/* Rows ascend, tau's own column is in its row, and the pattern is symmetric in tau. */
+/* Rows ascend, tau's own column is in its row, and the pattern is symmetric in tau, but for rows
+ * without entries, which are rows of the root force. */
 static void pattern_is_well_formed(void **state) {
   (void)state;
   static kernel_case c;
-  for (int number = 0; number < 60; number++) {
+  for (int number = 0; number < case_count; number++) {
+    if (number >= 60 && number < rooted_cases) continue;
     case_open(&c, number);
     ambulo__plan_pattern p = ambulo__plan_get_pattern(c.plan);
     static char dense[max_rows][max_d];
@@ -146,12 +148,110 @@ static void pattern_is_well_formed(void **state) {
         dense[row][p.column[e]] = 1;
       }
     }
-    for (int i = 0; i < c.d; i++) {
-      assert_true(dense[i][i]);
-      for (int j = 0; j < c.d; j++) assert_int_equal(dense[i][j], dense[j][i]);
+    for (int i = 0; i < c.rows; i++) {
+      ambulo__row_part part[2];
+      assert_int_equal(ambulo__plan_parts(c.plan, i, part), 1);
+      assert_false(part[0].by_acceleration);
+      if (part[0].row != i) {
+        assert_true(i < c.d && part[0].row >= c.d + 3 && part[0].row < c.d + 6);
+        assert_true(fabs(part[0].factor) == 1 && p.start[i] == p.start[i + 1]);
+        continue;
+      }
+      assert_true(part[0].factor == 1);
+      for (int j = 0; j < c.d && i < c.d; j++) {
+        assert_true(dense[i][j] == dense[j][i] || p.start[j] == p.start[j + 1]);
+      }
+      assert_true(i >= c.d || dense[i][i]);
     }
     case_close(&c);
   }
+}
+
+/* Which row of tau is which of the root force: +-1 to +-3 for +-x, y, z; 0: none. */
+static void check_followers(ambulo_link *links, int count, const int *want) {
+  ambulo__plan *plan = plan_of(links, count);
+  ambulo__plan_pattern p = ambulo__plan_get_pattern(plan);
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__row_part part[2];
+    assert_int_equal(ambulo__plan_parts(plan, k, part), 1);
+    assert_int_equal(part[0].row, want[k] ? plan->coordinates + 2 + abs(want[k]) : k);
+    assert_true(part[0].factor == (want[k] < 0 ? -1 : 1));
+    assert_int_equal(p.start[k] == p.start[k + 1], want[k] != 0);
+  }
+  ambulo__plan_free(plan);
+}
+
+/* Three sliders in the DH form of a root, on a base that turns them to one or the other side, and
+ * a hinge; as many of the links as are asked for. */
+static void check_root(double tilt, int heavy, int first, int second, int third) {
+  const double turn = quarter;
+  ambulo_link links[] = {named_link("base", -1, AMBULO_FIXED, turn, 0.9, 0, tilt),
+                         named_link("forward", 0, AMBULO_PRISMATIC, turn, 0, 0, turn),
+                         named_link("sideways", 1, AMBULO_PRISMATIC, turn, 0, 0, turn),
+                         named_link("upward", 2, AMBULO_PRISMATIC, 0, 0, 0, 0),
+                         named_link("hinge", 3, AMBULO_REVOLUTE, 0, 0, 0, 0)};
+  const int want[] = {first, second, third, 0};
+  give_body(&links[4], 1, 0.1);
+  if (heavy >= 0) give_body(&links[heavy], 2, 0.1);
+  check_followers(links, 5, want);
+}
+
+/* The second joint stands on the first, or on the world; `mass` is what the first has itself. */
+static void check_two(ambulo_joint_type type, int parent, double mass, double below, int first,
+                      int second) {
+  ambulo_link links[] = {named_link("first", -1, type, 0, 0, 0, 0),
+                         named_link("second", parent, AMBULO_PRISMATIC, 0, 0, 0, 0)};
+  const int want[] = {first, second};
+  if (mass > 0) give_body(&links[0], mass, 0.1);
+  if (below > 0) give_body(&links[1], below, 0.1);
+  check_followers(links, 2, want);
+}
+
+static void root_sliders_are_rows_of_the_force(void **state) {
+  (void)state;
+  check_root(quarter, -1, 1, 2, 3);
+  check_root(-quarter, -1, -1, 2, -3);
+  check_root(2 * quarter, -1, -3, 2, 1);
+  check_root(0.3, -1, 0, 0, 0); /* oblique axes, and one behind them */
+  check_root(quarter, 0, 1, 2, 3);
+  check_root(quarter, 1, 1, 0, 0); /* the first slider carries a body that the others do not */
+  check_root(quarter, 2, 1, 2, 0);
+  check_root(quarter, 3, 1, 2, 3);
+  check_two(AMBULO_PRISMATIC, 0, 0, 1, 3, 3);
+  check_two(AMBULO_PRISMATIC, 0, 2, 1, 3, 0);
+  check_two(AMBULO_PRISMATIC, -1, 2, 1, 0, 0); /* two trees on the world ... */
+  check_two(AMBULO_PRISMATIC, -1, 2, 0, 3, 0); /* ... of which one weighs nothing */
+  check_two(AMBULO_REVOLUTE, 0, 0, 1, 0, 0);
+}
+
+/* What the tests of the kernels go through: every axis, both signs, sliders that stand still but
+ * are not rows of the force. */
+static void rooted_trees_are_of_all_kinds(void **state) {
+  (void)state;
+  static kernel_case c;
+  int followers[3][2] = {{0}}, oblique = 0, light = 0, behind = 0;
+  for (int number = rooted_cases; number < case_count; number++) {
+    case_open(&c, number);
+    for (int k = 0; k < c.d; k++) {
+      const ambulo__joint *joint = &c.plan->joints[k];
+      int parent = joint->parent - 1;
+      ambulo__row_part part[2];
+      (void)ambulo__plan_parts(c.plan, k, part);
+      if (joint->revolute || !joint->still) continue;
+      if (part[0].row != k) {
+        followers[part[0].row - c.d - 3][part[0].factor < 0]++;
+      } else if (joint->turned) {
+        oblique++;
+      } else if (c.plan->frames[k + 1].subtree_mass < (1 - 1e-9) * c.plan->frames[0].subtree_mass) {
+        light++;
+      } else if (parent >= 0) {
+        behind++;
+      }
+    }
+    case_close(&c);
+  }
+  for (int i = 0; i < 6; i++) assert_true(followers[i / 2][i % 2] > 4);
+  assert_true(oblique > 5 && light > 5 && behind > 1);
 }
 
 static void failed_allocations_unwind(void **state) {
@@ -178,6 +278,8 @@ int main(void) {
                                      cmocka_unit_test(bodies_fixed_to_the_world_are_a_constant),
                                      cmocka_unit_test(inertia_factors_multiply_out),
                                      cmocka_unit_test(pattern_is_well_formed),
+                                     cmocka_unit_test(root_sliders_are_rows_of_the_force),
+                                     cmocka_unit_test(rooted_trees_are_of_all_kinds),
                                      cmocka_unit_test(failed_allocations_unwind)};
   return cmocka_run_group_tests_name("mechanics/plan", tests, NULL, NULL);
 }

@@ -41,6 +41,49 @@ static void yardstick_is_not_rescaled(void **state) {
   engine_close(&f);
 }
 
+/* the scale of torque squared for one slider from rest to rest; tau = mass qdd, a row of the root
+ * force, so that the curvature along the acceleration goes with mass squared */
+static double slider_scale(double mass) {
+  ambulo_link link = ambulo_link_default();
+  ambulo_coordinate coordinate = ambulo_coordinate_default();
+  ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  ambulo_end_value ends[] = {{0, 0, 0, 0.0}, {0, 0, 1, 0.3}, {0, 1, 0, 0.0}, {0, 1, 1, 0.0}};
+  ambulo_model_definition body = ambulo_model_definition_default();
+  ambulo_problem_definition swing = ambulo_problem_definition_default();
+  ambulo_model *model;
+  engine_fixture f = {.options = ambulo_options_default()};
+  link.name = coordinate.name = body.name = swing.name = "slider";
+  link.type = coordinate.type = AMBULO_PRISMATIC;
+  link.parent = -1;
+  link.mass = mass;
+  for (int i = 0; i < 3; i++) link.inertia[i] = 0.1;
+  coordinate.mirror = 0;
+  body.links = &link;
+  body.coordinates = &coordinate;
+  body.link_count = body.coordinate_count = 1;
+  assert_int_equal(ambulo_model_create(&body, NULL, NULL, &model), AMBULO_OK);
+  swing.model = model;
+  swing.intervals = 10;
+  swing.end_values = ends;
+  swing.end_value_count = 4;
+  swing.terms = &term;
+  swing.term_count = 1;
+  assert_int_equal(ambulo_problem_create(&swing, NULL, NULL, &f.problem), AMBULO_OK);
+  f.x = calloc((size_t)ambulo_problem_variable_count(f.problem), sizeof *f.x);
+  ambulo__run_begin(&f.run, &f.options);
+  assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
+  double scale = f.engine->objective_scale;
+  engine_close(&f);
+  ambulo_model_free(model);
+  return scale;
+}
+
+static void scale_goes_with_the_mass_squared(void **state) {
+  (void)state;
+  double one = slider_scale(1.0);
+  assert_true(slider_scale(2.0) == one / 4.0 && slider_scale(0.5) == one * 4.0);
+}
+
 static void problem_without_objective_has_a_metric(void **state) {
   (void)state;
   engine_fixture f;
@@ -57,6 +100,7 @@ static void problem_without_objective_has_a_metric(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(band_is_the_sum_over_nodes),
                                      cmocka_unit_test(yardstick_is_not_rescaled),
+                                     cmocka_unit_test(scale_goes_with_the_mass_squared),
                                      cmocka_unit_test(problem_without_objective_has_a_metric)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
