@@ -158,11 +158,14 @@ AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo
   store(jqdd + lower, spread(step->mass));
 }
 
-static void jacobian_points(const ambulo__plan *plan, double *jq, const double *scratch) {
+/* Points on the frames of a limb. */
+static void jacobian_points(const ambulo__plan *plan, const ambulo__limb *limb, double *jq,
+                            const double *scratch) {
   const ambulo__steps *steps = &plan->steps;
   const double *places = scratch + plan->positions_at;
-  for (int g = 0; g < steps->group_count; g++) {
-    const ambulo__group_step *group = &steps->groups[g];
+  for (int k = limb->first; k <= limb->leaf; k++) {
+    if (plan->local.steps[k].group < 0) continue;
+    const ambulo__group_step *group = &steps->groups[plan->local.steps[k].group];
     int row = group->chain_count * AMBULO__LANES, last = group->first + group->count;
     for (int e = 0; e < group->chain_count; e++) {
       wide_pair s = load_pair(scratch + steps->chains[group->chain + e]);
@@ -207,8 +210,8 @@ static void jacobian_part(const ambulo__plan *plan, const world_inputs *x, doubl
       if (k == limb->top) break;
     }
     pass_subtree_on(plan, limb->top, sum, scratch);
+    jacobian_points(plan, limb, jq, scratch);
   }
-  jacobian_points(plan, jq, scratch);
 }
 
 #endif

@@ -212,6 +212,7 @@ static void ground_subtrees(const ambulo__plan *plan, const world_inputs *x, con
       if (k == limb->top) break;
     }
     pass_subtree_on(plan, limb->top, sum, scratch);
+    jacobian_points(plan, limb, jq, scratch);
   }
   wide_subtree all = {0};
   if (plan->local.limb_count > 0) all = load_subtree(scratch + plan->frames[0].subtree_at);
@@ -341,7 +342,6 @@ static void jacobian_ground_part(const ambulo__plan *plan, const world_inputs *x
   ground_feet(&slopes, d, jq + wrench, jqdd + wrench, jq + feet);
   ground_feet(&slopes, d, jqd + wrench, NULL, jqd + rates);
   ground_feet(&slopes, d, jqdd + wrench, NULL, jqdd + rates);
-  jacobian_points(plan, jq, scratch);
 }
 
 #endif

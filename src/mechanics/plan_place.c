@@ -18,18 +18,71 @@ static int child_count(const ambulo__plan *plan, int frame) {
   return count;
 }
 
+/* The last coordinate that a frame carries. */
+static int last_carried(const ambulo__plan *plan, int frame) {
+  for (int k = plan->coordinates - 1; k >= 0; k--) {
+    int above = k + 1;
+    while (above > frame) above = plan->joints[above - 1].parent;
+    if (above == frame) return k;
+  }
+  return -1;
+}
+
+/* The first coordinate of the limb of coordinate k: limbs end at leaves. */
+static int limb_start(const ambulo__plan *plan, int k) {
+  while (k > 0 && child_count(plan, k) > 0) k--;
+  return k;
+}
+
+/* The lowest place among equal ones from `base` on that no frame holds that is still needed: a limb
+ * takes over those of the limbs before it, unless ground reaction comes back to them. */
+static int lowest_free(const ambulo__plan *plan, int k, int base, int entries,
+                       int (*place_of)(const ambulo__plan *, int)) {
+  int start = limb_start(plan, k), at = base;
+  for (int f = 0; f < k; f++) {
+    int needed = plan->grounded || last_carried(plan, f + 1) >= start;
+    if (!needed || place_of(plan, f) != at) continue;
+    at += entries * AMBULO__LANES;
+    f = -1;
+  }
+  return at;
+}
+
+static int motion_place(const ambulo__plan *plan, int k) {
+  return plan->joints[k].motion_at;
+}
+
+static int subtree_place(const ambulo__plan *plan, int k) {
+  return plan->frames[k + 1].subtree_at;
+}
+
+static void enlarge(size_t *used, int at, int entries) {
+  size_t end = (size_t)at + (size_t)entries * AMBULO__LANES;
+  if (end > *used) *used = end;
+}
+
 /* Motions of the joints, and sums over subtrees where they are stored; masses are constants. */
 static void place_jacobian(ambulo__plan *plan, size_t *used) {
-  for (int f = 0; f <= plan->coordinates; f++) {
-    ambulo__frame *frame = &plan->frames[f];
-    int own = f == 0 || child_count(plan, f) != 1 || frame->body >= 0;
-    frame->subtree_mass = frame->body >= 0 ? plan->body[frame->body].mass : 0;
-    frame->subtree_at = own ? take(used, AMBULO__SUBTREE) : -1;
+  const int motion = 18;
+  plan->frames[0].subtree_at = take(used, AMBULO__SUBTREE);
+  int motions = (int)*used;
+  for (int k = 0; k < plan->coordinates; k++) {
+    plan->joints[k].motion_at = lowest_free(plan, k, motions, motion, motion_place);
+    enlarge(used, plan->joints[k].motion_at, motion);
   }
-  for (int f = plan->coordinates; f >= 1; f--) {
-    ambulo__joint *joint = &plan->joints[f - 1];
-    plan->frames[joint->parent].subtree_mass += plan->frames[f].subtree_mass;
-    joint->motion_at = take(used, 18);
+  int subtrees = (int)*used;
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__frame *frame = &plan->frames[k + 1];
+    int own = frame->body >= 0 || child_count(plan, k + 1) != 1;
+    frame->subtree_mass = frame->body >= 0 ? plan->body[frame->body].mass : 0;
+    frame->subtree_at = -1;
+    if (!own) continue;
+    frame->subtree_at = lowest_free(plan, k, subtrees, AMBULO__SUBTREE, subtree_place);
+    enlarge(used, frame->subtree_at, AMBULO__SUBTREE);
+  }
+  for (int k = plan->coordinates - 1; k >= 0; k--) {
+    ambulo__joint *joint = &plan->joints[k];
+    plan->frames[joint->parent].subtree_mass += plan->frames[k + 1].subtree_mass;
     if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 17);
   }
   plan->positions_at = take(used, 3 * plan->points);
