@@ -34,41 +34,44 @@ typedef struct subtree_changes {
   wide3 turned;
 } subtree_changes;
 
-AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__change_step *step,
-                                                const wide_subtree *sum, const double *scratch) {
-  const double *motion = scratch + step->motion;
-  wide mass = spread(step->mass);
-  wide3 h = sum->first, p = sum->momentum;
-  wide6 inertia = sum->inertia;
-  wide33 e = sum->coriolis;
-  wide_pair f = sum->load;
-  wide_pair s = load_pair(motion), sd = load_pair(motion + 2 * three);
-  wide_pair sdd = load_pair(motion + 4 * three);
-  wide3 z = s.angular, z2 = scale3(spread(2), z);
-  subtree_changes t;
-  t.qdd.angular = add_cross3(multiply6(inertia, z), h, s.linear);
-  t.qdd.linear = add_cross3(scale3(mass, s.linear), z, h);
-  t.qd.angular = add_multiply33(multiply6(inertia, sd.angular), e, z2);
-  t.qd.angular = add_cross3(t.qd.angular, h, sd.linear);
-  t.qd.linear = add_cross3(scale3(mass, sd.linear), sd.angular, h);
-  t.qd.linear = add_cross3(t.qd.linear, z2, p);
-  t.q.angular = add_multiply33(multiply6(inertia, sdd.angular), e, sd.angular);
-  t.q.angular = add_cross3(add_cross3(t.q.angular, h, sdd.linear), z, f.angular);
-  t.q.angular = add_cross3(t.q.angular, s.linear, f.linear);
-  t.q.linear = add_cross3(scale3(mass, sdd.linear), sdd.angular, h);
-  t.q.linear = add_cross3(add_cross3(t.q.linear, sd.angular, p), z, f.linear);
-  t.turned = add_multiply33_transposed(cross3(p, s.linear), e, z);
+AMBULO__INLINE wide_pair change_by_qdd(wide mass, const double *subtree, const double *motion) {
+  wide_pair s = load_pair(motion), t;
+  wide3 h = load3(subtree + subtree_first);
+  t.angular = add_cross3(multiply6(load6(subtree + subtree_inertia), s.angular), h, s.linear);
+  t.linear = add_cross3(scale3(mass, s.linear), s.angular, h);
   return t;
 }
 
-/* Entries of a joint's row; the mass matrix entry is returned. */
-AMBULO__INLINE wide jacobian_lower(const subtree_changes *t, wide_pair s, const double *motion,
-                                   int lower, double *jq, double *jqd) {
-  wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
-  wide turned = dot3(t->turned, s.angular);
-  store(jq + lower, add_dot_pair(dot3(t->turned, sd.angular), t->qdd, sdd));
-  store(jqd + lower, add_dot_pair(2 * turned, t->qdd, sd));
-  return dot_pair(t->qdd, s);
+AMBULO__INLINE wide_pair change_by_qd(wide mass, const double *subtree, const double *motion) {
+  wide_pair sd = load_pair(motion + 2 * three), t;
+  wide3 h = load3(subtree + subtree_first), z2 = scale3(spread(2), load3(motion));
+  t.angular = multiply6(load6(subtree + subtree_inertia), sd.angular);
+  t.angular = add_multiply33(t.angular, load33(subtree + subtree_coriolis), z2);
+  t.angular = add_cross3(t.angular, h, sd.linear);
+  t.linear = add_cross3(scale3(mass, sd.linear), sd.angular, h);
+  t.linear = add_cross3(t.linear, z2, load3(subtree + subtree_momentum));
+  return t;
+}
+
+AMBULO__INLINE wide_pair change_by_q(wide mass, const double *subtree, const double *motion) {
+  wide_pair s = load_pair(motion), sdd = load_pair(motion + 4 * three), t;
+  wide_pair f = load_pair(subtree + subtree_load);
+  wide3 h = load3(subtree + subtree_first), zd2 = load3(motion + 2 * three);
+  t.angular = multiply6(load6(subtree + subtree_inertia), sdd.angular);
+  t.angular = add_multiply33(t.angular, load33(subtree + subtree_coriolis), zd2);
+  t.angular = add_cross3(add_cross3(t.angular, h, sdd.linear), s.angular, f.angular);
+  t.angular = add_cross3(t.angular, s.linear, f.linear);
+  t.linear = add_cross3(scale3(mass, sdd.linear), sdd.angular, h);
+  t.linear = add_cross3(t.linear, zd2, load3(subtree + subtree_momentum));
+  t.linear = add_cross3(t.linear, s.angular, f.linear);
+  return t;
+}
+
+/* t4 */
+AMBULO__INLINE wide3 change_turned(const double *subtree, const double *motion) {
+  wide_pair s = load_pair(motion);
+  wide3 t = cross3(load3(subtree + subtree_momentum), s.linear);
+  return add_multiply33_transposed(t, load33(subtree + subtree_coriolis), s.angular);
 }
 
 /* Column of a joint in the Jacobian of the root wrench. */
@@ -81,6 +84,35 @@ AMBULO__INLINE void jacobian_wrench(const ambulo__plan *plan, int k, wide_pair t
   store(out + 3 * row, t.linear.x);
   store(out + 4 * row, t.linear.y);
   store(out + 5 * row, t.linear.z);
+}
+
+/* All of them, and the columns of the root wrench. What is needed is read again where it is needed:
+ * together it would not fit the registers. */
+AMBULO__INLINE subtree_changes jacobian_changes(const ambulo__plan *plan, int k,
+                                                const double *subtree, double *jq, double *jqd,
+                                                double *jqdd, const double *scratch) {
+  const ambulo__change_step *step = &plan->steps.changes[k];
+  const double *motion = scratch + step->motion;
+  wide mass = spread(step->mass);
+  subtree_changes t;
+  t.q = change_by_q(mass, subtree, motion);
+  jacobian_wrench(plan, k, t.q, jq);
+  t.qd = change_by_qd(mass, subtree, motion);
+  jacobian_wrench(plan, k, t.qd, jqd);
+  t.qdd = change_by_qdd(mass, subtree, motion);
+  jacobian_wrench(plan, k, t.qdd, jqdd);
+  t.turned = change_turned(subtree, motion);
+  return t;
+}
+
+/* Entries of a joint's row; the mass matrix entry is returned. */
+AMBULO__INLINE wide jacobian_lower(const subtree_changes *t, wide_pair s, const double *motion,
+                                   int lower, double *jq, double *jqd) {
+  wide_pair sd = load_pair(motion + 2 * three), sdd = load_pair(motion + 4 * three);
+  wide turned = dot3(t->turned, s.angular);
+  store(jq + lower, add_dot_pair(dot3(t->turned, sd.angular), t->qdd, sdd));
+  store(jqd + lower, add_dot_pair(2 * turned, t->qdd, sd));
+  return dot_pair(t->qdd, s);
 }
 
 /* The component of v along the axis of a straight joint. */
@@ -130,16 +162,19 @@ AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo
 
 /* Column of the root wrench for a displacement s along an axis that stands still: no rates, no
  * turning. */
-AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, const wide_subtree *sum,
+AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, const double *subtree,
                                       double *jq, double *jqdd, const double *scratch) {
   const ambulo__change_step *step = &plan->steps.changes[k];
   const int row = plan->coordinates * AMBULO__LANES;
   double *moment = jq + (plan->start[plan->coordinates] + k) * AMBULO__LANES;
-  wide3 s = load3(scratch + step->motion + three), turn = cross3(s, sum->load.linear);
+  wide3 s = load3(scratch + step->motion + three),
+        turn = cross3(s, load3(subtree + subtree_load + three));
   store(moment, turn.x);
   store(moment + row, turn.y);
   store(moment + 2 * row, turn.z);
-  jacobian_wrench(plan, k, (wide_pair){cross3(sum->first, s), scale3(spread(step->mass), s)}, jqdd);
+  jacobian_wrench(
+      plan, k,
+      (wide_pair){cross3(load3(subtree + subtree_first), s), scale3(spread(step->mass), s)}, jqdd);
 }
 
 /* Its row and column of tau: all joints above are straight, too. Those that have no rows of their
@@ -183,18 +218,14 @@ static void jacobian_points(const ambulo__plan *plan, const ambulo__limb *limb, 
 /* Row and column of a joint whose subtree is known. */
 AMBULO__STEP void jacobian_column(const ambulo__plan *plan, int k, const double *subtree,
                                   double *jq, double *jqd, double *jqdd, const double *scratch) {
-  const wide_subtree sum = load_subtree(subtree);
   const ambulo__change_step *step = &plan->steps.changes[k];
   const ambulo__pair *pairs = plan->steps.pairs;
   if (step->is_straight) {
-    jacobian_straight(plan, k, &sum, jq, jqdd, scratch);
+    jacobian_straight(plan, k, subtree, jq, jqdd, scratch);
     straight_pairs(step, pairs, jqdd, scratch);
     return;
   }
-  subtree_changes t = jacobian_changes(step, &sum, scratch);
-  jacobian_wrench(plan, k, t.q, jq);
-  jacobian_wrench(plan, k, t.qd, jqd);
-  jacobian_wrench(plan, k, t.qdd, jqdd);
+  const subtree_changes t = jacobian_changes(plan, k, subtree, jq, jqd, jqdd, scratch);
   jacobian_pairs(step, pairs, &t, jq, jqd, jqdd, scratch);
 }
 

@@ -180,17 +180,13 @@ AMBULO__INLINE wide_pair ground_wrench_column(const double *at, int row) {
 /* Changes of a subtree: the column of the root wrench; and the rows without feet. */
 AMBULO__STEP void ground_changes(const ambulo__plan *plan, int k, const double *subtree, double *jq,
                                  double *jqd, double *jqdd, double *scratch) {
-  const wide_subtree sum = load_subtree(subtree);
   const ambulo__joint *joint = &plan->joints[k];
   const ambulo__change_step *step = &plan->steps.changes[k];
   if (joint->torque_row == AMBULO__ROW_VANISHES && step->is_straight) {
-    jacobian_straight(plan, k, &sum, jq, jqdd, scratch);
+    jacobian_straight(plan, k, subtree, jq, jqdd, scratch);
     return;
   }
-  subtree_changes t = jacobian_changes(step, &sum, scratch);
-  jacobian_wrench(plan, k, t.q, jq);
-  jacobian_wrench(plan, k, t.qd, jqd);
-  jacobian_wrench(plan, k, t.qdd, jqdd);
+  const subtree_changes t = jacobian_changes(plan, k, subtree, jq, jqd, jqdd, scratch);
   if (joint->torque_row == AMBULO__ROW_SPARSE) {
     ground_sparse_pairs(plan, k, &t, jq, jqd, jqdd, scratch);
   } else if (joint->torque_row == AMBULO__ROW_DENSE) {

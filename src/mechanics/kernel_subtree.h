@@ -14,6 +14,15 @@
 
 #include "mechanics/kernel_world.h"
 
+/* Where they stand in a slot. */
+enum {
+  subtree_load = 0,
+  subtree_first = 2 * three,
+  subtree_momentum = 3 * three,
+  subtree_inertia = 4 * three,
+  subtree_coriolis = 6 * three
+};
+
 typedef struct wide_subtree {
   wide_pair load;        /* N, F */
   wide3 first, momentum; /* h, P */
@@ -22,16 +31,17 @@ typedef struct wide_subtree {
 } wide_subtree;
 
 AMBULO__INLINE wide_subtree load_subtree(const double *at) {
-  return (wide_subtree){load_pair(at), load3(at + 2 * three), load3(at + 3 * three),
-                        load6(at + 4 * three), load33(at + 6 * three)};
+  return (wide_subtree){load_pair(at + subtree_load), load3(at + subtree_first),
+                        load3(at + subtree_momentum), load6(at + subtree_inertia),
+                        load33(at + subtree_coriolis)};
 }
 
 AMBULO__INLINE void store_subtree(double *at, const wide_subtree *s) {
-  store_pair(at, s->load);
-  store3(at + 2 * three, s->first);
-  store3(at + 3 * three, s->momentum);
-  store6(at + 4 * three, s->inertia);
-  store33(at + 6 * three, s->coriolis);
+  store_pair(at + subtree_load, s->load);
+  store3(at + subtree_first, s->first);
+  store3(at + subtree_momentum, s->momentum);
+  store6(at + subtree_inertia, s->inertia);
+  store33(at + subtree_coriolis, s->coriolis);
 }
 
 AMBULO__INLINE wide_subtree add_subtrees(wide_subtree a, wide_subtree b) {
