@@ -3,22 +3,25 @@
  * Derivation (the result is that of Carpentier & Mansard, RSS 2018, and Singh, Russell & Wensing,
  * RA-L 2022; here from mass points). A step of q_i moves a point r of the subtree by dr/dq_i =
  * S_i(r) = s + z x r; kernel_world.h gives S_i and its derivatives. For any motion r(t) of a
- * mechanism d rdd/dqdd = dr/dq, d rdd/dqd = 2 d/dt (dr/dq), d rdd/dq = d2/dt2 (dr/dq); here d
- * rdd/dqdd = S(r),  d rdd/dqd = 2 Sd(r) + 2 z x rd,  d rdd/dq = Sdd(r) + 2 zd x rd + z x rdd Summed
- * over the mass points with their moments r x, where a field (z, s) gives the wrench I(z, s) = (I z
- * + h x s, m s + z x h),   h = sum m r,  I the inertia about the origin, 2 z x rd gives B(z) = 2 (E
- * z, z x P),   P = sum m rd, K = sum m rd r^T, E = tr(K) 1 - K, and z x rdd together with the
- * change of r in r x m (rdd - g) gives S x* f, f = (N, F) the force of the subtree (the origin's
- * acceleration less g stands for it in Sdd: that turns z x rdd into z x (rdd - g)): t1 = df/dqdd =
- * I(S) t2 = df/dqd  = I(2 Sd) + B(z) t3 = df/dq   = I(Sdd) + B(zd) + S x* f,   S x* f = (z x N + s
- * x F, z x F) These are the columns of the root wrench. A step of joint i changes tau of an
- * ancestor j, whose S_j stays, by S_j . t. A step of the ancestor j moves, turns and accelerates
- * the subtree of i by the same three fields, but S_i turns along with it and S x* f drops out; what
- * is left is turned over to act on the fields of j, with t4 = E^T z_i + P x s_i: dtau_j/dq_i = S_j
- * . t3,                   dtau_j/dqd_i = S_j . t2,           j above i dtau_i/dq_j = t4 . 2 zd_j +
- * t1 . Sdd_j,   dtau_i/dqd_j = 2 t4 . z_j + t1 . 2 Sd_j, dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,
- * j above or = i E, P, h, I are sums over the subtree (kernel_subtree.h). Point p:  dp/dq_j = s_j +
- * z_j x p.
+ * mechanism d rdd/dqdd = dr/dq, d rdd/dqd = 2 d/dt (dr/dq), d rdd/dq = d2/dt2 (dr/dq); here
+ *   d rdd/dqdd = S(r),  d rdd/dqd = 2 Sd(r) + 2 z x rd,  d rdd/dq = Sdd(r) + 2 zd x rd + z x rdd
+ * Summed over the mass points with their moments r x, where a field (z, s) gives the wrench
+ *   I(z, s) = (I z + h x s, m s + z x h),   h = sum m r,  I the inertia about the origin,
+ * 2 z x rd gives B(z) = 2 (E z, z x P),   P = sum m rd, K = sum m rd r^T, E = tr(K) 1 - K,
+ * and z x rdd together with the change of r in r x m (rdd - g) gives S x* f, f = (N, F) the force
+ * of the subtree (the origin's acceleration less g stands for it in Sdd: that turns z x rdd into
+ * z x (rdd - g)):
+ *   t1 = df/dqdd = I(S)
+ *   t2 = df/dqd  = I(2 Sd) + B(z)
+ *   t3 = df/dq   = I(Sdd) + B(zd) + S x* f,   S x* f = (z x N + s x F, z x F)
+ * These are the columns of the root wrench. A step of joint i changes tau of an ancestor j, whose
+ * S_j stays, by S_j . t. A step of the ancestor j moves, turns and accelerates the subtree of i by
+ * the same three fields, but S_i turns along with it and S x* f drops out; what is left is turned
+ * over to act on the fields of j, with t4 = E^T z_i + P x s_i:
+ *   dtau_j/dq_i = S_j . t3,                   dtau_j/dqd_i = S_j . t2,           j above i
+ *   dtau_i/dq_j = t4 . 2 zd_j + t1 . Sdd_j,   dtau_i/dqd_j = 2 t4 . z_j + t1 . 2 Sd_j,
+ *   dtau_i/dqdd_j = dtau_j/dqdd_i = t1 . S_j,                                    j above or = i
+ * E, P, h, I are sums over the subtree (kernel_subtree.h). Point p:  dp/dq_j = s_j + z_j x p.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_JACOBIAN_H
 #define AMBULO_MECHANICS_KERNEL_JACOBIAN_H
@@ -131,28 +134,25 @@ AMBULO__INLINE wide straight_part(const ambulo__pair *pair, wide3 v, const doubl
 
 /* Row and column of a joint in the Jacobians of tau. Straight joints come first among its
  * ancestors: S = (0, s), Sd = Sdd = 0, and what vanishes with them is not written; nor are the rows
- * of the first of them that are rows of the root force. */
+ * of the first of them that are rows of the root force. Of the mass matrix the part above the
+ * diagonal is written. */
 AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
                                    const subtree_changes *t, double *jq, double *jqd, double *jqdd,
                                    const double *scratch) {
   const ambulo__pair *pair = pairs + step->first, *last = pair + step->count;
   int lower = step->lower;
   for (; pair < pairs + step->first + step->followers; pair++, lower += AMBULO__LANES) {
-    store(jqdd + lower, straight_part(pair, t->qdd.linear, scratch));
+    if (pair->axis < 0) store(jqdd + lower, straight_part(pair, t->qdd.linear, scratch));
   }
   for (; pair < pairs + step->first + step->straight; pair++, lower += AMBULO__LANES) {
-    wide mass = straight_part(pair, t->qdd.linear, scratch);
-    store(jqdd + lower, mass);
-    store(jqdd + pair->upper, mass);
+    store(jqdd + pair->upper, straight_part(pair, t->qdd.linear, scratch));
     store(jq + pair->upper, straight_part(pair, t->q.linear, scratch));
     store(jqd + pair->upper, straight_part(pair, t->qd.linear, scratch));
   }
   for (; pair < last; pair++, lower += AMBULO__LANES) {
     const double *motion = scratch + pair->motion;
     wide_pair s = load_pair(motion);
-    wide mass = jacobian_lower(t, s, motion, lower, jq, jqd);
-    store(jqdd + lower, mass);
-    store(jqdd + pair->upper, mass);
+    store(jqdd + pair->upper, jacobian_lower(t, s, motion, lower, jq, jqd));
     store(jq + pair->upper, dot_pair(t->q, s));
     store(jqd + pair->upper, dot_pair(t->qd, s));
   }
@@ -167,14 +167,12 @@ AMBULO__INLINE void jacobian_straight(const ambulo__plan *plan, int k, const dou
   const ambulo__change_step *step = &plan->steps.changes[k];
   const int row = plan->coordinates * AMBULO__LANES;
   double *moment = jq + (plan->start[plan->coordinates] + k) * AMBULO__LANES;
-  wide3 s = load3(scratch + step->motion + three),
-        turn = cross3(s, load3(subtree + subtree_load + three));
+  wide3 s = load3(scratch + step->motion + three), h = load3(subtree + subtree_first);
+  wide3 turn = cross3(s, load3(subtree + subtree_load + three));
   store(moment, turn.x);
   store(moment + row, turn.y);
   store(moment + 2 * row, turn.z);
-  jacobian_wrench(
-      plan, k,
-      (wide_pair){cross3(load3(subtree + subtree_first), s), scale3(spread(step->mass), s)}, jqdd);
+  jacobian_wrench(plan, k, (wide_pair){cross3(h, s), scale3(spread(step->mass), s)}, jqdd);
 }
 
 /* Its row and column of tau: all joints above are straight, too. Those that have no rows of their
@@ -186,9 +184,10 @@ AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo
   if (step->follows) return;
   for (int i = 0; i < step->count; i++, lower += AMBULO__LANES) {
     const ambulo__pair *pair = &pairs[step->first + i];
-    wide mass = straight_part(pair, force, scratch);
-    store(jqdd + lower, mass);
-    if (i >= step->followers) store(jqdd + pair->upper, mass);
+    int entry = i < step->followers ? lower : pair->upper;
+    if (i >= step->followers || pair->axis < 0) {
+      store(jqdd + entry, straight_part(pair, force, scratch));
+    }
   }
   store(jqdd + lower, spread(step->mass));
 }

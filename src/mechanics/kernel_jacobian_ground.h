@@ -149,24 +149,20 @@ AMBULO__INLINE void ground_sparse_pairs(const ambulo__plan *plan, int k, const s
   for (int i = first; i < straight; i++) {
     const ambulo__ground_pair *pair = &plan->pairs[i];
     wide3 s = load3(scratch + pair->motion + three);
-    wide mass = dot3(t->qdd.linear, s);
-    store(jqdd + pair->lower, mass);
+    store(jqdd + pair->mass, dot3(t->qdd.linear, s));
     if (pair->upper < 0) continue;
     store(jq + pair->upper, dot3(t->q.linear, s));
     store(jqd + pair->upper, dot3(t->qd.linear, s));
-    store(jqdd + pair->upper, mass);
   }
   for (int i = straight; i < last; i++) {
     const ambulo__ground_pair *pair = &plan->pairs[i];
     const double *motion = scratch + pair->motion;
     int upper = pair->upper;
     wide_pair s = load_pair(motion);
-    wide mass = jacobian_lower(t, s, motion, pair->lower, jq, jqd);
-    store(jqdd + pair->lower, mass);
+    store(jqdd + pair->mass, jacobian_lower(t, s, motion, pair->lower, jq, jqd));
     if (upper < 0) continue;
     store(jq + upper, dot_pair(t->q, s));
     store(jqd + upper, dot_pair(t->qd, s));
-    store(jqdd + upper, mass);
   }
   store(jqdd + self, jacobian_lower(t, load_pair(own), own, self, jq, jqd));
 }

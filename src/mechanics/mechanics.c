@@ -220,9 +220,9 @@ ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const do
 }
 
 /* values[node][row - from][column] for rows from..to, which have one part each without ground
- * reaction; zeros elsewhere. */
-static void scatter_rows(const ambulo_mechanics *m, double *values, const double *entries, int from,
-                         int to, int first, int nodes) {
+ * reaction; zeros elsewhere. place: where entries stand, NULL: in order. */
+static void scatter_rows(const ambulo_mechanics *m, double *values, const double *entries,
+                         const int *place, int from, int to, int first, int nodes) {
   if (!values) return;
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(m->plan);
   size_t d = (size_t)ambulo__plan_coordinates(m->plan), size = (size_t)(to - from) * d;
@@ -234,7 +234,8 @@ static void scatter_rows(const ambulo_mechanics *m, double *values, const double
       ambulo__row_part part[2];
       (void)ambulo__plan_parts(m->plan, row, part);
       for (int e = pattern.start[part[0].row]; e < pattern.start[part[0].row + 1]; e++) {
-        to_row[pattern.column[e]] += part[0].factor * entries[e * AMBULO__LANES + lane];
+        int at = place ? place[e] : e;
+        to_row[pattern.column[e]] += part[0].factor * entries[at * AMBULO__LANES + lane];
       }
     }
   }
@@ -256,13 +257,13 @@ ambulo_status ambulo_mechanics_jacobians(ambulo_mechanics *m, int nodes, const d
       m->kernels->jacobian(m->plan, m->q, m->qd, m->qdd, NULL, m->jq, m->jqd, m->jqdd, m->scratch);
       if (!all_finite(m->jq, count)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
-      scatter_rows(m, jacobians->tau_q, m->jq, 0, d, first, nodes);
-      scatter_rows(m, jacobians->tau_qd, m->jqd, 0, d, first, nodes);
-      scatter_rows(m, jacobians->tau_qdd, m->jqdd, 0, d, first, nodes);
-      scatter_rows(m, jacobians->wrench_q, m->jq, d, d + 6, first, nodes);
-      scatter_rows(m, jacobians->wrench_qd, m->jqd, d, d + 6, first, nodes);
-      scatter_rows(m, jacobians->wrench_qdd, m->jqdd, d, d + 6, first, nodes);
-      scatter_rows(m, jacobians->points_q, m->jq, d + 6, rows, first, nodes);
+      scatter_rows(m, jacobians->tau_q, m->jq, NULL, 0, d, first, nodes);
+      scatter_rows(m, jacobians->tau_qd, m->jqd, NULL, 0, d, first, nodes);
+      scatter_rows(m, jacobians->tau_qdd, m->jqdd, pattern.by_qdd, 0, d, first, nodes);
+      scatter_rows(m, jacobians->wrench_q, m->jq, NULL, d, d + 6, first, nodes);
+      scatter_rows(m, jacobians->wrench_qd, m->jqd, NULL, d, d + 6, first, nodes);
+      scatter_rows(m, jacobians->wrench_qdd, m->jqdd, pattern.by_qdd, d, d + 6, first, nodes);
+      scatter_rows(m, jacobians->points_q, m->jq, NULL, d + 6, rows, first, nodes);
     }
   }
   return AMBULO_OK;

@@ -271,6 +271,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->ancestor);
   ambulo__free(&memory, plan->upper);
   ambulo__free(&memory, plan->rate_start);
+  ambulo__free(&memory, plan->by_qdd);
   ambulo__free(&memory, plan->pairs);
   ambulo__free(&memory, plan->roots);
   ambulo__free(&memory, plan->term_fresh);

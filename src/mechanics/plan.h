@@ -52,7 +52,8 @@ static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
  * column[start[r] .. start[r+1]), ascending coordinate indices. Rows tau, moment
  * and force, and those of the feet, depend on q, qd and qdd through the same
  * columns; rows of points on q only. Entry e of row r stands at e in jq, and at
- * rate_start[r] + e - start[r] in jqd and jqdd. What is not stored need not be
+ * rate_start[r] + e - start[r] in jqd, and in jqdd at by_qdd[] of that: the mass matrix
+ * is symmetric, and its entries below the diagonal stand above it. What is not stored need not be
  * written, so that there are rows without entries: of tau with ground reaction, those
  * that vanish identically (joints that carry the whole body); without, those that are
  * rows of the root force (the sliders along world axes with which the whole body
@@ -62,6 +63,7 @@ typedef struct ambulo__plan_pattern {
   const int *start;      /* [rows + 1] */
   const int *column;     /* [start[rows]] */
   const int *rate_start; /* [rows]; -1: the row depends on q only */
+  const int *by_qdd;     /* [dynamic_count] */
   int dynamic_count;     /* entries of the rows that also depend on qd and qdd */
   int count;             /* start[rows] */
 } ambulo__plan_pattern;

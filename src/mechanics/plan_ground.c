@@ -69,6 +69,7 @@ static void fill_pairs(ambulo__plan *plan, int k) {
     pair->motion = plan->joints[j].motion_at;
     pair->lower = (plan->start[k] + place) * AMBULO__LANES;
     pair->upper = plan->upper[i] < 0 ? -1 : plan->upper[i] * AMBULO__LANES;
+    pair->mass = pair->upper < 0 ? pair->lower : pair->upper;
   }
 }
 

@@ -63,9 +63,9 @@ typedef struct ambulo__root_column {
 } ambulo__root_column;
 
 /* An ancestor's entries: its motion, its column in the joint's row, and the joint's column in its
- * own row (doubles), -1 where that row is not sparse. */
+ * own row (doubles), -1 where that row is not sparse; mass: the one of both that stands in jqdd. */
 typedef struct ambulo__ground_pair {
-  int motion, lower, upper;
+  int motion, lower, upper, mass;
 } ambulo__ground_pair;
 
 typedef struct ambulo__plan_point {
@@ -92,7 +92,7 @@ struct ambulo__plan {
   int ground_at; /* M, F (6), wrenches of the feet (12), centre of mass (3), its height, T */
 
   /* Jacobian pattern, see plan.h. Row of tau i: ancestors of i, i, descendants of i. */
-  int *start, *column, *rate_start;
+  int *start, *column, *rate_start, *by_qdd;
   int dynamic_count, count;
   int *ancestor_start; /* [coordinates + 1] into: */
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */

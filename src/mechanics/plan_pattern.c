@@ -142,6 +142,26 @@ static void fill_ancestors(ambulo__plan *plan) {
   plan->ancestor_start[plan->coordinates] = at;
 }
 
+/* Where the row of tau_i has the inertia that couples it with q_j, j above i, there the row of
+ * tau_j has it with q_i; and if that is the row of the force F_k, that one. */
+static int mirrored(const ambulo__plan *plan, int i, int ancestor, int entry) {
+  const ambulo__joint *above = &plan->joints[plan->ancestor[ancestor]];
+  if (plan->upper[ancestor] >= 0) return plan->upper[ancestor];
+  if (above->torque_row != AMBULO__ROW_FOLLOWS || above->sign < 0) return entry;
+  return plan->start[plan->coordinates + 3 + above->axis] + i;
+}
+
+static void fill_mass_entries(ambulo__plan *plan) {
+  for (int e = 0; e < plan->dynamic_count; e++) plan->by_qdd[e] = e;
+  for (int i = 0; i < plan->coordinates; i++) {
+    int entry = plan->start[i];
+    if (plan->joints[i].torque_row != AMBULO__ROW_SPARSE) continue;
+    for (int at = plan->ancestor_start[i]; at < plan->ancestor_start[i + 1]; at++, entry++) {
+      plan->by_qdd[entry] = mirrored(plan, i, at, entry);
+    }
+  }
+}
+
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   const ambulo_allocator *allocator = &plan->allocator;
   size_t pairs, rows = (size_t)ambulo__plan_rows(plan);
@@ -150,16 +170,18 @@ ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   plan->start = ambulo__alloc(allocator, rows + 1, sizeof(int));
   plan->column = ambulo__alloc(allocator, (size_t)plan->count, sizeof(int));
   plan->rate_start = ambulo__alloc(allocator, rows, sizeof(int));
+  plan->by_qdd = ambulo__alloc(allocator, (size_t)plan->dynamic_count, sizeof(int));
   plan->ancestor_start = ambulo__alloc(allocator, (size_t)plan->coordinates + 1, sizeof(int));
   plan->ancestor = ambulo__alloc(allocator, pairs, sizeof(int));
   plan->upper = ambulo__alloc(allocator, pairs, sizeof(int));
-  if (!plan->start || !plan->column || !plan->rate_start || !plan->ancestor_start ||
-      !plan->ancestor || !plan->upper) {
+  if (!plan->start || !plan->column || !plan->rate_start || !plan->by_qdd ||
+      !plan->ancestor_start || !plan->ancestor || !plan->upper) {
     return AMBULO_E_MEMORY;
   }
   fill_rows(plan);
   fill_rate_starts(plan);
   fill_ancestors(plan);
+  fill_mass_entries(plan);
   return AMBULO_OK;
 }
 
@@ -182,7 +204,7 @@ int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[
 }
 
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan) {
-  ambulo__plan_pattern pattern = {plan->start, plan->column, plan->rate_start, plan->dynamic_count,
-                                  plan->count};
+  ambulo__plan_pattern pattern = {plan->start,  plan->column,        plan->rate_start,
+                                  plan->by_qdd, plan->dynamic_count, plan->count};
   return pattern;
 }

@@ -32,9 +32,9 @@ static void add_entries(const ambulo_workspace *workspace, int node, ambulo__row
     double jq = factor * workspace->jq[ambulo__lane_index(node, pattern.count, e)];
     double jqd = 0.0, jqdd = 0.0;
     if (rates >= 0) {
-      size_t at = ambulo__lane_index(node, pattern.dynamic_count, rates + e - start);
-      jqd = factor * workspace->jqd[at];
-      jqdd = factor * workspace->jqdd[at];
+      int at = rates + e - start, n = pattern.dynamic_count;
+      jqd = factor * workspace->jqd[ambulo__lane_index(node, n, at)];
+      jqdd = factor * workspace->jqdd[ambulo__lane_index(node, n, pattern.by_qdd[at])];
     }
     if (part.by_acceleration) {
       jq = jqdd;

@@ -175,7 +175,8 @@ static double acceleration_slope(const ambulo_workspace *workspace, int node, in
   int row = part[0].row, count = pattern.start[row + 1] - pattern.start[row];
   double sum = 0.0;
   for (int e = pattern.rate_start[row]; e < pattern.rate_start[row] + count; e++) {
-    double slope = workspace->jqdd[ambulo__lane_index(node, pattern.dynamic_count, e)];
+    double slope =
+        workspace->jqdd[ambulo__lane_index(node, pattern.dynamic_count, pattern.by_qdd[e])];
     sum += slope * slope;
   }
   return sum;

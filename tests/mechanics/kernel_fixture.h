@@ -155,7 +155,8 @@ static inline void case_dense(const kernel_case *c, const double *entries, int o
       int block = by > 0 ? p.count + (by - 1) * p.dynamic_count : 0;
       int at = block + (by > 0 ? p.rate_start[from] : p.start[from]);
       for (int e = p.start[from]; e < p.start[from + 1]; e++, at++) {
-        dense[row * c->d + p.column[e]] += part[k].factor * entries[at * AMBULO__LANES + lane];
+        int place = by == 2 ? block + p.by_qdd[at - block] : at;
+        dense[row * c->d + p.column[e]] += part[k].factor * entries[place * AMBULO__LANES + lane];
       }
     }
   }
