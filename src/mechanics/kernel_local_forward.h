@@ -14,128 +14,25 @@
  * each subtree about the frame's origin, moment n and force f:
  *   n = sum H + c x F + what comes from the children,  tau = z . n  or  z . f
  *   n_p = R n + (r + z q) x R f,  f_p = R f
- * The world's load is the root wrench. Axes are z = sign e_k; (u, v, k) stands for the components
- * of a vector in cyclic order, the axis last.
+ * The world's load is the root wrench. Axes are z = sign e_k. In a frame that does not turn, w and
+ * alpha are zero, and a slider along an axis only touches a_k.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_FORWARD_H
 
 #include "mechanics/kernel_local_angles.h"
-
-typedef struct local_state {
-  wide3 w, alpha, a;
-} local_state;
-
-/* (u, v, k) from (x, y, z), and back; k is known when this is compiled. */
-AMBULO__INLINE wide3 cycled(wide3 v, int k) {
-  return k == 0 ? (wide3){v.y, v.z, v.x} : k == 1 ? (wide3){v.z, v.x, v.y} : v;
-}
-
-AMBULO__INLINE wide3 uncycled(wide3 v, int k) {
-  return k == 0 ? (wide3){v.z, v.x, v.y} : k == 1 ? (wide3){v.y, v.z, v.x} : v;
-}
-
-AMBULO__INLINE wide3 load_cycled(const double *at, int k) {
-  return (wide3){load(at + (k + 1) % 3 * AMBULO__LANES), load(at + (k + 2) % 3 * AMBULO__LANES),
-                 load(at + k * AMBULO__LANES)};
-}
-
-AMBULO__INLINE void store_across(double *at, wide3 v, int k) {
-  store(at + (k + 1) % 3 * AMBULO__LANES, v.x);
-  store(at + (k + 2) % 3 * AMBULO__LANES, v.y);
-}
-
-AMBULO__INLINE void store_cycled(double *at, wide3 v, int k) {
-  store_across(at, v, k);
-  store(at + k * AMBULO__LANES, v.z);
-}
-
-/* R^T v and R v of a turn about the last component. */
-AMBULO__INLINE wide3 into_frame(wide3 v, wide s, wide c) {
-  return (wide3){c * v.x + s * v.y, c * v.y - s * v.x, v.z};
-}
-
-AMBULO__INLINE wide3 from_frame(wide3 v, wide s, wide c) {
-  return (wide3){c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-}
-
-/* T v and T^T v with a constant matrix. */
-AMBULO__INLINE wide3 out_of_turn(const double t[9], wide3 v) {
-  return multiply33((wide33){spread3(t), spread3(t + 3), spread3(t + 6)}, v);
-}
-
-AMBULO__INLINE wide3 into_turn(const double t[9], wide3 v) {
-  const wide3 zero = {{0}, {0}, {0}};
-  return add_multiply33_transposed(zero, (wide33){spread3(t), spread3(t + 3), spread3(t + 6)}, v);
-}
-
-/* a + Omega r */
-AMBULO__INLINE wide3 moved_any(wide3 a, wide3 w, wide3 alpha, wide3 r) {
-  a = add_cross3(a, alpha, r);
-  return axpy3(axpy3(a, dot3(w, r), w), -dot3(w, w), r);
-}
-
-AMBULO__INLINE wide3 moved_along(wide3 a, wide3 w, wide3 alpha, int k, double length) {
-  wide r = spread(length);
-  a = cycled(a, k);
-  w = cycled(w, k);
-  alpha = cycled(alpha, k);
-  a.x += r * (w.x * w.z + alpha.y);
-  a.y += r * (w.y * w.z - alpha.x);
-  a.z -= r * (w.x * w.x + w.y * w.y);
-  return uncycled(a, k);
-}
-
-AMBULO__INLINE wide3 moved_by_offset(const ambulo__local_step *step, local_state s) {
-  switch (step->moving) {
-  case AMBULO__OFFSET_X:
-    return moved_along(s.a, s.w, s.alpha, 0, step->length);
-  case AMBULO__OFFSET_Y:
-    return moved_along(s.a, s.w, s.alpha, 1, step->length);
-  case AMBULO__OFFSET_Z:
-    return moved_along(s.a, s.w, s.alpha, 2, step->length);
-  case AMBULO__OFFSET_ANY:
-    return moved_any(s.a, s.w, s.alpha, spread3(step->move));
-  default:
-    return s.a;
-  }
-}
-
-/* n + r x f, r the offset */
-AMBULO__INLINE wide3 levered_along(wide3 n, wide3 f, int k, double length) {
-  n = cycled(n, k);
-  f = cycled(f, k);
-  n.x -= length * f.y;
-  n.y += length * f.x;
-  return uncycled(n, k);
-}
-
-AMBULO__INLINE wide3 levered(const ambulo__local_step *step, wide3 n, wide3 f) {
-  switch (step->offset) {
-  case AMBULO__OFFSET_X:
-    return levered_along(n, f, 0, step->length);
-  case AMBULO__OFFSET_Y:
-    return levered_along(n, f, 1, step->length);
-  case AMBULO__OFFSET_Z:
-    return levered_along(n, f, 2, step->length);
-  case AMBULO__OFFSET_ANY:
-    return add_cross3(n, spread3(step->move), f);
-  default:
-    return n;
-  }
-}
+#include "mechanics/kernel_local_axes.h"
 
 AMBULO__INLINE local_state hinge_down(const ambulo__local_step *step, local_state state, int k,
                                       const double *qd, const double *qdd, double *scratch) {
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide rate = step->sign * load(qd + step->input), gain = step->sign * load(qdd + step->input);
-  wide3 w = into_frame(cycled(state.w, k), s, c);
-  wide3 alpha = into_frame(cycled(state.alpha, k), s, c);
+  wide3 w = into_frame(cycled(state.w, k), s, c), from = cycled(state.alpha, k);
   wide3 a = into_frame(cycled(state.a, k), s, c);
-  alpha.x += rate * w.y;
-  alpha.y -= rate * w.x;
-  alpha.z += gain;
+  /* w is known before alpha */
+  wide3 alpha = {c * from.x + (s * from.y + rate * w.y), c * from.y - (s * from.x + rate * w.x),
+                 from.z + gain};
   w.z += rate;
   store_cycled(at + local_rate, w, k);
   store_across(at + local_gain, alpha, k);
@@ -155,6 +52,34 @@ AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, 
   if (step->still) return a;
   a = moved_any(a, s.w, s.alpha, scale3(load(q + step->input), z));
   return add_cross3(a, scale3(2 * load(qd + step->input), s.w), z);
+}
+
+/* Along axis k, of a frame that does not turn. */
+AMBULO__INLINE wide3 straight_down(const ambulo__local_step *step, local_state s, int k,
+                                   const double *q, const double *qdd, double *scratch) {
+  wide3 a = cycled(s.a, k);
+  double *at = scratch + step->at;
+  store(at + local_angle, load(q + step->input));
+  if (step->body != AMBULO__BODY_NONE) {
+    store3(at + local_rate, s.w);
+    store3(at + local_gain, s.alpha);
+  }
+  a.z += step->sign * load(qdd + step->input);
+  return uncycled(a, k);
+}
+
+AMBULO__INLINE wide3 slide_down(const ambulo__local_step *step, local_state s, const double *q,
+                                const double *qd, const double *qdd, double *scratch) {
+  switch (step->joint) {
+  case AMBULO__SLIDES_X:
+    return straight_down(step, s, 0, q, qdd, scratch);
+  case AMBULO__SLIDES_Y:
+    return straight_down(step, s, 1, q, qdd, scratch);
+  case AMBULO__SLIDES_Z:
+    return straight_down(step, s, 2, q, qdd, scratch);
+  default:
+    return slider_down(step, s, q, qd, qdd, scratch);
+  }
 }
 
 /* Moment about the frame's origin, and force, of a body on axis k. */
@@ -215,23 +140,28 @@ AMBULO__INLINE void body_down(const ambulo__local_step *step, local_state s, dou
   }
 }
 
+/* From the parent to where the joint turns or slides. */
+AMBULO__INLINE local_state carried_down(const ambulo__local_step *step, local_state s,
+                                        const double *scratch) {
+  if (!step->carried) {
+    const double *above = scratch + step->above;
+    s = (local_state){load3(above + local_rate), load3(above + local_gain),
+                      load3(above + local_pull)};
+  }
+  s.a = moved_by_offset(step, s);
+  if (!step->turned) return s;
+  return (local_state){into_turn(step->turn, s.w), into_turn(step->turn, s.alpha),
+                       into_turn(step->turn, s.a)};
+}
+
 /* Down to a leaf. */
 AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
                               const double *qd, const double *qdd, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   local_state s = {zero, zero, scale3(spread(-1), spread3(plan->gravity))};
-  for (int i = limb->first; i <= limb->leaf; i++) {
-    const ambulo__local_step *step = &plan->local.steps[i];
-    if (!step->carried) {
-      const double *above = scratch + step->above;
-      s = (local_state){load3(above + local_rate), load3(above + local_gain),
-                        load3(above + local_pull)};
-    }
-    s.a = moved_by_offset(step, s);
-    if (step->turned) {
-      s = (local_state){into_turn(step->turn, s.w), into_turn(step->turn, s.alpha),
-                        into_turn(step->turn, s.a)};
-    }
+  const ambulo__local_step *step = &plan->local.steps[limb->first];
+  for (const ambulo__local_step *leaf = &plan->local.steps[limb->leaf]; step <= leaf; step++) {
+    if (!step->plain) s = carried_down(step, s, scratch);
     switch (step->joint) {
     case AMBULO__TURNS_X:
       s = hinge_down(step, s, 0, qd, qdd, scratch);
@@ -243,7 +173,7 @@ AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb
       s = hinge_down(step, s, 2, qd, qdd, scratch);
       break;
     default:
-      s.a = slider_down(step, s, q, qd, qdd, scratch);
+      s.a = slide_down(step, s, q, qd, qdd, scratch);
     }
     if (step->kept) {
       store3(scratch + step->at + local_rate, s.w);
@@ -278,6 +208,33 @@ AMBULO__INLINE wide_pair slider_up(const ambulo__local_step *step, wide_pair loa
   return load_of;
 }
 
+AMBULO__INLINE wide_pair straight_up(const ambulo__local_step *step, wide_pair load_of, int k,
+                                     const double *q, double *out, double *scratch) {
+  wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
+  wide r = step->sign * load(q + step->input);
+  if (!step->vanishes) {
+    store(out + step->input, step->sign * f.z);
+    store_cycled(scratch + step->at + local_force, f, k);
+  }
+  n.x -= r * f.y;
+  n.y += r * f.x;
+  return (wide_pair){uncycled(n, k), load_of.linear};
+}
+
+AMBULO__INLINE wide_pair slide_up(const ambulo__local_step *step, wide_pair sum, const double *q,
+                                  double *out, double *scratch) {
+  switch (step->joint) {
+  case AMBULO__SLIDES_X:
+    return straight_up(step, sum, 0, q, out, scratch);
+  case AMBULO__SLIDES_Y:
+    return straight_up(step, sum, 1, q, out, scratch);
+  case AMBULO__SLIDES_Z:
+    return straight_up(step, sum, 2, q, out, scratch);
+  default:
+    return slider_up(step, sum, q, out, scratch);
+  }
+}
+
 /* The load of a frame's subtree across the frame's joint. */
 AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum, const double *q,
                                   double *out, double *scratch) {
@@ -292,8 +249,9 @@ AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum,
     sum = hinge_up(step, sum, 2, out, scratch);
     break;
   default:
-    sum = slider_up(step, sum, q, out, scratch);
+    sum = slide_up(step, sum, q, out, scratch);
   }
+  if (step->plain) return sum;
   if (step->turned) {
     sum.angular = out_of_turn(step->turn, sum.angular);
     sum.linear = out_of_turn(step->turn, sum.linear);
@@ -307,15 +265,16 @@ AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, 
                             double *out, double *scratch) {
   wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
   const ambulo__local_step *steps = plan->local.steps, *step = &steps[limb->leaf];
-  for (;; step = &steps[step->parent]) {
-    if (step->loaded) {
-      sum = axpy_pair(load_pair(scratch + step->at + local_load), spread(1), sum);
-    }
+  const ambulo__local_step *top = &steps[limb->top];
+  if (step->loaded) sum = load_pair(scratch + step->at + local_load);
+  for (;;) {
     sum = joint_up(step, sum, q, out, scratch);
-    if (step == &steps[limb->top]) break;
+    if (step == top) break;
+    step = &steps[step->parent];
+    if (step->loaded) sum = add_pair(load_pair(scratch + step->at + local_load), sum);
   }
   double *above = scratch + step->above + local_load;
-  store_pair(above, step->first ? sum : axpy_pair(load_pair(above), spread(1), sum));
+  store_pair(above, step->first ? sum : add_pair(load_pair(above), sum));
 }
 
 /* tau and the root wrench. */

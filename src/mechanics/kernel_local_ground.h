@@ -126,7 +126,7 @@ AMBULO__INLINE wide_pair virtual_of_path(const ambulo__plan *plan, int path, con
     const double *at = scratch + step->at;
     wide3 z = load3(at + local_axis);
     wide y = load(weights + step->input);
-    if (step->joint == AMBULO__SLIDES) {
+    if (step->joint >= AMBULO__SLIDES) {
       sum.linear = axpy3(sum.linear, y, z);
     } else {
       z = scale3(step->sign * y, z);

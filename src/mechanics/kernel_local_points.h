@@ -181,7 +181,7 @@ static void local_point_weights(const ambulo__plan *plan, const local_pulls *pul
     sum = add_pulls(step, sum, pulls, at);
     wide3 z = load3(at + local_axis), push = sum.linear;
     wide sign = spread(1);
-    if (step->joint != AMBULO__SLIDES) {
+    if (step->joint < AMBULO__SLIDES) {
       push = add_cross3(sum.angular, sum.linear, load3(at + local_origin));
       sign = spread(step->sign);
     }

@@ -67,14 +67,43 @@ AMBULO__INLINE wide_pair slider_virtual(const ambulo__local_step *step, wide_pai
   return v;
 }
 
+AMBULO__INLINE wide_pair straight_virtual(const ambulo__local_step *step, wide_pair v, int k,
+                                          const local_arrays *x) {
+  double *at = x->scratch + step->at;
+  wide3 eta = cycled(v.angular, k), u = cycled(v.linear, k);
+  wide r = step->sign * load(at + local_angle);
+  u.x += r * eta.y;
+  u.y -= r * eta.x;
+  if (!step->vanishes) u.z += step->sign * load(x->weights + step->input);
+  v.linear = uncycled(u, k);
+  store_pair(at + local_turn, v);
+  return v;
+}
+
+AMBULO__INLINE wide_pair slide_virtual(const ambulo__local_step *step, wide_pair v,
+                                       const local_arrays *x) {
+  switch (step->joint) {
+  case AMBULO__SLIDES_X:
+    return straight_virtual(step, v, 0, x);
+  case AMBULO__SLIDES_Y:
+    return straight_virtual(step, v, 1, x);
+  case AMBULO__SLIDES_Z:
+    return straight_virtual(step, v, 2, x);
+  default:
+    return slider_virtual(step, v, x);
+  }
+}
+
 /* Virtual motion down to a leaf. */
 AMBULO__INLINE void limb_virtual(const ambulo__plan *plan, const ambulo__limb *limb, wide_pair root,
                                  const local_arrays *x) {
   wide_pair v = root;
-  for (int i = limb->first; i <= limb->leaf; i++) {
-    const ambulo__local_step *step = &plan->local.steps[i];
-    if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
-    v = offset_down(step, v);
+  const ambulo__local_step *step = &plan->local.steps[limb->first];
+  for (const ambulo__local_step *leaf = &plan->local.steps[limb->leaf]; step <= leaf; step++) {
+    if (!step->plain) {
+      if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
+      v = offset_down(step, v);
+    }
     switch (step->joint) {
     case AMBULO__TURNS_X:
       v = hinge_virtual(step, v, 0, x);
@@ -86,7 +115,7 @@ AMBULO__INLINE void limb_virtual(const ambulo__plan *plan, const ambulo__limb *l
       v = hinge_virtual(step, v, 2, x);
       break;
     default:
-      v = slider_virtual(step, v, x);
+      v = slide_virtual(step, v, x);
     }
   }
 }
@@ -241,6 +270,36 @@ AMBULO__INLINE local_state slider_adjoint(const ambulo__local_step *step, local_
   return s;
 }
 
+/* The adjoints of w and alpha of a frame that does not turn are not read. */
+AMBULO__INLINE local_state straight_adjoint(const ambulo__local_step *step, local_state s, int k,
+                                            const local_arrays *x) {
+  const double *at = x->scratch + step->at;
+  const wide zero = {0};
+  wide push = zero;
+  if (!step->vanishes) {
+    wide3 f = load_cycled(at + local_force, k);
+    push = turned_by(zero, f, at + local_turn, k);
+  }
+  store(x->gq + step->input, step->sign * push);
+  store(x->gqd + step->input, zero);
+  store(x->gqdd + step->input, step->sign * cycled(s.a, k).z);
+  return s;
+}
+
+AMBULO__INLINE local_state slide_adjoint(const ambulo__local_step *step, local_state s,
+                                         const local_arrays *x) {
+  switch (step->joint) {
+  case AMBULO__SLIDES_X:
+    return straight_adjoint(step, s, 0, x);
+  case AMBULO__SLIDES_Y:
+    return straight_adjoint(step, s, 1, x);
+  case AMBULO__SLIDES_Z:
+    return straight_adjoint(step, s, 2, x);
+  default:
+    return slider_adjoint(step, s, x);
+  }
+}
+
 /* Adjoints of a frame into those of its parent. */
 AMBULO__INLINE local_state joint_adjoint(const ambulo__local_step *step, local_state s,
                                          const local_arrays *x) {
@@ -255,8 +314,9 @@ AMBULO__INLINE local_state joint_adjoint(const ambulo__local_step *step, local_s
     s = hinge_adjoint(step, s, 2, x);
     break;
   default:
-    s = slider_adjoint(step, s, x);
+    s = slide_adjoint(step, s, x);
   }
+  if (step->plain) return s;
   if (step->turned) {
     s = (local_state){out_of_turn(step->turn, s.w), out_of_turn(step->turn, s.alpha),
                       out_of_turn(step->turn, s.a)};

@@ -180,6 +180,10 @@ AMBULO__INLINE wide_pair axpy_pair(wide_pair a, wide s, wide_pair b) {
   return (wide_pair){axpy3(a.angular, s, b.angular), axpy3(a.linear, s, b.linear)};
 }
 
+AMBULO__INLINE wide_pair add_pair(wide_pair a, wide_pair b) {
+  return (wide_pair){add3(a.angular, b.angular), add3(a.linear, b.linear)};
+}
+
 AMBULO__INLINE wide33 add_outer(wide33 m, wide3 a, wide3 b) {
   return (wide33){axpy3(m.x, a.x, b), axpy3(m.y, a.y, b), axpy3(m.z, a.z, b)};
 }

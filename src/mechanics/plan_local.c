@@ -50,6 +50,9 @@ static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
   static const ambulo__offset_kind kinds[] = {AMBULO__OFFSET_X, AMBULO__OFFSET_Y, AMBULO__OFFSET_Z,
                                               AMBULO__OFFSET_ANY};
   step->joint = joint->revolute ? (ambulo__joint_kind)joint->axis : AMBULO__SLIDES;
+  if (!joint->revolute && joint->still && !joint->turned) {
+    step->joint = (ambulo__joint_kind)((int)AMBULO__SLIDES_X + joint->axis);
+  }
   step->sign = joint->sign;
   step->still = joint->still;
   step->turned = joint->revolute && joint->turned;
@@ -75,6 +78,7 @@ static void set_forks(ambulo__plan *plan) {
     step->parent = plan->joints[k].parent - 1;
     step->carried = step->parent == k - 1;
     step->from_world = step->parent < 0;
+    step->plain = step->carried && step->offset == AMBULO__OFFSET_NONE && !step->turned;
     step->loaded = step->body != AMBULO__BODY_NONE;
     if (step->carried) continue;
     if (step->from_world) {
@@ -111,7 +115,7 @@ static void set_angles(ambulo__plan *plan) {
   ambulo__local_plan *local = &plan->local;
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__local_step *step = &local->steps[k];
-    if (step->joint == AMBULO__SLIDES) continue;
+    if (step->joint >= AMBULO__SLIDES) continue;
     local->angles[local->angle_count++] = (ambulo__local_angle){step->input, step->at + local_angle,
                                                                 step->sign, plan->joints[k].shift};
   }

@@ -38,7 +38,10 @@ typedef enum ambulo__joint_kind {
   AMBULO__TURNS_X = 0, /* revolute about axis 0, 1, 2 */
   AMBULO__TURNS_Y,
   AMBULO__TURNS_Z,
-  AMBULO__SLIDES
+  AMBULO__SLIDES,
+  AMBULO__SLIDES_X, /* prismatic along axis 0, 1, 2, and the frame does not turn */
+  AMBULO__SLIDES_Y,
+  AMBULO__SLIDES_Z
 } ambulo__joint_kind;
 
 typedef enum ambulo__offset_kind {
@@ -67,6 +70,7 @@ typedef struct ambulo__local_step {
   int input;     /* entries of the coordinate in the arrays of the caller */
   int at, above; /* slots of the frame and of its parent */
   int carried;   /* the parent is the frame of the step before, or the world at the first step */
+  int plain;     /* carried, and neither an offset nor a constant turn comes before the joint */
   int kept;      /* a step that is not carried starts from this frame */
   int loaded;    /* local_load holds something when the pass up the tree arrives */
   int first;     /* top of a rise: first to write the local_load above it */

@@ -79,7 +79,7 @@ static void zeros_of_joints_and_bodies_are_found(void **state) {
   (void)state;
   ambulo__plan *plan = make_plan();
   const ambulo__local_step *steps = plan->local.steps;
-  assert_int_equal(steps[0].joint, AMBULO__SLIDES);
+  assert_int_equal(steps[0].joint, AMBULO__SLIDES_Z);
   assert_int_equal(steps[0].body, AMBULO__BODY_NONE);
   assert_int_equal(steps[1].joint, AMBULO__TURNS_Z);
   assert_int_equal(steps[1].still, 1);
