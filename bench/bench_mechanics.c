@@ -29,15 +29,15 @@ typedef struct rig {
 
 typedef void (*task)(rig *rig, int block);
 
-static void run_forward(rig *r, int block) {
+static void run_outputs(rig *r, int block) {
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
-  r->kernels->forward(r->plan, r->q + at, r->qd + at, r->qdd + at, r->ground, r->out, r->scratch);
+  r->kernels->outputs(r->plan, r->q + at, r->qd + at, r->qdd + at, r->ground, r->out, r->scratch);
 }
 
 static void run_gradient(rig *r, int block) {
   int d = ambulo__plan_coordinates(r->plan), n = d * AMBULO__LANES;
   size_t at = (size_t)(block * d) * AMBULO__LANES;
-  run_forward(r, block);
+  r->kernels->forward(r->plan, r->q + at, r->qd + at, r->qdd + at, r->ground, r->out, r->scratch);
   r->kernels->reverse(r->plan, r->qd + at, r->qdd + at, r->ground, r->weights, r->gradient,
                       r->gradient + n, r->gradient + 2 * n, r->scratch);
 }
@@ -46,7 +46,7 @@ static void run_jacobian(rig *r, int block) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(r->plan);
   size_t at = (size_t)(block * ambulo__plan_coordinates(r->plan)) * AMBULO__LANES;
   double *jqd = r->jacobian + pattern.count * AMBULO__LANES;
-  run_forward(r, block);
+  run_outputs(r, block);
   r->kernels->jacobian(r->plan, r->q + at, r->qd + at, r->qdd + at, r->ground, r->jacobian, jqd,
                        jqd + pattern.dynamic_count * AMBULO__LANES, r->scratch);
 }
@@ -60,7 +60,7 @@ static void run_batch(rig *r, int block) {
   }
 }
 
-static const task task_run[tasks] = {run_forward, run_gradient, run_jacobian};
+static const task task_run[tasks] = {run_outputs, run_gradient, run_jacobian};
 
 /* Median nanoseconds per node. */
 static double measure(rig *r, task run) {
@@ -264,7 +264,7 @@ static void report_ratios(bench_table *table, rig *r) {
   if (ambulo_model_foot_count(r->model) == 2) report_ground(table, r);
   double reference = measure_reference(r);
   bench_put(table, "reference recursion", "ns/node", reference);
-  bench_put(table, "reference recursion over tau", "ratio", reference / measure(r, run_forward));
+  bench_put(table, "reference recursion over tau", "ratio", reference / measure(r, run_outputs));
   if (r->kernels == fastest.kernels)
     bench_put(table, "tau in a batch call", "ns/node", measure(r, run_batch));
 }

@@ -185,12 +185,12 @@ static double *q, *qd, *qdd, *weights, *out, *gradient, *jacobian, *scratch;
 
 static void run_tau(int b) {
   size_t at = (size_t)b * (size_t)ambulo__plan_coordinates(plan) * AMBULO__LANES;
-  kernels->forward(plan, q + at, qd + at, qdd + at, NULL, out, scratch);
+  kernels->outputs(plan, q + at, qd + at, qdd + at, NULL, out, scratch);
 }
 
 static void run_vjp(int b) {
   size_t n = (size_t)ambulo__plan_coordinates(plan) * AMBULO__LANES, at = (size_t)b * n;
-  run_tau(b);
+  kernels->forward(plan, q + at, qd + at, qdd + at, NULL, out, scratch);
   kernels->reverse(plan, qd + at, qdd + at, NULL, weights, gradient, gradient + n, gradient + 2 * n,
                    scratch);
 }

@@ -24,7 +24,8 @@
 #include "mechanics/kernel_local_axes.h"
 
 AMBULO__INLINE local_state hinge_down(const ambulo__local_step *step, local_state state, int k,
-                                      const double *qd, const double *qdd, double *scratch) {
+                                      int keep, const double *qd, const double *qdd,
+                                      double *scratch) {
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide rate = step->sign * load(qd + step->input), gain = step->sign * load(qdd + step->input);
@@ -34,18 +35,21 @@ AMBULO__INLINE local_state hinge_down(const ambulo__local_step *step, local_stat
   wide3 alpha = {c * from.x + (s * from.y + rate * w.y), c * from.y - (s * from.x + rate * w.x),
                  from.z + gain};
   w.z += rate;
-  store_cycled(at + local_rate, w, k);
-  store_across(at + local_gain, alpha, k);
-  store_across(at + local_pull, a, k);
+  if (keep) {
+    store_cycled(at + local_rate, w, k);
+    store_across(at + local_gain, alpha, k);
+    store_across(at + local_pull, a, k);
+  }
   return (local_state){uncycled(w, k), uncycled(alpha, k), uncycled(a, k)};
 }
 
-AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, const double *q,
-                                 const double *qd, const double *qdd, double *scratch) {
+AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, int keep,
+                                 const double *q, const double *qd, const double *qdd,
+                                 double *scratch) {
   wide3 z = spread3(step->slide), a = axpy3(s.a, load(qdd + step->input), z);
   double *at = scratch + step->at;
   store(at + local_angle, load(q + step->input));
-  if (!step->still || step->body != AMBULO__BODY_NONE) {
+  if (keep && (!step->still || step->body != AMBULO__BODY_NONE)) {
     store3(at + local_rate, s.w);
     store3(at + local_gain, s.alpha);
   }
@@ -55,12 +59,12 @@ AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, 
 }
 
 /* Along axis k, of a frame that does not turn. */
-AMBULO__INLINE wide3 straight_down(const ambulo__local_step *step, local_state s, int k,
+AMBULO__INLINE wide3 straight_down(const ambulo__local_step *step, local_state s, int k, int keep,
                                    const double *q, const double *qdd, double *scratch) {
   wide3 a = cycled(s.a, k);
   double *at = scratch + step->at;
   store(at + local_angle, load(q + step->input));
-  if (step->body != AMBULO__BODY_NONE) {
+  if (keep && step->body != AMBULO__BODY_NONE) {
     store3(at + local_rate, s.w);
     store3(at + local_gain, s.alpha);
   }
@@ -68,17 +72,18 @@ AMBULO__INLINE wide3 straight_down(const ambulo__local_step *step, local_state s
   return uncycled(a, k);
 }
 
-AMBULO__INLINE wide3 slide_down(const ambulo__local_step *step, local_state s, const double *q,
-                                const double *qd, const double *qdd, double *scratch) {
+AMBULO__INLINE wide3 slide_down(const ambulo__local_step *step, local_state s, int keep,
+                                const double *q, const double *qd, const double *qdd,
+                                double *scratch) {
   switch (step->joint) {
   case AMBULO__SLIDES_X:
-    return straight_down(step, s, 0, q, qdd, scratch);
+    return straight_down(step, s, 0, keep, q, qdd, scratch);
   case AMBULO__SLIDES_Y:
-    return straight_down(step, s, 1, q, qdd, scratch);
+    return straight_down(step, s, 1, keep, q, qdd, scratch);
   case AMBULO__SLIDES_Z:
-    return straight_down(step, s, 2, q, qdd, scratch);
+    return straight_down(step, s, 2, keep, q, qdd, scratch);
   default:
-    return slider_down(step, s, q, qd, qdd, scratch);
+    return slider_down(step, s, keep, q, qd, qdd, scratch);
   }
 }
 
@@ -155,8 +160,9 @@ AMBULO__INLINE local_state carried_down(const ambulo__local_step *step, local_st
 }
 
 /* Down to a leaf. */
-AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
-                              const double *qd, const double *qdd, double *scratch) {
+AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb, int keep,
+                              const double *q, const double *qd, const double *qdd,
+                              double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   local_state s = {zero, zero, scale3(spread(-1), spread3(plan->gravity))};
   const ambulo__local_step *step = &plan->local.steps[limb->first];
@@ -164,16 +170,16 @@ AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb
     if (!step->plain) s = carried_down(step, s, scratch);
     switch (step->joint) {
     case AMBULO__TURNS_X:
-      s = hinge_down(step, s, 0, qd, qdd, scratch);
+      s = hinge_down(step, s, 0, keep, qd, qdd, scratch);
       break;
     case AMBULO__TURNS_Y:
-      s = hinge_down(step, s, 1, qd, qdd, scratch);
+      s = hinge_down(step, s, 1, keep, qd, qdd, scratch);
       break;
     case AMBULO__TURNS_Z:
-      s = hinge_down(step, s, 2, qd, qdd, scratch);
+      s = hinge_down(step, s, 2, keep, qd, qdd, scratch);
       break;
     default:
-      s.a = slide_down(step, s, q, qd, qdd, scratch);
+      s.a = slide_down(step, s, keep, q, qd, qdd, scratch);
     }
     if (step->kept) {
       store3(scratch + step->at + local_rate, s.w);
@@ -185,71 +191,73 @@ AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb
 }
 
 AMBULO__INLINE wide_pair hinge_up(const ambulo__local_step *step, wide_pair load_of, int k,
-                                  double *out, double *scratch) {
+                                  int keep, double *out, double *scratch) {
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
   if (!step->vanishes) {
     store(out + step->input, step->sign * n.z);
-    store_across(at + local_moment, n, k);
-    store_across(at + local_force, f, k);
+    if (keep) {
+      store_across(at + local_moment, n, k);
+      store_across(at + local_force, f, k);
+    }
   }
   return (wide_pair){uncycled(from_frame(n, s, c), k), uncycled(from_frame(f, s, c), k)};
 }
 
-AMBULO__INLINE wide_pair slider_up(const ambulo__local_step *step, wide_pair load_of,
+AMBULO__INLINE wide_pair slider_up(const ambulo__local_step *step, wide_pair load_of, int keep,
                                    const double *q, double *out, double *scratch) {
   wide3 z = spread3(step->slide);
   if (!step->vanishes) {
     store(out + step->input, dot3(z, load_of.linear));
-    store3(scratch + step->at + local_force, load_of.linear);
+    if (keep) store3(scratch + step->at + local_force, load_of.linear);
   }
   load_of.angular = add_cross3(load_of.angular, scale3(load(q + step->input), z), load_of.linear);
   return load_of;
 }
 
 AMBULO__INLINE wide_pair straight_up(const ambulo__local_step *step, wide_pair load_of, int k,
-                                     const double *q, double *out, double *scratch) {
+                                     int keep, const double *q, double *out, double *scratch) {
   wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
   wide r = step->sign * load(q + step->input);
   if (!step->vanishes) {
     store(out + step->input, step->sign * f.z);
-    store_cycled(scratch + step->at + local_force, f, k);
+    if (keep) store_cycled(scratch + step->at + local_force, f, k);
   }
   n.x -= r * f.y;
   n.y += r * f.x;
   return (wide_pair){uncycled(n, k), load_of.linear};
 }
 
-AMBULO__INLINE wide_pair slide_up(const ambulo__local_step *step, wide_pair sum, const double *q,
-                                  double *out, double *scratch) {
+AMBULO__INLINE wide_pair slide_up(const ambulo__local_step *step, wide_pair sum, int keep,
+                                  const double *q, double *out, double *scratch) {
   switch (step->joint) {
   case AMBULO__SLIDES_X:
-    return straight_up(step, sum, 0, q, out, scratch);
+    return straight_up(step, sum, 0, keep, q, out, scratch);
   case AMBULO__SLIDES_Y:
-    return straight_up(step, sum, 1, q, out, scratch);
+    return straight_up(step, sum, 1, keep, q, out, scratch);
   case AMBULO__SLIDES_Z:
-    return straight_up(step, sum, 2, q, out, scratch);
+    return straight_up(step, sum, 2, keep, q, out, scratch);
   default:
-    return slider_up(step, sum, q, out, scratch);
+    return slider_up(step, sum, keep, q, out, scratch);
   }
 }
 
 /* The load of a frame's subtree across the frame's joint. */
-AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum, const double *q,
-                                  double *out, double *scratch) {
+AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum, int keep,
+                                  const double *q, double *out, double *scratch) {
   switch (step->joint) {
   case AMBULO__TURNS_X:
-    sum = hinge_up(step, sum, 0, out, scratch);
+    sum = hinge_up(step, sum, 0, keep, out, scratch);
     break;
   case AMBULO__TURNS_Y:
-    sum = hinge_up(step, sum, 1, out, scratch);
+    sum = hinge_up(step, sum, 1, keep, out, scratch);
     break;
   case AMBULO__TURNS_Z:
-    sum = hinge_up(step, sum, 2, out, scratch);
+    sum = hinge_up(step, sum, 2, keep, out, scratch);
     break;
   default:
-    sum = slide_up(step, sum, q, out, scratch);
+    sum = slide_up(step, sum, keep, q, out, scratch);
   }
   if (step->plain) return sum;
   if (step->turned) {
@@ -261,14 +269,14 @@ AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum,
 }
 
 /* Up from the leaf. */
-AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, const double *q,
-                            double *out, double *scratch) {
+AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, int keep,
+                            const double *q, double *out, double *scratch) {
   wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
   const ambulo__local_step *steps = plan->local.steps, *step = &steps[limb->leaf];
   const ambulo__local_step *top = &steps[limb->top];
   if (step->loaded) sum = load_pair(scratch + step->at + local_load);
   for (;;) {
-    sum = joint_up(step, sum, q, out, scratch);
+    sum = joint_up(step, sum, keep, q, out, scratch);
     if (step == top) break;
     step = &steps[step->parent];
     if (step->loaded) sum = add_pair(load_pair(scratch + step->at + local_load), sum);
@@ -277,9 +285,11 @@ AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, 
   store_pair(above, step->first ? sum : add_pair(load_pair(above), sum));
 }
 
-/* tau and the root wrench. */
-static void local_dynamics(const ambulo__plan *plan, const double *q, const double *qd,
-                           const double *qdd, double *out, double *scratch) {
+/* tau and the root wrench; keep: what the reverse sweep reads is stored. Known when this is
+ * compiled. */
+AMBULO__INLINE void local_dynamics(const ambulo__plan *plan, int keep, const double *q,
+                                   const double *qd, const double *qdd, double *out,
+                                   double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   double *world = scratch + plan->local.world_at;
   if (plan->local.branched) {
@@ -289,8 +299,8 @@ static void local_dynamics(const ambulo__plan *plan, const double *q, const doub
   }
   local_angles(&plan->local, q, scratch);
   for (int i = 0; i < plan->local.limb_count; i++) {
-    limb_down(plan, &plan->local.limbs[i], q, qd, qdd, scratch);
-    limb_up(plan, &plan->local.limbs[i], q, out, scratch);
+    limb_down(plan, &plan->local.limbs[i], keep, q, qd, qdd, scratch);
+    limb_up(plan, &plan->local.limbs[i], keep, q, out, scratch);
   }
   wide_pair sum = {zero, zero};
   if (plan->local.limb_count > 0) sum = load_pair(world + local_load);

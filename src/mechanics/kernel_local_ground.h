@@ -45,21 +45,23 @@ AMBULO__INLINE void subtract_across(double *at, wide3 v, int k) {
   store(w, load(w) - v.y);
 }
 
-AMBULO__INLINE wide_pair hinge_relief(const ambulo__local_step *step, wide_pair w, int k,
+AMBULO__INLINE wide_pair hinge_relief(const ambulo__local_step *step, wide_pair w, int k, int keep,
                                       double *out, double *at) {
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 f = into_frame(cycled(w.angular, k), s, c), n = into_frame(cycled(w.linear, k), s, c);
-  subtract_across(at + local_moment, n, k);
-  subtract_across(at + local_force, f, k);
+  if (keep) {
+    subtract_across(at + local_moment, n, k);
+    subtract_across(at + local_force, f, k);
+  }
   store(out + step->input, load(out + step->input) - step->sign * n.z);
   return (wide_pair){uncycled(f, k), uncycled(n, k)};
 }
 
-AMBULO__INLINE wide_pair slider_relief(const ambulo__local_step *step, wide_pair w, double *out,
-                                       double *at) {
+AMBULO__INLINE wide_pair slider_relief(const ambulo__local_step *step, wide_pair w, int keep,
+                                       double *out, double *at) {
   wide3 z = spread3(step->slide);
   w.linear = add_cross3(w.linear, w.angular, scale3(load(at + local_angle), z));
-  add3_at(at + local_force, scale3(spread(-1), w.angular));
+  if (keep) add3_at(at + local_force, scale3(spread(-1), w.angular));
   store(out + step->input, load(out + step->input) - dot3(z, w.angular));
   return w;
 }
@@ -72,8 +74,8 @@ AMBULO__INLINE wide_pair wrench_seen(const local_place *p, wide_pair w) {
 }
 
 /* Takes the wrench w (world axes) off what the joints of a path carry. */
-AMBULO__INLINE void local_relief(const ambulo__plan *plan, int path, wide_pair w, double *out,
-                                 double *scratch) {
+AMBULO__INLINE void local_relief(const ambulo__plan *plan, int path, wide_pair w, int keep,
+                                 double *out, double *scratch) {
   const ambulo__local_plan *local = &plan->local;
   int first = local->carrier_first[path], last = local->carrier_first[path + 1];
   if (first == last) return;
@@ -90,30 +92,30 @@ AMBULO__INLINE void local_relief(const ambulo__plan *plan, int path, wide_pair w
     w = offset_down(step, w);
     switch (step->joint) {
     case AMBULO__TURNS_X:
-      w = hinge_relief(step, w, 0, out, at);
+      w = hinge_relief(step, w, 0, keep, out, at);
       break;
     case AMBULO__TURNS_Y:
-      w = hinge_relief(step, w, 1, out, at);
+      w = hinge_relief(step, w, 1, keep, out, at);
       break;
     case AMBULO__TURNS_Z:
-      w = hinge_relief(step, w, 2, out, at);
+      w = hinge_relief(step, w, 2, keep, out, at);
       break;
     default:
-      w = slider_relief(step, w, out, at);
+      w = slider_relief(step, w, keep, out, at);
     }
   }
 }
 
 /* From the root wrench in its rows and the bodies' first mass moment: the split, tau, the rows. */
-static void local_ground(const ambulo__plan *plan, const double *ground, wide3 first, double *out,
-                         double *scratch) {
+AMBULO__INLINE void local_ground(const ambulo__plan *plan, const double *ground, wide3 first,
+                                 int keep, double *out, double *scratch) {
   const double *at = scratch + plan->ground_at;
   wide_pair w = load_pair(out + plan->coordinates * AMBULO__LANES);
   ground_divide(plan, ground, w, first, scratch);
   for (int k = 0; k < plan->vanishing; k++) store(out + plan->roots[k].column, (wide){0});
-  local_relief(plan, 0, w, out, scratch);
-  local_relief(plan, 1, load_pair(at + ground_foot), out, scratch);
-  local_relief(plan, 2, load_pair(at + ground_foot + 2 * three), out, scratch);
+  local_relief(plan, 0, w, keep, out, scratch);
+  local_relief(plan, 1, load_pair(at + ground_foot), keep, out, scratch);
+  local_relief(plan, 2, load_pair(at + ground_foot + 2 * three), keep, out, scratch);
   ground_rows(plan, ground, out, scratch);
 }
 

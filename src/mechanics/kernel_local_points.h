@@ -43,8 +43,8 @@ AMBULO__INLINE void mix_columns(wide3 *u, wide3 *v, wide s, wide c) {
   *v = axpy3(scale3(c, *v), -s, from);
 }
 
-/* Across a joint; the axis and the origin are kept for the gradient. */
-AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p,
+/* Across a joint; the axis and the origin are stored for the gradient. */
+AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p, int keep,
                                        double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
   double *at = scratch + step->at;
@@ -73,8 +73,8 @@ AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_pla
     axis = place_of(&p, zero, step->slide);
     p.o = axpy3(p.o, s, axis);
   }
-  store3(at + local_axis, axis);
-  store3(at + local_origin, p.o);
+  if (keep) store3(at + local_axis, axis);
+  if (keep || step->placed) store3(at + local_origin, p.o);
   return p;
 }
 
@@ -94,7 +94,8 @@ AMBULO__INLINE wide3 first_moment_of(const ambulo__local_step *step, const local
 }
 
 /* Returns the first mass moment of the bodies that weigh. */
-static wide3 local_places(const ambulo__plan *plan, double *out, double *scratch) {
+AMBULO__INLINE wide3 local_places(const ambulo__plan *plan, int keep, double *out,
+                                  double *scratch) {
   const wide zero = {0}, one = spread(1);
   wide3 first = {zero, zero, zero};
   const local_place world = {
@@ -111,7 +112,7 @@ static wide3 local_places(const ambulo__plan *plan, double *out, double *scratch
     } else if (!step->carried) {
       p = place_load(scratch + step->above);
     }
-    p = place_joint(step, p, scratch);
+    p = place_joint(step, p, keep, scratch);
     if (step->placed) {
       store3(scratch + step->at + local_columns, p.x);
       store3(scratch + step->at + local_columns + three, p.y);
@@ -120,7 +121,7 @@ static wide3 local_places(const ambulo__plan *plan, double *out, double *scratch
     if (step->group >= 0) places_of_points(&plan->steps, step->group, &p, out);
     if (step->weighs) {
       wide3 moment = first_moment_of(step, &p);
-      if (!step->placed) store3(scratch + step->at + local_first, moment);
+      if (keep && !step->placed) store3(scratch + step->at + local_first, moment);
       first = add3(first, moment);
     }
   }

@@ -16,20 +16,28 @@ static const double *lanes_from(const double *ground, int lane) {
   return ground ? ground + lane : NULL;
 }
 
-static void local_forward_part(const ambulo__plan *plan, const double *q, const double *qd,
-                               const double *qdd, const double *ground, double *out,
-                               double *scratch) {
-  local_dynamics(plan, q, qd, qdd, out, scratch);
+AMBULO__INLINE void local_forward_part(const ambulo__plan *plan, int keep, const double *q,
+                                       const double *qd, const double *qdd, const double *ground,
+                                       double *out, double *scratch) {
+  local_dynamics(plan, keep, q, qd, qdd, out, scratch);
   if (plan->points == 0) return;
-  wide3 first = local_places(plan, out, scratch);
-  if (plan->grounded) local_ground(plan, ground, first, out, scratch);
+  wide3 first = local_places(plan, keep, out, scratch);
+  if (plan->grounded) local_ground(plan, ground, first, keep, out, scratch);
+}
+
+static void outputs(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
+                    const double *ground, double *out, double *scratch) {
+  for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
+    local_forward_part(plan, 0, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane),
+                       out + lane, scratch + lane);
+  }
 }
 
 static void forward(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                     const double *ground, double *out, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    local_forward_part(plan, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane), out + lane,
-                       scratch + lane);
+    local_forward_part(plan, 1, q + lane, qd + lane, qdd + lane, lanes_from(ground, lane),
+                       out + lane, scratch + lane);
   }
 }
 
@@ -58,6 +66,6 @@ static void jacobian(const ambulo__plan *plan, const double *q, const double *qd
   }
 }
 
-const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, forward, reverse, jacobian};
+const ambulo__kernels AMBULO__KERNELS = {AMBULO__KERNELS_NAME, outputs, forward, reverse, jacobian};
 
 #endif

@@ -7,5 +7,5 @@
 #define AMBULO__KERNELS_NAME "avx2"
 #include "mechanics/kernel_source.h"
 #elif defined(__x86_64__)
-const ambulo__kernels ambulo__kernels_avx2 = {"avx2", NULL, NULL, NULL};
+const ambulo__kernels ambulo__kernels_avx2 = {"avx2", NULL, NULL, NULL, NULL};
 #endif

@@ -7,5 +7,5 @@
 #define AMBULO__KERNELS_NAME "avx512"
 #include "mechanics/kernel_source.h"
 #elif defined(__x86_64__)
-const ambulo__kernels ambulo__kernels_avx512 = {"avx512", NULL, NULL, NULL};
+const ambulo__kernels ambulo__kernels_avx512 = {"avx512", NULL, NULL, NULL, NULL};
 #endif

@@ -159,11 +159,6 @@ static void gather_block(ambulo_mechanics *m, const batch *motion, int first) {
   gather(m->qdd, motion->qdd, d, first, motion->nodes);
 }
 
-static void run_forward(ambulo_mechanics *m, const batch *motion, int first) {
-  gather_block(m, motion, first);
-  m->kernels->forward(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
-}
-
 ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, const double *q,
                                                 const double *qd, const double *qdd, double *tau,
                                                 double *wrench, double *points) {
@@ -175,7 +170,8 @@ ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, 
   if (runs == 0) return AMBULO_E_NUMERIC;
   for (int run = runs; run > 0; run--) {
     for (int first = 0; first < nodes; first += AMBULO__LANES) {
-      run_forward(m, &motion, first);
+      gather_block(m, &motion, first);
+      m->kernels->outputs(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
       if (!all_finite(m->out, rows)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
       scatter(tau, m->out, d, first, nodes);
@@ -203,7 +199,8 @@ ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const do
   if (runs == 0) return AMBULO_E_NUMERIC;
   for (int run = runs; run > 0; run--) {
     for (int first = 0; first < nodes; first += AMBULO__LANES) {
-      run_forward(m, &motion, first);
+      gather_block(m, &motion, first);
+      m->kernels->forward(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
       gather(m->weights, tau_weights, d, first, nodes);
       gather(m->weights + d * AMBULO__LANES, wrench_weights, 6, first, nodes);
       gather(m->weights + (d + 6) * AMBULO__LANES, point_weights, p, first, nodes);

@@ -91,7 +91,11 @@ int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[
 typedef struct ambulo__kernels {
   const char *name; /* "avx512", "avx2", "baseline", "scalar" */
 
-  /* out: [rows], see above. Fills scratch for the next. */
+  /* out: [rows], see above. */
+  void (*outputs)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
+                  const double *ground, double *out, double *scratch);
+
+  /* The same, and fills scratch for the next. */
   void (*forward)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                   const double *ground, double *out, double *scratch);
 

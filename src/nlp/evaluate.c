@@ -37,7 +37,7 @@ static void compute_block(ambulo_workspace *workspace, int block) {
   const ambulo_problem *p = workspace->problem;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *c = block_of(workspace, workspace->channel, block);
-  p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, block),
+  p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, block),
                       c + 3 * d8, workspace->scratch);
 }
 

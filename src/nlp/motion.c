@@ -116,7 +116,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
     for (int b = 0; b < ambulo__block_count(count); b++) {
       double *y = d.channel + (size_t)b * stride;
-      p->kernels->forward(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(d.ground, b),
+      p->kernels->outputs(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(d.ground, b),
                           y + 3 * d8, d.scratch);
     }
     int finite = unpack(&d, channels, 0, c, count, motion->q);

@@ -153,8 +153,7 @@ static inline void ground_case_close(ground_case *c) {
 }
 
 static inline void ground_forward(ground_case *c, const ambulo__kernels *kernels) {
-  kernel_case *b = &c->body;
-  kernels->forward(b->plan, b->q, b->qd, b->qdd, c->ground, b->out, b->scratch);
+  case_outputs(&c->body, kernels, c->ground);
 }
 
 /* Newtons: the weight of the whole body. */

@@ -162,18 +162,6 @@ static inline void case_dense(const kernel_case *c, const double *entries, int o
   }
 }
 
-static inline void case_forward(kernel_case *c, const ambulo__kernels *kernels) {
-  kernels->forward(c->plan, c->q, c->qd, c->qdd, NULL, c->out, c->scratch);
-}
-
-/* The gradient of the weighted rows, [3][d][lanes]. */
-static inline void case_reverse(kernel_case *c, const ambulo__kernels *kernels, double *gradient) {
-  int n = c->d * AMBULO__LANES;
-  case_forward(c, kernels);
-  kernels->reverse(c->plan, c->qd, c->qdd, NULL, c->weights, gradient, gradient + n,
-                   gradient + 2 * n, c->scratch);
-}
-
 /* Largest |a - b| over n entries `stride` apart in a and adjacent in b, relative to the largest
  * |b|; NaN counts as infinite. */
 static inline double difference(const double *a, int stride, const double *b, int n, int *where) {
@@ -186,6 +174,37 @@ static inline double difference(const double *a, int stride, const double *b, in
     *where = i;
   }
   return worst;
+}
+
+/* The rows, by the kernel that fills scratch and by the one that does not. */
+static inline void case_outputs(kernel_case *c, const ambulo__kernels *kernels,
+                                const double *ground) {
+  int n = c->rows * AMBULO__LANES;
+  double *alone = malloc((size_t)n * sizeof *alone);
+  assert_non_null(alone);
+  for (size_t i = 0; i < ambulo__plan_scratch(c->plan); i++) c->scratch[i] = NAN;
+  kernels->outputs(c->plan, c->q, c->qd, c->qdd, ground, c->out, c->scratch);
+  memcpy(alone, c->out, (size_t)n * sizeof *alone);
+  kernels->forward(c->plan, c->q, c->qd, c->qdd, ground, c->out, c->scratch);
+  for (int i = 0; i < n; i++) {
+    if (alone[i] == c->out[i] || (isnan(alone[i]) && isnan(c->out[i]))) continue;
+    print_error("%s: row %d, lane %d: %.17g alone, %.17g before the reverse sweep\n", kernels->name,
+                i / AMBULO__LANES, i % AMBULO__LANES, alone[i], c->out[i]);
+    fail();
+  }
+  free(alone);
+}
+
+static inline void case_forward(kernel_case *c, const ambulo__kernels *kernels) {
+  case_outputs(c, kernels, NULL);
+}
+
+/* The gradient of the weighted rows, [3][d][lanes]. */
+static inline void case_reverse(kernel_case *c, const ambulo__kernels *kernels, double *gradient) {
+  int n = c->d * AMBULO__LANES;
+  case_forward(c, kernels);
+  kernels->reverse(c->plan, c->qd, c->qdd, NULL, c->weights, gradient, gradient + n,
+                   gradient + 2 * n, c->scratch);
 }
 
 static inline void report_difference(const kernel_case *c, const char *isa, const char *what,

@@ -13,7 +13,7 @@ static void sets_are_complete_and_named(void **state) {
     const ambulo__kernels *set = ambulo__kernels_by_name(names[i]);
     if (!set) continue;
     assert_string_equal(set->name, names[i]);
-    assert_true(set->forward && set->reverse && set->jacobian);
+    assert_true(set->outputs && set->forward && set->reverse && set->jacobian);
   }
   assert_non_null(ambulo__kernels_by_name("baseline"));
   assert_non_null(ambulo__kernels_by_name("scalar"));
