@@ -50,10 +50,10 @@ AMBULO__INLINE wide_pair hinge_virtual(const ambulo__local_step *step, wide_pair
   if (!step->vanishes) eta.z += step->sign * load(x->weights + step->input);
   wide_pair moved = {uncycled(eta, k), uncycled(u, k)};
   if (step->kept || step->body != AMBULO__BODY_NONE) {
-    store_pair(at + local_turn, moved);
+    store_pair(x->scratch + step->virtual_at, moved);
   } else {
-    store_across(at + local_turn, eta, k);
-    store_across(at + local_slide, u, k);
+    store_across(x->scratch + step->virtual_at, eta, k);
+    store_across(x->scratch + step->virtual_at + three, u, k);
   }
   return moved;
 }
@@ -63,7 +63,7 @@ AMBULO__INLINE wide_pair slider_virtual(const ambulo__local_step *step, wide_pai
   wide3 z = spread3(step->slide), r = scale3(load(x->scratch + step->at + local_angle), z);
   v.linear = add_cross3(v.linear, v.angular, r);
   if (!step->vanishes) v.linear = axpy3(v.linear, load(x->weights + step->input), z);
-  store_pair(x->scratch + step->at + local_turn, v);
+  store_pair(x->scratch + step->virtual_at, v);
   return v;
 }
 
@@ -76,7 +76,7 @@ AMBULO__INLINE wide_pair straight_virtual(const ambulo__local_step *step, wide_p
   u.y -= r * eta.x;
   if (!step->vanishes) u.z += step->sign * load(x->weights + step->input);
   v.linear = uncycled(u, k);
-  store_pair(at + local_turn, v);
+  store_pair(x->scratch + step->virtual_at, v);
   return v;
 }
 
@@ -94,12 +94,14 @@ AMBULO__INLINE wide_pair slide_virtual(const ambulo__local_step *step, wide_pair
   }
 }
 
-/* Virtual motion down to a leaf. */
-AMBULO__INLINE void limb_virtual(const ambulo__plan *plan, const ambulo__limb *limb, wide_pair root,
-                                 const local_arrays *x) {
+/* Virtual motion of the steps from `first` to `last`. */
+AMBULO__INLINE void virtual_motions(const ambulo__local_plan *local, int first, int last,
+                                    wide_pair root, const local_arrays *x) {
   wide_pair v = root;
-  const ambulo__local_step *step = &plan->local.steps[limb->first];
-  for (const ambulo__local_step *leaf = &plan->local.steps[limb->leaf]; step <= leaf; step++) {
+  if (first > last) return;
+  const ambulo__local_step *step = &local->steps[first], *end = &local->steps[last];
+  if (first > 0 && step->carried) v = load_pair(x->scratch + step->above + local_turn);
+  for (; step <= end; step++) {
     if (!step->plain) {
       if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
       v = offset_down(step, v);
@@ -159,11 +161,12 @@ AMBULO__INLINE local_state offset_adjoint(const ambulo__local_step *step, local_
 }
 
 AMBULO__INLINE local_state body_adjoint_along(const ambulo__local_step *step, local_state s, int k,
-                                              const double *at) {
+                                              const double *scratch) {
+  const double *virtual = scratch + step->virtual_at;
   int u = (k + 1) % 3, v = (k + 2) % 3;
   const double *inertia = step->inertia, *difference = step->difference;
-  wide3 w = load_cycled(at + local_rate, k), eta = load_cycled(at + local_turn, k);
-  wide3 b = load_cycled(at + local_slide, k);
+  wide3 w = load_cycled(scratch + step->at + local_rate, k), eta = load_cycled(virtual, k);
+  wide3 b = load_cycled(virtual + three, k);
   wide c = spread(step->com[k]), m = spread(step->mass);
   b = (wide3){m * (b.x + c * eta.y), m * (b.y - c * eta.x), m * b.z};
   s = (local_state){cycled(s.w, k), cycled(s.alpha, k), add3(cycled(s.a, k), b)};
@@ -179,10 +182,11 @@ AMBULO__INLINE local_state body_adjoint_along(const ambulo__local_step *step, lo
 }
 
 AMBULO__INLINE local_state body_adjoint_any(const ambulo__local_step *step, local_state s,
-                                            int diagonal, const double *at) {
+                                            int diagonal, const double *scratch) {
   const double *i = step->inertia, *d = step->difference;
-  wide3 w = load3(at + local_rate), eta = load3(at + local_turn);
-  wide3 c = spread3(step->com), b = add_cross3(load3(at + local_slide), eta, c);
+  wide_pair v = load_pair(scratch + step->virtual_at);
+  wide3 w = load3(scratch + step->at + local_rate), eta = v.angular;
+  wide3 c = spread3(step->com), b = add_cross3(v.linear, eta, c);
   b = scale3(spread(step->mass), b);
   s.a = add3(s.a, b);
   s = moved_adjoint_any(s, w, c, b);
@@ -202,18 +206,17 @@ AMBULO__INLINE local_state body_adjoint_any(const ambulo__local_step *step, loca
 
 AMBULO__INLINE local_state body_adjoint(const ambulo__local_step *step, local_state s,
                                         const double *scratch) {
-  const double *at = scratch + step->at;
   switch (step->body) {
   case AMBULO__BODY_X:
-    return body_adjoint_along(step, s, 0, at);
+    return body_adjoint_along(step, s, 0, scratch);
   case AMBULO__BODY_Y:
-    return body_adjoint_along(step, s, 1, at);
+    return body_adjoint_along(step, s, 1, scratch);
   case AMBULO__BODY_Z:
-    return body_adjoint_along(step, s, 2, at);
+    return body_adjoint_along(step, s, 2, scratch);
   case AMBULO__BODY_DIAGONAL:
-    return body_adjoint_any(step, s, 1, at);
+    return body_adjoint_any(step, s, 1, scratch);
   case AMBULO__BODY_ANY:
-    return body_adjoint_any(step, s, 0, at);
+    return body_adjoint_any(step, s, 0, scratch);
   default:
     return s;
   }
@@ -237,7 +240,8 @@ AMBULO__INLINE local_state hinge_adjoint(const ambulo__local_step *step, local_s
   if (!step->vanishes) {
     wide3 n = {load(at + local_moment + u), load(at + local_moment + v), zero};
     wide3 f = {load(at + local_force + u), load(at + local_force + v), zero};
-    other = turned_by(turned_by(other, n, at + local_turn, k), f, at + local_slide, k);
+    const double *virtual = x->scratch + step->virtual_at;
+    other = turned_by(turned_by(other, n, virtual, k), f, virtual + three, k);
   }
   store(x->gq + step->input, step->sign * (turned + other));
   store(x->gqd + step->input, step->sign * turned_by(w.z, alpha, at + local_rate, k));
@@ -255,7 +259,7 @@ AMBULO__INLINE local_state slider_adjoint(const ambulo__local_step *step, local_
   wide3 z = spread3(step->slide);
   wide drift = {0};
   wide3 push = {drift, drift, drift};
-  if (!step->vanishes) push = cross3(load3(at + local_force), load3(at + local_turn));
+  if (!step->vanishes) push = cross3(load3(at + local_force), load3(x->scratch + step->virtual_at));
   if (!step->still) {
     wide3 w = load3(at + local_rate), twice = scale3(2 * load(x->qd + step->input), z);
     drift = 2 * dot3(z, cross3(s.a, w));
@@ -278,7 +282,7 @@ AMBULO__INLINE local_state straight_adjoint(const ambulo__local_step *step, loca
   wide push = zero;
   if (!step->vanishes) {
     wide3 f = load_cycled(at + local_force, k);
-    push = turned_by(zero, f, at + local_turn, k);
+    push = turned_by(zero, f, x->scratch + step->virtual_at, k);
   }
   store(x->gq + step->input, step->sign * push);
   store(x->gqd + step->input, zero);
@@ -329,17 +333,9 @@ AMBULO__INLINE local_state add_stored(local_state s, const double *at) {
                        add3(s.a, load3(at + 2 * three))};
 }
 
-/* Adjoints up from a leaf; the world's are not asked for. */
-AMBULO__INLINE void limb_adjoints(const ambulo__plan *plan, const ambulo__limb *limb,
-                                  const local_arrays *x) {
-  local_state s = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};
-  const ambulo__local_step *steps = plan->local.steps, *step = &steps[limb->leaf];
-  for (;; step = &steps[step->parent]) {
-    if (step->adjoined) s = add_stored(s, x->scratch + step->at + local_adjoint);
-    s = body_adjoint(step, s, x->scratch);
-    s = joint_adjoint(step, s, x);
-    if (step == &steps[limb->top]) break;
-  }
+/* Leaves the adjoints to a parent that is not the step before; the world's are not asked for. */
+AMBULO__INLINE void leave_adjoints(const ambulo__local_step *step, local_state s,
+                                   const local_arrays *x) {
   if (step->from_world) return;
   double *above = x->scratch + step->above + local_adjoint;
   if (!step->first_adjoint) s = add_stored(s, above);
@@ -348,11 +344,33 @@ AMBULO__INLINE void limb_adjoints(const ambulo__plan *plan, const ambulo__limb *
   store3(above + 2 * three, s.a);
 }
 
+/* Adjoints of the steps from `last` up to `first`. */
+AMBULO__INLINE void limb_adjoints(const ambulo__local_plan *local, int first, int last,
+                                  const local_arrays *x) {
+  const local_state zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  local_state s = zero;
+  const ambulo__local_step *end = &local->steps[first];
+  for (const ambulo__local_step *step = &local->steps[last]; step >= end; step--) {
+    if (step->kept) s = add_stored(s, x->scratch + step->at + local_adjoint);
+    s = joint_adjoint(step, body_adjoint(step, s, x->scratch), x);
+    if (step->carried) continue;
+    leave_adjoints(step, s, x);
+    s = zero;
+  }
+}
+
+/* The last limb first: of what the pass before has stored, that is what is still at hand. The
+ * stems, on which other limbs stand, go before. */
 static void local_adjoints(const ambulo__plan *plan, wide_pair root, const local_arrays *x) {
-  if (plan->local.branched) store_pair(x->scratch + plan->local.world_at + local_turn, root);
-  for (int i = 0; i < plan->local.limb_count; i++) {
-    limb_virtual(plan, &plan->local.limbs[i], root, x);
-    limb_adjoints(plan, &plan->local.limbs[i], x);
+  const ambulo__local_plan *local = &plan->local;
+  if (local->branched) store_pair(x->scratch + local->world_at + local_turn, root);
+  for (int i = 0; i < local->limb_count; i++) {
+    virtual_motions(local, local->limbs[i].first, local->limbs[i].stem, root, x);
+  }
+  for (int i = local->limb_count - 1; i >= 0; i--) {
+    const ambulo__limb *limb = &local->limbs[i];
+    virtual_motions(local, limb->stem + 1, limb->leaf, root, x);
+    limb_adjoints(local, limb->first, limb->leaf, x);
   }
 }
 

@@ -100,15 +100,41 @@ static void set_limbs(ambulo__plan *plan, int *open) {
     while (local->steps[top].parent >= 0 && --open[local->steps[top].parent + 1] == 0) {
       top = local->steps[top].parent;
     }
-    local->limbs[local->limb_count++] = (ambulo__limb){first, k, top};
+    local->limbs[local->limb_count++] = (ambulo__limb){first, first - 1, k, top};
     first = k + 1;
     ambulo__local_step *step = &local->steps[top];
     ambulo__local_step *above = step->parent >= 0 ? &local->steps[step->parent] : NULL;
     step->first = above ? !above->loaded : !rooted;
-    step->first_adjoint = above && !above->adjoined;
     rooted |= !above;
-    if (above) above->loaded = above->adjoined = 1;
+    if (above) above->loaded = 1;
   }
+}
+
+/* Where virtual motions go, and who is the first to leave adjoints to a frame: limbs are taken from
+ * the last one on. Returns how many virtual motions the limbs share. */
+static int set_stems(ambulo__plan *plan, int shared_at) {
+  ambulo__local_plan *local = &plan->local;
+  int longest = 0;
+  for (int i = 0; i < local->limb_count; i++) {
+    ambulo__limb *limb = &local->limbs[i];
+    for (int k = limb->first; k <= limb->leaf; k++) {
+      if (local->steps[k].kept) limb->stem = k;
+    }
+    for (int k = limb->first; k <= limb->leaf; k++) {
+      ambulo__local_step *step = &local->steps[k];
+      int place = k - limb->stem - 1;
+      step->virtual_at = place < 0 ? step->at + local_turn : shared_at + place * 6 * AMBULO__LANES;
+      if (place >= longest) longest = place + 1;
+    }
+  }
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__local_step *step = &local->steps[k];
+    step->first_adjoint = !step->carried;
+    for (int j = k + 1; j < plan->coordinates; j++) {
+      if (local->steps[j].parent == step->parent) step->first_adjoint = 0;
+    }
+  }
+  return longest;
 }
 
 static void set_angles(ambulo__plan *plan) {
@@ -203,11 +229,12 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   }
   set_forks(plan);
   set_limbs(plan, open);
+  int shared = set_stems(plan, slots + (int)d * local_slot);
   set_angles(plan);
   ambulo__free(&plan->allocator, open);
   if (plan->grounded) set_ground(plan);
   set_points(plan);
-  plan->scratch += d * local_slot;
+  plan->scratch += d * local_slot + (size_t)shared * 6 * AMBULO__LANES;
   return AMBULO_OK;
 }
 

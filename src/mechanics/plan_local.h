@@ -66,16 +66,17 @@ typedef struct ambulo__local_step {
   ambulo__offset_kind offset;
   ambulo__offset_kind moving; /* none if still: the offset then has no acceleration */
   ambulo__body_kind body;
-  int parent;    /* step, -1: the world */
-  int input;     /* entries of the coordinate in the arrays of the caller */
-  int at, above; /* slots of the frame and of its parent */
-  int carried;   /* the parent is the frame of the step before, or the world at the first step */
-  int plain;     /* carried, and neither an offset nor a constant turn comes before the joint */
-  int kept;      /* a step that is not carried starts from this frame */
-  int loaded;    /* local_load holds something when the pass up the tree arrives */
-  int first;     /* top of a rise: first to write the local_load above it */
-  int adjoined;  /* the same two for local_adjoint */
-  int first_adjoint;
+  int parent;     /* step, -1: the world */
+  int input;      /* entries of the coordinate in the arrays of the caller */
+  int at, above;  /* slots of the frame and of its parent */
+  int virtual_at; /* eta and u (6): local_turn of the slot in a stem, else a place that the limbs
+                     share */
+  int carried;    /* the parent is the frame of the step before, or the world at the first step */
+  int plain;      /* carried, and neither an offset nor a constant turn comes before the joint */
+  int kept;       /* a step that is not carried starts from this frame */
+  int loaded;     /* local_load holds something when the pass up the tree arrives */
+  int first;      /* top of a rise: first to write the local_load above it */
+  int first_adjoint; /* not carried: first to write the local_adjoint above it */
   int from_world;
   int still; /* the parent does not turn */
   int turned;
@@ -105,10 +106,12 @@ typedef struct ambulo__local_angle {
 
 enum { ambulo__angle_row = 4 };
 
-/* Down the steps from `first` to `leaf`, which has no children; then up from there to `top`, the
- * last frame of which all is known: it adds what it carries to its parent's. */
+/* Steps from `first` to `stem` are those on which other limbs may stand: `stem` is the last one
+ * that is kept, or the one before `first`. Down the steps from `first` to `leaf`, which has no
+ * children; then up from there to `top`, the last frame of which all is known: it adds what it
+ * carries to its parent's. */
 typedef struct ambulo__limb {
-  int first, leaf, top;
+  int first, stem, leaf, top;
 } ambulo__limb;
 
 typedef struct ambulo__local_plan {

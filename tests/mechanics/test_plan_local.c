@@ -60,18 +60,22 @@ static void limbs_are_carried_and_branches_kept(void **state) {
       fail();
     }
     assert_int_equal(steps[k].kept, k == 1);
-    assert_int_equal(steps[k].adjoined, k == 1);
+    assert_int_equal(steps[k].first_adjoint, k == 4);
   }
-  /* the first limb ends at the trunk, whose own body writes its load first, nobody its adjoints;
-   * the second goes on to the root */
+  /* the first limb ends at the trunk, whose own body writes its load first; the second goes on to
+   * the root */
   const ambulo__limb *limbs = plan->local.limbs;
   assert_int_equal(plan->local.limb_count, 2);
   assert_true(limbs[0].first == 0 && limbs[0].leaf == 3 && limbs[0].top == 2);
   assert_true(limbs[1].first == 4 && limbs[1].leaf == 4 && limbs[1].top == 0);
   assert_int_equal(steps[2].first, 0);
-  assert_int_equal(steps[2].first_adjoint, 1);
   assert_int_equal(steps[0].first, 1);
   assert_int_equal(plan->local.branched, 0);
+  /* lift and trunk have their virtual motions for themselves, the limbs share places */
+  assert_true(limbs[0].stem == 1 && limbs[1].stem == 3);
+  assert_int_equal(steps[1].virtual_at, steps[1].at + local_turn);
+  assert_int_equal(steps[2].virtual_at, steps[4].virtual_at);
+  assert_true(steps[3].virtual_at > steps[2].virtual_at);
   ambulo__plan_free(plan);
 }
 
