@@ -192,6 +192,19 @@ AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo
   store(jqdd + lower, spread(step->mass));
 }
 
+/* Rows of a point at p, which the joints of a chain move. */
+AMBULO__INLINE void jacobian_point(const int *chain, int count, wide3 p, double *out,
+                                   const double *scratch) {
+  const size_t row = (size_t)count * AMBULO__LANES;
+  for (const int *last = chain + count; chain < last; chain++, out += AMBULO__LANES) {
+    wide_pair s = load_pair(scratch + *chain);
+    wide3 column = add_cross3(s.linear, s.angular, p);
+    store(out, column.x);
+    store(out + row, column.y);
+    store(out + 2 * row, column.z);
+  }
+}
+
 /* Points on the frames of a limb. */
 static void jacobian_points(const ambulo__plan *plan, const ambulo__limb *limb, double *jq,
                             const double *scratch) {
@@ -200,16 +213,9 @@ static void jacobian_points(const ambulo__plan *plan, const ambulo__limb *limb, 
   for (int k = limb->first; k <= limb->leaf; k++) {
     if (plan->local.steps[k].group < 0) continue;
     const ambulo__group_step *group = &steps->groups[plan->local.steps[k].group];
-    int row = group->chain_count * AMBULO__LANES, last = group->first + group->count;
-    for (int e = 0; e < group->chain_count; e++) {
-      wide_pair s = load_pair(scratch + steps->chains[group->chain + e]);
-      for (int i = group->first; i < last; i++) {
-        double *out = jq + steps->points[i].entry + e * AMBULO__LANES;
-        wide3 column = add_cross3(s.linear, s.angular, load3(places + i * three));
-        store(out, column.x);
-        store(out + row, column.y);
-        store(out + 2 * row, column.z);
-      }
+    for (int i = group->first; i < group->first + group->count; i++) {
+      jacobian_point(steps->chains + group->chain, group->chain_count, load3(places + i * three),
+                     jq + steps->points[i].entry, scratch);
     }
   }
 }
