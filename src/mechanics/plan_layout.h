@@ -18,9 +18,10 @@
 #define AMBULO__SUBTREE 27
 
 typedef struct ambulo__frame {
-  int subtree_at; /* load and inertia (27, kernel_subtree.h) of the body and of finished branches;
-                     of the whole body, and the world's; -1: nothing */
-  int body;       /* index, -1: none */
+  int subtree_at;   /* load and inertia (27, kernel_subtree.h) of the body and of finished branches;
+                       of the whole body, and the world's; -1: nothing */
+  int body;         /* index, -1: none */
+  int last_carried; /* coordinate */
   double subtree_mass;
 } ambulo__frame;
 

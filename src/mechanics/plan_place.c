@@ -18,14 +18,12 @@ static int child_count(const ambulo__plan *plan, int frame) {
   return count;
 }
 
-/* The last coordinate that a frame carries. */
-static int last_carried(const ambulo__plan *plan, int frame) {
+static void find_last_carried(ambulo__plan *plan) {
   for (int k = plan->coordinates - 1; k >= 0; k--) {
-    int above = k + 1;
-    while (above > frame) above = plan->joints[above - 1].parent;
-    if (above == frame) return k;
+    ambulo__frame *frame = &plan->frames[k + 1], *parent = &plan->frames[plan->joints[k].parent];
+    if (frame->last_carried < k) frame->last_carried = k;
+    if (parent->last_carried < frame->last_carried) parent->last_carried = frame->last_carried;
   }
-  return -1;
 }
 
 /* The first coordinate of the limb of coordinate k: limbs end at leaves. */
@@ -40,7 +38,7 @@ static int lowest_free(const ambulo__plan *plan, int k, int base, int entries,
                        int (*place_of)(const ambulo__plan *, int)) {
   int start = limb_start(plan, k), at = base;
   for (int f = 0; f < k; f++) {
-    int needed = plan->grounded || last_carried(plan, f + 1) >= start;
+    int needed = plan->grounded || plan->frames[f + 1].last_carried >= start;
     if (!needed || place_of(plan, f) != at) continue;
     at += entries * AMBULO__LANES;
     f = -1;
@@ -100,6 +98,7 @@ void ambulo__plan_place(ambulo__plan *plan) {
   for (int k = 0; k < plan->coordinates; k++) {
     plan->joints[k].still = is_still(plan, &plan->joints[k]);
   }
+  find_last_carried(plan);
   if (plan->grounded) plan->ground_at = take(used, 23);
   place_jacobian(plan, used);
 }
