@@ -71,14 +71,18 @@ AMBULO__INLINE void clear_subtree(double *at) {
   store_subtree(at, &none);
 }
 
-/* Of a diagonal inertia: zz 1 + (xx - zz) x x^T + (yy - zz) y y^T, x and y columns of the frame. */
-AMBULO__INLINE wide6 diagonal_inertia(const ambulo__local_step *step, const local_place *p) {
-  wide3 x = p->x, y = p->y, u = scale3(spread(step->difference[1]), x);
-  wide3 w = scale3(spread(-step->difference[0]), y);
-  wide base = spread(step->inertia[2]);
+/* base 1 + u x^T + w y^T, u along x and w along y. */
+AMBULO__INLINE wide6 sum_of_squares(wide base, wide3 u, wide3 x, wide3 w, wide3 y) {
   return (wide6){base + u.x * x.x + w.x * y.x, base + u.y * x.y + w.y * y.y,
                  base + u.z * x.z + w.z * y.z, u.x * x.y + w.x * y.y,
                  u.x * x.z + w.x * y.z,        u.y * x.z + w.y * y.z};
+}
+
+/* Of a diagonal inertia: zz 1 + (xx - zz) x x^T + (yy - zz) y y^T, x and y columns of the frame. */
+AMBULO__INLINE wide6 diagonal_inertia(const ambulo__local_step *step, const local_place *p) {
+  wide3 u = scale3(spread(step->difference[1]), p->x);
+  wide3 w = scale3(spread(-step->difference[0]), p->y);
+  return sum_of_squares(spread(step->inertia[2]), u, p->x, w, p->y);
 }
 
 /* base 1 + first u u^T + second w w^T, see plan_mass.c. */
@@ -88,12 +92,7 @@ AMBULO__INLINE wide6 oblique_inertia(const ambulo__body *body, const local_place
   x = axpy3(axpy3(x, spread(body->lower[0]), y), spread(body->lower[1]), z);
   y = axpy3(y, spread(body->lower[2]), z);
   wide3 u = scale3(spread(body->first), x), w = scale3(spread(body->second), y);
-  return (wide6){body->base + u.x * x.x + w.x * y.x,
-                 body->base + u.y * x.y + w.y * y.y,
-                 body->base + u.z * x.z + w.z * y.z,
-                 u.x * x.y + w.x * y.y,
-                 u.x * x.z + w.x * y.z,
-                 u.y * x.z + w.y * y.z};
+  return sum_of_squares(spread(body->base), u, x, w, y);
 }
 
 /* The centre of mass from the frame's origin, in world axes. */
