@@ -43,19 +43,54 @@ AMBULO__INLINE void mix_columns(wide3 *u, wide3 *v, wide s, wide c) {
   *v = axpy3(scale3(c, *v), -s, from);
 }
 
+/* The origin, moved by the offset. */
+AMBULO__INLINE wide3 offset_origin(const ambulo__local_step *step, const local_place *p) {
+  switch (step->offset) {
+  case AMBULO__OFFSET_X:
+    return axpy3(p->o, spread(step->length), p->x);
+  case AMBULO__OFFSET_Y:
+    return axpy3(p->o, spread(step->length), p->y);
+  case AMBULO__OFFSET_Z:
+    return axpy3(p->o, spread(step->length), p->z);
+  case AMBULO__OFFSET_ANY:
+    return place_of(p, p->o, step->move);
+  default:
+    return p->o;
+  }
+}
+
+/* From the parent to where the joint turns or slides. */
+AMBULO__INLINE local_place place_parent(const ambulo__local_step *step, local_place p,
+                                        const local_place *world, const double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  if (!step->carried) p = step->from_world ? *world : place_load(scratch + step->above);
+  p.o = offset_origin(step, &p);
+  if (!step->turned) return p;
+  const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
+  const double z[3] = {t[2], t[5], t[8]};
+  return (local_place){place_of(&p, zero, x), place_of(&p, zero, y), place_of(&p, zero, z), p.o};
+}
+
+AMBULO__INLINE wide3 slide_axis(const ambulo__local_step *step, const local_place *p) {
+  const wide3 zero = {{0}, {0}, {0}};
+  switch (step->joint) {
+  case AMBULO__SLIDES_X:
+    return scale3(spread(step->sign), p->x);
+  case AMBULO__SLIDES_Y:
+    return scale3(spread(step->sign), p->y);
+  case AMBULO__SLIDES_Z:
+    return scale3(spread(step->sign), p->z);
+  default:
+    return place_of(p, zero, step->slide);
+  }
+}
+
 /* Across a joint; the axis and the origin are stored for the gradient. */
 AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p, int keep,
                                        double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 axis;
-  if (step->offset != AMBULO__OFFSET_NONE) p.o = place_of(&p, p.o, step->move);
-  if (step->turned) {
-    const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
-    const double z[3] = {t[2], t[5], t[8]};
-    p = (local_place){place_of(&p, zero, x), place_of(&p, zero, y), place_of(&p, zero, z), p.o};
-  }
   switch (step->joint) {
   case AMBULO__TURNS_X:
     axis = p.x;
@@ -70,7 +105,7 @@ AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_pla
     mix_columns(&p.x, &p.y, s, c);
     break;
   default:
-    axis = place_of(&p, zero, step->slide);
+    axis = slide_axis(step, &p);
     p.o = axpy3(p.o, s, axis);
   }
   if (keep) store3(at + local_axis, axis);
@@ -104,15 +139,12 @@ AMBULO__INLINE wide3 local_places(const ambulo__plan *plan, int keep, double *ou
   if (plan->local.world_group >= 0) {
     places_of_points(&plan->steps, plan->local.world_group, &world, out);
   }
-  for (int i = 0; i < plan->coordinates; i++) {
-    const ambulo__local_step *step = &plan->local.steps[i];
+  const ambulo__local_step *step = plan->local.steps, *end = step + plan->coordinates;
+  for (; step < end; step++) {
     if (!step->pointed) continue;
-    if (step->from_world) {
-      p = world;
-    } else if (!step->carried) {
-      p = place_load(scratch + step->above);
-    }
+    if (!step->plain) p = place_parent(step, p, &world, scratch);
     p = place_joint(step, p, keep, scratch);
+    if (!step->shown) continue;
     if (step->placed) {
       store3(scratch + step->at + local_columns, p.x);
       store3(scratch + step->at + local_columns + three, p.y);
@@ -167,29 +199,41 @@ AMBULO__INLINE wide_pair add_pulls(const ambulo__local_step *step, wide_pair sum
   return sum;
 }
 
+/* All that acts on the frame and beyond it, M and P; sum: from the step after. */
+AMBULO__INLINE wide_pair gathered_weights(const ambulo__plan *plan, const ambulo__local_step *step,
+                                          wide_pair sum, const local_pulls *pulls,
+                                          const double *weights, const double *scratch) {
+  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  const double *at = scratch + step->at;
+  if (!step->carries_points) sum = zero;
+  if (step->weighted) sum = add_pair(load_pair(at + local_weight), sum);
+  if (step->group >= 0) sum = weights_of_points(&plan->steps, step->group, sum, weights, at);
+  return add_pulls(step, sum, pulls, at);
+}
+
 /* The points' part of gq, which holds the rest already; pulls: read with ground reaction only. */
 static void local_point_weights(const ambulo__plan *plan, const local_pulls *pulls,
                                 const double *weights, double *gq, double *scratch) {
-  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
-  wide_pair sum = zero;
-  for (int i = plan->coordinates - 1; i >= 0; i--) {
-    const ambulo__local_step *step = &plan->local.steps[i];
+  const wide3 zero = {{0}, {0}, {0}};
+  wide_pair sum = {zero, zero};
+  wide3 moment = zero; /* M - o x P */
+  const ambulo__local_step *first = plan->local.steps, *step = first + plan->coordinates;
+  while (step-- > first) {
     const double *at = scratch + step->at;
     if (!step->pointed) continue;
-    if (!step->carries_points) sum = zero;
-    if (step->weighted) sum = axpy_pair(load_pair(at + local_weight), spread(1), sum);
-    if (step->group >= 0) sum = weights_of_points(&plan->steps, step->group, sum, weights, at);
-    sum = add_pulls(step, sum, pulls, at);
-    wide3 z = load3(at + local_axis), push = sum.linear;
-    wide sign = spread(1);
+    if (step->draws) sum = gathered_weights(plan, step, sum, pulls, weights, scratch);
+    wide3 z = load3(at + local_axis);
+    wide push;
     if (step->joint < AMBULO__SLIDES) {
-      push = add_cross3(sum.angular, sum.linear, load3(at + local_origin));
-      sign = spread(step->sign);
+      if (step->levers) moment = add_cross3(sum.angular, sum.linear, load3(at + local_origin));
+      push = step->sign * dot3(z, moment);
+    } else {
+      push = dot3(z, sum.linear);
     }
-    store(gq + step->input, load(gq + step->input) + sign * dot3(z, push));
+    store(gq + step->input, load(gq + step->input) + push);
     if (step->carried || step->from_world) continue;
     double *above = scratch + step->above + local_weight;
-    store_pair(above, step->first_weight ? sum : axpy_pair(load_pair(above), spread(1), sum));
+    store_pair(above, step->first_weight ? sum : add_pair(load_pair(above), sum));
   }
 }
 

@@ -179,6 +179,19 @@ static void set_points(ambulo__plan *plan) {
   }
 }
 
+/* Which steps of the passes for points have more to do than to turn. */
+static void set_point_passes(ambulo__plan *plan) {
+  for (int k = 0; k < plan->coordinates; k++) {
+    ambulo__local_step *step = &plan->local.steps[k];
+    const ambulo__local_step *after = step + 1;
+    step->shown = step->placed || step->group >= 0 || step->weighs;
+    step->draws = !step->carries_points || step->weighted || step->group >= 0 || step->weighs ||
+                  step->feet != 0;
+    step->levers =
+        step->draws || after->joint >= AMBULO__SLIDES || after->offset != AMBULO__OFFSET_NONE;
+  }
+}
+
 /* Who carries the feet, in the order in which the feet's wrenches go down. */
 static void set_ground(ambulo__plan *plan) {
   static const int feet[3] = {3, 1, 2};
@@ -234,6 +247,7 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   ambulo__free(&plan->allocator, open);
   if (plan->grounded) set_ground(plan);
   set_points(plan);
+  set_point_passes(plan);
   plan->scratch += d * local_slot + (size_t)shared * 6 * AMBULO__LANES;
   return AMBULO_OK;
 }

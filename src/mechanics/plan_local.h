@@ -85,6 +85,9 @@ typedef struct ambulo__local_step {
   int carries_points;                   /* the step after is carried and pointed */
   int weighted, first_weight;           /* as loaded and first, for the points' weights */
   int placed;                           /* its columns in world axes are read by other steps */
+  int shown;                            /* placed, or of a group, or weighs */
+  int draws;                            /* weights come to those of the step after */
+  int levers;                           /* and their moment is not that of the step after */
   int vanishes;                         /* ground reaction: tau is zero, see plan_ground.c */
   int weighs;                           /* ground reaction: the body counts in the centre of mass */
   int feet;                             /* ground reaction: feet on this frame (1, 2, both: 3) */
