@@ -9,7 +9,10 @@
 #include <string.h>
 
 #include "ambulo/mechanics.h"
-#include "mechanics/plan.h"
+#include "mechanics/lane_transpose.h"
+
+/* Inputs up to this cannot make results overflow. */
+static const double moderate = 1e30;
 
 struct ambulo_mechanics {
   ambulo_allocator allocator;
@@ -73,30 +76,32 @@ ambulo_status ambulo_mechanics_create(const ambulo_model *model, const ambulo_al
   return AMBULO_OK;
 }
 
-static double larger(double a, double b) {
-  return a > b ? a : b;
+/* The largest magnitude; infinite if anything is not finite. NULL counts as zeros. */
+static double largest_of(const double *x, size_t count) {
+  double most = 0;
+  for (size_t i = 0; i < count; i++) {
+    if (!isfinite(x[i])) return INFINITY;
+    most = fmax(most, fabs(x[i]));
+  }
+  return most;
 }
 
-/* The largest magnitude; infinite if anything is not finite. NULL counts as zeros. Four sums run
- * side by side, without branches: x - x is zero, or NaN if x is not finite. */
+/* The same, or, where that is moderate, a moderate bound of it: a sum of squares takes two
+ * operations for a number, side by side, and shows what is not finite. */
 static double largest(const double *x, size_t count) {
-  double a = 0, b = 0, c = 0, d = 0, odd_a = 0, odd_b = 0, odd_c = 0, odd_d = 0;
+  ambulo__two a = {0}, b = {0}, c = {0}, d = {0};
   if (!x) return 0;
-  for (; count >= 4; x += 4, count -= 4) {
-    a = larger(fabs(x[0]), a);
-    b = larger(fabs(x[1]), b);
-    c = larger(fabs(x[2]), c);
-    d = larger(fabs(x[3]), d);
-    odd_a += x[0] - x[0];
-    odd_b += x[1] - x[1];
-    odd_c += x[2] - x[2];
-    odd_d += x[3] - x[3];
+  size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    a += ambulo__square_two(x + i);
+    b += ambulo__square_two(x + i + 2);
+    c += ambulo__square_two(x + i + 4);
+    d += ambulo__square_two(x + i + 6);
   }
-  for (; count > 0; x++, count--) {
-    a = larger(fabs(*x), a);
-    odd_a += *x - *x;
-  }
-  return odd_a + odd_b + odd_c + odd_d == 0 ? larger(larger(a, b), larger(c, d)) : INFINITY;
+  a = (a + b) + (c + d);
+  double total = a[0] + a[1];
+  for (; i < count; i++) total += x[i] * x[i];
+  return total <= moderate * moderate ? sqrt(total) : largest_of(x, count);
 }
 
 static double largest_input(const ambulo_mechanics *m, const batch *motion) {
@@ -113,50 +118,29 @@ static int is_legal(const ambulo_mechanics *m, const batch *motion) {
 
 /* Number of runs: 0 if an input is not finite, 2 if a dry run is called for. */
 static int run_count(double most) {
-  return isinf(most) ? 0 : (most > 1e30 ? 2 : 1);
+  return isinf(most) ? 0 : (most > moderate ? 2 : 1);
 }
 
-/* lanes[entry][lane] = values[node][entry] for the block that starts at `first`. */
-static void gather(double *restrict lanes, const double *values, int entries, int first,
-                   int nodes) {
-  const double *from[AMBULO__LANES];
-  if (!values) {
-    memset(lanes, 0, (size_t)entries * AMBULO__LANES * sizeof *lanes);
-    return;
-  }
-  for (int lane = 0; lane < AMBULO__LANES; lane++) {
-    int node = first + lane < nodes ? first + lane : nodes - 1;
-    from[lane] = values + (size_t)node * (size_t)entries;
-  }
-  for (int e = 0; e < entries; e++, lanes += AMBULO__LANES) {
-    for (int lane = 0; lane < AMBULO__LANES; lane++) lanes[lane] = from[lane][e];
-  }
-}
-
-static void scatter(double *restrict values, const double *restrict lanes, int entries, int first,
-                    int nodes) {
-  for (int lane = 0; values && lane < AMBULO__LANES && first + lane < nodes; lane++) {
-    double *to = values + (size_t)(first + lane) * (size_t)entries;
-    for (int e = 0; e < entries; e++) to[e] = lanes[e * AMBULO__LANES + lane];
-  }
-}
-
+/* x - x is zero, or NaN if x is not finite. */
 static int all_finite(const double *lanes, size_t entries) {
-  double a = 0, b = 0, c = 0, d = 0;
-  for (size_t i = 0; i < entries * AMBULO__LANES; i += 4) {
-    a += lanes[i] - lanes[i];
-    b += lanes[i + 1] - lanes[i + 1];
-    c += lanes[i + 2] - lanes[i + 2];
-    d += lanes[i + 3] - lanes[i + 3];
+  ambulo__two a = {0}, b = {0}, c = {0}, d = {0};
+  for (size_t e = 0; e < entries; e++, lanes += AMBULO__LANES) {
+    ambulo__two p = ambulo__load_two(lanes), q = ambulo__load_two(lanes + 2);
+    ambulo__two r = ambulo__load_two(lanes + 4), s = ambulo__load_two(lanes + 6);
+    a += p - p;
+    b += q - q;
+    c += r - r;
+    d += s - s;
   }
-  return a + b + c + d == 0;
+  a = (a + b) + (c + d);
+  return a[0] + a[1] == 0;
 }
 
 static void gather_block(ambulo_mechanics *m, const batch *motion, int first) {
   int d = ambulo__plan_coordinates(m->plan);
-  gather(m->q, motion->q, d, first, motion->nodes);
-  gather(m->qd, motion->qd, d, first, motion->nodes);
-  gather(m->qdd, motion->qdd, d, first, motion->nodes);
+  ambulo__lanes_gather(m->q, motion->q, d, first, motion->nodes);
+  ambulo__lanes_gather(m->qd, motion->qd, d, first, motion->nodes);
+  ambulo__lanes_gather(m->qdd, motion->qdd, d, first, motion->nodes);
 }
 
 ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, const double *q,
@@ -174,9 +158,9 @@ ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, 
       m->kernels->outputs(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
       if (!all_finite(m->out, rows)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
-      scatter(tau, m->out, d, first, nodes);
-      scatter(wrench, m->out + d * AMBULO__LANES, 6, first, nodes);
-      scatter(points, m->out + (d + 6) * AMBULO__LANES, p, first, nodes);
+      ambulo__lanes_scatter(tau, m->out, d, first, nodes);
+      ambulo__lanes_scatter(wrench, m->out + d * AMBULO__LANES, 6, first, nodes);
+      ambulo__lanes_scatter(points, m->out + (d + 6) * AMBULO__LANES, p, first, nodes);
     }
   }
   return AMBULO_OK;
@@ -201,16 +185,16 @@ ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const do
     for (int first = 0; first < nodes; first += AMBULO__LANES) {
       gather_block(m, &motion, first);
       m->kernels->forward(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
-      gather(m->weights, tau_weights, d, first, nodes);
-      gather(m->weights + d * AMBULO__LANES, wrench_weights, 6, first, nodes);
-      gather(m->weights + (d + 6) * AMBULO__LANES, point_weights, p, first, nodes);
+      ambulo__lanes_gather(m->weights, tau_weights, d, first, nodes);
+      ambulo__lanes_gather(m->weights + d * AMBULO__LANES, wrench_weights, 6, first, nodes);
+      ambulo__lanes_gather(m->weights + (d + 6) * AMBULO__LANES, point_weights, p, first, nodes);
       m->kernels->reverse(m->plan, m->qd, m->qdd, NULL, m->weights, m->gq, m->gqd, m->gqdd,
                           m->scratch);
       if (!all_finite(m->gq, 3 * columns)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
-      scatter(q_gradient, m->gq, d, first, nodes);
-      scatter(qd_gradient, m->gqd, d, first, nodes);
-      scatter(qdd_gradient, m->gqdd, d, first, nodes);
+      ambulo__lanes_scatter(q_gradient, m->gq, d, first, nodes);
+      ambulo__lanes_scatter(qd_gradient, m->gqd, d, first, nodes);
+      ambulo__lanes_scatter(qdd_gradient, m->gqdd, d, first, nodes);
     }
   }
   return AMBULO_OK;
