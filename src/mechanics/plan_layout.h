@@ -19,7 +19,7 @@
 
 typedef struct ambulo__frame {
   int subtree_at;   /* load and inertia (27, kernel_subtree.h) of the body and of finished branches;
-                       of the whole body, and the world's; -1: nothing */
+                       the world's: of all that moves; -1: nothing but those of the only child */
   int body;         /* index, -1: none */
   int last_carried; /* coordinate */
   double subtree_mass;
@@ -39,7 +39,7 @@ typedef struct ambulo__joint {
   int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
   int torque_row;  /* ambulo__torque_row */
   int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (17) */
-  int motion_at;   /* Jacobian: S and its first and second derivative (18) */
+  int motion_at;   /* Jacobian: S, 2 Sd and Sdd (18, kernel_world.h) */
 } ambulo__joint;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint, all coordinates (what

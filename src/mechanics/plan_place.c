@@ -26,22 +26,20 @@ static void find_last_carried(ambulo__plan *plan) {
   }
 }
 
-/* The first coordinate of the limb of coordinate k: limbs end at leaves. */
-static int limb_start(const ambulo__plan *plan, int k) {
-  while (k > 0 && child_count(plan, k) > 0) k--;
-  return k;
-}
-
-/* The lowest place among equal ones from `base` on that no frame holds that is still needed: a limb
- * takes over those of the limbs before it, unless ground reaction comes back to them. */
+/* The lowest place among equal ones from `base` on that no frame holds that is still needed: with
+ * the last coordinate that it carries its limb ends, and the next takes over its place, unless
+ * ground reaction comes back to it. */
 static int lowest_free(const ambulo__plan *plan, int k, int base, int entries,
                        int (*place_of)(const ambulo__plan *, int)) {
-  int start = limb_start(plan, k), at = base;
-  for (int f = 0; f < k; f++) {
-    int needed = plan->grounded || plan->frames[f + 1].last_carried >= start;
-    if (!needed || place_of(plan, f) != at) continue;
-    at += entries * AMBULO__LANES;
-    f = -1;
+  int at = base, is_free = 0;
+  while (!is_free) {
+    is_free = 1;
+    for (int f = 0; f < k; f++) {
+      int needed = plan->grounded || plan->frames[f + 1].last_carried >= k;
+      if (!needed || place_of(plan, f) != at) continue;
+      at += entries * AMBULO__LANES;
+      is_free = 0;
+    }
   }
   return at;
 }
