@@ -56,7 +56,7 @@ static void jacobian(const ambulo__plan *plan, const double *q, const double *qd
                      const double *ground, double *jq, double *jqd, double *jqdd, double *scratch) {
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
     const world_inputs x = {q + lane, qd + lane, qdd + lane};
-    world_start(plan, x.q, scratch + lane);
+    local_angles(&plan->local, x.q, scratch + lane);
     if (plan->grounded) {
       jacobian_ground_part(plan, &x, ground + lane, jq + lane, jqd + lane, jqdd + lane,
                            scratch + lane);

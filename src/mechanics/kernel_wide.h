@@ -149,14 +149,6 @@ AMBULO__INLINE wide3 multiply6(wide6 m, wide3 v) {
                  m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 
-/* c + r, r a constant in the frame with these columns. */
-AMBULO__INLINE wide3 add_rotated(wide3 c, const double *base, const int columns[3],
-                                 const double r[3]) {
-  c = axpy3(c, spread(r[0]), load3(base + columns[0]));
-  c = axpy3(c, spread(r[1]), load3(base + columns[1]));
-  return axpy3(c, spread(r[2]), load3(base + columns[2]));
-}
-
 AMBULO__INLINE wide_pair load_pair(const double *at) {
   return (wide_pair){load3(at), load3(at + three)};
 }
@@ -182,10 +174,6 @@ AMBULO__INLINE wide_pair axpy_pair(wide_pair a, wide s, wide_pair b) {
 
 AMBULO__INLINE wide_pair add_pair(wide_pair a, wide_pair b) {
   return (wide_pair){add3(a.angular, b.angular), add3(a.linear, b.linear)};
-}
-
-AMBULO__INLINE wide33 add_outer(wide33 m, wide3 a, wide3 b) {
-  return (wide33){axpy3(m.x, a.x, b), axpy3(m.y, a.y, b), axpy3(m.z, a.z, b)};
 }
 
 #endif

@@ -151,12 +151,4 @@ AMBULO__INLINE void world_points(const ambulo__plan *plan, int number, const loc
   }
 }
 
-/* Sines and cosines of all joints, in the slots, and the points that stand still. */
-static void world_start(const ambulo__plan *plan, const double *q, double *scratch) {
-  const ambulo__local_plan *local = &plan->local;
-  const world_state world = world_itself(plan);
-  if (local->world_group >= 0) world_points(plan, local->world_group, &world.place, scratch);
-  local_angles(local, q, scratch);
-}
-
 #endif

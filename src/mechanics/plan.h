@@ -1,9 +1,9 @@
 /* mechanics/plan.h - a model compiled for the lane kernels, and the kernels.
  *
- * Compilation merges fixed links and massless links into constants, recognises
- * axis-aligned constants (a relabelling of columns, no arithmetic), and lists the
- * structural nonzeros of every Jacobian. Planning happens once; a plan is
- * immutable and may be shared by threads.
+ * Compilation merges fixed links into constants, recognises axis-aligned constants
+ * (a relabelling of columns, no arithmetic), and lists the structural nonzeros of
+ * every Jacobian. Planning happens once; a plan is immutable and may be shared by
+ * threads.
  *
  * All kernels work on ONE block of AMBULO__LANES time nodes; every array is
  * [entry][lane], 64-byte aligned, entries as below. d = coordinates, p = points.
@@ -107,8 +107,8 @@ typedef struct ambulo__kernels {
 
   /* Jacobian entries in pattern order: jq [count], jqd and jqdd [dynamic_count]. The arrays must be
    * zero before the first call: entries that vanish identically (what a displacement of the whole
-   * body leaves as it is) are never written. Needs no forward before; reverse needs one after it.
-   */
+   * body leaves as it is) are never written, and of jqdd only those that by_qdd names. Needs no
+   * forward before; reverse needs one after it. */
   void (*jacobian)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                    const double *ground, double *jq, double *jqd, double *jqdd, double *scratch);
 } ambulo__kernels;
