@@ -121,16 +121,16 @@ static int run_count(double most) {
   return isinf(most) ? 0 : (most > moderate ? 2 : 1);
 }
 
-/* x - x is zero, or NaN if x is not finite. */
+/* 0 x is zero, or NaN if x is not finite. */
 static int all_finite(const double *lanes, size_t entries) {
   ambulo__two a = {0}, b = {0}, c = {0}, d = {0};
   for (size_t e = 0; e < entries; e++, lanes += AMBULO__LANES) {
     ambulo__two p = ambulo__load_two(lanes), q = ambulo__load_two(lanes + 2);
     ambulo__two r = ambulo__load_two(lanes + 4), s = ambulo__load_two(lanes + 6);
-    a += p - p;
-    b += q - q;
-    c += r - r;
-    d += s - s;
+    a += 0 * p;
+    b += 0 * q;
+    c += 0 * r;
+    d += 0 * s;
   }
   a = (a + b) + (c + d);
   return a[0] + a[1] == 0;
