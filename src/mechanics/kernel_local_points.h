@@ -59,16 +59,20 @@ AMBULO__INLINE wide3 offset_origin(const ambulo__local_step *step, const local_p
   }
 }
 
+/* The constant turn before an oblique axis. */
+AMBULO__INLINE local_place turned_place(const ambulo__local_step *step, const local_place *p) {
+  const wide3 zero = {{0}, {0}, {0}};
+  const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
+  const double z[3] = {t[2], t[5], t[8]};
+  return (local_place){place_of(p, zero, x), place_of(p, zero, y), place_of(p, zero, z), p->o};
+}
+
 /* From the parent to where the joint turns or slides. */
 AMBULO__INLINE local_place place_parent(const ambulo__local_step *step, local_place p,
                                         const local_place *world, const double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
   if (!step->carried) p = step->from_world ? *world : place_load(scratch + step->above);
   p.o = offset_origin(step, &p);
-  if (!step->turned) return p;
-  const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
-  const double z[3] = {t[2], t[5], t[8]};
-  return (local_place){place_of(&p, zero, x), place_of(&p, zero, y), place_of(&p, zero, z), p.o};
+  return step->turned ? turned_place(step, &p) : p;
 }
 
 AMBULO__INLINE wide3 slide_axis(const ambulo__local_step *step, const local_place *p) {
@@ -85,26 +89,30 @@ AMBULO__INLINE wide3 slide_axis(const ambulo__local_step *step, const local_plac
   }
 }
 
+/* Across a hinge; returns the column that is its axis. */
+AMBULO__INLINE wide3 turn_columns(const ambulo__local_step *step, local_place *p, wide s, wide c) {
+  switch (step->joint) {
+  case AMBULO__TURNS_X:
+    mix_columns(&p->y, &p->z, s, c);
+    return p->x;
+  case AMBULO__TURNS_Y:
+    mix_columns(&p->z, &p->x, s, c);
+    return p->y;
+  default:
+    mix_columns(&p->x, &p->y, s, c);
+    return p->z;
+  }
+}
+
 /* Across a joint; the axis and the origin are stored for the gradient. */
 AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p, int keep,
                                        double *scratch) {
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 axis;
-  switch (step->joint) {
-  case AMBULO__TURNS_X:
-    axis = p.x;
-    mix_columns(&p.y, &p.z, s, c);
-    break;
-  case AMBULO__TURNS_Y:
-    axis = p.y;
-    mix_columns(&p.z, &p.x, s, c);
-    break;
-  case AMBULO__TURNS_Z:
-    axis = p.z;
-    mix_columns(&p.x, &p.y, s, c);
-    break;
-  default:
+  if (step->joint < AMBULO__SLIDES) {
+    axis = turn_columns(step, &p, s, c);
+  } else {
     axis = slide_axis(step, &p);
     p.o = axpy3(p.o, s, axis);
   }

@@ -155,7 +155,7 @@ static void world_limb(const ambulo__plan *plan, const ambulo__limb *limb, const
     wide qdd = load(x->qdd + step->input);
     if (!step->carried) s = step->from_world ? start : load_state(scratch + step->above);
     if (step->offset != AMBULO__OFFSET_NONE) world_offset(step, &s);
-    if (step->turned) world_turn(step, &s.place);
+    if (step->turned) s.place = turned_place(step, &s.place);
     if (step->joint >= AMBULO__SLIDES) {
       world_slider(step, &s, q, qd, qdd, change->bare, motion);
     } else {

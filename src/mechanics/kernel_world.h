@@ -84,36 +84,11 @@ AMBULO__INLINE void world_offset(const ambulo__local_step *step, world_state *s)
   s->a = add_cross3(add_cross3(s->a, s->alpha, r), s->w, sweep);
 }
 
-AMBULO__INLINE void world_turn(const ambulo__local_step *step, local_place *p) {
-  const wide3 zero = {{0}, {0}, {0}};
-  const double *t = step->turn, x[3] = {t[0], t[3], t[6]}, y[3] = {t[1], t[4], t[7]};
-  const double z[3] = {t[2], t[5], t[8]};
-  *p = (local_place){place_of(p, zero, x), place_of(p, zero, y), place_of(p, zero, z), p->o};
-}
-
-/* Turns the columns; returns the axis. */
-AMBULO__INLINE wide3 hinge_axis(const ambulo__local_step *step, local_place *p, const double *at) {
-  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
-  wide3 axis;
-  switch (step->joint) {
-  case AMBULO__TURNS_X:
-    axis = p->x;
-    mix_columns(&p->y, &p->z, s, c);
-    break;
-  case AMBULO__TURNS_Y:
-    axis = p->y;
-    mix_columns(&p->z, &p->x, s, c);
-    break;
-  default:
-    axis = p->z;
-    mix_columns(&p->x, &p->y, s, c);
-  }
-  return scale3(spread(step->sign), axis);
-}
-
 AMBULO__INLINE void world_hinge(const ambulo__local_step *step, world_state *s, wide qd, wide qdd,
                                 double *motion, const double *scratch) {
-  wide3 z = hinge_axis(step, &s->place, scratch + step->at), o = s->place.o;
+  const double *angle = scratch + step->at + local_angle;
+  wide3 axis = turn_columns(step, &s->place, load(angle), load(angle + AMBULO__LANES));
+  wide3 z = scale3(spread(step->sign), axis), o = s->place.o;
   wide3 zd = cross3(s->w, z), zdd = add_cross3(cross3(s->w, zd), s->alpha, z);
   wide3 zd2 = scale3(spread(2), zd), v2 = scale3(spread(2), s->v);
   store_pair(motion, (wide_pair){z, cross3(o, z)});
@@ -127,7 +102,7 @@ AMBULO__INLINE void world_hinge(const ambulo__local_step *step, world_state *s, 
 AMBULO__INLINE void world_slider(const ambulo__local_step *step, world_state *s, wide q, wide qd,
                                  wide qdd, int bare, double *motion) {
   const wide3 zero = {{0}, {0}, {0}};
-  wide3 z = place_of(&s->place, zero, step->slide);
+  wide3 z = slide_axis(step, &s->place);
   store_pair(motion, (wide_pair){zero, z});
   s->place.o = axpy3(s->place.o, q, z);
   s->v = axpy3(s->v, qd, z);
