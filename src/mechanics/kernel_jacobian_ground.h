@@ -92,7 +92,7 @@ typedef struct row_changes {
 /* Adds -R_i . t_j and -e_i dz of joints j that carry the whole body, `row` = (-R, -e / m). */
 AMBULO__INLINE row_changes ground_add_whole(const ambulo__plan *plan, row_changes c,
                                             const double *row, const double *scratch) {
-  const wide_subtree whole = load_subtree(scratch + plan->steps.changes[plan->whole - 1].subtree);
+  const wide_subtree whole = load_subtree(scratch + plan->frames[0].subtree_at);
   wide mass = spread(plan->mass);
   wide3 h = whole.first, p = whole.momentum;
   wide6 inertia = whole.inertia;

@@ -39,7 +39,6 @@ void ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model, double g
     joint->feet = carries(plan, k, plan->foot_frame[0]) + 2 * carries(plan, k, plan->foot_frame[1]);
     joint->torque_row = joint->feet == 0 ? AMBULO__ROW_SPARSE : AMBULO__ROW_DENSE;
     if (joint->feet == 3 && carries_everything(plan, k)) joint->torque_row = AMBULO__ROW_VANISHES;
-    if (joint->torque_row == AMBULO__ROW_VANISHES) plan->whole = k + 1;
     plan->vanishing += joint->torque_row == AMBULO__ROW_VANISHES;
     plan->dense_count += joint->torque_row == AMBULO__ROW_DENSE;
   }

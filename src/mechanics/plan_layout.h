@@ -106,7 +106,6 @@ struct ambulo__plan {
    * term_fresh[k] of them are written, the others are added to what stands there. */
   int dense_count, *term_fresh;
   int vanishing; /* rows of tau that vanish: the first ancestors of every joint with a dense row */
-  int whole;     /* a frame that carries the whole body, where `vanishing` is not zero */
   ambulo__root_column *roots; /* [vanishing] */
   ambulo__reaction_term *term;
 
