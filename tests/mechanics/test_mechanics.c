@@ -140,8 +140,8 @@ static void jacobians_and_gradient_belong_together(void **state) {
   check_jacobians_by_the_gradient(256, 3);
 }
 
-static void check_refused(batch *b, double *input, double bad) {
-  int d = b->c.d, at = 12 * d + 1;
+static void check_refused(batch *b, double *input, int at, double bad) {
+  int d = b->c.d;
   double *tau = lane_array((size_t)(most_nodes * d)), *g = lane_array((size_t)(3 * most_nodes * d));
   double good = input[at];
   ambulo_jacobians j = {.tau_q = tau};
@@ -162,15 +162,18 @@ static void check_refused(batch *b, double *input, double bad) {
   free(g);
 }
 
-/* A bad value in the second block: the first one must not be written either. */
+/* A bad value in the second block, or the very last: the first block must not be written either. */
 static void failures_leave_outputs_untouched(void **state) {
   (void)state;
   static batch b;
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   batch_open(&b, 44);
   double *const inputs[] = {b.q, b.qd, b.qdd};
-  for (int i = 0; i < 9; i++) check_refused(&b, inputs[i / 3], bad[i % 3]);
-  check_refused(&b, b.qd, 1e200);
+  for (int i = 0; i < 9; i++) {
+    check_refused(&b, inputs[i / 3], 12 * b.c.d + 1, bad[i % 3]);
+    check_refused(&b, inputs[i / 3], most_nodes * b.c.d - 1, bad[i % 3]);
+  }
+  check_refused(&b, b.qd, 12 * b.c.d + 1, 1e200);
   batch_close(&b);
 }
 
