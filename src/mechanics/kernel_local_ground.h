@@ -16,10 +16,10 @@
  * step of q_j turns each S_i below j, so that, with D_j the part of V_f from the joints below j,
  *   d(- V_f . W_f)/dq_j = S_j . Q(D_j),   Q(e, l) = (M_f x e + F_f x l, F_f x e).
  * The reverse sweep does not know D_j. It has the virtual motion A_j of the frame, from the root
- * down to j, root weights and all, and takes the net load for one that turns with the subtree: that
- * gives
- * - S_j . Q(A_j). Since E_f = A_j + D_j, the virtual motion of the foot with the root weights, is
- * the same for all j, and Q is linear, what is missing is one pair for all the joints that carry f:
+ * down to j, root weights and all, and takes the net load for one that turns with the subtree: its
+ * part is -S_j . Q(A_j). Since E_f = A_j + D_j, the virtual motion of the foot with the root
+ * weights, is the same for all j, and Q is linear, what is missing is one pair for all the joints
+ * that carry f:
  *   q_j' += S_j . Q(E_f).
  * Where tau vanishes the net load is zero, and y does not count.
  */

@@ -1,4 +1,5 @@
-/* mechanics/plan_place.c - where everything that the Jacobians keep stands in the scratch.
+/* mechanics/plan_place.c - where everything that the Jacobians keep stands in the scratch, and the
+ * ground's wrenches, which all kernels keep in one place.
  *
  * The kernels in the frames' own axes have slots of their own, behind this (plan_local.c).
  */

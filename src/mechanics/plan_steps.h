@@ -26,7 +26,7 @@ typedef struct ambulo__body {
  * rows of the root force and have no entries. */
 typedef struct ambulo__change_step {
   int motion, bare; /* bare: only S is read, for its derivatives vanish */
-  int subtree;      /* where its subtree stands: with the frame, or the child whose it is, too */
+  int subtree;      /* where its subtree stands: in the slot of the frame, or of its only child */
   int first, followers, straight, count, lower;
   int is_straight; /* prismatic along an axis that stands still */
   int follows;     /* its own row has no entries; then nor have those of its ancestors */
