@@ -49,8 +49,8 @@ WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes \
 # multiply-add is half of their speed and at most as far from the exact sum; their results are
 # compared to the reference with a tolerance, and differ in the last bits between instruction
 # sets. No trap is ever enabled, so operations may be moved across branches. With the 32
-# registers of AVX-512, gcc's scheduling before registers are given out pays (Jacobians 6 %);
-# with 16 it does not.
+# registers of AVX-512, gcc's scheduling before registers are given out pays (Jacobians 6 %, with
+# the costs of a processor that has them; gradients 1 to 3 %); with 16 it does not.
 FLOATING := -ffp-contract=off -fno-math-errno
 KERNEL := -O3 -ffp-contract=fast -fno-math-errno -fno-trapping-math -Wno-psabi
 KERNEL_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 \
