@@ -43,19 +43,19 @@ AMBULO__INLINE void mix_columns(wide3 *u, wide3 *v, wide s, wide c) {
   *v = axpy3(scale3(c, *v), -s, from);
 }
 
-/* The origin, moved by the offset. */
-AMBULO__INLINE wide3 offset_origin(const ambulo__local_step *step, const local_place *p) {
+/* start + R r, r the offset of the origin */
+AMBULO__INLINE wide3 add_offset(const ambulo__local_step *step, const local_place *p, wide3 start) {
   switch (step->offset) {
   case AMBULO__OFFSET_X:
-    return axpy3(p->o, spread(step->length), p->x);
+    return axpy3(start, spread(step->length), p->x);
   case AMBULO__OFFSET_Y:
-    return axpy3(p->o, spread(step->length), p->y);
+    return axpy3(start, spread(step->length), p->y);
   case AMBULO__OFFSET_Z:
-    return axpy3(p->o, spread(step->length), p->z);
+    return axpy3(start, spread(step->length), p->z);
   case AMBULO__OFFSET_ANY:
-    return place_of(p, p->o, step->move);
+    return place_of(p, start, step->move);
   default:
-    return p->o;
+    return start;
   }
 }
 
@@ -71,7 +71,7 @@ AMBULO__INLINE local_place turned_place(const ambulo__local_step *step, const lo
 AMBULO__INLINE local_place place_parent(const ambulo__local_step *step, local_place p,
                                         const local_place *world, const double *scratch) {
   if (!step->carried) p = step->from_world ? *world : place_load(scratch + step->above);
-  p.o = offset_origin(step, &p);
+  p.o = add_offset(step, &p, p.o);
   return step->turned ? turned_place(step, &p) : p;
 }
 

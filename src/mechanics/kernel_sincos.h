@@ -1,13 +1,14 @@
 /* mechanics/kernel_sincos.h - sine and cosine, lane by lane.
  *
  * x = n pi + r with n the nearest whole number, |r| <= pi/2 (Cody & Waite 1980), so that both only
- * change sign with n: pi is split into 33 + 53 bits, n times the first part is exact for |n| <
- * 2^20. With z = r^2, sin r = r + r z P(z),   cos r = 1 - z (1/2 - z Q(z)) P and Q of degree 7 and
- * 6 interpolate at Chebyshev nodes; the error of the approximation is below 1e-16. With the
- * rounding of the sums the results are within 4e-16 for |x| <= 1e5 (AMBULO__SINCOS_LIMIT); callers
- * look after that. It is the absolute error that counts, since sines and cosines are the entries of
- * orientations: a cosine next to zero does not have all its digits, and in return nothing is
- * exchanged between the two, which costs as much as six terms.
+ * change sign with n: pi is split into 33 + 53 bits, and n times the first part is exact for
+ * |n| < 2^20. With z = r^2,
+ *   sin r = r + r z P(z),   cos r = 1 - z (1/2 - z Q(z))
+ * P and Q of degree 7 and 6 interpolate at Chebyshev nodes; the error of the approximation is below
+ * 1e-16. With the rounding of the sums the results are within 4e-16 for |x| <= 1e5
+ * (AMBULO__SINCOS_LIMIT); callers look after that. It is the absolute error that counts, since
+ * sines and cosines are the entries of orientations: a cosine next to zero does not have all its
+ * digits, and in return nothing is exchanged between the two, which costs as much as six terms.
  *
  * n is rounded by adding 1.5 2^52, which leaves it in the low bits of the sum. Angles below sqrt 2
  * need none of this: n is zero, and r is the angle.
@@ -70,10 +71,6 @@ AMBULO__INLINE void sincos_reduced(int count, const wide *x, wide *sine, wide *c
     sine[i] = (wide)((wide_bits)sine[i] ^ sign);
     cosine[i] = (wide)((wide_bits)cosine[i] ^ sign);
   }
-}
-
-AMBULO__INLINE void sincos_wide(wide x, wide *sine, wide *cosine) {
-  sincos_reduced(1, &x, sine, cosine);
 }
 
 /* Whether all angles whose squares are z[0] to z[count - 1] are below sqrt 2: doubles below 2 have

@@ -61,22 +61,8 @@ AMBULO__INLINE void store_state(double *at, const world_state *s) {
   store3(at + local_gain, s->alpha);
 }
 
-/* The offset of the origin in world axes. */
-AMBULO__INLINE wide3 offset_of(const ambulo__local_step *step, const local_place *p) {
-  switch (step->offset) {
-  case AMBULO__OFFSET_X:
-    return scale3(spread(step->length), p->x);
-  case AMBULO__OFFSET_Y:
-    return scale3(spread(step->length), p->y);
-  case AMBULO__OFFSET_Z:
-    return scale3(spread(step->length), p->z);
-  default:
-    return place_of(p, (wide3){{0}, {0}, {0}}, step->move);
-  }
-}
-
 AMBULO__INLINE void world_offset(const ambulo__local_step *step, world_state *s) {
-  wide3 r = offset_of(step, &s->place);
+  wide3 r = add_offset(step, &s->place, (wide3){{0}, {0}, {0}});
   s->place.o = add3(s->place.o, r);
   if (step->still) return;
   wide3 sweep = cross3(s->w, r);
