@@ -14,8 +14,7 @@
  *   gain = kappa a_0 a_1 / z,   V = n x M + height F,   Y = a_0 a_1 F + gain V
  *   X = D x Y,   h = gain F_n D,   T = M . F / F_n,   T_f = a_f T
  *   (M_0, F_0) = a_0 (M, F) + (X, -h),    (M_1, F_1) = a_1 (M, F) - (X, -h)
- * The torques are tau_i = S_i . (f_i - sum of W_f over the feet f that joint i carries):
- * kernel_local_ground.h takes the wrenches off along the legs.
+ * The torques are tau_i = S_i . (f_i - sum of W_f over the feet f that joint i carries).
  *
  * Adjoints. Weights y on tau give each foot a virtual motion (about the world origin), the sum of
  * S_i y_i over the joints that carry it; W_f has its negative as adjoint (A_f, B_f), plus the
@@ -35,14 +34,14 @@
 enum {
   ground_wrench = 0,
   ground_foot = 2 * three,                     /* two wrenches */
-  ground_center = 6 * three,                   /* c */
-  ground_height = 7 * three,                   /* z */
+  ground_height = 6 * three,                   /* z */
   ground_twist = ground_height + AMBULO__LANES /* T */
 };
 
 typedef struct ground_shares {
   wide share[2], product, gain, height;
   wide3 apart, up; /* D, n */
+  wide inverse;    /* 1 / z */
 } ground_shares;
 
 AMBULO__INLINE wide3 ground_up(const ambulo__plan *plan) {
@@ -50,9 +49,10 @@ AMBULO__INLINE wide3 ground_up(const ambulo__plan *plan) {
 }
 
 AMBULO__INLINE ground_shares ground_load(const ambulo__plan *plan, const double *ground, wide z) {
-  wide a = load(ground), b = 1 - a;
-  wide gain = load(ground + 4 * AMBULO__LANES) * (a * b) / z;
-  return (ground_shares){{a, b}, a * b, gain, z, load3(ground + AMBULO__LANES), ground_up(plan)};
+  wide a = load(ground), b = 1 - a, inverse = 1 / z;
+  wide gain = load(ground + 4 * AMBULO__LANES) * (a * b) * inverse;
+  return (ground_shares){{a, b},          a * b,  gain, z, load3(ground + AMBULO__LANES),
+                         ground_up(plan), inverse};
 }
 
 /* V = n x M + height F */
@@ -60,11 +60,16 @@ AMBULO__INLINE wide3 ground_lever(const ambulo__plan *plan, wide3 up, wide_pair 
   return add_cross3(scale3(spread(plan->ground_height), w.linear), up, w.angular);
 }
 
+typedef struct ground_split {
+  wide_pair foot[2];
+  wide3 center;
+  wide height, twist;
+} ground_split;
+
 /* The split of the root wrench w; first: the bodies' first mass moment, what is fixed left out. */
-AMBULO__INLINE void ground_divide(const ambulo__plan *plan, const double *ground, wide_pair w,
-                                  wide3 first, double *scratch) {
+AMBULO__INLINE ground_split ground_split_of(const ambulo__plan *plan, const double *ground,
+                                            wide_pair w, wide3 first) {
   const double *fixed = plan->fixed_first;
-  double *at = scratch + plan->ground_at;
   wide3 c = {first.x + fixed[0], first.y + fixed[1], first.z + fixed[2]};
   c = scale3(spread(1 / plan->mass), c);
   ground_shares s = ground_load(plan, ground, dot3(ground_up(plan), c) - plan->ground_height);
@@ -72,28 +77,41 @@ AMBULO__INLINE void ground_divide(const ambulo__plan *plan, const double *ground
   wide3 lever = scale3(s.gain, ground_lever(plan, s.up, w));
   wide_pair passed = {cross3(s.apart, axpy3(lever, s.product, w.linear)),
                       scale3(-s.gain * normal, s.apart)};
-  store_pair(at + ground_wrench, w);
-  store3(at + ground_center, c);
-  store(at + ground_height, s.height);
-  store(at + ground_twist, dot3(w.angular, w.linear) / normal);
+  ground_split split = {.center = c, .height = s.height};
+  split.twist = dot3(w.angular, w.linear) / normal;
   for (int f = 0; f < 2; f++) {
-    wide_pair part = {scale3(s.share[f], w.angular), scale3(s.share[f], w.linear)};
-    store_pair(at + ground_foot + 2 * f * three, axpy_pair(part, spread(1 - 2 * f), passed));
+    split.foot[f] = (wide_pair){scale3(s.share[f], w.angular), scale3(s.share[f], w.linear)};
+    split.foot[f] = axpy_pair(split.foot[f], spread(1 - 2 * f), passed);
   }
+  return split;
+}
+
+AMBULO__INLINE void ground_keep(const ambulo__plan *plan, wide_pair w, const ground_split *split,
+                                double *scratch) {
+  double *at = scratch + plan->ground_at;
+  store_pair(at + ground_wrench, w);
+  for (int f = 0; f < 2; f++) store_pair(at + ground_foot + 2 * f * three, split->foot[f]);
+  store(at + ground_height, split->height);
+  store(at + ground_twist, split->twist);
+}
+
+AMBULO__INLINE void ground_divide(const ambulo__plan *plan, const double *ground, wide_pair w,
+                                  wide3 first, double *scratch) {
+  const ground_split split = ground_split_of(plan, ground, w, first);
+  ground_keep(plan, w, &split, scratch);
 }
 
 /* Outputs: feet, centre of mass. */
-static void ground_rows(const ambulo__plan *plan, const double *ground, double *out,
-                        const double *scratch) {
-  const double *at = scratch + plan->ground_at;
+AMBULO__INLINE void ground_rows(const ambulo__plan *plan, const double *ground,
+                                const ground_split *split, double *out) {
   const wide share[2] = {load(ground), 1 - load(ground)};
   out += ambulo__plan_first_foot_row(plan) * AMBULO__LANES;
   for (int f = 0; f < 2; f++) {
-    store3(out, load3(at + ground_foot + (2 * f + 1) * three));
-    store(out + three, share[f] * load(at + ground_twist));
+    store3(out, split->foot[f].linear);
+    store(out + three, share[f] * split->twist);
     out += three + AMBULO__LANES;
   }
-  store3(out, load3(at + ground_center));
+  store3(out, split->center);
 }
 
 /* Adds M' and F' to *root, the weights on the root wrench; foot: virtual motions of the feet.
@@ -123,7 +141,7 @@ AMBULO__INLINE wide3 ground_adjoints(const ambulo__plan *plan, const double *gro
   sum.linear = axpy3(sum.linear, theta, w.angular);
   sum.linear = axpy3(sum.linear, -(s.gain * along + theta * load(at + ground_twist)), s.up);
   *root = sum;
-  return axpy3(load3(rows + 8 * AMBULO__LANES), -s.gain / s.height * gain, s.up);
+  return axpy3(load3(rows + 8 * AMBULO__LANES), -(s.gain * s.inverse) * gain, s.up);
 }
 
 #endif

@@ -134,20 +134,25 @@ AMBULO__INLINE wide straight_part(const ambulo__pair *pair, wide3 v, const doubl
 
 /* Row and column of a joint in the Jacobians of tau. Straight joints come first among its
  * ancestors: S = (0, s), Sd = Sdd = 0, and what vanishes with them is not written; nor are the rows
- * of the first of them that are rows of the root force. Of the mass matrix the part above the
- * diagonal is written. */
+ * of the first ancestors that have none. Of the mass matrix the part above the diagonal is
+ * written. */
 AMBULO__INLINE void jacobian_pairs(const ambulo__change_step *step, const ambulo__pair *pairs,
-                                   const subtree_changes *t, double *jq, double *jqd, double *jqdd,
-                                   const double *scratch) {
+                                   const subtree_changes *t, int grounded, double *jq, double *jqd,
+                                   double *jqdd, const double *scratch) {
   const ambulo__pair *pair = pairs + step->first, *last = pair + step->count;
+  const ambulo__pair *straight = pair + step->straight, *rowless = pair + step->rowless;
   int lower = step->lower;
-  for (; pair < pairs + step->first + step->followers; pair++, lower += AMBULO__LANES) {
+  for (; pair < straight && pair < rowless; pair++, lower += AMBULO__LANES) {
     if (pair->axis < 0) store(jqdd + lower, straight_part(pair, t->qdd.linear, scratch));
   }
-  for (; pair < pairs + step->first + step->straight; pair++, lower += AMBULO__LANES) {
+  for (; pair < straight; pair++, lower += AMBULO__LANES) {
     store(jqdd + pair->upper, straight_part(pair, t->qdd.linear, scratch));
     store(jq + pair->upper, straight_part(pair, t->q.linear, scratch));
     store(jqd + pair->upper, straight_part(pair, t->qd.linear, scratch));
+  }
+  for (; grounded && pair < rowless; pair++, lower += AMBULO__LANES) {
+    const double *motion = scratch + pair->motion;
+    store(jqdd + lower, jacobian_lower(t, load_pair(motion), motion, lower, jq, jqd));
   }
   for (; pair < last; pair++, lower += AMBULO__LANES) {
     const double *motion = scratch + pair->motion;
@@ -181,11 +186,11 @@ AMBULO__INLINE void straight_pairs(const ambulo__change_step *step, const ambulo
                                    double *jqdd, const double *scratch) {
   wide3 force = scale3(spread(step->mass), load3(scratch + step->motion + three));
   int lower = step->lower;
-  if (step->follows) return;
+  if (step->is_rowless) return;
   for (int i = 0; i < step->count; i++, lower += AMBULO__LANES) {
     const ambulo__pair *pair = &pairs[step->first + i];
-    int entry = i < step->followers ? lower : pair->upper;
-    if (i >= step->followers || pair->axis < 0) {
+    int entry = i < step->rowless ? lower : pair->upper;
+    if (i >= step->rowless || pair->axis < 0) {
       store(jqdd + entry, straight_part(pair, force, scratch));
     }
   }
@@ -221,8 +226,9 @@ static void jacobian_points(const ambulo__plan *plan, const ambulo__limb *limb, 
 }
 
 /* Row and column of a joint whose subtree is known. */
-AMBULO__STEP void jacobian_column(const ambulo__plan *plan, int k, const double *subtree,
-                                  double *jq, double *jqd, double *jqdd, const double *scratch) {
+AMBULO__INLINE void jacobian_column(const ambulo__plan *plan, int k, const double *subtree,
+                                    int grounded, double *jq, double *jqd, double *jqdd,
+                                    const double *scratch) {
   const ambulo__change_step *step = &plan->steps.changes[k];
   const ambulo__pair *pairs = plan->steps.pairs;
   if (step->is_straight) {
@@ -231,7 +237,18 @@ AMBULO__STEP void jacobian_column(const ambulo__plan *plan, int k, const double 
     return;
   }
   const subtree_changes t = jacobian_changes(plan, k, subtree, jq, jqd, jqdd, scratch);
-  jacobian_pairs(step, pairs, &t, jq, jqd, jqdd, scratch);
+  if (grounded && step->is_rowless) return;
+  jacobian_pairs(step, pairs, &t, grounded, jq, jqd, jqdd, scratch);
+}
+
+AMBULO__STEP void column_in_air(const ambulo__plan *plan, int k, const double *subtree, double *jq,
+                                double *jqd, double *jqdd, const double *scratch) {
+  jacobian_column(plan, k, subtree, 0, jq, jqd, jqdd, scratch);
+}
+
+AMBULO__STEP void column_on_ground(const ambulo__plan *plan, int k, const double *subtree,
+                                   double *jq, double *jqd, double *jqdd, const double *scratch) {
+  jacobian_column(plan, k, subtree, 1, jq, jqd, jqdd, scratch);
 }
 
 static void jacobian_part(const ambulo__plan *plan, const world_inputs *x, double *jq, double *jqd,
@@ -242,7 +259,11 @@ static void jacobian_part(const ambulo__plan *plan, const world_inputs *x, doubl
     world_limb(plan, limb, x, scratch);
     for (int k = limb->leaf;; k = plan->local.steps[k].parent) {
       sum = complete_subtree(plan, k, sum, scratch);
-      jacobian_column(plan, k, sum, jq, jqd, jqdd, scratch);
+      if (plan->grounded) {
+        column_on_ground(plan, k, sum, jq, jqd, jqdd, scratch);
+      } else {
+        column_in_air(plan, k, sum, jq, jqd, jqdd, scratch);
+      }
       if (k == limb->top) break;
     }
     pass_subtree_on(plan, limb->top, sum, scratch);

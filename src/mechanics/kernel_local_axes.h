@@ -72,19 +72,28 @@ AMBULO__INLINE wide3 moved_along(wide3 a, wide3 w, wide3 alpha, int k, double le
   return uncycled(a, k);
 }
 
-AMBULO__INLINE wide3 moved_by_offset(const ambulo__local_step *step, local_state s) {
+/* a + sign Omega r, r the offset. */
+AMBULO__INLINE wide3 moved(const ambulo__local_step *step, double sign, local_state s) {
   switch (step->moving) {
   case AMBULO__OFFSET_X:
-    return moved_along(s.a, s.w, s.alpha, 0, step->length);
+    return moved_along(s.a, s.w, s.alpha, 0, sign * step->length);
   case AMBULO__OFFSET_Y:
-    return moved_along(s.a, s.w, s.alpha, 1, step->length);
+    return moved_along(s.a, s.w, s.alpha, 1, sign * step->length);
   case AMBULO__OFFSET_Z:
-    return moved_along(s.a, s.w, s.alpha, 2, step->length);
+    return moved_along(s.a, s.w, s.alpha, 2, sign * step->length);
   case AMBULO__OFFSET_ANY:
-    return moved_any(s.a, s.w, s.alpha, spread3(step->move));
+    return moved_any(s.a, s.w, s.alpha, scale3(spread(sign), spread3(step->move)));
   default:
     return s.a;
   }
+}
+
+AMBULO__INLINE wide3 moved_by_offset(const ambulo__local_step *step, local_state s) {
+  return moved(step, 1, s);
+}
+
+AMBULO__INLINE wide3 moved_back(const ambulo__local_step *step, local_state s) {
+  return moved(step, -1, s);
 }
 
 /* n + r x f, r the offset */
@@ -109,6 +118,16 @@ AMBULO__INLINE wide3 levered(const ambulo__local_step *step, wide3 n, wide3 f) {
   default:
     return n;
   }
+}
+
+/* A pair that goes as a motion does, across the offset and the constant turn of a joint. */
+AMBULO__INLINE wide_pair offset_down(const ambulo__local_step *step, wide_pair v) {
+  /* u + eta x r = u - r x eta */
+  v.linear = levered(step, v.linear, scale3(spread(-1), v.angular));
+  if (step->turned) {
+    v = (wide_pair){into_turn(step->turn, v.angular), into_turn(step->turn, v.linear)};
+  }
+  return v;
 }
 
 #endif

@@ -24,9 +24,8 @@
 #include "mechanics/kernel_local_axes.h"
 
 AMBULO__INLINE local_state hinge_down(const ambulo__local_step *step, local_state state, int k,
-                                      int keep, const double *qd, const double *qdd,
-                                      double *scratch) {
-  double *at = scratch + step->at;
+                                      const double *qd, const double *qdd, const double *scratch) {
+  const double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide rate = step->sign * load(qd + step->input), gain = step->sign * load(qdd + step->input);
   wide3 w = into_frame(cycled(state.w, k), s, c), from = cycled(state.alpha, k);
@@ -35,55 +34,40 @@ AMBULO__INLINE local_state hinge_down(const ambulo__local_step *step, local_stat
   wide3 alpha = {c * from.x + (s * from.y + rate * w.y), c * from.y - (s * from.x + rate * w.x),
                  from.z + gain};
   w.z += rate;
-  if (keep) {
-    store_cycled(at + local_rate, w, k);
-    store_across(at + local_gain, alpha, k);
-    store_across(at + local_pull, a, k);
-  }
   return (local_state){uncycled(w, k), uncycled(alpha, k), uncycled(a, k)};
 }
 
-AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, int keep,
-                                 const double *q, const double *qd, const double *qdd,
-                                 double *scratch) {
+AMBULO__INLINE wide3 slider_down(const ambulo__local_step *step, local_state s, const double *q,
+                                 const double *qd, const double *qdd, double *scratch) {
   wide3 z = spread3(step->slide), a = axpy3(s.a, load(qdd + step->input), z);
   double *at = scratch + step->at;
   store(at + local_angle, load(q + step->input));
-  if (keep && (!step->still || step->body != AMBULO__BODY_NONE)) {
-    store3(at + local_rate, s.w);
-    store3(at + local_gain, s.alpha);
-  }
   if (step->still) return a;
   a = moved_any(a, s.w, s.alpha, scale3(load(q + step->input), z));
   return add_cross3(a, scale3(2 * load(qd + step->input), s.w), z);
 }
 
 /* Along axis k, of a frame that does not turn. */
-AMBULO__INLINE wide3 straight_down(const ambulo__local_step *step, local_state s, int k, int keep,
+AMBULO__INLINE wide3 straight_down(const ambulo__local_step *step, local_state s, int k,
                                    const double *q, const double *qdd, double *scratch) {
   wide3 a = cycled(s.a, k);
   double *at = scratch + step->at;
   store(at + local_angle, load(q + step->input));
-  if (keep && step->body != AMBULO__BODY_NONE) {
-    store3(at + local_rate, s.w);
-    store3(at + local_gain, s.alpha);
-  }
   a.z += step->sign * load(qdd + step->input);
   return uncycled(a, k);
 }
 
-AMBULO__INLINE wide3 slide_down(const ambulo__local_step *step, local_state s, int keep,
-                                const double *q, const double *qd, const double *qdd,
-                                double *scratch) {
+AMBULO__INLINE wide3 slide_down(const ambulo__local_step *step, local_state s, const double *q,
+                                const double *qd, const double *qdd, double *scratch) {
   switch (step->joint) {
   case AMBULO__SLIDES_X:
-    return straight_down(step, s, 0, keep, q, qdd, scratch);
+    return straight_down(step, s, 0, q, qdd, scratch);
   case AMBULO__SLIDES_Y:
-    return straight_down(step, s, 1, keep, q, qdd, scratch);
+    return straight_down(step, s, 1, q, qdd, scratch);
   case AMBULO__SLIDES_Z:
-    return straight_down(step, s, 2, keep, q, qdd, scratch);
+    return straight_down(step, s, 2, q, qdd, scratch);
   default:
-    return slider_down(step, s, keep, q, qd, qdd, scratch);
+    return slider_down(step, s, q, qd, qdd, scratch);
   }
 }
 
@@ -145,13 +129,16 @@ AMBULO__INLINE void body_down(const ambulo__local_step *step, local_state s, dou
   }
 }
 
+AMBULO__INLINE local_state load_motion(const double *at) {
+  return (local_state){load3(at + local_rate), load3(at + local_gain), load3(at + local_pull)};
+}
+
 /* From the parent to where the joint turns or slides. */
 AMBULO__INLINE local_state carried_down(const ambulo__local_step *step, local_state s,
                                         const double *scratch) {
   if (!step->carried) {
     const double *above = scratch + step->above;
-    s = (local_state){load3(above + local_rate), load3(above + local_gain),
-                      load3(above + local_pull)};
+    s = load_motion(above);
   }
   s.a = moved_by_offset(step, s);
   if (!step->turned) return s;
@@ -170,18 +157,18 @@ AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb
     if (!step->plain) s = carried_down(step, s, scratch);
     switch (step->joint) {
     case AMBULO__TURNS_X:
-      s = hinge_down(step, s, 0, keep, qd, qdd, scratch);
+      s = hinge_down(step, s, 0, qd, qdd, scratch);
       break;
     case AMBULO__TURNS_Y:
-      s = hinge_down(step, s, 1, keep, qd, qdd, scratch);
+      s = hinge_down(step, s, 1, qd, qdd, scratch);
       break;
     case AMBULO__TURNS_Z:
-      s = hinge_down(step, s, 2, keep, qd, qdd, scratch);
+      s = hinge_down(step, s, 2, qd, qdd, scratch);
       break;
     default:
-      s.a = slide_down(step, s, keep, q, qd, qdd, scratch);
+      s.a = slide_down(step, s, q, qd, qdd, scratch);
     }
-    if (step->kept) {
+    if (keep ? step->stored : step->kept) {
       store3(scratch + step->at + local_rate, s.w);
       store3(scratch + step->at + local_gain, s.alpha);
       store3(scratch + step->at + local_pull, s.a);
@@ -190,28 +177,29 @@ AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb
   }
 }
 
+/* tau of a hinge, and what the reverse sweep reads; n, f: cycled. */
+AMBULO__INLINE void hinge_bears(const ambulo__local_step *step, wide3 n, wide3 f, int k, int keep,
+                                double *out, double *at) {
+  store(out + step->input, step->sign * n.z);
+  if (!keep) return;
+  store_across(at + local_moment, n, k);
+  store_across(at + local_force, f, k);
+}
+
 AMBULO__INLINE wide_pair hinge_up(const ambulo__local_step *step, wide_pair load_of, int k,
                                   int keep, double *out, double *scratch) {
   double *at = scratch + step->at;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
   wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
-  if (!step->vanishes) {
-    store(out + step->input, step->sign * n.z);
-    if (keep) {
-      store_across(at + local_moment, n, k);
-      store_across(at + local_force, f, k);
-    }
-  }
+  hinge_bears(step, n, f, k, keep, out, at);
   return (wide_pair){uncycled(from_frame(n, s, c), k), uncycled(from_frame(f, s, c), k)};
 }
 
 AMBULO__INLINE wide_pair slider_up(const ambulo__local_step *step, wide_pair load_of, int keep,
                                    const double *q, double *out, double *scratch) {
   wide3 z = spread3(step->slide);
-  if (!step->vanishes) {
-    store(out + step->input, dot3(z, load_of.linear));
-    if (keep) store3(scratch + step->at + local_force, load_of.linear);
-  }
+  store(out + step->input, dot3(z, load_of.linear));
+  if (keep) store3(scratch + step->at + local_force, load_of.linear);
   load_of.angular = add_cross3(load_of.angular, scale3(load(q + step->input), z), load_of.linear);
   return load_of;
 }
@@ -220,10 +208,8 @@ AMBULO__INLINE wide_pair straight_up(const ambulo__local_step *step, wide_pair l
                                      int keep, const double *q, double *out, double *scratch) {
   wide3 n = cycled(load_of.angular, k), f = cycled(load_of.linear, k);
   wide r = step->sign * load(q + step->input);
-  if (!step->vanishes) {
-    store(out + step->input, step->sign * f.z);
-    if (keep) store_cycled(scratch + step->at + local_force, f, k);
-  }
+  store(out + step->input, step->sign * f.z);
+  if (keep) store_cycled(scratch + step->at + local_force, f, k);
   n.x -= r * f.y;
   n.y += r * f.x;
   return (wide_pair){uncycled(n, k), load_of.linear};
@@ -268,45 +254,71 @@ AMBULO__INLINE wide_pair joint_up(const ambulo__local_step *step, wide_pair sum,
   return sum;
 }
 
+/* As joint_up, of a hinge whose parent's load is not asked for. */
+AMBULO__INLINE void last_hinge_up(const ambulo__local_step *step, wide_pair sum, int keep,
+                                  double *out, double *scratch) {
+  double *at = scratch + step->at;
+  switch (step->joint) {
+  case AMBULO__TURNS_X:
+    hinge_bears(step, cycled(sum.angular, 0), cycled(sum.linear, 0), 0, keep, out, at);
+    break;
+  case AMBULO__TURNS_Y:
+    hinge_bears(step, cycled(sum.angular, 1), cycled(sum.linear, 1), 1, keep, out, at);
+    break;
+  default:
+    hinge_bears(step, sum.angular, sum.linear, 2, keep, out, at);
+  }
+}
+
 /* Up from the leaf. */
 AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, int keep,
                             const double *q, double *out, double *scratch) {
   wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
   const ambulo__local_step *steps = plan->local.steps, *step = &steps[limb->leaf];
-  const ambulo__local_step *top = &steps[limb->top];
+  const ambulo__local_step *top = &steps[limb->rise];
   if (step->loaded) sum = load_pair(scratch + step->at + local_load);
-  for (;;) {
+  while (step != top) {
     sum = joint_up(step, sum, keep, q, out, scratch);
-    if (step == top) break;
     step = &steps[step->parent];
     if (step->loaded) sum = add_pair(load_pair(scratch + step->at + local_load), sum);
   }
+  if (limb->ends && step->joint < AMBULO__SLIDES) {
+    last_hinge_up(step, sum, keep, out, scratch);
+    return;
+  }
+  sum = joint_up(step, sum, keep, q, out, scratch);
+  if (limb->ends) return;
   double *above = scratch + step->above + local_load;
-  store_pair(above, step->first ? sum : add_pair(load_pair(above), sum));
+  store_pair(above, limb->fresh ? sum : add_pair(load_pair(above), sum));
 }
 
-/* tau and the root wrench; keep: what the reverse sweep reads is stored. Known when this is
- * compiled. */
+/* Before the first limb. */
+AMBULO__INLINE void local_world(const ambulo__plan *plan, double *scratch) {
+  const wide3 zero = {{0}, {0}, {0}};
+  double *world = scratch + plan->local.world_at;
+  if (!plan->local.branched) return;
+  store3(world + local_rate, zero);
+  store3(world + local_gain, zero);
+  store3(world + local_pull, scale3(spread(-1), spread3(plan->gravity)));
+}
+
+AMBULO__INLINE wide_pair with_fixed_load(const ambulo__plan *plan, wide_pair sum) {
+  return (wide_pair){add3(sum.angular, spread3(plan->fixed_load)),
+                     add3(sum.linear, spread3(plan->fixed_load + 3))};
+}
+
+/* tau and the root wrench, without ground reaction; keep: what the reverse sweep reads is stored.
+ * Known when this is compiled. */
 AMBULO__INLINE void local_dynamics(const ambulo__plan *plan, int keep, const double *q,
                                    const double *qd, const double *qdd, double *out,
                                    double *scratch) {
-  const wide3 zero = {{0}, {0}, {0}};
-  double *world = scratch + plan->local.world_at;
-  if (plan->local.branched) {
-    store3(world + local_rate, zero);
-    store3(world + local_gain, zero);
-    store3(world + local_pull, scale3(spread(-1), spread3(plan->gravity)));
-  }
-  local_angles(&plan->local, q, scratch);
   for (int i = 0; i < plan->local.limb_count; i++) {
     limb_down(plan, &plan->local.limbs[i], keep, q, qd, qdd, scratch);
     limb_up(plan, &plan->local.limbs[i], keep, q, out, scratch);
   }
-  wide_pair sum = {zero, zero};
-  if (plan->local.limb_count > 0) sum = load_pair(world + local_load);
-  sum.angular = add3(sum.angular, spread3(plan->fixed_load));
-  sum.linear = add3(sum.linear, spread3(plan->fixed_load + 3));
-  store_pair(out + plan->coordinates * AMBULO__LANES, sum);
+  wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  if (plan->local.limb_count > 0) sum = load_pair(scratch + plan->local.world_at + local_load);
+  store_pair(out + plan->coordinates * AMBULO__LANES, with_fixed_load(plan, sum));
 }
 
 #endif

@@ -1,15 +1,23 @@
 /* mechanics/kernel_local_points.h - positions of points in world axes, and the gradient of their
  * weighted sum, for the kernels that work in the frames' own axes.
  *
- * Only frames down to a point are placed: R = (x, y, z) the columns of a frame's orientation, o its
- * origin. A revolute joint mixes two columns; o += R r with the constant offset r, o += z q if
- * prismatic; a point at r stands at o + R r.
+ * Only frames down to a point are placed, with ground reaction to a body, too: R = (x, y, z) the
+ * columns of a frame's orientation, o its origin. A revolute joint mixes two columns; o += R r with
+ * the constant offset r, o += z q if prismatic; a point at r stands at o + R r.
  *
  * A weight pi acts like a force at its point. With P the sum of pi and M that of p x pi over the
  * points beyond a joint with axis z through o,
  *   q' += z . (M - o x P)  or  z . P.
  * The points of one frame add  sum p x pi = o x P + x x A_x + y x A_y + z x A_z,
  * A_i = sum r_i pi.
+ *
+ * The first mass moment of all bodies, sum m_i (o_i + R_i c_i): as long as the origin of a child is
+ * fixed in its parent, at r_j, the masses beyond it can stand there,
+ *   b_i = m_i c_i + sum over the children j that turn of (mass of j and beyond) r_j
+ * is constant in frame i (the barycentric vectors of Wittenburg 1977), and the moment is the sum of
+ * all R_i b_i. The mass m beyond a slider, as far as the next sliders, adds m o with the slider's
+ * origin; to its parent's b it does not count. A weight G on the moment acts like a couple R_i b_i
+ * x G on each frame, and like m G at o.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_POINTS_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_POINTS_H
@@ -104,43 +112,56 @@ AMBULO__INLINE wide3 turn_columns(const ambulo__local_step *step, local_place *p
   }
 }
 
-/* Across a joint; the axis and the origin are stored for the gradient. */
-AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p, int keep,
-                                       double *scratch) {
-  double *at = scratch + step->at;
+/* Across a joint. */
+AMBULO__INLINE local_place place_joint(const ambulo__local_step *step, local_place p, int shows,
+                                       double *at) {
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
-  wide3 axis;
   if (step->joint < AMBULO__SLIDES) {
-    axis = turn_columns(step, &p, s, c);
+    turn_columns(step, &p, s, c);
   } else {
-    axis = slide_axis(step, &p);
+    wide3 axis = slide_axis(step, &p);
     p.o = axpy3(p.o, s, axis);
+    if (shows & ambulo__shows_axis) store3(at + local_axis, axis);
   }
-  if (keep) store3(at + local_axis, axis);
-  if (keep || step->placed) store3(at + local_origin, p.o);
   return p;
 }
 
-/* Mass times the position of the centre of mass, of the frame's body. */
-AMBULO__INLINE wide3 first_moment_of(const ambulo__local_step *step, const local_place *p) {
-  wide3 sum = scale3(spread(step->mass), p->o);
-  switch (step->body) {
-  case AMBULO__BODY_X:
-    return axpy3(sum, spread(step->first_moment[0]), p->x);
-  case AMBULO__BODY_Y:
-    return axpy3(sum, spread(step->first_moment[1]), p->y);
-  case AMBULO__BODY_Z:
-    return axpy3(sum, spread(step->first_moment[2]), p->z);
-  default:
-    return place_of(p, sum, step->first_moment);
-  }
+AMBULO__INLINE void show_place(int shows, const local_place *p, double *at) {
+  if (shows & ambulo__shows_x) store3(at + local_columns, p->x);
+  if (shows & ambulo__shows_y) store3(at + local_columns + three, p->y);
+  if (shows & ambulo__shows_z) store3(at + local_columns + 2 * three, p->z);
+  if (shows & ambulo__shows_origin) store3(at + local_origin, p->o);
 }
 
-/* Returns the first mass moment of the bodies that weigh. */
-AMBULO__INLINE wide3 local_places(const ambulo__plan *plan, int keep, double *out,
-                                  double *scratch) {
+/* sum + R b */
+AMBULO__INLINE wide3 add_barycentric(const ambulo__local_step *step, const local_place *p,
+                                     wide3 sum) {
+  if (step->weighs & 1) sum = axpy3(sum, spread(step->moment[0]), p->x);
+  if (step->weighs & 2) sum = axpy3(sum, spread(step->moment[1]), p->y);
+  if (step->weighs & 4) sum = axpy3(sum, spread(step->moment[2]), p->z);
+  return sum;
+}
+
+/* Over all bodies: first mass moment, and their loads about the world origin. */
+typedef struct local_sums {
+  wide3 first;
+  wide_pair load;
+} local_sums;
+
+/* Adds the load of a frame's body, n + o x f and f in world axes. */
+AMBULO__INLINE wide_pair add_load(wide_pair sum, const local_place *p, const double *load_at) {
+  wide3 n = load3(load_at), f = load3(load_at + three);
+  f = axpy3(axpy3(scale3(f.x, p->x), f.y, p->y), f.z, p->z);
+  sum.angular = axpy3(axpy3(axpy3(sum.angular, n.x, p->x), n.y, p->y), n.z, p->z);
+  return (wide_pair){add_cross3(sum.angular, p->o, f), add3(sum.linear, f)};
+}
+
+/* Places what is read of the frames. Returns sums with ground reaction only; `grounded` and `keep`
+ * are known when this is compiled. */
+AMBULO__INLINE local_sums local_places(const ambulo__plan *plan, int keep, int grounded,
+                                       double *out, double *scratch) {
   const wide zero = {0}, one = spread(1);
-  wide3 first = {zero, zero, zero};
+  local_sums sums = {spread3(plan->local.fixed_moment), {{zero, zero, zero}, {zero, zero, zero}}};
   const local_place world = {
       {one, zero, zero}, {zero, one, zero}, {zero, zero, one}, {zero, zero, zero}};
   local_place p = world;
@@ -151,21 +172,19 @@ AMBULO__INLINE wide3 local_places(const ambulo__plan *plan, int keep, double *ou
   for (; step < end; step++) {
     if (!step->pointed) continue;
     if (!step->plain) p = place_parent(step, p, &world, scratch);
-    p = place_joint(step, p, keep, scratch);
-    if (!step->shown) continue;
-    if (step->placed) {
-      store3(scratch + step->at + local_columns, p.x);
-      store3(scratch + step->at + local_columns + three, p.y);
-      store3(scratch + step->at + local_columns + 2 * three, p.z);
-    }
-    if (step->group >= 0) places_of_points(&plan->steps, step->group, &p, out);
-    if (step->weighs) {
-      wide3 moment = first_moment_of(step, &p);
-      if (keep && !step->placed) store3(scratch + step->at + local_first, moment);
-      first = add3(first, moment);
+    double *at = scratch + step->at;
+    int shows = keep ? step->keeps : step->shows;
+    p = place_joint(step, p, shows, at);
+    if (shows & ambulo__shows_place) show_place(shows, &p, at);
+    if (shows & ambulo__shows_points) places_of_points(&plan->steps, step->group, &p, out);
+    if (!grounded) continue;
+    if (shows & ambulo__shows_body) sums.load = add_load(sums.load, &p, at + local_load);
+    if (shows & ambulo__shows_mass) {
+      sums.first = add_barycentric(step, &p, sums.first);
+      if (step->weighs & 8) sums.first = axpy3(sums.first, spread(step->anchored), p.o);
     }
   }
-  return first;
+  return sums;
 }
 
 /* Adds M (angular) and P (linear) of a frame's points. */
@@ -190,20 +209,31 @@ static wide_pair weights_of_points(const ambulo__steps *steps, int number, wide_
 
 /* What acts on the body like weights on points (kernel_local_ground.h). */
 typedef struct local_pulls {
-  wide3 center;      /* on the centre of mass, over the mass */
+  wide3 center;      /* on the centre of mass, over the mass: G */
   wide_pair feet[2]; /* on the joints that carry a foot */
 } local_pulls;
 
+/* R b, from what local_places has stored. */
+AMBULO__INLINE wide3 stored_barycentric(const ambulo__local_step *step, const double *at) {
+  wide3 sum = {{0}, {0}, {0}};
+  for (int k = 0; k < 3; k++) {
+    if (!(step->weighs >> k & 1)) continue;
+    sum = axpy3(sum, spread(step->moment[k]), load3(at + local_columns + k * three));
+  }
+  return sum;
+}
+
 AMBULO__INLINE wide_pair add_pulls(const ambulo__local_step *step, wide_pair sum,
                                    const local_pulls *pulls, const double *at) {
-  if (step->weighs) {
-    local_place p = place_load(at);
-    wide3 moment = step->placed ? first_moment_of(step, &p) : load3(at + local_first);
-    sum.angular = add_cross3(sum.angular, moment, pulls->center);
-    sum.linear = axpy3(sum.linear, spread(step->mass), pulls->center);
+  wide3 g = pulls->center;
+  if (step->weighs & 7) sum.angular = add_cross3(sum.angular, stored_barycentric(step, at), g);
+  if (step->weighs & 8) {
+    wide3 push = scale3(spread(step->anchored), g);
+    if (!step->still) sum.angular = add_cross3(sum.angular, load3(at + local_origin), push);
+    sum.linear = add3(sum.linear, push);
   }
-  if (step->feet & 1) sum = axpy_pair(pulls->feet[0], spread(1), sum);
-  if (step->feet & 2) sum = axpy_pair(pulls->feet[1], spread(1), sum);
+  if (step->feet & 1) sum = add_pair(pulls->feet[0], sum);
+  if (step->feet & 2) sum = add_pair(pulls->feet[1], sum);
   return sum;
 }
 
@@ -216,10 +246,10 @@ AMBULO__INLINE wide_pair gathered_weights(const ambulo__plan *plan, const ambulo
   if (!step->carries_points) sum = zero;
   if (step->weighted) sum = add_pair(load_pair(at + local_weight), sum);
   if (step->group >= 0) sum = weights_of_points(&plan->steps, step->group, sum, weights, at);
-  return add_pulls(step, sum, pulls, at);
+  return pulls ? add_pulls(step, sum, pulls, at) : sum;
 }
 
-/* The points' part of gq, which holds the rest already; pulls: read with ground reaction only. */
+/* The points' part of gq, which holds the rest already; pulls: NULL without ground reaction. */
 static void local_point_weights(const ambulo__plan *plan, const local_pulls *pulls,
                                 const double *weights, double *gq, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};
@@ -230,13 +260,12 @@ static void local_point_weights(const ambulo__plan *plan, const local_pulls *pul
     const double *at = scratch + step->at;
     if (!step->pointed) continue;
     if (step->draws) sum = gathered_weights(plan, step, sum, pulls, weights, scratch);
-    wide3 z = load3(at + local_axis);
     wide push;
     if (step->joint < AMBULO__SLIDES) {
       if (step->levers) moment = add_cross3(sum.angular, sum.linear, load3(at + local_origin));
-      push = step->sign * dot3(z, moment);
+      push = step->sign * dot3(load3(at + local_columns + step->joint * three), moment);
     } else {
-      push = dot3(z, sum.linear);
+      push = dot3(load3(at + local_axis), sum.linear);
     }
     store(gq + step->input, load(gq + step->input) + push);
     if (step->carried || step->from_world) continue;

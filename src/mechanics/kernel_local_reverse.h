@@ -3,11 +3,9 @@
  *
  * Weights y on tau, (eta_0, u_0) on root moment and force. By virtual work
  *   sum y tau + eta_0 . M + u_0 . F = sum over bodies of  (u + eta x c) . F + eta . H,
- * where the virtual motion (eta, u) of the frames' origins goes down the tree as motions do:
- *   eta = R^T eta_p + z y,   u = R^T (u_p + eta_p x r)                       (revolute)
- *   eta = eta_p,             u = u_p + eta_p x (r + z q) + z y               (prismatic)
- * x' is the adjoint of x. Those of eta and u are the moment n and the force f of the subtree, which
- * the forward pass has stored. Those of w, alpha and a go up the tree. With b = m (u + eta x c) and
+ * where (eta, u) is the virtual motion of the frames' origins (kernel_local_virtual.h). x' is the
+ * adjoint of x. Those of eta and u are the moment n and the force f of the subtree, which the
+ * forward pass has stored. Those of w, alpha and a go up the tree. With b = m (u + eta x c) and
  * Omega'(r, b) the adjoint of b . Omega r = b . (alpha x r) + (b . w) (w . r) - (w . w) (b . r),
  *   alpha' += r x b,   w' += b (w . r) + r (b . w) - 2 w (b . r):
  * body:
@@ -28,99 +26,18 @@
  *   qdd' = z . a',   qd' = 2 z . (a' x w),   w' += 2 qd z x a',
  *   (alpha', w') += Omega'(z q, a'),   q' = z . (Omega^T a' + f x eta),
  *   Omega^T a' = a' x alpha + w (w . a') - a' (w . w)
+ * Motions (w, alpha, a) are not read again at every frame: going up, those of a parent follow from
+ * the child's, since what a hinge does can be undone,
+ *   w_p = R (w - z qd),   alpha_p = R (alpha - w x z qd - z qdd),   a_p = R a - Omega_p r,
+ * which costs less than to carry them to and from the second cache in bodies of many limbs. The
+ * forward pass stores those of leaves, of forks, and above sliders.
  * Ground reaction: kernel_local_ground.h.
  * Points: kernel_local_points.h.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
 
-#include "mechanics/kernel_local_ground.h"
-
-/* What goes along through the passes. */
-typedef struct local_arrays {
-  const double *qd, *weights;
-  double *gq, *gqd, *gqdd, *scratch;
-} local_arrays;
-
-AMBULO__INLINE wide_pair hinge_virtual(const ambulo__local_step *step, wide_pair v, int k,
-                                       const local_arrays *x) {
-  double *at = x->scratch + step->at;
-  wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
-  wide3 eta = into_frame(cycled(v.angular, k), s, c), u = into_frame(cycled(v.linear, k), s, c);
-  if (!step->vanishes) eta.z += step->sign * load(x->weights + step->input);
-  wide_pair moved = {uncycled(eta, k), uncycled(u, k)};
-  if (step->kept || step->body != AMBULO__BODY_NONE) {
-    store_pair(x->scratch + step->virtual_at, moved);
-  } else {
-    store_across(x->scratch + step->virtual_at, eta, k);
-    store_across(x->scratch + step->virtual_at + three, u, k);
-  }
-  return moved;
-}
-
-AMBULO__INLINE wide_pair slider_virtual(const ambulo__local_step *step, wide_pair v,
-                                        const local_arrays *x) {
-  wide3 z = spread3(step->slide), r = scale3(load(x->scratch + step->at + local_angle), z);
-  v.linear = add_cross3(v.linear, v.angular, r);
-  if (!step->vanishes) v.linear = axpy3(v.linear, load(x->weights + step->input), z);
-  store_pair(x->scratch + step->virtual_at, v);
-  return v;
-}
-
-AMBULO__INLINE wide_pair straight_virtual(const ambulo__local_step *step, wide_pair v, int k,
-                                          const local_arrays *x) {
-  double *at = x->scratch + step->at;
-  wide3 eta = cycled(v.angular, k), u = cycled(v.linear, k);
-  wide r = step->sign * load(at + local_angle);
-  u.x += r * eta.y;
-  u.y -= r * eta.x;
-  if (!step->vanishes) u.z += step->sign * load(x->weights + step->input);
-  v.linear = uncycled(u, k);
-  store_pair(x->scratch + step->virtual_at, v);
-  return v;
-}
-
-AMBULO__INLINE wide_pair slide_virtual(const ambulo__local_step *step, wide_pair v,
-                                       const local_arrays *x) {
-  switch (step->joint) {
-  case AMBULO__SLIDES_X:
-    return straight_virtual(step, v, 0, x);
-  case AMBULO__SLIDES_Y:
-    return straight_virtual(step, v, 1, x);
-  case AMBULO__SLIDES_Z:
-    return straight_virtual(step, v, 2, x);
-  default:
-    return slider_virtual(step, v, x);
-  }
-}
-
-/* Virtual motion of the steps from `first` to `last`. */
-AMBULO__INLINE void virtual_motions(const ambulo__local_plan *local, int first, int last,
-                                    wide_pair root, const local_arrays *x) {
-  wide_pair v = root;
-  if (first > last) return;
-  const ambulo__local_step *step = &local->steps[first], *end = &local->steps[last];
-  if (first > 0 && step->carried) v = load_pair(x->scratch + step->above + local_turn);
-  for (; step <= end; step++) {
-    if (!step->plain) {
-      if (!step->carried) v = load_pair(x->scratch + step->above + local_turn);
-      v = offset_down(step, v);
-    }
-    switch (step->joint) {
-    case AMBULO__TURNS_X:
-      v = hinge_virtual(step, v, 0, x);
-      break;
-    case AMBULO__TURNS_Y:
-      v = hinge_virtual(step, v, 1, x);
-      break;
-    case AMBULO__TURNS_Z:
-      v = hinge_virtual(step, v, 2, x);
-      break;
-    default:
-      v = slide_virtual(step, v, x);
-    }
-  }
-}
+#include "mechanics/kernel_local_virtual.h"
 
 /* s += Omega'(r, b); s holds the adjoints of w, alpha and a. */
 AMBULO__INLINE local_state moved_adjoint_any(local_state s, wide3 w, wide3 r, wide3 b) {
@@ -144,30 +61,29 @@ AMBULO__INLINE local_state moved_adjoint_along(local_state s, wide3 w, int k, do
 }
 
 /* Across the offset, into the parent's adjoints; w is the parent's. */
-AMBULO__INLINE local_state offset_adjoint(const ambulo__local_step *step, local_state s,
-                                          const double *w) {
+AMBULO__INLINE local_state offset_adjoint(const ambulo__local_step *step, local_state s, wide3 w) {
   switch (step->moving) {
   case AMBULO__OFFSET_X:
-    return moved_adjoint_along(s, load3(w), 0, step->length, s.a);
+    return moved_adjoint_along(s, w, 0, step->length, s.a);
   case AMBULO__OFFSET_Y:
-    return moved_adjoint_along(s, load3(w), 1, step->length, s.a);
+    return moved_adjoint_along(s, w, 1, step->length, s.a);
   case AMBULO__OFFSET_Z:
-    return moved_adjoint_along(s, load3(w), 2, step->length, s.a);
+    return moved_adjoint_along(s, w, 2, step->length, s.a);
   case AMBULO__OFFSET_ANY:
-    return moved_adjoint_any(s, load3(w), spread3(step->move), s.a);
+    return moved_adjoint_any(s, w, spread3(step->move), s.a);
   default:
     return s;
   }
 }
 
 AMBULO__INLINE local_state body_adjoint_along(const ambulo__local_step *step, local_state s, int k,
-                                              const double *scratch) {
+                                              wide3 w, const double *scratch) {
   const double *virtual = scratch + step->virtual_at;
   int u = (k + 1) % 3, v = (k + 2) % 3;
   const double *inertia = step->inertia, *difference = step->difference;
-  wide3 w = load_cycled(scratch + step->at + local_rate, k), eta = load_cycled(virtual, k);
-  wide3 b = load_cycled(virtual + three, k);
+  wide3 eta = load_cycled(virtual, k), b = load_cycled(virtual + three, k);
   wide c = spread(step->com[k]), m = spread(step->mass);
+  w = cycled(w, k);
   b = (wide3){m * (b.x + c * eta.y), m * (b.y - c * eta.x), m * b.z};
   s = (local_state){cycled(s.w, k), cycled(s.alpha, k), add3(cycled(s.a, k), b)};
   s = moved_adjoint_along(s, w, 2, step->com[k], b);
@@ -182,10 +98,10 @@ AMBULO__INLINE local_state body_adjoint_along(const ambulo__local_step *step, lo
 }
 
 AMBULO__INLINE local_state body_adjoint_any(const ambulo__local_step *step, local_state s,
-                                            int diagonal, const double *scratch) {
+                                            int diagonal, wide3 w, const double *scratch) {
   const double *i = step->inertia, *d = step->difference;
   wide_pair v = load_pair(scratch + step->virtual_at);
-  wide3 w = load3(scratch + step->at + local_rate), eta = v.angular;
+  wide3 eta = v.angular;
   wide3 c = spread3(step->com), b = add_cross3(v.linear, eta, c);
   b = scale3(spread(step->mass), b);
   s.a = add3(s.a, b);
@@ -204,19 +120,19 @@ AMBULO__INLINE local_state body_adjoint_any(const ambulo__local_step *step, loca
   return s;
 }
 
-AMBULO__INLINE local_state body_adjoint(const ambulo__local_step *step, local_state s,
+AMBULO__INLINE local_state body_adjoint(const ambulo__local_step *step, local_state s, wide3 w,
                                         const double *scratch) {
   switch (step->body) {
   case AMBULO__BODY_X:
-    return body_adjoint_along(step, s, 0, scratch);
+    return body_adjoint_along(step, s, 0, w, scratch);
   case AMBULO__BODY_Y:
-    return body_adjoint_along(step, s, 1, scratch);
+    return body_adjoint_along(step, s, 1, w, scratch);
   case AMBULO__BODY_Z:
-    return body_adjoint_along(step, s, 2, scratch);
+    return body_adjoint_along(step, s, 2, w, scratch);
   case AMBULO__BODY_DIAGONAL:
-    return body_adjoint_any(step, s, 1, scratch);
+    return body_adjoint_any(step, s, 1, w, scratch);
   case AMBULO__BODY_ANY:
-    return body_adjoint_any(step, s, 0, scratch);
+    return body_adjoint_any(step, s, 0, w, scratch);
   default:
     return s;
   }
@@ -228,15 +144,21 @@ AMBULO__INLINE wide turned_by(wide sum, wide3 adjoint, const double *at, int k) 
   return sum - adjoint.y * load(at + (k + 1) % 3 * AMBULO__LANES);
 }
 
+/* The same; a in cyclic order. */
+AMBULO__INLINE wide turned_with(wide sum, wide3 adjoint, wide3 a) {
+  return sum + adjoint.x * a.y - adjoint.y * a.x;
+}
+
 AMBULO__INLINE local_state hinge_adjoint(const ambulo__local_step *step, local_state state, int k,
-                                         const local_arrays *x) {
+                                         local_state *motion, const local_arrays *x) {
   const double *at = x->scratch + step->at;
   int u = (k + 1) % 3 * AMBULO__LANES, v = (k + 2) % 3 * AMBULO__LANES;
   wide3 w = cycled(state.w, k), alpha = cycled(state.alpha, k), a = cycled(state.a, k);
+  wide3 mw = cycled(motion->w, k), gain = cycled(motion->alpha, k), pull = cycled(motion->a, k);
   wide rate = step->sign * load(x->qd + step->input), zero = {0};
-  wide turned = turned_by(zero, w, at + local_rate, k), other = zero;
-  turned = turned_by(turned, alpha, at + local_gain, k);
-  turned = turned_by(turned, a, at + local_pull, k);
+  wide turned = turned_with(zero, w, mw), other = zero;
+  turned = turned_with(turned, alpha, gain);
+  turned = turned_with(turned, a, pull);
   if (!step->vanishes) {
     wide3 n = {load(at + local_moment + u), load(at + local_moment + v), zero};
     wide3 f = {load(at + local_force + u), load(at + local_force + v), zero};
@@ -244,26 +166,35 @@ AMBULO__INLINE local_state hinge_adjoint(const ambulo__local_step *step, local_s
     other = turned_by(turned_by(other, n, virtual, k), f, virtual + three, k);
   }
   store(x->gq + step->input, step->sign * (turned + other));
-  store(x->gqd + step->input, step->sign * turned_by(w.z, alpha, at + local_rate, k));
+  store(x->gqd + step->input, step->sign * turned_with(w.z, alpha, mw));
   store(x->gqdd + step->input, step->sign * alpha.z);
   w.x -= rate * alpha.y;
   w.y += rate * alpha.x;
   wide s = load(at + local_angle), c = load(at + local_angle + AMBULO__LANES);
+  if (step->unwinds) {
+    gain.x -= rate * mw.y;
+    gain.y += rate * mw.x;
+    gain.z -= step->sign * load(x->qdd + step->input);
+    motion->alpha = uncycled(from_frame(gain, s, c), k);
+    motion->a = uncycled(from_frame(pull, s, c), k);
+  }
+  mw.z -= rate;
+  motion->w = uncycled(from_frame(mw, s, c), k);
   return (local_state){uncycled(from_frame(w, s, c), k), uncycled(from_frame(alpha, s, c), k),
                        uncycled(from_frame(a, s, c), k)};
 }
 
 AMBULO__INLINE local_state slider_adjoint(const ambulo__local_step *step, local_state s,
-                                          const local_arrays *x) {
+                                          const local_state *motion, const local_arrays *x) {
   const double *at = x->scratch + step->at;
   wide3 z = spread3(step->slide);
   wide drift = {0};
   wide3 push = {drift, drift, drift};
   if (!step->vanishes) push = cross3(load3(at + local_force), load3(x->scratch + step->virtual_at));
   if (!step->still) {
-    wide3 w = load3(at + local_rate), twice = scale3(2 * load(x->qd + step->input), z);
+    wide3 w = motion->w, twice = scale3(2 * load(x->qd + step->input), z);
     drift = 2 * dot3(z, cross3(s.a, w));
-    push = add_cross3(push, s.a, load3(at + local_gain));
+    push = add_cross3(push, s.a, motion->alpha);
     push = axpy3(axpy3(push, dot3(w, s.a), w), -dot3(w, w), s.a);
     s.w = add_cross3(s.w, twice, s.a);
     s = moved_adjoint_any(s, w, scale3(load(at + local_angle), z), s.a);
@@ -291,7 +222,7 @@ AMBULO__INLINE local_state straight_adjoint(const ambulo__local_step *step, loca
 }
 
 AMBULO__INLINE local_state slide_adjoint(const ambulo__local_step *step, local_state s,
-                                         const local_arrays *x) {
+                                         const local_state *motion, const local_arrays *x) {
   switch (step->joint) {
   case AMBULO__SLIDES_X:
     return straight_adjoint(step, s, 0, x);
@@ -300,32 +231,36 @@ AMBULO__INLINE local_state slide_adjoint(const ambulo__local_step *step, local_s
   case AMBULO__SLIDES_Z:
     return straight_adjoint(step, s, 2, x);
   default:
-    return slider_adjoint(step, s, x);
+    return slider_adjoint(step, s, motion, x);
   }
 }
 
 /* Adjoints of a frame into those of its parent. */
 AMBULO__INLINE local_state joint_adjoint(const ambulo__local_step *step, local_state s,
-                                         const local_arrays *x) {
+                                         local_state *motion, const local_arrays *x) {
   switch (step->joint) {
   case AMBULO__TURNS_X:
-    s = hinge_adjoint(step, s, 0, x);
+    s = hinge_adjoint(step, s, 0, motion, x);
     break;
   case AMBULO__TURNS_Y:
-    s = hinge_adjoint(step, s, 1, x);
+    s = hinge_adjoint(step, s, 1, motion, x);
     break;
   case AMBULO__TURNS_Z:
-    s = hinge_adjoint(step, s, 2, x);
+    s = hinge_adjoint(step, s, 2, motion, x);
     break;
   default:
-    s = slide_adjoint(step, s, x);
+    s = slide_adjoint(step, s, motion, x);
   }
   if (step->plain) return s;
   if (step->turned) {
     s = (local_state){out_of_turn(step->turn, s.w), out_of_turn(step->turn, s.alpha),
                       out_of_turn(step->turn, s.a)};
+    motion->w = out_of_turn(step->turn, motion->w);
+    motion->alpha = out_of_turn(step->turn, motion->alpha);
+    motion->a = out_of_turn(step->turn, motion->a);
   }
-  return offset_adjoint(step, s, x->scratch + step->above + local_rate);
+  if (step->unwinds) motion->a = moved_back(step, *motion);
+  return offset_adjoint(step, s, motion->w);
 }
 
 AMBULO__INLINE local_state add_stored(local_state s, const double *at) {
@@ -348,11 +283,12 @@ AMBULO__INLINE void leave_adjoints(const ambulo__local_step *step, local_state s
 AMBULO__INLINE void limb_adjoints(const ambulo__local_plan *local, int first, int last,
                                   const local_arrays *x) {
   const local_state zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};
-  local_state s = zero;
+  local_state s = zero, motion = zero;
   const ambulo__local_step *end = &local->steps[first];
   for (const ambulo__local_step *step = &local->steps[last]; step >= end; step--) {
     if (step->kept) s = add_stored(s, x->scratch + step->at + local_adjoint);
-    s = joint_adjoint(step, body_adjoint(step, s, x->scratch), x);
+    if (step->stored) motion = load_motion(x->scratch + step->at);
+    s = joint_adjoint(step, body_adjoint(step, s, motion.w, x->scratch), &motion, x);
     if (step->carried) continue;
     leave_adjoints(step, s, x);
     s = zero;
@@ -377,10 +313,13 @@ static void local_adjoints(const ambulo__plan *plan, wide_pair root, const local
 static void local_reverse_part(const ambulo__plan *plan, const double *ground,
                                const local_arrays *x) {
   wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES);
-  local_pulls pulls;
-  if (plan->grounded) pulls = local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
+  local_pulls pulls, *acting = NULL;
+  if (plan->grounded) {
+    pulls = local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
+    acting = &pulls;
+  }
   local_adjoints(plan, root, x);
-  if (plan->points > 0) local_point_weights(plan, &pulls, x->weights, x->gq, x->scratch);
+  if (plan->points > 0) local_point_weights(plan, acting, x->weights, x->gq, x->scratch);
 }
 
 #endif

@@ -19,10 +19,14 @@ static const double *lanes_from(const double *ground, int lane) {
 AMBULO__INLINE void local_forward_part(const ambulo__plan *plan, int keep, const double *q,
                                        const double *qd, const double *qdd, const double *ground,
                                        double *out, double *scratch) {
+  local_angles(&plan->local, q, scratch);
+  local_world(plan, scratch);
+  if (plan->grounded) {
+    local_grounded(plan, keep, q, qd, qdd, ground, out, scratch);
+    return;
+  }
   local_dynamics(plan, keep, q, qd, qdd, out, scratch);
-  if (plan->points == 0) return;
-  wide3 first = local_places(plan, keep, out, scratch);
-  if (plan->grounded) local_ground(plan, ground, first, keep, out, scratch);
+  if (plan->points > 0) local_places(plan, keep, 0, out, scratch);
 }
 
 static void outputs(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
@@ -44,10 +48,9 @@ static void forward(const ambulo__plan *plan, const double *q, const double *qd,
 static void reverse(const ambulo__plan *plan, const double *qd, const double *qdd,
                     const double *ground, const double *weights, double *gq, double *gqd,
                     double *gqdd, double *scratch) {
-  (void)qdd;
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
-    const local_arrays arrays = {qd + lane,  weights + lane, gq + lane,
-                                 gqd + lane, gqdd + lane,    scratch + lane};
+    const local_arrays arrays = {qd + lane,  qdd + lane,  weights + lane, gq + lane,
+                                 gqd + lane, gqdd + lane, scratch + lane};
     local_reverse_part(plan, lanes_from(ground, lane), &arrays);
   }
 }
@@ -57,12 +60,8 @@ static void jacobian(const ambulo__plan *plan, const double *q, const double *qd
   for (int lane = 0; lane < AMBULO__LANES; lane += AMBULO__WIDTH) {
     const world_inputs x = {q + lane, qd + lane, qdd + lane};
     local_angles(&plan->local, x.q, scratch + lane);
-    if (plan->grounded) {
-      jacobian_ground_part(plan, &x, ground + lane, jq + lane, jqd + lane, jqdd + lane,
-                           scratch + lane);
-    } else {
-      jacobian_part(plan, &x, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
-    }
+    jacobian_part(plan, &x, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
+    if (plan->grounded) jacobian_ground_part(plan, ground + lane, jq + lane, scratch + lane);
   }
 }
 

@@ -157,7 +157,7 @@ static void world_limb(const ambulo__plan *plan, const ambulo__limb *limb, const
     if (step->offset != AMBULO__OFFSET_NONE) world_offset(step, &s);
     if (step->turned) s.place = turned_place(step, &s.place);
     if (step->joint >= AMBULO__SLIDES) {
-      world_slider(step, &s, q, qd, qdd, change->bare, motion);
+      world_slider(step, &s, q, qd, qdd, change->is_straight, motion);
     } else {
       world_hinge(step, &s, qd, qdd, motion, scratch);
     }

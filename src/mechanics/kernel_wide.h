@@ -87,11 +87,6 @@ AMBULO__INLINE void store6(double *at, wide6 m) {
   store3(at + 3 * AMBULO__LANES, (wide3){m.xy, m.xz, m.yz});
 }
 
-AMBULO__INLINE void add3_at(double *at, wide3 v) {
-  wide3 old = load3(at);
-  store3(at, (wide3){old.x + v.x, old.y + v.y, old.z + v.z});
-}
-
 AMBULO__INLINE wide3 add3(wide3 a, wide3 b) {
   return (wide3){a.x + b.x, a.y + b.y, a.z + b.z};
 }
@@ -116,6 +111,11 @@ AMBULO__INLINE wide dot3(wide3 a, wide3 b) {
 /* c + a . b */
 AMBULO__INLINE wide add_dot3(wide c, wide3 a, wide3 b) {
   return ((c + a.x * b.x) + a.y * b.y) + a.z * b.z;
+}
+
+/* c - a . b */
+AMBULO__INLINE wide subtract_dot3(wide c, wide3 a, wide3 b) {
+  return ((c - a.x * b.x) - a.y * b.y) - a.z * b.z;
 }
 
 AMBULO__INLINE wide3 cross3(wide3 a, wide3 b) {

@@ -86,14 +86,14 @@ AMBULO__INLINE void world_hinge(const ambulo__local_step *step, world_state *s, 
 }
 
 AMBULO__INLINE void world_slider(const ambulo__local_step *step, world_state *s, wide q, wide qd,
-                                 wide qdd, int bare, double *motion) {
+                                 wide qdd, int is_straight, double *motion) {
   const wide3 zero = {{0}, {0}, {0}};
   wide3 z = slide_axis(step, &s->place);
   store_pair(motion, (wide_pair){zero, z});
   s->place.o = axpy3(s->place.o, q, z);
   s->v = axpy3(s->v, qd, z);
   s->a = axpy3(s->a, qdd, z);
-  if (bare) return;
+  if (is_straight) return;
   wide3 zd = cross3(s->w, z), zdd = add_cross3(cross3(s->w, zd), s->alpha, z);
   wide3 zd2 = scale3(spread(2), zd);
   store_pair(motion + 2 * three, (wide_pair){zero, zd2});

@@ -212,7 +212,7 @@ static void scatter_rows(const ambulo_mechanics *m, double *values, const double
     memset(matrix, 0, size * sizeof *matrix);
     for (int row = from; row < to; row++) {
       double *to_row = matrix + (size_t)(row - from) * d;
-      ambulo__row_part part[2];
+      ambulo__row_part part[AMBULO__MOST_PARTS];
       (void)ambulo__plan_parts(m->plan, row, part);
       for (int e = pattern.start[part[0].row]; e < pattern.start[part[0].row + 1]; e++) {
         int at = place ? place[e] : e;

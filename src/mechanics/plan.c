@@ -208,12 +208,11 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
   }
   collect_bodies(plan, model, placings, masses);
   collect_points(plan, model, placings);
-  if (ground_height) ambulo__plan_ground(plan, model, *ground_height);
+  if (ground_height && ambulo__plan_ground(plan, model, *ground_height)) goto done;
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_local_build(plan);
-  if (status == AMBULO_OK && ground_height) status = ambulo__plan_ground_terms(plan);
 done:
   ambulo__free(allocator, placings);
   ambulo__free(allocator, masses);
@@ -272,10 +271,7 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->upper);
   ambulo__free(&memory, plan->rate_start);
   ambulo__free(&memory, plan->by_qdd);
-  ambulo__free(&memory, plan->pairs);
   ambulo__free(&memory, plan->roots);
-  ambulo__free(&memory, plan->term_fresh);
-  ambulo__free(&memory, plan->term);
   ambulo__free(&memory, plan);
 }
 

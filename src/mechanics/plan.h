@@ -50,36 +50,43 @@ static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
 
 /* Structural nonzeros of the Jacobian of output row r: columns
  * column[start[r] .. start[r+1]), ascending coordinate indices. Rows tau, moment
- * and force, and those of the feet, depend on q, qd and qdd through the same
- * columns; rows of points on q only. Entry e of row r stands at e in jq, and at
- * rate_start[r] + e - start[r] in jqd, and in jqdd at by_qdd[] of that: the mass matrix
- * is symmetric, and its entries below the diagonal stand above it. What is not stored need not be
- * written, so that there are rows without entries: of tau with ground reaction, those
- * that vanish identically (joints that carry the whole body); without, those that are
- * rows of the root force (the sliders along world axes with which the whole body
- * stands on the world); the force on foot 1; and the centre of mass. All but the
- * first kind follow from other rows (ambulo__plan_parts). */
+ * and force depend on q, qd and qdd through the same columns; rows of points on q
+ * only. Entry e of row r stands at e in jq, and at rate_start[r] + e - start[r] in
+ * jqd, and in jqdd at by_qdd[] of that: the mass matrix is symmetric, and its
+ * entries below the diagonal stand above it, or in rows of the root force.
+ *
+ * What follows from other rows is not stored (ambulo__plan_parts). Without entries are:
+ * with ground reaction, the rows of tau that vanish identically (joints that carry the
+ * whole body), and those of the feet and of the centre of mass; without, the rows of tau
+ * that are rows of the root force (the sliders along world axes with which the whole
+ * body stands on the world). With ground reaction a row of tau above a foot has entries
+ * for what it would be if the feet's wrenches stood still in the world; the rest is a
+ * product with the rows of the root wrench, whose factors stand behind the entries of
+ * jq: from start[rows] to count. */
 typedef struct ambulo__plan_pattern {
   const int *start;      /* [rows + 1] */
   const int *column;     /* [start[rows]] */
-  const int *rate_start; /* [rows]; -1: the row depends on q only */
+  const int *rate_start; /* [rows]; -1: the row depends on q only, or has no entries */
   const int *by_qdd;     /* [dynamic_count] */
   int dynamic_count;     /* entries of the rows that also depend on qd and qdd */
-  int count;             /* start[rows] */
+  int count;             /* entries and factors in jq */
 } ambulo__plan_pattern;
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan);
 
-/* The gradient of a row, made of those of one or two rows with entries: by q, qd
- * and qdd it is `factor` times theirs, summed; a `by_acceleration` part gives the
- * row's gradient by q by that of its own row by qdd, and nothing by qd and qdd. */
+/* The gradient of a row, made of those of some rows with entries: by q, qd and qdd it
+ * is `factor` times theirs, times what stands at `times` in jq (-1: nothing), summed. A
+ * `by_acceleration` part gives the row's gradient by q by that of its own row by qdd,
+ * and nothing by qd and qdd. */
 typedef struct ambulo__row_part {
-  int row, by_acceleration;
+  int row, by_acceleration, times;
   double factor;
 } ambulo__row_part;
-/* Returns how many parts there are; one for tau, wrench and points, not by acceleration. A row of
- * the root force for the rows of tau named above; of other rows with entries, and of rows that
- * vanish, the row itself. */
-int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[2]);
+#define AMBULO__MOST_PARTS 10
+/* Returns how many parts there are. Without ground reaction there is one, with a factor of 1 or -1,
+ * not by acceleration; a row that has entries is the first part of itself, and so is one that
+ * vanishes. The same for the wrench and points with ground reaction. */
+int ambulo__plan_parts(const ambulo__plan *plan, int row,
+                       ambulo__row_part part[AMBULO__MOST_PARTS]);
 
 /* What a block's ground reaction is told, [AMBULO__GROUND_ENTRIES][lanes]: share a of
  * foot 0 (that of foot 1 is 1 - a), nominal centre of pressure of foot 0 less that
@@ -105,10 +112,10 @@ typedef struct ambulo__kernels {
                   const double *ground, const double *weights, double *gq, double *gqd,
                   double *gqdd, double *scratch);
 
-  /* Jacobian entries in pattern order: jq [count], jqd and jqdd [dynamic_count]. The arrays must be
-   * zero before the first call: entries that vanish identically (what a displacement of the whole
-   * body leaves as it is) are never written, and of jqdd only those that by_qdd names. Needs no
-   * forward before; reverse needs one after it. */
+  /* Jacobian entries in pattern order, and factors: jq [count], jqd and jqdd [dynamic_count]. The
+   * arrays must be zero before the first call: entries that vanish identically (what a displacement
+   * of the whole body leaves as it is) are never written, and of jqdd only those that by_qdd names.
+   * Needs no forward before; reverse needs one after it. */
   void (*jacobian)(const ambulo__plan *plan, const double *q, const double *qd, const double *qdd,
                    const double *ground, double *jq, double *jqd, double *jqdd, double *scratch);
 } ambulo__kernels;

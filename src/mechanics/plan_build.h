@@ -22,8 +22,10 @@ void ambulo__mass_add(ambulo__mass *a, const ambulo__mass *b);
 /* Writes mass, com and the factors of the inertia. */
 void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
 
-/* Which joints carry which foot, and their rows; frames, joints, bodies, points are compiled. */
-void ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model, double ground_height);
+/* Which joints carry which foot, and their rows; frames, joints, bodies, points are compiled.
+ * Errors: E_MEMORY. */
+ambulo_status ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model,
+                                  double ground_height);
 /* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
 void ambulo__plan_place(ambulo__plan *plan);
 /* The lists of steps, from all of the above. Errors: E_MEMORY. */
@@ -32,9 +34,9 @@ void ambulo__plan_steps_free(ambulo__plan *plan);
 /* The steps in the bodies' own axes; enlarges the scratch. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_local_build(ambulo__plan *plan);
 void ambulo__plan_local_free(ambulo__plan *plan);
+/* The world axis along which a joint slides, -1: it turns, or slides in another direction. */
+int ambulo__plan_world_axis(const ambulo__joint *joint);
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
-/* The last part of the pattern: terms of the dense rows. Errors: E_MEMORY. */
-ambulo_status ambulo__plan_ground_terms(ambulo__plan *plan);
 
 #endif

@@ -33,41 +33,36 @@ typedef struct ambulo__joint {
   double shift;   /* angle = sign * q + shift */
   int has_offset; /* the origin moves by `offset` (parent frame) */
   double offset[3];
-  int turned;      /* the axis is oblique: columns of the turned frame are computed first */
-  double turn[9];  /* rows; turned frame in parent frame */
-  int axis;        /* which column of the (turned) frame is the axis */
-  int feet;        /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
-  int torque_row;  /* ambulo__torque_row */
-  int reaction_at; /* Jacobian: rows that meet the changes of the root wrench (17) */
-  int motion_at;   /* Jacobian: S, 2 Sd and Sdd (18, kernel_world.h) */
+  int turned;     /* the axis is oblique: columns of the turned frame are computed first */
+  double turn[9]; /* rows; turned frame in parent frame */
+  int axis;       /* which column of the (turned) frame is the axis */
+  int feet;       /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
+  int torque_row; /* ambulo__torque_row */
+  int factors;    /* Jacobian: its factors in jq (plan_pattern.c), if the ground reacts */
+  int motion_at;  /* Jacobian: S, 2 Sd and Sdd (18, kernel_world.h) */
 } ambulo__joint;
 
-/* Row of tau in the Jacobians: the coordinates above and below the joint, all coordinates (what
- * it carries stands on the ground), or none: with ground reaction, because it carries the whole
- * body (tau = 0); without, because it is a row of the root force (plan_pattern.c). */
+/* Row of tau in the Jacobians: the coordinates above and below the joint; the same and, since it
+ * carries a foot, multiples of the rows of the root wrench; or none: with ground reaction, because
+ * it carries the whole body (tau = 0); without, because it is a row of the root force
+ * (plan_pattern.c). */
 typedef enum ambulo__torque_row {
   AMBULO__ROW_SPARSE = 0,
-  AMBULO__ROW_DENSE,
+  AMBULO__ROW_REACTS,
   AMBULO__ROW_VANISHES,
   AMBULO__ROW_FOLLOWS
 } ambulo__torque_row;
 
-/* Part of a Jacobian column: where it goes (doubles), and the row that makes it. */
-typedef struct ambulo__reaction_term {
-  int entry, row_at;
-} ambulo__reaction_term;
-
-/* Column of a joint that carries the whole body: its motion, its place in a full row (doubles), and
- * whether it is a displacement along an axis that stands still. */
-typedef struct ambulo__root_column {
-  int motion, column, straight;
-} ambulo__root_column;
-
-/* An ancestor's entries: its motion, its column in the joint's row, and the joint's column in its
- * own row (doubles), -1 where that row is not sparse; mass: the one of both that stands in jqdd. */
-typedef struct ambulo__ground_pair {
-  int motion, lower, upper, mass;
-} ambulo__ground_pair;
+/* Factors in jq (plan_pattern.c): of a row of tau that reacts: of the root wrench (6) and of the
+ * height of the centre of mass; of the feet. */
+enum {
+  AMBULO__TAU_FACTORS = 7,
+  factor_share = 0, /* a_0, a_1 */
+  factor_shear = 2, /* g */
+  factor_fall = 5,  /* g' */
+  factor_twist = 8, /* of T_0 and T_1 */
+  AMBULO__FOOT_FACTORS = 20
+};
 
 typedef struct ambulo__plan_point {
   int frame;
@@ -89,8 +84,9 @@ struct ambulo__plan {
   /* Ground reaction, see kernel_ground.h. */
   int grounded, foot_frame[2];
   double ground_height, up[3];
+  int vanishing, *roots;       /* rows of tau that vanish (doubles) */
   double mass, fixed_first[3]; /* of the whole body; mass times position of what is fixed */
-  int ground_at; /* M, F (6), wrenches of the feet (12), centre of mass (3), its height, T */
+  int ground_at; /* M, F (6), wrenches of the feet (12), height of the centre of mass, T */
 
   /* Jacobian pattern, see plan.h. Row of tau i: ancestors of i, i, descendants of i. */
   int *start, *column, *rate_start, *by_qdd;
@@ -98,16 +94,8 @@ struct ambulo__plan {
   int *ancestor_start; /* [coordinates + 1] into: */
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */
   int *upper;          /* same length: entry of column i in the row of that ancestor; -1 where
-                          that row is not sparse */
-
-  /* Grounded, for the Jacobians; pairs: as long as `ancestor`. */
-  ambulo__ground_pair *pairs;
-  /* Column k of the dense rows: terms [k dense_count] to [(k + 1) dense_count]; the first
-   * term_fresh[k] of them are written, the others are added to what stands there. */
-  int dense_count, *term_fresh;
-  int vanishing; /* rows of tau that vanish: the first ancestors of every joint with a dense row */
-  ambulo__root_column *roots; /* [vanishing] */
-  ambulo__reaction_term *term;
+                          that row has none */
+  int foot_factors;    /* the feet's factors in jq (plan_pattern.c) */
 
   ambulo__steps steps;
   ambulo__local_plan local;

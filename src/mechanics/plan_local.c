@@ -43,15 +43,15 @@ static void set_body(ambulo__local_step *step, const ambulo__body *body) {
     step->first_moment[i] = body->mass * body->com[i];
   }
   set_inertia(step, body);
-  step->body = body->diagonal ? kinds[along(step->com)] : AMBULO__BODY_ANY;
+  step->body = (uint8_t)(body->diagonal ? kinds[along(step->com)] : AMBULO__BODY_ANY);
 }
 
 static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
   static const ambulo__offset_kind kinds[] = {AMBULO__OFFSET_X, AMBULO__OFFSET_Y, AMBULO__OFFSET_Z,
                                               AMBULO__OFFSET_ANY};
-  step->joint = joint->revolute ? (ambulo__joint_kind)joint->axis : AMBULO__SLIDES;
+  step->joint = (uint8_t)(joint->revolute ? joint->axis : AMBULO__SLIDES);
   if (!joint->revolute && joint->still && !joint->turned) {
-    step->joint = (ambulo__joint_kind)((int)AMBULO__SLIDES_X + joint->axis);
+    step->joint = (uint8_t)(AMBULO__SLIDES_X + joint->axis);
   }
   step->sign = joint->sign;
   step->still = joint->still;
@@ -65,9 +65,20 @@ static void set_joint(ambulo__local_step *step, const ambulo__joint *joint) {
   step->offset = step->moving = AMBULO__OFFSET_NONE;
   if (step->move[0] == 0.0 && step->move[1] == 0.0 && step->move[2] == 0.0) return;
   int axis = along(step->move);
-  step->offset = kinds[axis];
+  step->offset = (uint8_t)kinds[axis];
   if (!step->still) step->moving = step->offset;
   if (axis < 3) step->length = step->move[axis];
+}
+
+/* Whose motion the reverse sweep does not get from the child's: of leaves, and above sliders, but
+ * for those in frames that do not turn. */
+static void set_stored(ambulo__local_plan *local, int count) {
+  for (int k = 0; k < count; k++) {
+    ambulo__local_step *step = &local->steps[k];
+    bool followed = k + 1 < count && step[1].carried;
+    step->stored = step->kept || !followed || step[1].joint == AMBULO__SLIDES;
+    step->unwinds = k > 0 && step->carried && !step[-1].stored && step[-1].joint <= AMBULO__SLIDES;
+  }
 }
 
 /* Who goes on from registers, and who reads what the parent has stored. */
@@ -89,6 +100,15 @@ static void set_forks(ambulo__plan *plan) {
   }
 }
 
+/* As far up as loads go. */
+static void set_rise(const ambulo__local_plan *local, ambulo__limb *limb) {
+  while (limb->rise != limb->top && !local->steps[local->steps[limb->rise].parent].vanishes) {
+    limb->rise = local->steps[limb->rise].parent;
+  }
+  int parent = local->steps[limb->rise].parent;
+  limb->ends = parent >= 0 && local->steps[parent].vanishes;
+}
+
 /* The order of the passes; open: children of each frame that are not done yet (0: the world). */
 static void set_limbs(ambulo__plan *plan, int *open) {
   ambulo__local_plan *local = &plan->local;
@@ -100,13 +120,19 @@ static void set_limbs(ambulo__plan *plan, int *open) {
     while (local->steps[top].parent >= 0 && --open[local->steps[top].parent + 1] == 0) {
       top = local->steps[top].parent;
     }
-    local->limbs[local->limb_count++] = (ambulo__limb){first, first - 1, k, top};
+    ambulo__limb *limb = &local->limbs[local->limb_count++];
+    *limb = (ambulo__limb){.first = first, .stem = first - 1, .leaf = k, .top = top, .rise = k};
+    set_rise(local, limb);
     first = k + 1;
     ambulo__local_step *step = &local->steps[top];
     ambulo__local_step *above = step->parent >= 0 ? &local->steps[step->parent] : NULL;
     step->first = above ? !above->loaded : !rooted;
+    limb->fresh = step->first && !(above && above->feet);
     rooted |= !above;
     if (above) above->loaded = 1;
+  }
+  for (int k = 0; k < plan->coordinates; k++) {
+    if (local->steps[k].feet) local->steps[k].loaded = 1;
   }
 }
 
@@ -150,8 +176,8 @@ static void set_angles(ambulo__plan *plan) {
   }
 }
 
-/* Frames down to each point, and to each body where the centre of mass counts. Groups of points are
- * in order of frames. */
+/* Frames down to each point, and with ground reaction to each body and to where masses stand.
+ * Groups of points are in order of frames. */
 static void set_points(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
   plan->local.world_group = -1;
@@ -166,8 +192,9 @@ static void set_points(ambulo__plan *plan) {
   for (int k = plan->coordinates - 1; k >= 0; k--) {
     int parent = plan->joints[k].parent;
     ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
-    if (step->group >= 0 || step->weighs) step->pointed = 1;
-    if (step->group >= 0 || step->kept) step->placed = 1;
+    if (step->group >= 0 || step->weighs || (plan->grounded && step->body != AMBULO__BODY_NONE)) {
+      step->pointed = 1;
+    }
     if (!step->pointed || !above) continue;
     above->pointed = 1;
     if (step->carried) {
@@ -184,35 +211,82 @@ static void set_point_passes(ambulo__plan *plan) {
   for (int k = 0; k < plan->coordinates; k++) {
     ambulo__local_step *step = &plan->local.steps[k];
     const ambulo__local_step *after = step + 1;
-    step->shown = step->placed || step->group >= 0 || step->weighs;
     step->draws = !step->carries_points || step->weighted || step->group >= 0 || step->weighs ||
                   step->feet != 0;
     step->levers =
         step->draws || after->joint >= AMBULO__SLIDES || after->offset != AMBULO__OFFSET_NONE;
+    int shows = 0, keeps = step->keeps | (step->weighs & 7);
+    if (step->kept || step->feet) shows |= ambulo__shows_place;
+    if (step->group >= 0) shows |= ambulo__shows_points;
+    if (step->weighs) shows |= ambulo__shows_mass;
+    if (step->body != AMBULO__BODY_NONE) shows |= ambulo__shows_body;
+    if (step->group >= 0) keeps |= ambulo__shows_place;
+    if (step->levers) keeps |= ambulo__shows_origin;
+    keeps |= step->joint < AMBULO__SLIDES ? 1 << step->joint : ambulo__shows_axis;
+    step->shows = (uint8_t)shows;
+    step->keeps = (uint8_t)(shows | keeps);
   }
 }
 
-/* Who carries the feet, in the order in which the feet's wrenches go down. */
+/* Adds a joint that carries a foot to the path whose first pivot is given. */
+static void add_carrier(ambulo__local_plan *local, ambulo__local_step *step, int first_pivot) {
+  int pivots = local->pivot_count, slides = step->joint >= AMBULO__SLIDES;
+  ambulo__pivot *pivot = pivots > first_pivot ? &local->pivots[pivots - 1] : NULL;
+  local->carrier[local->carrier_count++] =
+      slides ? (ambulo__carrier){step->at + local_axis, step->input, 1}
+             : (ambulo__carrier){step->at + local_columns + 3 * AMBULO__LANES * step->joint,
+                                 step->input, step->sign};
+  if (pivot && pivot->slides == slides && (slides || step->offset == AMBULO__OFFSET_NONE)) {
+    pivot->count++;
+    return;
+  }
+  local->pivots[local->pivot_count++] = (ambulo__pivot){step->at + local_origin, slides, 1};
+  if (!slides) step->keeps |= ambulo__shows_origin;
+}
+
+/* Who carries the feet. */
 static void set_ground(ambulo__plan *plan) {
   static const int feet[3] = {3, 1, 2};
   ambulo__local_plan *local = &plan->local;
-  int count = 0;
   for (int path = 0; path < 3; path++) {
-    local->carrier_first[path] = count;
+    int first = local->pivot_count;
+    local->pivot_first[path] = first;
+    local->carrier_first[path] = local->carrier_count;
     for (int k = 0; k < plan->coordinates; k++) {
-      ambulo__local_step *step = &local->steps[k];
-      int parent = plan->joints[k].parent;
       if (plan->joints[k].feet != feet[path]) continue;
+      ambulo__local_step *step = &local->steps[k];
       step->vanishes = plan->joints[k].torque_row == AMBULO__ROW_VANISHES;
-      if (step->vanishes) continue;
-      if (count == local->carrier_first[path] && parent > 0) local->steps[parent - 1].placed = 1;
-      local->carrier[count++] = k;
+      if (!step->vanishes) add_carrier(local, step, first);
     }
   }
-  local->carrier_first[3] = count;
+  local->pivot_first[3] = local->pivot_count;
+  local->carrier_first[3] = local->carrier_count;
+  for (int f = 0; f < 2; f++) {
+    local->foot[f] = plan->foot_frame[f] - 1;
+    if (local->foot[f] >= 0) local->steps[local->foot[f]].feet |= (uint8_t)(1 << f);
+  }
+}
+
+/* Masses and moments of kernel_local_points.h. A frame's mass stands at its origin for the parent,
+ * which it then is part of; that of a slider is left where it is. */
+static void set_masses(ambulo__plan *plan) {
+  ambulo__local_step *steps = plan->local.steps;
   for (int k = 0; k < plan->coordinates; k++) {
-    local->steps[k].weighs = local->steps[k].body != AMBULO__BODY_NONE;
-    for (int f = 0; f < 2; f++) local->steps[k].feet |= (plan->foot_frame[f] == k + 1) << f;
+    ambulo__local_step *step = &steps[k];
+    if (step->body == AMBULO__BODY_NONE) continue;
+    step->anchored = step->mass;
+    memcpy(step->moment, step->first_moment, sizeof step->moment);
+  }
+  for (int k = plan->coordinates - 1; k >= 0; k--) {
+    ambulo__local_step *step = &steps[k], *above = step->parent >= 0 ? &steps[step->parent] : NULL;
+    double *moment = above ? above->moment : plan->local.fixed_moment;
+    if (step->joint < AMBULO__SLIDES) {
+      for (int i = 0; i < 3; i++) moment[i] += step->anchored * step->move[i];
+      if (above) above->anchored += step->anchored;
+      step->anchored = 0;
+    }
+    for (int i = 0; i < 3; i++) step->weighs |= (uint8_t)((step->moment[i] != 0) << i);
+    step->weighs |= (uint8_t)((step->anchored != 0) << 3);
   }
 }
 
@@ -220,12 +294,14 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
   size_t d = (size_t)plan->coordinates + 1;
   int slots = (int)plan->scratch;
   ambulo__local_plan *local = &plan->local;
-  local->steps = ambulo__alloc(&plan->allocator, d, sizeof *local->steps);
+  local->steps = ambulo__alloc_aligned(&plan->allocator, d, sizeof *local->steps);
   local->carrier = ambulo__alloc(&plan->allocator, d, sizeof *local->carrier);
+  local->pivots = ambulo__alloc(&plan->allocator, d, sizeof *local->pivots);
   local->limbs = ambulo__alloc(&plan->allocator, d, sizeof *local->limbs);
   local->angles = ambulo__alloc(&plan->allocator, d + ambulo__angle_row, sizeof *local->angles);
   int *open = ambulo__alloc(&plan->allocator, d, sizeof *open);
-  if (!local->steps || !local->carrier || !local->limbs || !local->angles || !open) {
+  if (!local->steps || !local->carrier || !local->pivots || !local->limbs || !local->angles ||
+      !open) {
     ambulo__free(&plan->allocator, open);
     return AMBULO_E_MEMORY;
   }
@@ -240,12 +316,14 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
     set_joint(step, &plan->joints[k]);
     if (body >= 0) set_body(step, &plan->body[body]);
   }
+  if (plan->grounded) set_ground(plan);
   set_forks(plan);
+  set_stored(local, plan->coordinates);
+  if (plan->grounded) set_masses(plan);
   set_limbs(plan, open);
   int shared = set_stems(plan, slots + (int)d * local_slot);
   set_angles(plan);
   ambulo__free(&plan->allocator, open);
-  if (plan->grounded) set_ground(plan);
   set_points(plan);
   set_point_passes(plan);
   plan->scratch += d * local_slot + (size_t)shared * 6 * AMBULO__LANES;
@@ -253,8 +331,9 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan) {
 }
 
 void ambulo__plan_local_free(ambulo__plan *plan) {
-  ambulo__free(&plan->allocator, plan->local.steps);
+  ambulo__free_aligned(&plan->allocator, plan->local.steps);
   ambulo__free(&plan->allocator, plan->local.carrier);
+  ambulo__free(&plan->allocator, plan->local.pivots);
   ambulo__free(&plan->allocator, plan->local.limbs);
   ambulo__free(&plan->allocator, plan->local.angles);
 }

@@ -9,6 +9,9 @@
 #ifndef AMBULO_MECHANICS_PLAN_LOCAL_H
 #define AMBULO_MECHANICS_PLAN_LOCAL_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #include "mechanics/plan.h"
 
 /* Vectors of a slot, in the frame's axes about its origin (3 entries each). The load that a frame
@@ -25,10 +28,9 @@ enum {
   local_weight = local_turn,        /* points' weights from branches, when eta and u are done (6) */
   local_adjoint = 21 * AMBULO__LANES, /* adjoints of w, alpha and a from branches (9) */
   local_angle = 30 * AMBULO__LANES,   /* sine, cosine; q if prismatic */
-  local_axis = 32 * AMBULO__LANES,    /* points, world axes: axis of the joint, */
-  local_columns = 35 * AMBULO__LANES, /* orientation (9), */
-  local_origin = 44 * AMBULO__LANES,  /* origin, */
-  local_first = 47 * AMBULO__LANES,   /* ground reaction: first mass moment, if not placed */
+  local_columns = 32 * AMBULO__LANES, /* points, world axes: orientation (9), */
+  local_axis = 41 * AMBULO__LANES,    /* axis of a slider, */
+  local_origin = 44 * AMBULO__LANES,  /* origin */
   /* odd: else the same vectors of all slots share cache sets. Of the odd sizes from 51 to 73 this
    * one was the fastest with ground reaction (Intel, AVX-512; they differ by 10 %) */
   local_slot = 69 * AMBULO__LANES
@@ -61,44 +63,69 @@ typedef enum ambulo__body_kind {
   AMBULO__BODY_NONE
 } ambulo__body_kind;
 
+/* What is done with a frame in world axes: columns, origin and axis (a slider's) are read by other
+ * steps or passes; points hang on it; with ground reaction it counts in the centre of mass, and its
+ * body's load in the root wrench. */
+enum {
+  ambulo__shows_x = 1,
+  ambulo__shows_y = 2,
+  ambulo__shows_z = 4,
+  ambulo__shows_origin = 8,
+  ambulo__shows_place = 15,
+  ambulo__shows_axis = 16,
+  ambulo__shows_points = 32,
+  ambulo__shows_mass = 64,
+  ambulo__shows_body = 128
+};
+
+/* In the order in which the passes read it: what every step needs fills a line of the cache, the
+ * body's constants fill two. */
 typedef struct ambulo__local_step {
-  ambulo__joint_kind joint;
-  ambulo__offset_kind offset;
-  ambulo__offset_kind moving; /* none if still: the offset then has no acceleration */
-  ambulo__body_kind body;
-  int parent;     /* step, -1: the world */
-  int input;      /* entries of the coordinate in the arrays of the caller */
-  int at, above;  /* slots of the frame and of its parent */
-  int virtual_at; /* eta and u (6): local_turn of the slot in a stem, else a place that the limbs
-                     share */
-  int carried;    /* the parent is the frame of the step before, or the world at the first step */
-  int plain;      /* carried, and neither an offset nor a constant turn comes before the joint */
-  int kept;       /* a step that is not carried starts from this frame */
-  int loaded;     /* local_load holds something when the pass up the tree arrives */
-  int first;      /* top of a rise: first to write the local_load above it */
-  int first_adjoint; /* not carried: first to write the local_adjoint above it */
-  int from_world;
-  int still; /* the parent does not turn */
-  int turned;
-  int pointed;                          /* points hang on the frame or further down */
-  int group;                            /* of points, in plan_steps.h; -1: none */
-  int carries_points;                   /* the step after is carried and pointed */
-  int weighted, first_weight;           /* as loaded and first, for the points' weights */
-  int placed;                           /* its columns in world axes are read by other steps */
-  int shown;                            /* placed, or of a group, or weighs */
-  int draws;                            /* weights come to those of the step after */
-  int levers;                           /* and their moment is not that of the step after */
-  int vanishes;                         /* ground reaction: tau is zero, see plan_ground.c */
-  int weighs;                           /* ground reaction: the body counts in the centre of mass */
-  int feet;                             /* ground reaction: feet on this frame (1, 2, both: 3) */
-  double sign;                          /* of a revolute joint's axis */
-  double turn[9];                       /* oblique axis: the turned frame in the parent frame */
-  double slide[3];                      /* prismatic: the axis in the frame */
-  double move[3];                       /* offset of the origin, parent frame */
-  double length;                        /* the offset, if it is along one axis */
+  _Alignas(64) uint8_t joint; /* ambulo__joint_kind */
+  uint8_t offset;             /* ambulo__offset_kind */
+  uint8_t moving;             /* the same, none if still: the offset then has no acceleration */
+  uint8_t body;               /* ambulo__body_kind */
+  bool carried;        /* the parent is the frame of the step before, or the world at the first */
+  bool plain;          /* carried, and neither an offset nor a constant turn before the joint */
+  bool kept;           /* a step that is not carried starts from this frame */
+  bool stored;         /* kept, or the reverse sweep starts from it: it knows no child's motion */
+  bool unwinds;        /* the reverse sweep goes on to a parent whose motion is not stored */
+  bool loaded;         /* local_load holds something when the pass up the tree arrives */
+  bool first;          /* top of a limb: first of the branches, and no body, above it */
+  bool first_adjoint;  /* not carried: first to write the local_adjoint above it */
+  bool from_world;     /* the parent is the world */
+  bool still;          /* the parent does not turn */
+  bool turned;         /* the axis is oblique */
+  bool pointed;        /* points hang on the frame or further down */
+  bool carries_points; /* the step after is carried and pointed */
+  bool weighted;       /* as loaded, for the points' weights */
+  bool first_weight;   /* as first, for the points' weights */
+  uint8_t shows;       /* of ambulo__shows_x etc. */
+  uint8_t keeps;       /* the same, when a gradient follows */
+  bool draws;          /* weights come to those of the step after */
+  bool levers;         /* and their moment is not that of the step after */
+  bool vanishes;       /* ground reaction: tau is zero, see plan_ground.c */
+  int parent;          /* step, -1: the world */
+  int input;           /* entries of the coordinate in the arrays of the caller */
+  int at, above;       /* slots of the frame and of its parent */
+  int virtual_at;      /* eta and u (6): local_turn of the slot in a stem, else a place that the
+                          limbs share */
+  int group;           /* of points, in plan_steps.h; -1: none */
+  double sign;         /* of a revolute joint's axis */
+  double length;       /* the offset, if it is along one axis */
+
   double mass, com[3], first_moment[3]; /* mass times com */
   double inertia[6];                    /* about the centre of mass: xx yy zz xy xz yz */
   double difference[3];                 /* zz - yy, xx - zz, yy - xx */
+
+  double turn[9];  /* oblique axis: the turned frame in the parent frame */
+  double slide[3]; /* prismatic: the axis in the frame */
+  double move[3];  /* offset of the origin, parent frame */
+
+  /* ground reaction */
+  uint8_t weighs;             /* bits 0 to 2: components of `moment`; 3: `anchored` */
+  uint8_t feet;               /* on this frame (1, 2, both: 3) */
+  double moment[3], anchored; /* b and m of kernel_local_points.h */
 } ambulo__local_step;
 
 /* The angle sign q + shift, and where its sine and cosine go. */
@@ -115,7 +142,26 @@ enum { ambulo__angle_row = 4 };
  * carries to its parent's. */
 typedef struct ambulo__limb {
   int first, stem, leaf, top;
+  int rise;  /* the last frame that passes its load on: `top`, or, with ground reaction, the one
+                below a joint that carries the whole body: there loads cancel */
+  int ends;  /* it is the latter */
+  int fresh; /* first to write the local_load above `top` */
 } ambulo__limb;
+
+/* A joint that carries a foot, and where its axis in world axes stands (a slider's with its sign).
+ */
+typedef struct ambulo__carrier {
+  int axis_at;
+  int input;
+  double sign;
+} ambulo__carrier;
+
+/* Hinges that follow each other on a path and share an origin, or sliders. */
+typedef struct ambulo__pivot {
+  int origin_at;
+  int slides;
+  int count;
+} ambulo__pivot;
 
 typedef struct ambulo__local_plan {
   ambulo__local_step *steps; /* [coordinates] */
@@ -124,12 +170,16 @@ typedef struct ambulo__local_plan {
   ambulo__local_angle *angles; /* [angle_count]; the last is repeated to fill a row of
                                   ambulo__angle_row */
   int angle_count;
-  int world_at;    /* slot of the world */
-  int branched;    /* several joints stand on the world */
-  int world_group; /* points fixed to the world, -1: none */
+  int world_at;           /* slot of the world */
+  int branched;           /* several joints stand on the world */
+  int world_group;        /* points fixed to the world, -1: none */
+  double fixed_moment[3]; /* ground reaction: b of the world, without the bodies fixed to it */
+  int foot[2]; /* ground reaction: step of the frame that a foot's wrench acts on, -1: none */
   /* Ground reaction: the joints that carry both feet but whose tau does not vanish, then those that
    * carry foot 0 alone, then foot 1, each from the root on. */
-  int *carrier, carrier_first[4];
+  ambulo__carrier *carrier;
+  ambulo__pivot *pivots;
+  int carrier_count, pivot_count, carrier_first[4], pivot_first[4];
 } ambulo__local_plan;
 
 #endif

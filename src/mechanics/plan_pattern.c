@@ -2,8 +2,7 @@
  *
  * Coordinates are numbered parents first, so that in the row of tau_i the ancestors of i come
  * before i and its descendants after it. Moment and force depend on every coordinate, a point on
- * the coordinates between it and the world; with ground reaction, what carries a foot depends on
- * every coordinate, as do the wrenches of the feet and the centre of mass.
+ * the coordinates between it and the world.
  *
  * Without ground reaction, a displacement of all moving bodies along s meets the force on all of
  * them: tau = s . (F - F_0), with F_0 the weight, constant, of the bodies fixed to the world. If s
@@ -11,6 +10,14 @@
  * chain of such joints, beginning at the world, has no entries: the root of most bodies. (Behind
  * another joint, as an oblique one, they keep their rows, so that kernels find those without
  * entries first among the ancestors.)
+ *
+ * With ground reaction, (dM, dF) the rows of the root wrench and n . dF by qdd over m that of the
+ * centre of mass's height by q, the split (kernel_jacobian_ground.h) is made of products with
+ * factors that change from node to node:
+ *   tau_i:      its entries, + 6 factors on (dM, dF), + one on n . dF by qdd
+ *   F_0, F_1:   a_f dF -+ g (n . dF) +- g' (n . dF by qdd),   g and g' along D
+ *   T_f:        6 factors on (dM, dF)
+ * The feet's factors are a_0, a_1, g (3), g' (3), those of T_0 and those of T_1.
  */
 #include "mechanics/plan_build.h"
 
@@ -54,15 +61,13 @@ static void find_followers(ambulo__plan *plan) {
   }
 }
 
+static int has_entries(const ambulo__plan *plan, int i) {
+  int row = plan->joints[i].torque_row;
+  return row == AMBULO__ROW_SPARSE || row == AMBULO__ROW_REACTS;
+}
+
 static int in_torque_row(const ambulo__plan *plan, int i, int j) {
-  switch (plan->joints[i].torque_row) {
-  case AMBULO__ROW_SPARSE:
-    return is_ancestor(plan, j, i) || is_ancestor(plan, i, j);
-  case AMBULO__ROW_DENSE:
-    return 1;
-  default:
-    return 0;
-  }
+  return has_entries(plan, i) && (is_ancestor(plan, j, i) || is_ancestor(plan, i, j));
 }
 
 static void count_entries(ambulo__plan *plan, size_t *pairs) {
@@ -73,10 +78,21 @@ static void count_entries(ambulo__plan *plan, size_t *pairs) {
     for (int j = 0; j < d; j++) count += in_torque_row(plan, i, j);
   }
   count += 6 * d;
-  count += plan->grounded ? 5 * d : 0;
   plan->dynamic_count = count;
   for (int i = 0; i < plan->points; i++) count += 3 * depth_of(plan, plan->point[i].frame - 1);
   plan->count = count;
+}
+
+/* Behind the entries. */
+static void place_factors(ambulo__plan *plan) {
+  if (!plan->grounded) return;
+  for (int k = 0; k < plan->coordinates; k++) {
+    if (plan->joints[k].torque_row != AMBULO__ROW_REACTS) continue;
+    plan->joints[k].factors = plan->count;
+    plan->count += AMBULO__TAU_FACTORS;
+  }
+  plan->foot_factors = plan->count;
+  plan->count += AMBULO__FOOT_FACTORS;
 }
 
 /* Rows that depend on all coordinates. */
@@ -103,23 +119,12 @@ static void fill_rows(ambulo__plan *plan) {
     write_chain(plan, coordinate, plan->column + at);
     at += depth_of(plan, coordinate);
   }
-  if (plan->grounded) { /* of foot 0, the force on foot 1, its free moment, the centre of mass */
-    fill_full_rows(plan, row, 4, &at);
-    for (int i = 4; i < 7; i++) plan->start[row + i] = at;
-    fill_full_rows(plan, row + 7, 1, &at);
-    for (int i = 8; i < 11; i++) plan->start[row + i] = at;
-    row += 11;
-  }
-  plan->start[row] = at;
+  for (; row <= ambulo__plan_rows(plan); row++) plan->start[row] = at;
 }
 
 static void fill_rate_starts(ambulo__plan *plan) {
-  int feet = ambulo__plan_first_foot_row(plan), wrench_end = plan->coordinates + 6;
   for (int row = 0; row < ambulo__plan_rows(plan); row++) {
-    plan->rate_start[row] = -1;
-    if (row < wrench_end) plan->rate_start[row] = plan->start[row];
-    if (row < feet || plan->start[row] == plan->start[row + 1]) continue;
-    plan->rate_start[row] = plan->start[row] - plan->start[feet] + plan->start[wrench_end];
+    plan->rate_start[row] = row < plan->coordinates + 6 ? plan->start[row] : -1;
   }
 }
 
@@ -134,7 +139,7 @@ static void fill_ancestors(ambulo__plan *plan) {
     for (int t = 0; t < depth - 1; t++, at++) {
       int j = plan->ancestor[at], entry = plan->start[j];
       plan->upper[at] = -1;
-      if (plan->joints[j].torque_row != AMBULO__ROW_SPARSE) continue;
+      if (!has_entries(plan, j)) continue;
       while (plan->column[entry] != i) entry++;
       plan->upper[at] = entry;
     }
@@ -143,19 +148,18 @@ static void fill_ancestors(ambulo__plan *plan) {
 }
 
 /* Where the row of tau_i has the inertia that couples it with q_j, j above i, there the row of
- * tau_j has it with q_i; and if that is the row of the force F_k, that one. */
+ * tau_j has it with q_i; and if q_j is a displacement along world axis k, the row of F_k. */
 static int mirrored(const ambulo__plan *plan, int i, int ancestor, int entry) {
-  const ambulo__joint *above = &plan->joints[plan->ancestor[ancestor]];
+  int axis = ambulo__plan_world_axis(&plan->joints[plan->ancestor[ancestor]]);
   if (plan->upper[ancestor] >= 0) return plan->upper[ancestor];
-  if (above->torque_row != AMBULO__ROW_FOLLOWS || above->sign < 0) return entry;
-  return plan->start[plan->coordinates + 3 + above->axis] + i;
+  return axis < 0 ? entry : plan->start[plan->coordinates + 3 + axis] + i;
 }
 
 static void fill_mass_entries(ambulo__plan *plan) {
   for (int e = 0; e < plan->dynamic_count; e++) plan->by_qdd[e] = e;
   for (int i = 0; i < plan->coordinates; i++) {
     int entry = plan->start[i];
-    if (plan->joints[i].torque_row != AMBULO__ROW_SPARSE) continue;
+    if (!has_entries(plan, i)) continue;
     for (int at = plan->ancestor_start[i]; at < plan->ancestor_start[i + 1]; at++, entry++) {
       plan->by_qdd[entry] = mirrored(plan, i, at, entry);
     }
@@ -182,25 +186,62 @@ ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan) {
   fill_rate_starts(plan);
   fill_ancestors(plan);
   fill_mass_entries(plan);
+  place_factors(plan);
   return AMBULO_OK;
 }
 
-int ambulo__plan_parts(const ambulo__plan *plan, int row, ambulo__row_part part[2]) {
-  int feet = ambulo__plan_first_foot_row(plan), force = plan->coordinates + 3;
-  part[0] = (ambulo__row_part){row, 0, 1};
-  if (row < plan->coordinates && plan->joints[row].torque_row == AMBULO__ROW_FOLLOWS) {
-    const ambulo__joint *joint = &plan->joints[row]; /* its axis is one of the world frame */
-    part[0] = (ambulo__row_part){force + joint->axis, 0, joint->sign};
+/* Adds the parts that n . dF has, or n . dF by qdd. */
+static int add_normal(const ambulo__plan *plan, int by_acceleration, int times, double factor,
+                      ambulo__row_part *part) {
+  int count = 0;
+  for (int k = 0; k < 3; k++) {
+    if (plan->up[k] == 0) continue;
+    part[count++] =
+        (ambulo__row_part){plan->coordinates + 3 + k, by_acceleration, times, factor * plan->up[k]};
+  }
+  return count;
+}
+
+/* ... and a product with all rows of the root wrench. */
+static int add_wrench(const ambulo__plan *plan, int times, ambulo__row_part *part) {
+  for (int k = 0; k < 6; k++) {
+    part[k] = (ambulo__row_part){plan->coordinates + k, 0, times + k, 1};
+  }
+  return 6;
+}
+
+static int foot_force_parts(const ambulo__plan *plan, int foot, int k, ambulo__row_part *part) {
+  int at = plan->foot_factors, sign = foot ? -1 : 1, count = 1;
+  part[0] = (ambulo__row_part){plan->coordinates + 3 + k, 0, at + factor_share + foot, 1};
+  count += add_normal(plan, 0, at + factor_shear + k, -sign, part + count);
+  return count + add_normal(plan, 1, at + factor_fall + k, sign, part + count);
+}
+
+/* Rows of the feet and of the centre of mass, the first of which is row 0 here. */
+static int ground_parts(const ambulo__plan *plan, int row, ambulo__row_part *part) {
+  int foot = row / 4, k = row % 4;
+  if (row >= 8) { /* a step of q_j moves it as qdd_j accelerates it */
+    part[0] = (ambulo__row_part){plan->coordinates + 3 + k, 1, -1, 1 / plan->mass};
     return 1;
   }
-  if (!plan->grounded || row < feet + 4 || row == feet + 7) return 1;
-  if (row > feet + 7) { /* a step of q_j moves it as qdd_j accelerates it */
-    part[0] = (ambulo__row_part){force + row - feet - 8, 1, 1 / plan->mass};
-    return 1;
+  if (k < 3) return foot_force_parts(plan, foot, k, part);
+  return add_wrench(plan, plan->foot_factors + factor_twist + 6 * foot, part);
+}
+
+int ambulo__plan_parts(const ambulo__plan *plan, int row,
+                       ambulo__row_part part[AMBULO__MOST_PARTS]) {
+  int feet = ambulo__plan_first_foot_row(plan), count = 1;
+  if (row >= feet) return ground_parts(plan, row - feet, part);
+  part[0] = (ambulo__row_part){row, 0, -1, 1};
+  if (row >= plan->coordinates) return 1;
+  const ambulo__joint *joint = &plan->joints[row];
+  if (joint->torque_row == AMBULO__ROW_FOLLOWS) { /* its axis is one of the world frame */
+    part[0] = (ambulo__row_part){plan->coordinates + 3 + joint->axis, 0, -1, joint->sign};
+  } else if (joint->torque_row == AMBULO__ROW_REACTS) {
+    count += add_wrench(plan, joint->factors, part + count);
+    count += add_normal(plan, 1, joint->factors + 6, 1, part + count);
   }
-  part[0].row = force + row - feet - 4;
-  part[1] = (ambulo__row_part){row - 4, 0, -1};
-  return 2;
+  return count;
 }
 
 ambulo__plan_pattern ambulo__plan_get_pattern(const ambulo__plan *plan) {

@@ -1,5 +1,5 @@
 /* mechanics/plan_place.c - where everything that the Jacobians keep stands in the scratch, and the
- * ground's wrenches, which all kernels keep in one place.
+ * ground's wrenches, which they and the reverse sweep read in one place.
  *
  * The kernels in the frames' own axes have slots of their own, behind this (plan_local.c).
  */
@@ -28,15 +28,15 @@ static void find_last_carried(ambulo__plan *plan) {
 }
 
 /* The lowest place among equal ones from `base` on that no frame holds that is still needed: with
- * the last coordinate that it carries its limb ends, and the next takes over its place, unless
- * ground reaction comes back to it. */
-static int lowest_free(const ambulo__plan *plan, int k, int base, int entries,
+ * the last coordinate that it carries its limb ends, and the next takes over its place; `kept`:
+ * unless all are needed to the end. */
+static int lowest_free(const ambulo__plan *plan, int k, int base, int entries, int kept,
                        int (*place_of)(const ambulo__plan *, int)) {
   int at = base, is_free = 0;
   while (!is_free) {
     is_free = 1;
     for (int f = 0; f < k; f++) {
-      int needed = plan->grounded || plan->frames[f + 1].last_carried >= k;
+      int needed = kept || plan->frames[f + 1].last_carried >= k;
       if (!needed || place_of(plan, f) != at) continue;
       at += entries * AMBULO__LANES;
       is_free = 0;
@@ -58,13 +58,14 @@ static void enlarge(size_t *used, int at, int entries) {
   if (end > *used) *used = end;
 }
 
-/* Motions of the joints, and sums over subtrees where they are stored; masses are constants. */
+/* Motions of the joints, to which ground reaction comes back, and sums over subtrees where they are
+ * stored; masses are constants. */
 static void place_jacobian(ambulo__plan *plan, size_t *used) {
-  const int motion = 18;
+  const int motion = 18, kept = plan->grounded;
   plan->frames[0].subtree_at = take(used, AMBULO__SUBTREE);
   int motions = (int)*used;
   for (int k = 0; k < plan->coordinates; k++) {
-    plan->joints[k].motion_at = lowest_free(plan, k, motions, motion, motion_place);
+    plan->joints[k].motion_at = lowest_free(plan, k, motions, motion, kept, motion_place);
     enlarge(used, plan->joints[k].motion_at, motion);
   }
   int subtrees = (int)*used;
@@ -74,13 +75,11 @@ static void place_jacobian(ambulo__plan *plan, size_t *used) {
     frame->subtree_mass = frame->body >= 0 ? plan->body[frame->body].mass : 0;
     frame->subtree_at = -1;
     if (!own) continue;
-    frame->subtree_at = lowest_free(plan, k, subtrees, AMBULO__SUBTREE, subtree_place);
+    frame->subtree_at = lowest_free(plan, k, subtrees, AMBULO__SUBTREE, 0, subtree_place);
     enlarge(used, frame->subtree_at, AMBULO__SUBTREE);
   }
   for (int k = plan->coordinates - 1; k >= 0; k--) {
-    ambulo__joint *joint = &plan->joints[k];
-    plan->frames[joint->parent].subtree_mass += plan->frames[k + 1].subtree_mass;
-    if (joint->torque_row == AMBULO__ROW_DENSE) joint->reaction_at = take(used, 17);
+    plan->frames[plan->joints[k].parent].subtree_mass += plan->frames[k + 1].subtree_mass;
   }
   plan->positions_at = take(used, 3 * plan->points);
 }
@@ -98,6 +97,6 @@ void ambulo__plan_place(ambulo__plan *plan) {
     plan->joints[k].still = is_still(plan, &plan->joints[k]);
   }
   find_last_carried(plan);
-  if (plan->grounded) plan->ground_at = take(used, 23);
+  if (plan->grounded) plan->ground_at = take(used, 20);
   place_jacobian(plan, used);
 }

@@ -12,8 +12,7 @@ static int is_straight(const ambulo__joint *joint) {
   return !joint->revolute && joint->still;
 }
 
-/* The world axis of a straight joint, -1: another direction. */
-static int world_axis(const ambulo__joint *joint) {
+int ambulo__plan_world_axis(const ambulo__joint *joint) {
   return is_straight(joint) && joint->sign > 0 && !joint->turned ? joint->axis : -1;
 }
 
@@ -28,8 +27,8 @@ static int subtree_of(const ambulo__plan *plan, int frame) {
   return -1;
 }
 
-static int follows(const ambulo__joint *joint) {
-  return joint->torque_row == AMBULO__ROW_FOLLOWS;
+static int is_rowless(const ambulo__joint *joint) {
+  return joint->torque_row == AMBULO__ROW_FOLLOWS || joint->torque_row == AMBULO__ROW_VANISHES;
 }
 
 /* How many of the first `count` joints of a list are of a kind. */
@@ -43,19 +42,16 @@ static int count_first(const ambulo__plan *plan, const int *joints, int count,
 static void emit_changes(ambulo__plan *plan) {
   for (int k = 0; k < plan->coordinates; k++) {
     const ambulo__frame *frame = &plan->frames[k + 1];
-    int bare = is_straight(&plan->joints[k]) &&
-               (!plan->grounded || plan->joints[k].torque_row == AMBULO__ROW_VANISHES);
     int first = plan->ancestor_start[k], count = plan->ancestor_start[k + 1] - first;
     const int *above = plan->ancestor + first;
     plan->steps.changes[k] = (ambulo__change_step){
         .motion = plan->joints[k].motion_at,
-        .bare = bare,
         .subtree = subtree_of(plan, k + 1),
         .first = first,
-        .followers = count_first(plan, above, count, follows),
+        .rowless = count_first(plan, above, count, is_rowless),
         .straight = count_first(plan, above, count, is_straight),
         .is_straight = is_straight(&plan->joints[k]),
-        .follows = follows(&plan->joints[k]),
+        .is_rowless = is_rowless(&plan->joints[k]),
         .count = count,
         .lower = lanes(plan->start[k]),
         .mass = frame->subtree_mass,
@@ -63,7 +59,7 @@ static void emit_changes(ambulo__plan *plan) {
     for (int i = first; i < first + count; i++) {
       const ambulo__joint *joint = &plan->joints[plan->ancestor[i]];
       plan->steps.pairs[i] =
-          (ambulo__pair){joint->motion_at, lanes(plan->upper[i]), world_axis(joint)};
+          (ambulo__pair){joint->motion_at, lanes(plan->upper[i]), ambulo__plan_world_axis(joint)};
     }
   }
 }

@@ -22,14 +22,14 @@ typedef struct ambulo__body {
 
 /* A joint's row and column of the Jacobians: pairs first .. first + count of
  * ancestors, and the joint itself. The first `straight` pairs are with straight
- * joints, the first `followers` of these with joints whose own rows of tau are
- * rows of the root force and have no entries. */
+ * joints, the first `rowless` pairs with joints whose own rows of tau have no
+ * entries. */
 typedef struct ambulo__change_step {
-  int motion, bare; /* bare: only S is read, for its derivatives vanish */
-  int subtree;      /* where its subtree stands: in the slot of the frame, or of its only child */
-  int first, followers, straight, count, lower;
-  int is_straight; /* prismatic along an axis that stands still */
-  int follows;     /* its own row has no entries; then nor have those of its ancestors */
+  int motion;
+  int subtree; /* where its subtree stands: in the slot of the frame, or of its only child */
+  int first, rowless, straight, count, lower;
+  int is_straight; /* prismatic along an axis that stands still: of its motion only S is read */
+  int is_rowless;  /* its own row has no entries; then nor have those of its ancestors */
   double mass;
 } ambulo__change_step;
 

@@ -205,6 +205,7 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
                          workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
                          workspace->scratch);
+    ambulo__wrench_gather(workspace, b);
   }
   workspace->jacobians++;
   workspace->has_jacobian = 1;

@@ -1,8 +1,7 @@
 /* nlp/local_rows.c - gradients of channels and rows with respect to a node's local unknowns.
  *
  * A node's motion is D^o q_i = sum_c b_o[c] x[(first + c) d + i] (trajectory/basis.h). A
- * channel y with partial derivatives y_q, y_qd, y_qdd (columns of the mechanics' pattern)
- * therefore has
+ * channel y with partial derivatives y_q, y_qd, y_qdd therefore has
  *
  *   dy / dx[(first + c) d + i] = b_0[c] y_q[i] + b_1[c] y_qd[i] + b_2[c] y_qdd[i]
  *
@@ -20,40 +19,18 @@ static void add_motion(const ambulo__basis_point *point, int d, int order, int i
   for (int c = 0; c < point->span; c++) gradient[c * d + i] += factor * point->weight[order][c];
 }
 
-/* adds factor * (gradient of a row of the mechanics that has entries) */
-static void add_entries(const ambulo_workspace *workspace, int node, ambulo__row_part part,
-                        double factor, double *gradient) {
-  const ambulo_problem *p = workspace->problem;
-  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  int d = p->coordinates, start = pattern.start[part.row], rates = pattern.rate_start[part.row];
-  for (int e = start; e < pattern.start[part.row + 1]; e++) {
-    int i = pattern.column[e];
-    double jq = factor * workspace->jq[ambulo__lane_index(node, pattern.count, e)];
-    double jqd = 0.0, jqdd = 0.0;
-    if (rates >= 0) {
-      int at = rates + e - start, n = pattern.dynamic_count;
-      jqd = factor * workspace->jqd[ambulo__lane_index(node, n, at)];
-      jqdd = factor * workspace->jqdd[ambulo__lane_index(node, n, pattern.by_qdd[at])];
-    }
-    if (part.by_acceleration) {
-      jq = jqdd;
-      jqd = jqdd = 0.0;
-    }
-    for (int c = 0; c < point->span; c++) {
-      gradient[c * d + i] +=
-          point->weight[0][c] * jq + point->weight[1][c] * jqd + point->weight[2][c] * jqdd;
-    }
-  }
-}
-
 /* adds factor * (gradient of mechanics output row `output`) */
 static void add_output(const ambulo_workspace *workspace, int node, int output, double factor,
                        double *gradient) {
-  ambulo__row_part part[2];
-  int parts = ambulo__plan_parts(workspace->problem->plan, output, part);
-  for (int k = 0; k < parts; k++) {
-    add_entries(workspace, node, part[k], factor * part[k].factor, gradient);
+  const ambulo_problem *p = workspace->problem;
+  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
+  const int d = p->coordinates;
+  const double *y = workspace->motion_scratch;
+  ambulo__output_gradient(workspace, node, output, workspace->motion_scratch);
+  for (int c = 0; c < point->span; c++, gradient += d) {
+    const double b0 = factor * point->weight[0][c], b1 = factor * point->weight[1][c];
+    const double b2 = factor * point->weight[2][c];
+    for (int i = 0; i < d; i++) gradient[i] += b0 * y[i] + b1 * y[d + i] + b2 * y[2 * d + i];
   }
 }
 

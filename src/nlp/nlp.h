@@ -58,10 +58,13 @@ struct ambulo_workspace {
   double *row_value;            /* [rows] */
   double *term_value;           /* [terms] */
   double objective;
-  double *user_gradient; /* [user row instances][channels]: slopes of user rows */
-  int *user_slot;        /* [rows]: index into user_gradient, or -1 */
-  double *node_state;    /* scratch for callbacks: [2][channels] */
-  double *local_scratch; /* scratch for one local gradient: [span * d] */
+  double *user_gradient;  /* [user row instances][channels]: slopes of user rows */
+  int *user_slot;         /* [rows]: index into user_gradient, or -1 */
+  double *node_state;     /* scratch for callbacks: [2][channels] */
+  double *local_scratch;  /* scratch for one local gradient: [span * d] */
+  double *motion_scratch; /* ... for one output's gradient by q, qd, qdd: [3][d] */
+  double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
+                             without ground reaction */
   long evaluations, jacobians;
   double seconds_evaluate;
 };
@@ -96,6 +99,14 @@ static inline const double *ambulo__ground_block(const double *ground, int block
 
 /* ------------------------------------------------------------- local rows */
 
+/* Entries of workspace->wrench per node and order. */
+int ambulo__wrench_entries(const ambulo_problem *problem);
+/* Fills it for a block whose Jacobians are there. */
+void ambulo__wrench_gather(ambulo_workspace *workspace, int block);
+/* After ambulo__evaluate_jacobian: gradient[3][d] of an output of the mechanics
+ * (mechanics/plan.h) at a node by q, qd and qdd. */
+void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
+                             double *gradient);
 /* After ambulo__evaluate_jacobian: gradient of row r with respect to the local
  * unknowns of its node (local rows only): gradient[span * d], zero-filled first. */
 void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient);

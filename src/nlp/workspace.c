@@ -32,9 +32,17 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->user_slot = ambulo__alloc(a, (size_t)p->rows, sizeof *w->user_slot);
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
   w->local_scratch = ambulo__alloc_aligned(a, (size_t)max_local_width(p), word);
+  w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
+  size_t wrench = (size_t)p->nodes * (size_t)ambulo__wrench_entries(p);
+  int grounded = wrench > 0, gathered = 0;
+  for (int o = 0; o < 3 && grounded; o++) {
+    w->wrench[o] = ambulo__alloc_aligned(a, wrench, word);
+    gathered += w->wrench[o] != NULL;
+  }
   int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch && w->jq &&
                  w->jqd && w->jqdd && w->row_value && w->term_value && w->user_gradient &&
-                 w->user_slot && w->node_state && w->local_scratch;
+                 w->user_slot && w->node_state && w->local_scratch && w->motion_scratch &&
+                 gathered == 3 * grounded;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
@@ -76,7 +84,11 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->term_value,
                        w->user_gradient,
                        w->node_state,
-                       w->local_scratch};
+                       w->local_scratch,
+                       w->motion_scratch,
+                       w->wrench[0],
+                       w->wrench[1],
+                       w->wrench[2]};
   for (size_t i = 0; i < sizeof aligned / sizeof *aligned; i++)
     ambulo__free_aligned(&a, aligned[i]);
   ambulo__free(&a, w->user_slot);

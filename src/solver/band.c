@@ -49,6 +49,10 @@ void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, 
          band->a + (size_t)first * (size_t)band->ld, &ld);
 }
 
+static void add_scaled(int count, double factor, const double *restrict from, double *restrict to) {
+  for (int k = 0; k < count; k++) to[k] += factor * from[k];
+}
+
 void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
                              double weight) {
   int from = rows->start[i], to = rows->start[i + 1];
@@ -57,8 +61,10 @@ void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows
     double factor = weight * rows->value[f];
     if (factor == 0.0) continue;
     double *diagonal = band->a + (size_t)rows->column[f] * (size_t)band->ld;
-    for (int e = f; e < to; e++)
-      diagonal[rows->column[e] - rows->column[f]] += factor * rows->value[e];
+    for (int e = f; e < to; e = rows->run_end[e]) {
+      add_scaled(rows->run_end[e] - e, factor, rows->value + e,
+                 diagonal + rows->column[e] - rows->column[f]);
+    }
   }
 }
 

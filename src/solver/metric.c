@@ -164,21 +164,15 @@ void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *w
   }
 }
 
-/* |dy / dqdd|^2 of a channel: for a torque a row of the mass matrix */
+/* |dy / dqdd|^2 of a channel: for a torque, without ground reaction, a row of the mass matrix */
 static double acceleration_slope(const ambulo_workspace *workspace, int node, int channel) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  int output = channel - ambulo__channel_outputs(&p->channels);
-  if (output < 0 || output >= p->coordinates + 6) return 1.0;
-  ambulo__row_part part[2]; /* tau and wrench have one, as large as themselves */
-  (void)ambulo__plan_parts(p->plan, output, part);
-  int row = part[0].row, count = pattern.start[row + 1] - pattern.start[row];
+  int d = p->coordinates, output = channel - ambulo__channel_outputs(&p->channels);
+  if (output < 0 || output >= d + 6) return 1.0;
+  const double *slope = workspace->motion_scratch + 2 * d;
   double sum = 0.0;
-  for (int e = pattern.rate_start[row]; e < pattern.rate_start[row] + count; e++) {
-    double slope =
-        workspace->jqdd[ambulo__lane_index(node, pattern.dynamic_count, pattern.by_qdd[e])];
-    sum += slope * slope;
-  }
+  ambulo__output_gradient(workspace, node, output, workspace->motion_scratch);
+  for (int i = 0; i < d; i++) sum += slope[i] * slope[i];
   return sum;
 }
 

@@ -49,18 +49,25 @@ static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
   return 1;
 }
 
+static void mark_coordinate(const ambulo_problem *p, int node, int i, double *mark) {
+  const ambulo__basis_point *point = point_of(p, node);
+  for (int c = 0; c < point->span; c++) mark[(point->first + c) * p->coordinates + i] = 1.0;
+}
+
 /* marks the unknowns through which a channel of a node depends on x */
 static void mark_channel(const ambulo_problem *p, int node, int channel, double *mark) {
-  const ambulo__basis_point *point = point_of(p, node);
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  int d = p->coordinates, output = channel - ambulo__channel_outputs(&p->channels);
-  ambulo__row_part part[2]; /* two depend on the same unknowns */
-  if (output >= 0) (void)ambulo__plan_parts(p->plan, output, part);
-  int from = output < 0 ? 0 : pattern.start[part[0].row];
-  int to = output < 0 ? 1 : pattern.start[part[0].row + 1];
-  for (int e = from; e < to; e++) {
-    int i = output < 0 ? channel % d : pattern.column[e];
-    for (int c = 0; c < point->span; c++) mark[(point->first + c) * d + i] = 1.0;
+  ambulo__row_part part[AMBULO__MOST_PARTS];
+  int output = channel - ambulo__channel_outputs(&p->channels);
+  if (output < 0) {
+    mark_coordinate(p, node, channel % p->coordinates, mark);
+    return;
+  }
+  int parts = ambulo__plan_parts(p->plan, output, part);
+  for (int k = 0; k < parts; k++) {
+    for (int e = pattern.start[part[k].row]; e < pattern.start[part[k].row + 1]; e++) {
+      mark_coordinate(p, node, pattern.column[e], mark);
+    }
   }
 }
 
@@ -94,6 +101,16 @@ static int list_columns(const ambulo_problem *p, int host, const double *mark, i
   return count;
 }
 
+void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
+  for (int i = 0; i < s->count; i++) {
+    int last = s->start[i + 1] - 1, end = last + 1;
+    for (int e = last; e >= s->start[i]; e--) {
+      if (e < last && s->column[e + 1] != s->column[e] + 1) end = e + 1;
+      s->run_end[e] = end;
+    }
+  }
+}
+
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *rows, int count,
                                          ambulo__pool *pool, ambulo__sparse_rows *s) {
   size_t n = (size_t)count;
@@ -117,12 +134,14 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
     s->start[i + 1] = s->start[i] + list_columns(p, s->host[i], s->dense, NULL);
   }
   s->column = ambulo__pool_ints(pool, (size_t)s->start[count]);
+  s->run_end = ambulo__pool_ints(pool, (size_t)s->start[count]);
   s->value = ambulo__pool_doubles(pool, (size_t)s->start[count]);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     mark_row(p, &p->table.rows[rows[i]], s->dense);
     list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
   }
+  ambulo__sparse_rows_find_runs(s);
   return AMBULO_OK;
 }
 

@@ -23,6 +23,7 @@ typedef struct ambulo__sparse_rows {
   double *scale;
   int *start; /* [count + 1] */
   int *column;
+  int *run_end; /* of each entry: where the run of consecutive columns that it is in ends */
   double *value;
   double *dense; /* [variables + one window]: scratch for one gradient */
 } ambulo__sparse_rows;
@@ -33,6 +34,8 @@ int ambulo__row_host(const ambulo_problem *problem, int row);
 /* rows[count] with scale 1. Constant gradients are filled by the first fill. */
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *problem, const int *rows, int count,
                                          ambulo__pool *pool, ambulo__sparse_rows *out);
+/* Writes run_end from start and column. */
+void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *rows);
 /* Gradients at the point held (ambulo__evaluate_jacobian); `all` includes constant ones. */
 void ambulo__sparse_rows_fill(ambulo__sparse_rows *rows, const ambulo_workspace *workspace,
                               int all);

@@ -146,17 +146,18 @@ static inline void case_dense(const kernel_case *c, const double *entries, int o
   ambulo__plan_pattern p = ambulo__plan_get_pattern(c->plan);
   memset(dense, 0, (size_t)(c->rows * c->d) * sizeof *dense);
   for (int row = 0; row < c->rows; row++) {
-    ambulo__row_part part[2];
+    ambulo__row_part part[AMBULO__MOST_PARTS];
     int parts = ambulo__plan_parts(c->plan, row, part);
     for (int k = 0; k < parts; k++) {
       int from = part[k].row, by = part[k].by_acceleration ? 2 : order;
       if (by > 0 && p.rate_start[from] < 0) continue;
       if (part[k].by_acceleration && order > 0) continue;
       int block = by > 0 ? p.count + (by - 1) * p.dynamic_count : 0;
-      int at = block + (by > 0 ? p.rate_start[from] : p.start[from]);
+      int at = block + (by > 0 ? p.rate_start[from] : p.start[from]), times = part[k].times;
+      double factor = part[k].factor * (times < 0 ? 1 : entries[times * AMBULO__LANES + lane]);
       for (int e = p.start[from]; e < p.start[from + 1]; e++, at++) {
         int place = by == 2 ? block + p.by_qdd[at - block] : at;
-        dense[row * c->d + p.column[e]] += part[k].factor * entries[place * AMBULO__LANES + lane];
+        dense[row * c->d + p.column[e]] += factor * entries[place * AMBULO__LANES + lane];
       }
     }
   }
@@ -176,15 +177,20 @@ static inline double difference(const double *a, int stride, const double *b, in
   return worst;
 }
 
+static inline void case_forget(kernel_case *c) {
+  for (size_t i = 0; i < ambulo__plan_scratch(c->plan); i++) c->scratch[i] = NAN;
+}
+
 /* The rows, by the kernel that fills scratch and by the one that does not. */
 static inline void case_outputs(kernel_case *c, const ambulo__kernels *kernels,
                                 const double *ground) {
   int n = c->rows * AMBULO__LANES;
   double *alone = malloc((size_t)n * sizeof *alone);
   assert_non_null(alone);
-  for (size_t i = 0; i < ambulo__plan_scratch(c->plan); i++) c->scratch[i] = NAN;
+  case_forget(c);
   kernels->outputs(c->plan, c->q, c->qd, c->qdd, ground, c->out, c->scratch);
   memcpy(alone, c->out, (size_t)n * sizeof *alone);
+  case_forget(c);
   kernels->forward(c->plan, c->q, c->qd, c->qdd, ground, c->out, c->scratch);
   for (int i = 0; i < n; i++) {
     if (alone[i] == c->out[i] || (isnan(alone[i]) && isnan(c->out[i]))) continue;

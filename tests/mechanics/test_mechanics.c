@@ -78,7 +78,7 @@ static void outputs_at_every_length(void **state) {
 
 /* Rows of tau that are rows of the root force. */
 static int follower_count(const ambulo__plan *plan) {
-  ambulo__row_part part[2];
+  ambulo__row_part part[AMBULO__MOST_PARTS];
   int count = 0;
   for (int k = 0; k < ambulo__plan_coordinates(plan); k++) {
     count += ambulo__plan_parts(plan, k, part) == 1 && part[0].row != k;

@@ -149,7 +149,7 @@ static void pattern_is_well_formed(void **state) {
       }
     }
     for (int i = 0; i < c.rows; i++) {
-      ambulo__row_part part[2];
+      ambulo__row_part part[AMBULO__MOST_PARTS];
       assert_int_equal(ambulo__plan_parts(c.plan, i, part), 1);
       assert_false(part[0].by_acceleration);
       if (part[0].row != i) {
@@ -172,7 +172,7 @@ static void check_followers(ambulo_link *links, int count, const int *want) {
   ambulo__plan *plan = plan_of(links, count);
   ambulo__plan_pattern p = ambulo__plan_get_pattern(plan);
   for (int k = 0; k < plan->coordinates; k++) {
-    ambulo__row_part part[2];
+    ambulo__row_part part[AMBULO__MOST_PARTS];
     assert_int_equal(ambulo__plan_parts(plan, k, part), 1);
     assert_int_equal(part[0].row, want[k] ? plan->coordinates + 2 + abs(want[k]) : k);
     assert_true(part[0].factor == (want[k] < 0 ? -1 : 1));
@@ -235,7 +235,7 @@ static void rooted_trees_are_of_all_kinds(void **state) {
     for (int k = 0; k < c.d; k++) {
       const ambulo__joint *joint = &c.plan->joints[k];
       int parent = joint->parent - 1;
-      ambulo__row_part part[2];
+      ambulo__row_part part[AMBULO__MOST_PARTS];
       (void)ambulo__plan_parts(c.plan, k, part);
       if (joint->revolute || !joint->still) continue;
       if (part[0].row != k) {

@@ -9,49 +9,61 @@ static void rows_of_a_walking_body(void **state) {
     ground_case_open(&c, number);
     const ambulo__plan *plan = c.body.plan;
     ambulo__plan_pattern p = ambulo__plan_get_pattern(plan);
+    ambulo__row_part part[AMBULO__MOST_PARTS];
     assert_true(ambulo__plan_is_grounded(plan));
     assert_int_equal(plan->vanishing, 6);
-    assert_int_equal(plan->dense_count, 12);
     for (int k = 0; k < 18; k++) {
       int both = plan->joints[k].feet == 3;
       assert_int_equal(both, k < 6);
-      assert_int_equal(p.start[k + 1] - p.start[k], k < 6 ? 0 : 18);
+      /* the root, a chain of six, the joint itself; the root force and the height by n = z */
+      assert_int_equal(p.start[k + 1] - p.start[k], k < 6 ? 0 : 12);
+      assert_int_equal(ambulo__plan_parts(plan, k, part), k < 6 ? 1 : 1 + 6 + 1);
+      assert_int_equal(part[0].row, k);
     }
     for (int row = c.foot_row; row < c.body.rows; row++) {
-      int of = row - c.foot_row, stored = of < 4 || of == 7;
-      ambulo__row_part part[2];
-      assert_int_equal(p.start[row + 1] - p.start[row], stored ? 18 : 0);
-      assert_int_equal(p.rate_start[row] < 0, !stored);
-      assert_int_equal(ambulo__plan_parts(plan, row, part), of > 3 && of < 7 ? 2 : 1);
-      assert_int_equal(part[0].row == row, stored);
+      int of = row - c.foot_row, force = of < 8 && of % 4 < 3;
+      assert_int_equal(p.start[row + 1] - p.start[row], 0);
+      assert_true(p.rate_start[row] < 0);
+      assert_int_equal(ambulo__plan_parts(plan, row, part), of >= 8 ? 1 : force ? 3 : 6);
     }
     ground_case_close(&c);
   }
 }
 
-/* Rows ascend; the rows that depend on rates fill jqd one after the other. */
+/* Rows ascend; the rows that depend on rates fill jqd one after the other; every factor stands
+ * behind the entries and is used. */
 static void pattern_is_well_formed(void **state) {
   (void)state;
   static ground_case c;
   for (int number = 0; number < 80; number++) {
     ground_case_open(&c, number);
     ambulo__plan_pattern p = ambulo__plan_get_pattern(c.body.plan);
-    int rates = 0;
+    int rates = 0, entries = p.start[c.body.rows];
+    static int used[max_rows * 7];
+    memset(used, 0, sizeof used);
     assert_int_equal(c.body.rows, c.foot_row + 11);
-    assert_int_equal(p.start[c.body.rows], p.count);
+    assert_true(p.count - entries < (int)(sizeof used / sizeof *used));
     for (int row = 0; row < c.body.rows; row++) {
       for (int e = p.start[row]; e < p.start[row + 1]; e++) {
         assert_in_range(p.column[e], 0, c.body.d - 1);
         assert_true(e == p.start[row] || p.column[e] > p.column[e - 1]);
       }
-      int point = row >= c.body.d + 6 && row < c.foot_row, of = row - c.foot_row;
-      if (point || (of > 3 && of != 7)) {
+      if (row >= c.body.d + 6) {
         assert_int_equal(p.rate_start[row], -1);
       } else {
         assert_int_equal(p.rate_start[row], rates);
         rates += p.start[row + 1] - p.start[row];
       }
+      ambulo__row_part part[AMBULO__MOST_PARTS];
+      int parts = ambulo__plan_parts(c.body.plan, row, part);
+      assert_in_range(parts, 1, AMBULO__MOST_PARTS);
+      for (int k = 0; k < parts; k++) {
+        if (part[k].times < 0) continue;
+        assert_in_range(part[k].times, entries, p.count - 1);
+        used[part[k].times - entries]++;
+      }
     }
+    for (int k = 0; k < p.count - entries; k++) assert_in_range(used[k], 1, 6);
     assert_int_equal(rates, p.dynamic_count);
     ground_case_close(&c);
   }
@@ -66,8 +78,8 @@ static void a_weight_elsewhere_keeps_the_row(void **state) {
     ground_case_open(&c, number);
     const ambulo__plan *plan = c.body.plan;
     for (int k = 0; k < c.body.d; k++) {
-      int dense = plan->joints[k].torque_row == AMBULO__ROW_DENSE;
-      if (plan->joints[k].feet != 3 || !dense) continue;
+      int reacts = plan->joints[k].torque_row == AMBULO__ROW_REACTS;
+      if (plan->joints[k].feet != 3 || !reacts) continue;
       double carried = plan->frames[k + 1].subtree_mass;
       assert_true(carried < plan->mass * (1 - 1e-12));
       kept++;

@@ -26,7 +26,31 @@ static void make_links(ambulo_link *links) {
   links[5].inertia[3] = 0.02;
 }
 
-static ambulo__plan *make_plan(void) {
+/* Heel and toe of two feet. */
+static void add_feet(ambulo_model_definition *definition, const int links[2], ambulo_point *points,
+                     ambulo_foot *feet) {
+  static const char *const names[] = {"heel_0", "toe_0", "heel_1", "toe_1"};
+  for (int i = 0; i < 4; i++) {
+    points[i] = (ambulo_point){.name = names[i], .link = links[i / 2], .position = {i % 2, 0, 0}};
+  }
+  for (int f = 0; f < 2; f++) {
+    feet[f] = (ambulo_foot){.name = f ? "right" : "left",
+                            .heel = {2 * f, -1},
+                            .toe = {2 * f + 1, -1},
+                            .heel_center = 2 * f,
+                            .toe_center = 2 * f + 1,
+                            .mirror = -1};
+  }
+  definition->points = points;
+  definition->point_count = 4;
+  definition->feet = feet;
+  definition->foot_count = 2;
+}
+
+/* feet: the links of two feet, NULL: in the air. */
+static ambulo__plan *make_plan(const int feet_on[2]) {
+  ambulo_point points[4];
+  ambulo_foot feet[2];
   ambulo_link links[link_count];
   ambulo_coordinate coordinates[link_count];
   ambulo_model_definition definition = ambulo_model_definition_default();
@@ -43,15 +67,20 @@ static ambulo__plan *make_plan(void) {
   definition.link_count = link_count;
   definition.coordinates = coordinates;
   definition.coordinate_count = link_count - 1;
+  if (feet_on) add_feet(&definition, feet_on, points, feet);
   assert_int_equal(ambulo_model_create(&definition, NULL, NULL, &model), AMBULO_OK);
-  assert_int_equal(ambulo__plan_create(model, NULL, &plan), AMBULO_OK);
+  if (feet_on) {
+    assert_int_equal(ambulo__plan_create_grounded(model, -9, NULL, &plan), AMBULO_OK);
+  } else {
+    assert_int_equal(ambulo__plan_create(model, NULL, &plan), AMBULO_OK);
+  }
   ambulo_model_free(model);
   return plan;
 }
 
 static void limbs_are_carried_and_branches_kept(void **state) {
   (void)state;
-  ambulo__plan *plan = make_plan();
+  ambulo__plan *plan = make_plan(NULL);
   const ambulo__local_step *steps = plan->local.steps;
   static const int carried[] = {1, 1, 1, 1, 0};
   for (int k = 0; k < 5; k++) {
@@ -81,7 +110,7 @@ static void limbs_are_carried_and_branches_kept(void **state) {
 
 static void zeros_of_joints_and_bodies_are_found(void **state) {
   (void)state;
-  ambulo__plan *plan = make_plan();
+  ambulo__plan *plan = make_plan(NULL);
   const ambulo__local_step *steps = plan->local.steps;
   assert_int_equal(steps[0].joint, AMBULO__SLIDES_Z);
   assert_int_equal(steps[0].body, AMBULO__BODY_NONE);
@@ -104,7 +133,7 @@ static void zeros_of_joints_and_bodies_are_found(void **state) {
 /* The factors of the inertia, put together again, are the inertia. */
 static void inertia_is_that_of_the_links(void **state) {
   (void)state;
-  ambulo__plan *plan = make_plan();
+  ambulo__plan *plan = make_plan(NULL);
   const ambulo__local_step *hip = &plan->local.steps[4], *trunk = &plan->local.steps[1];
   const double want[6] = {0.2, 0.22, 0.24, 0.02, 0, 0}, turned[3] = {0.1, 0.12, 0.11};
   double largest = 0, trace = 0;
@@ -119,9 +148,47 @@ static void inertia_is_that_of_the_links(void **state) {
   ambulo__plan_free(plan);
 }
 
+/* Feet on ankle and hip: trunk and lift carry the whole body. */
+static void loads_end_below_what_carries_the_body(void **state) {
+  (void)state;
+  static const int feet[2] = {3, 4};
+  ambulo__plan *plan = make_plan(feet);
+  const ambulo__limb *limbs = plan->local.limbs;
+  assert_true(limbs[0].top == 2 && limbs[0].rise == 2 && limbs[0].ends);
+  assert_true(limbs[1].top == 0 && limbs[1].rise == 4 && limbs[1].ends);
+  ambulo__plan_free(plan);
+  plan = make_plan(NULL);
+  for (int i = 0; i < 2; i++) {
+    assert_true(plan->local.limbs[i].rise == plan->local.limbs[i].top);
+    assert_false(plan->local.limbs[i].ends);
+  }
+  ambulo__plan_free(plan);
+}
+
+/* The bodies stand on the slider: each counts where it is fixed, and only there. */
+static void masses_stand_at_fixed_origins(void **state) {
+  (void)state;
+  static const int feet[2] = {3, 4};
+  ambulo__plan *plan = make_plan(feet);
+  const ambulo__local_step *steps = plan->local.steps;
+  double knee = hypot(steps[2].moment[0], hypot(steps[2].moment[1], steps[2].moment[2]));
+  assert_int_equal(steps[0].weighs, 8);
+  assert_close(steps[0].anchored, 10, 1e-15);
+  for (int k = 1; k < 5; k++) assert_close(steps[k].anchored, 0, 0);
+  /* its own body has its centre of mass at 0.2, where the ankle's stands */
+  assert_close(knee, (2 + 2) * 0.2, 1e-15);
+  for (int i = 0; i < 3; i++) {
+    assert_close(steps[3].moment[i], steps[3].first_moment[i], 0);
+    assert_close(steps[1].moment[i], steps[1].first_moment[i], 0);
+  }
+  ambulo__plan_free(plan);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(limbs_are_carried_and_branches_kept),
                                      cmocka_unit_test(zeros_of_joints_and_bodies_are_found),
-                                     cmocka_unit_test(inertia_is_that_of_the_links)};
+                                     cmocka_unit_test(inertia_is_that_of_the_links),
+                                     cmocka_unit_test(loads_end_below_what_carries_the_body),
+                                     cmocka_unit_test(masses_stand_at_fixed_origins)};
   return cmocka_run_group_tests_name("mechanics/plan_local", tests, NULL, NULL);
 }

@@ -85,18 +85,22 @@ static void many_right_hand_sides_are_single_ones(void **state) {
 static void sparse_row_adds_its_outer_product(void **state) {
   (void)state;
   banded m;
-  int start[] = {0, 3}, column[] = {4, 6, 9};
-  double value[] = {2.0, -1.0, 0.5}, x[N] = {0.0}, before[N], after[N];
-  ambulo__sparse_rows rows = {.count = 1, .start = start, .column = column, .value = value};
+  int start[] = {0, 4}, column[] = {4, 6, 7, 9}, run_end[4];
+  double value[] = {2.0, -1.0, 0.7, 0.5}, x[N] = {0.0}, before[N], after[N];
+  ambulo__sparse_rows rows = {
+      .count = 1, .start = start, .column = column, .run_end = run_end, .value = value};
+  const int ends[] = {1, 3, 3, 4};
+  ambulo__sparse_rows_find_runs(&rows);
+  for (int e = 0; e < 4; e++) assert_int_equal(run_end[e], ends[e]);
   fill(&m, 5);
   for (int i = 0; i < N; i++) x[i] = 0.1 * i;
   ambulo__band_multiply(&m.band, x, before);
   ambulo__band_add_sparse(&m.band, &rows, 0, 3.0);
   ambulo__band_multiply(&m.band, x, after);
-  double dot = 2.0 * x[4] - x[6] + 0.5 * x[9];
+  double dot = 2.0 * x[4] - x[6] + 0.7 * x[7] + 0.5 * x[9];
   for (int i = 0; i < N; i++) {
     double want = before[i];
-    for (int e = 0; e < 3; e++) want += i == column[e] ? 3.0 * value[e] * dot : 0.0;
+    for (int e = 0; e < 4; e++) want += i == column[e] ? 3.0 * value[e] * dot : 0.0;
     assert_close(after[i], want, 1e-13);
   }
   ambulo__pool_clear(&m.pool);

@@ -12,7 +12,7 @@ typedef struct kkt_case {
   ambulo__sparse_rows local, border;
   ambulo__kkt kkt;
   double dense[ALL * ALL], a[N], rhs_local[LOCAL], rhs_border[BORDER];
-  int start[2][LOCAL + 1], column[2][LOCAL * KD];
+  int start[2][LOCAL + 1], column[2][LOCAL * KD], run_end[2][LOCAL * KD];
   double value[2][LOCAL * KD];
 } kkt_case;
 
@@ -39,12 +39,16 @@ static void fill_rows(kkt_case *s, unsigned *seed) {
                                .count = LOCAL,
                                .start = s->start[0],
                                .column = s->column[0],
+                               .run_end = s->run_end[0],
                                .value = s->value[0]};
   ambulo__sparse_rows border = {.problem = &s->problem,
                                 .count = BORDER,
                                 .start = s->start[1],
                                 .column = s->column[1],
+                                .run_end = s->run_end[1],
                                 .value = s->value[1]};
+  ambulo__sparse_rows_find_runs(&local);
+  ambulo__sparse_rows_find_runs(&border);
   s->local = local;
   s->border = border;
 }

@@ -14,18 +14,24 @@ typedef struct engine_fixture {
   int n;
 } engine_fixture;
 
-static inline ambulo_problem *load_problem(const char *name) {
+/* with one override, NULL: none */
+static inline ambulo_problem *load_problem_with(const char *name, const char *override) {
   char path[96];
   ambulo_problem *problem = NULL;
   (void)snprintf(path, sizeof path, "models/%s.yaml", name);
-  ambulo_status status = ambulo_problem_load(path, NULL, 0, NULL, NULL, &problem);
+  ambulo_status status =
+      ambulo_problem_load(path, &override, override != NULL, NULL, NULL, &problem);
   if (status) print_error("%s: %s\n", path, ambulo_status_name(status));
   assert_int_equal(status, AMBULO_OK);
   return problem;
 }
 
-static inline void engine_open(engine_fixture *f, const char *name) {
-  f->problem = load_problem(name);
+static inline ambulo_problem *load_problem(const char *name) {
+  return load_problem_with(name, NULL);
+}
+
+static inline void engine_open_with(engine_fixture *f, const char *name, const char *override) {
+  f->problem = load_problem_with(name, override);
   f->options = ambulo_options_default();
   f->n = ambulo_problem_variable_count(f->problem);
   f->x = calloc((size_t)f->n, sizeof *f->x);
@@ -34,6 +40,10 @@ static inline void engine_open(engine_fixture *f, const char *name) {
                    AMBULO_OK);
   f->engine->mu = 0.05;
   f->engine->rho = 10.0;
+}
+
+static inline void engine_open(engine_fixture *f, const char *name) {
+  engine_open_with(f, name, NULL);
 }
 
 /* also carries x to a point that satisfies the equalities */
