@@ -11,7 +11,7 @@ PKG_CONFIG ?= pkg-config
 
 ifeq ($(VARIANT),release)
   OUT := build
-  MODE := -O2 -g
+  MODE := -O3 -g
 else ifeq ($(VARIANT),debug)
   OUT := build/debug
   MODE := -O0 -g3
