@@ -95,7 +95,7 @@ static inline void bench_open(bench_table *table, const char *instruction_set, c
   bench_read_last(table);
   table->out = fopen(table->path, "w");
   if (table->out) {
-    (void)fprintf(table->out, "quantity,unit,median\n");
+    (void)fprintf(table->out, "quantity,unit,value\n");
   } else {
     (void)fprintf(stderr, "bench: cannot write %s; results are only printed\n", table->path);
   }
@@ -110,7 +110,7 @@ static inline void bench_put(bench_table *table, const char *quantity, const cha
     (void)snprintf(change, sizeof change, "%+.1f %%",
                    100 * (value - table->last[i].value) / fabs(table->last[i].value));
   }
-  printf("%-44s %12.5g %-16s %10s\n", quantity, value, unit, change);
+  printf("%-60s %12.5g %-16s %10s\n", quantity, value, unit, change);
   if (table->out) (void)fprintf(table->out, "%s,%s,%.6g\n", quantity, unit, value);
 }
 

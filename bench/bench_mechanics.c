@@ -5,15 +5,17 @@
  * For each instruction set the processor has: nanoseconds per time node of the outputs (tau, root
  * wrench, points), of outputs and vector-Jacobian product, of outputs and all Jacobians; the
  * same per coordinate, for bodies of limbs and for random trees of growing size. Times are the
- * median of repeated runs over 16 blocks of different states; ratios are against the reference
- * recursion and the instruction set in use, taken in turns. At last the batch calls of
- * ambulo/mechanics.h, which take and return one node after the other.
+ * median and the least of repeated runs over 16 blocks of different states, instruction sets and
+ * models taking turns; ratios are against the reference recursion and the instruction set in use,
+ * with ground reaction against without, and of large bodies against small ones, taken in turns. For
+ * the set in use also the batch calls of ambulo/mechanics.h, which take and return one node after
+ * the other.
  */
 #include "bench_csv.h"
 #include "mechanics/plan.h"
 #include "support/random_model.h"
 
-enum { blocks = 16, repeats = 11, tasks = 3 };
+enum { blocks = 16, repeats = 11, tasks = 3, turns = 9, repeats_in_turn = 3 };
 
 static const char *const task_name[tasks] = {"tau", "tau_vjp", "tau_jacobians"};
 
@@ -62,9 +64,9 @@ static void run_batch(rig *r, int block) {
 
 static const task task_run[tasks] = {run_outputs, run_gradient, run_jacobian};
 
-/* Median nanoseconds per node. */
-static double measure(rig *r, task run) {
-  double times[repeats], elapsed = 0;
+/* Nanoseconds per node, `count` times. */
+static void measure_times(rig *r, task run, double *times, int count) {
+  double elapsed = 0;
   long rounds = 1;
   for (;; rounds *= 2) {
     double start = bench_seconds();
@@ -72,11 +74,17 @@ static double measure(rig *r, task run) {
     elapsed = bench_seconds() - start;
     if (elapsed > 1e-3) break;
   }
-  for (int t = 0; t < repeats; t++) {
+  for (int t = 0; t < count; t++) {
     double start = bench_seconds();
     for (long i = 0; i < rounds * blocks; i++) run(r, (int)(i % blocks));
     times[t] = 1e9 * (bench_seconds() - start) / ((double)rounds * blocks * AMBULO__LANES);
   }
+}
+
+/* Median nanoseconds per node. */
+static double measure(rig *r, task run) {
+  double times[repeats];
+  measure_times(r, run, times, repeats);
   return bench_median(times, repeats);
 }
 
@@ -232,7 +240,6 @@ static int collect(subject *subjects, const char *path) {
 /* Time of one over that of the other, taken in turns: the median of the quotients does not see
  * how busy the machine is. */
 static double quotient(rig *above, rig *below, task run) {
-  enum { turns = 9 };
   double ratio[turns];
   for (int i = 0; i < turns; i++) {
     double time = measure(above, run);
@@ -269,37 +276,98 @@ static void report_ratios(bench_table *table, rig *r) {
     bench_put(table, "tau in a batch call", "ns/node", measure(r, run_batch));
 }
 
-/* All quantities of one instruction set. */
-static void report_set(const char *set, subject *subjects, int count) {
-  bench_table table;
+static rig *rig_named(subject *subjects, int count, const char *name) {
+  for (int i = 0; i < count; i++) {
+    if (strcmp(subjects[i].name, name) == 0) return &subjects[i].rig;
+  }
+  return NULL;
+}
+
+/* A large body over a small one of the same kind, per coordinate. */
+static void report_growth(bench_table *table, subject *subjects, int count) {
+  static const char *const pairs[][2] = {{"limbs_54", "limbs_18"}, {"random_55", "random_18"}};
   char quantity[bench_key];
-  bench_open(&table, set, "mechanics");
+  for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+    rig *large = rig_named(subjects, count, pairs[i][0]);
+    rig *small = rig_named(subjects, count, pairs[i][1]);
+    if (!large || !small) continue;
+    double sizes = (double)ambulo__plan_coordinates(small->plan);
+    sizes /= (double)ambulo__plan_coordinates(large->plan);
+    for (int k = 0; k < tasks; k++) {
+      (void)snprintf(quantity, sizeof quantity, "%s %s over %s per coordinate", task_name[k],
+                     pairs[i][0], pairs[i][1]);
+      bench_put(table, quantity, "ratio", sizes * quotient(large, small, task_run[k]));
+    }
+  }
+}
+
+/* Times of all models and tasks with one instruction set. */
+typedef struct set_times {
+  double times[most_models][tasks][turns * repeats_in_turn];
+} set_times;
+
+static void record_turn(set_times *record, const char *set, subject *subjects, int count,
+                        int turn) {
   for (int i = 0; i < count; i++) {
     rig *r = &subjects[i].rig;
     r->kernels = ambulo__kernels_by_name(set);
     for (int k = 0; k < tasks; k++) {
-      double time = measure(r, task_run[k]);
-      if (i == 0) {
-        (void)snprintf(quantity, sizeof quantity, "%s %s", task_name[k], subjects[i].name);
-        bench_put(&table, quantity, "ns/node", time);
-      }
-      (void)snprintf(quantity, sizeof quantity, "%s %s per coordinate", task_name[k],
-                     subjects[i].name);
-      bench_put(&table, quantity, "ns/node", time / ambulo__plan_coordinates(r->plan));
+      measure_times(r, task_run[k], record->times[i][k] + turn * repeats_in_turn, repeats_in_turn);
     }
-    if (i == 0) report_ratios(&table, r);
   }
+}
+
+/* Median and least, the least being what it takes when nothing else is going on; of the first
+ * model also for the whole body. */
+static void report_times(bench_table *table, const subject *s, int k, double *times, int whole) {
+  char quantity[bench_key];
+  double d = ambulo__plan_coordinates(s->rig.plan);
+  double median = bench_median(times, turns * repeats_in_turn);
+  double least = bench_least(times, turns * repeats_in_turn);
+  if (whole) {
+    (void)snprintf(quantity, sizeof quantity, "%s %s", task_name[k], s->name);
+    bench_put(table, quantity, "ns/node", median);
+    (void)snprintf(quantity, sizeof quantity, "%s %s at least", task_name[k], s->name);
+    bench_put(table, quantity, "ns/node", least);
+  }
+  (void)snprintf(quantity, sizeof quantity, "%s %s per coordinate", task_name[k], s->name);
+  bench_put(table, quantity, "ns/node", median / d);
+  (void)snprintf(quantity, sizeof quantity, "%s %s per coordinate at least", task_name[k], s->name);
+  bench_put(table, quantity, "ns/node", least / d);
+}
+
+/* All quantities of one instruction set. */
+static void report_set(const char *set, subject *subjects, int count, set_times *record) {
+  bench_table table;
+  bench_open(&table, set, "mechanics");
+  for (int i = 0; i < count; i++) {
+    subjects[i].rig.kernels = ambulo__kernels_by_name(set);
+    for (int k = 0; k < tasks; k++) {
+      report_times(&table, &subjects[i], k, record->times[i][k], i == 0);
+    }
+    if (i == 0) report_ratios(&table, &subjects[i].rig);
+  }
+  report_growth(&table, subjects, count);
   bench_close(&table);
 }
 
 int main(int argc, char **argv) {
   static const char *const sets[] = {"avx512", "avx2", "baseline", "scalar"};
+  enum { set_count = sizeof sets / sizeof *sets };
   static subject subjects[most_models];
+  static set_times records[set_count];
   int count =
       collect(subjects, argc > 1 ? argv[1] : AMBULO_SOURCE_DIR "/models/yardstick_body.yaml");
   if (!count) return 1;
-  for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
-    if (ambulo__kernels_by_name(sets[i])) report_set(sets[i], subjects, count);
+  for (int turn = 0; turn < turns; turn++) {
+    for (int i = 0; i < set_count; i++) {
+      if (ambulo__kernels_by_name(sets[i])) {
+        record_turn(&records[i], sets[i], subjects, count, turn);
+      }
+    }
+  }
+  for (int i = 0; i < set_count; i++) {
+    if (ambulo__kernels_by_name(sets[i])) report_set(sets[i], subjects, count, &records[i]);
   }
   for (int i = 0; i < count; i++) {
     rig_free(&subjects[i].rig);

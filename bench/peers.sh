@@ -4,13 +4,14 @@
 # Needs Python with venv, a network for pip the first time, and a C++ compiler; says plainly what
 # is missing and then ends without failure. Everything is built below $OUT/peers.
 #   MODEL         model of 18 coordinates (models/yardstick_body.yaml)
-#   ROUNDS        how often the programs take turns (3); medians are reported
+#   ROUNDS        how often the programs take turns (7)
 #   PEERS_VENV    a virtual environment that has pin, cmeel-eigen, casadi and numpy already
+#   CORE          the core to run on (the last one), where the system lets us choose
 #   AMBULO_PEERS  folder of gait_ipopt.py, the yardstick by CasADi + IPOPT (../shared/peers)
 set -eu
 OUT=${OUT:-build}
 MODEL=${MODEL:-models/yardstick_body.yaml}
-ROUNDS=${ROUNDS:-3}
+ROUNDS=${ROUNDS:-7}
 AMBULO_PEERS=${AMBULO_PEERS:-../shared/peers}
 work=$OUT/peers
 venv=${PEERS_VENV:-$work/venv}
@@ -23,8 +24,7 @@ without() {
   exit 0
 }
 has() { command -v "$1" >/dev/null 2>&1; }
-# one core, the last one, where the system lets us choose
-core=$(($(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1) - 1))
+core=${CORE:-$(($(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1) - 1))}
 on_core() { if has taskset; then taskset -c "$core" "$@"; else "$@"; fi; }
 newer() { [ ! -e "$1" ] || [ "$2" -nt "$1" ] || [ "$here/timing.h" -nt "$1" ]; }
 
@@ -74,34 +74,39 @@ while [ "$round" -lt "$ROUNDS" ]; do
   on_core "$work/pinocchio" "$work" >>"$work/times.txt"
 done
 echo
-echo "mechanics of $MODEL, ns per time node on one core, medians of $ROUNDS rounds"
+echo "mechanics of $MODEL, ns per time node on one core: medians of $ROUNDS rounds, and the least of"
+echo "them, which is what it takes when nothing else is going on"
 echo "(Pinocchio by $cxx -O3 native; CasADi's C in $lanes lanes by gcc -O3 native)"
 machine=$("$OUT/bench/peers/ours" folder)
 mkdir -p "bench/results/$machine"
 sort -k1,1 -k2,2 -k3,3n "$work/times.txt" | awk -v csv="bench/results/$machine/peers.csv" '
   { key = $1 " " $2; count[key]++; value[key, count[key]] = $3 }
-  function median(key) { return value[key, int((count[key] + 1) / 2)] }
+  function time_of(key, least) { return value[key, least ? 1 : int((count[key] + 1) / 2)] }
+  function put(name, unit, number, least) {
+    print name (least ? " at least" : "") "," unit "," number >csv
+  }
+  function report(quantity, least,   p, ours, ratio, lanes) {
+    printf "%-20s", quantity (least ? ", least" : "")
+    for (p = 1; p <= programs; p++) {
+      printf "%20.1f", time_of(program[p] " " quantity, least)
+      put(program[p] " " quantity, "ns/node", time_of(program[p] " " quantity, least), least)
+    }
+    ours = time_of("ambulo " quantity, least)
+    ratio = time_of("pinocchio " quantity, least) / ours
+    lanes = time_of("casadi_lanes " quantity, least) / ours
+    printf "%18.1f%18.2f\n", ratio, lanes
+    put("pinocchio over ambulo " quantity, "ratio", ratio, least)
+    put("casadi_lanes over ambulo " quantity, "ratio", lanes, least)
+  }
   END {
     programs = split("ambulo ambulo_with_points casadi_lanes pinocchio", program, " ")
-    split("tau tau+vjp jacobians", quantity, " ")
-    print "quantity,unit,median" >csv
-    printf "%-12s", ""
+    split("tau tau+vjp jacobians", quantities, " ")
+    print "quantity,unit,value" >csv
+    printf "%-20s", ""
     for (p = 1; p <= programs; p++) printf "%20s", program[p]
     printf "%18s%18s\n", "pinocchio/ambulo", "casadi/ambulo"
-    for (k = 1; k <= 3; k++) {
-      printf "%-12s", quantity[k]
-      for (p = 1; p <= programs; p++) {
-        key = program[p] " " quantity[k]
-        printf "%20.1f", median(key)
-        print key ",ns/node," median(key) >csv
-      }
-      ours = median("ambulo " quantity[k])
-      ratio = median("pinocchio " quantity[k]) / ours
-      lanes = median("casadi_lanes " quantity[k]) / ours
-      printf "%18.1f%18.2f\n", ratio, lanes
-      print "pinocchio over ambulo " quantity[k] ",ratio," ratio >csv
-      print "casadi_lanes over ambulo " quantity[k] ",ratio," lanes >csv
-    }
+    for (k = 1; k <= 3; k++) report(quantities[k], 0)
+    for (k = 1; k <= 3; k++) report(quantities[k], 1)
   }'
 
 # ------------------------------------------------------------------- solves
