@@ -15,7 +15,8 @@
 #   cpu      seconds of processor time that must not be exceeded
 #   bounded  why the program must keep to a small address space: skipped for one built with the
 #            address sanitizer, which reserves terabytes
-# Each case runs in an empty folder of its own.
+# Each case runs in an empty folder of its own. A machine may stall any process for a second at any
+# place: a case that sends signals waits for states (until_*), and fits every order of what follows.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 AMBULO=${AMBULO:-build/ambulo}
@@ -30,6 +31,17 @@ trap 'chmod -R u+rwx "$scratch" 2>/dev/null; rm -rf "$scratch"' EXIT
 passed=0 failed=0
 filter=${1:-}
 shopt -s extglob
+
+# until a condition holds; or the process is gone, which what follows then shows
+await() { # process, command
+  until "${@:2}" 2>/dev/null || ! kill -0 "$1" 2>/dev/null; do sleep 0.02; done
+}
+has_worker() { ps -o pid= --ppid "$1" | grep -q .; }
+until_worker() { await "$1" has_worker "$1"; }
+# until it has handlers for the signals 2 (INT) and 15 (TERM): bits 1 and 14 of the mask
+until_interruptible() { await "$1" grep -q '^SigCgt.*[4567cdef]..[2367abef]$' "/proc/$1/status"; }
+until_says() { await "$1" grep -q -e "$2" "$3"; } # process, text, its file
+export -f await has_worker until_worker until_interruptible until_says
 
 reset() {
   name='' setup='' run='' code=0 silent='' writes='' cpu='' bounded=''
