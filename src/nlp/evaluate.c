@@ -82,17 +82,16 @@ static double user_term_value(ambulo_workspace *workspace, const ambulo_term *te
 /* one coordinate of a term, block by block; the padding has weight zero */
 static double residual_sum(const ambulo_workspace *workspace, const ambulo_term *term, int i) {
   const ambulo_problem *p = workspace->problem;
-  double scale = ambulo__term_scale(term, i), sum = 0.0;
+  double u[AMBULO__LANES], value[AMBULO__LANES], sum[AMBULO__LANES] = {0.0}, total = 0.0;
   int channel = ambulo__term_channel(term, &p->channels, i);
   for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
     const double *y = workspace->channel + ambulo__lane_index(k, workspace->channel_count, channel);
-    for (int lane = 0; lane < AMBULO__LANES && k + lane < p->nodes; lane++) {
-      double offset = ambulo__term_offset(term, p->coordinates, k + lane, i);
-      double u = scale * (y[lane] - offset);
-      sum += p->quadrature[k + lane] * ambulo__term_residual(term, u).value;
-    }
+    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, y, u);
+    ambulo__term_values(term, u, value);
+    for (int l = 0; l < AMBULO__LANES; l++) sum[l] += p->quadrature[k + l] * value[l];
   }
-  return sum;
+  for (int l = 0; l < AMBULO__LANES; l++) total += sum[l];
+  return total;
 }
 
 static double residual_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
@@ -151,28 +150,40 @@ static double user_row_value(ambulo_workspace *workspace, int row) {
   return user->function(user->user, &state, &gradient);
 }
 
-static double linear_row_value(const ambulo_workspace *workspace, const ambulo__table_row *row) {
-  const ambulo_problem *p = workspace->problem;
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  const size_t *at = p->term_at + row->first_term;
+/* terms on channels and on unknowns */
+static double mixed_row_value(const ambulo_workspace *workspace, const ambulo__table_row *row) {
+  const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
   double value = row->constant;
   for (int t = 0; t < row->term_count; t++) {
-    const double *y = term[t].node < 0 ? workspace->x : workspace->channel;
-    value += term[t].coefficient * y[at[t]];
+    double y = term[t].node < 0 ? workspace->x[term[t].channel]
+                                : channel_at(workspace, term[t].node, term[t].channel);
+    value += term[t].coefficient * y;
   }
   return value;
 }
 
-static int evaluate_rows(ambulo_workspace *workspace) {
+static void evaluate_rows(ambulo_workspace *workspace) {
   const ambulo_problem *p = workspace->problem;
-  int finite = 1;
-  for (int r = 0; r < p->rows; r++) {
+  const ambulo__row_runs *runs = &p->row_runs;
+  ambulo__row_runs_values(runs, workspace->channel, workspace->row_value);
+  for (int o = 0; o < runs->odd_count; o++) {
+    int r = runs->odd[o];
     const ambulo__table_row *row = &p->table.rows[r];
     workspace->row_value[r] =
-        row->user >= 0 ? user_row_value(workspace, r) : linear_row_value(workspace, row);
-    finite &= isfinite(workspace->row_value[r]) != 0;
+        row->user >= 0 ? user_row_value(workspace, r) : mixed_row_value(workspace, row);
   }
-  return finite;
+}
+
+/* x * 0 is NaN for what is not finite; eight sums side by side, since one waits for itself */
+static int all_finite(const double *x, int count) {
+  double sum[8] = {0.0}, total = 0.0;
+  int i = 0;
+  for (; i + 8 <= count; i += 8) {
+    for (int l = 0; l < 8; l++) sum[l] += x[i + l] * 0.0;
+  }
+  for (; i < count; i++) total += x[i] * 0.0;
+  for (int l = 0; l < 8; l++) total += sum[l];
+  return total == 0.0;
 }
 
 ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
@@ -183,7 +194,9 @@ ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
   workspace->has_values = workspace->has_jacobian = 0;
   compute_channels(workspace, workspace->x);
   workspace->objective = evaluate_terms(workspace);
-  int finite = evaluate_rows(workspace) && isfinite(workspace->objective);
+  evaluate_rows(workspace);
+  int finite =
+      all_finite(workspace->row_value, workspace->problem->rows) && isfinite(workspace->objective);
   workspace->evaluations++;
   workspace->seconds_evaluate += ambulo__seconds_now() - start;
   if (!finite) return AMBULO_E_NUMERIC;

@@ -17,22 +17,25 @@ static double *weight_at(ambulo_workspace *workspace, int node, int channel) {
   return &workspace->weight[ambulo__lane_index(node, workspace->channel_count, channel)];
 }
 
-static double channel_at(const ambulo_workspace *workspace, int node, int channel) {
-  return workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
+/* one coordinate of a term, block by block; the padding has weight zero */
+static void add_residuals(ambulo_workspace *workspace, const ambulo_term *term, int i,
+                          double factor) {
+  const ambulo_problem *p = workspace->problem;
+  double u[AMBULO__LANES], slope[AMBULO__LANES];
+  int channel = ambulo__term_channel(term, &p->channels, i);
+  for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
+    size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
+    double *w = workspace->weight + at;
+    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
+    ambulo__term_slopes(term, u, slope);
+    for (int l = 0; l < AMBULO__LANES; l++) w[l] += factor * p->quadrature[k + l] * slope[l];
+  }
 }
 
 static void add_residual_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
-  const ambulo_problem *p = workspace->problem;
-  for (int i = 0; i < p->coordinates; i++) {
+  for (int i = 0; i < workspace->problem->coordinates; i++) {
     double scale = ambulo__term_scale(term, i);
-    if (scale == 0.0) continue;
-    int channel = ambulo__term_channel(term, &p->channels, i);
-    for (int k = 0; k < p->nodes; k++) {
-      double offset = ambulo__term_offset(term, p->coordinates, k, i);
-      double u = scale * (channel_at(workspace, k, channel) - offset);
-      double slope = ambulo__term_residual(term, u).slope * scale;
-      *weight_at(workspace, k, channel) += factor * p->quadrature[k] * slope;
-    }
+    if (scale != 0.0) add_residuals(workspace, term, i, factor * scale);
   }
 }
 
@@ -82,24 +85,36 @@ static void add_term(ambulo_workspace *workspace, int t, double objective_weight
   }
 }
 
+static void add_user_row(ambulo_workspace *workspace, int r, double lambda) {
+  int node = workspace->problem->table.rows[r].node;
+  const double *slope = ambulo__user_slope(workspace, r);
+  for (int c = 0; c < workspace->channel_count; c++) {
+    *weight_at(workspace, node, c) += lambda * slope[c];
+  }
+}
+
+/* terms on channels and on unknowns */
+static void add_mixed_row(ambulo_workspace *workspace, const ambulo__table_row *row, double lambda,
+                          double *gradient) {
+  const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
+  for (int t = 0; t < row->term_count; t++) {
+    double *adjoint = term[t].node < 0 ? &gradient[term[t].channel]
+                                       : weight_at(workspace, term[t].node, term[t].channel);
+    *adjoint += lambda * term[t].coefficient;
+  }
+}
+
 static void add_rows(ambulo_workspace *workspace, const double *row_weights, double *gradient) {
   const ambulo_problem *p = workspace->problem;
-  for (int r = 0; r < p->rows; r++) {
-    double lambda = row_weights[r];
-    if (lambda == 0.0) continue;
-    const ambulo__table_row *row = &p->table.rows[r];
-    if (row->user >= 0) {
-      const double *slope = ambulo__user_slope(workspace, r);
-      for (int c = 0; c < workspace->channel_count; c++) {
-        *weight_at(workspace, row->node, c) += lambda * slope[c];
-      }
-      continue;
-    }
-    const ambulo__row_term *term = p->table.terms + row->first_term;
-    const size_t *at = p->term_at + row->first_term;
-    for (int t = 0; t < row->term_count; t++) {
-      double *adjoint = term[t].node < 0 ? gradient : workspace->weight;
-      adjoint[at[t]] += lambda * term[t].coefficient;
+  const ambulo__row_runs *runs = &p->row_runs;
+  ambulo__row_runs_adjoint(runs, row_weights, workspace->weight);
+  for (int o = 0; o < runs->odd_count; o++) {
+    int r = runs->odd[o];
+    if (row_weights[r] == 0.0) continue;
+    if (p->table.rows[r].user >= 0) {
+      add_user_row(workspace, r, row_weights[r]);
+    } else {
+      add_mixed_row(workspace, &p->table.rows[r], row_weights[r], gradient);
     }
   }
 }

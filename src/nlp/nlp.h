@@ -16,6 +16,7 @@
 #include "ambulo/solve.h"
 #include "gait/gait.h"
 #include "mechanics/plan.h"
+#include "nlp/row_runs.h"
 #include "objective/term.h"
 #include "trajectory/basis.h"
 #include "trajectory/lane_map.h"
@@ -38,8 +39,7 @@ struct ambulo_problem {
   int *active;        /* [nodes][feet] contact index or -1 */
   double *ground;     /* [blocks][AMBULO__GROUND_ENTRIES][8]; NULL without ground reaction */
   ambulo__row_table table;
-  size_t *term_at; /* [table terms]: where its channel stands in
-                      workspace->channel, or its unknown in x */
+  ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;
   unsigned long long hash;
 };

@@ -220,19 +220,6 @@ static void add_user_rows(ambulo_problem *p) {
   }
 }
 
-/* the place of every term's channel, so that evaluation only multiplies and adds */
-static ambulo_status index_terms(ambulo_problem *p) {
-  int channels = ambulo__channel_count(&p->channels);
-  p->term_at = ambulo__alloc(&p->allocator, (size_t)p->table.term_count, sizeof *p->term_at);
-  if (!p->term_at) return AMBULO_E_MEMORY;
-  for (int t = 0; t < p->table.term_count; t++) {
-    const ambulo__row_term *term = &p->table.terms[t];
-    p->term_at[t] = term->node < 0 ? (size_t)term->channel
-                                   : ambulo__lane_index(term->node, channels, term->channel);
-  }
-  return AMBULO_OK;
-}
-
 static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   ambulo__gait_frame frame = {d, p->model, p->basis, p->channels, p->times, p->nodes, p->active};
@@ -254,7 +241,8 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   if (p->table.status) return p->table.status;
   p->rows = p->table.row_count;
   for (int r = 0; r < p->rows; r++) p->equalities += p->table.rows[r].relation == AMBULO_EQUAL;
-  return index_terms(p);
+  return ambulo__row_runs_create(&p->table, ambulo__channel_count(&p->channels), &p->allocator,
+                                 &p->row_runs);
 }
 
 static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
@@ -329,7 +317,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__plan_free(p->plan);
   ambulo__free(&a, p->times);
   ambulo__free(&a, p->quadrature);
-  ambulo__free(&a, p->term_at);
+  ambulo__row_runs_free(&a, &p->row_runs);
   ambulo__free(&a, p->active);
   ambulo__free_aligned(&a, p->ground);
   ambulo__definition_free(&a, &p->definition);

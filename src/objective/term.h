@@ -49,6 +49,14 @@ double ambulo__term_scale(const ambulo_term *term, int i);
 double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, int i);
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u);
 
+/* Simple terms at a whole block (term_lanes.c). Residuals u[8] on coordinate i from the channel
+ * y[8] of the nodes from `node` on, 0 or a copy of the last beyond the last of `nodes`. */
+void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int nodes, int i,
+                        const double *y, double *u);
+/* phi and phi' of eight residuals. */
+void ambulo__term_values(const ambulo_term *term, const double *u, double *value);
+void ambulo__term_slopes(const ambulo_term *term, const double *u, double *slope);
+
 /* --------------------------------------------------------- composite terms */
 
 /* A residual u and its slopes. Channels may stand on the next node as well (torque

@@ -79,6 +79,49 @@ static void non_finite_point_is_refused_and_outputs_stay(void **state) {
   ambulo_model_free(model);
 }
 
+typedef struct spoiled_row {
+  int node;
+  double value; /* there */
+} spoiled_row;
+
+static double spoiled(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  const spoiled_row *row = user;
+  (void)gradient;
+  return state->node == row->node ? row->value : 1.0;
+}
+
+/* the objective is finite: only the rows tell */
+static void one_row_that_is_not_finite_is_noticed(void **state) {
+  (void)state;
+  static const double values[] = {NAN, INFINITY, -INFINITY, 1.0};
+  spoiled_row row = {0, 0.0};
+  ambulo_user_row user = {"spoiled", "-", AMBULO_NOT_NEGATIVE, 0.0, 1.0, spoiled, &row};
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition definition = arm_definition(model);
+  definition.user_rows = &user;
+  definition.user_row_count = 1;
+  ambulo_problem *problem = NULL;
+  ambulo_workspace *workspace = NULL;
+  assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &problem), AMBULO_OK);
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  double *x = calloc((size_t)ambulo_problem_variable_count(problem), sizeof *x);
+  for (int k = 0; k < ambulo_problem_node_count(problem); k++) {
+    for (int v = 0; v < 4; v++) {
+      row.node = k;
+      row.value = values[v];
+      x[0] += 1e-3;
+      double objective = 77.0;
+      ambulo_status status = ambulo_problem_evaluate(problem, workspace, x, &objective, NULL, NULL);
+      assert_int_equal(status, v < 3 ? AMBULO_E_NUMERIC : AMBULO_OK);
+      assert_true((objective == 77.0) == (v < 3));
+    }
+  }
+  free(x);
+  ambulo_workspace_free(workspace);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
 static void rows_are_what_their_names_say(void **state) {
   (void)state;
   ambulo_model *model = arm_create();
@@ -121,6 +164,7 @@ int main(void) {
       cmocka_unit_test(torque_of_an_arm_at_rest_integrates_to_t_tau_squared),
       cmocka_unit_test(same_point_is_evaluated_once),
       cmocka_unit_test(non_finite_point_is_refused_and_outputs_stay),
+      cmocka_unit_test(one_row_that_is_not_finite_is_noticed),
       cmocka_unit_test(rows_are_what_their_names_say),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
