@@ -9,7 +9,7 @@
  * hidden trailing value; all flags here are single letters whose length is never read,
  * so the prototypes leave it out, as the C world does. Several threads may call.
  *
- * What each routine computes stands beside it; A is symmetric in dpb, dpo and dsy.
+ * What each routine computes stands beside it; A is symmetric in dpb and dsy.
  */
 #ifndef AMBULO_BASE_LAPACK_H
 #define AMBULO_BASE_LAPACK_H
@@ -19,26 +19,12 @@
 /* A = L L' or U' U in band storage ab[ldab][n], kd diagonals */
 extern void dpbtrf_(const char *uplo, const int *n, const int *kd, double *ab, const int *ldab,
                     int *info);
-/* A X = B with the factor of dpbtrf */
-extern void dpbtrs_(const char *uplo, const int *n, const int *kd, const int *nrhs,
-                    const double *ab, const int *ldab, double *b, const int *ldb, int *info);
 /* factor and solve in one call */
 extern void dpbsv_(const char *uplo, const int *n, const int *kd, const int *nrhs, double *ab,
                    const int *ldab, double *b, const int *ldb, int *info);
-/* T X = B or T' X = B, T triangular and banded */
-extern void dtbtrs_(const char *uplo, const char *trans, const char *diag, const int *n,
-                    const int *kd, const int *nrhs, const double *ab, const int *ldab, double *b,
-                    const int *ldb, int *info);
-/* x = T x or T' x, T triangular and banded */
-extern void dtbmv_(const char *uplo, const char *trans, const char *diag, const int *n,
-                   const int *k, const double *a, const int *lda, double *x, const int *incx);
 /* x = T^-1 x or T'^-1 x, T triangular and banded */
 extern void dtbsv_(const char *uplo, const char *trans, const char *diag, const int *n,
                    const int *k, const double *a, const int *lda, double *x, const int *incx);
-/* y = alpha A x + beta y, A symmetric and banded */
-extern void dsbmv_(const char *uplo, const int *n, const int *k, const double *alpha,
-                   const double *a, const int *lda, const double *x, const int *incx,
-                   const double *beta, double *y, const int *incy);
 /* A = P L U in band storage with kl extra rows for the fill-in */
 extern void dgbtrf_(const int *m, const int *n, const int *kl, const int *ku, double *ab,
                     const int *ldab, int *ipiv, int *info);
@@ -49,38 +35,9 @@ extern void dgbtrs_(const char *trans, const int *n, const int *kl, const int *k
 
 /* -------------------------------------------------------------------- dense */
 
-/* A = L L' or U' U */
-extern void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info);
-/* A X = B with the factor of dpotrf */
-extern void dpotrs_(const char *uplo, const int *n, const int *nrhs, const double *a,
-                    const int *lda, double *b, const int *ldb, int *info);
 /* A X = B by LU with partial pivoting */
 extern void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b,
                    const int *ldb, int *info);
-/* least squares or minimum norm, A of full rank */
-extern void dgels_(const char *trans, const int *m, const int *n, const int *nrhs, double *a,
-                   const int *lda, double *b, const int *ldb, double *work, const int *lwork,
-                   int *info);
-/* A P = Q R, columns pivoted by norm */
-extern void dgeqp3_(const int *m, const int *n, double *a, const int *lda, int *jpvt, double *tau,
-                    double *work, const int *lwork, int *info);
-/* A = Q R */
-extern void dgeqrf_(const int *m, const int *n, double *a, const int *lda, double *tau,
-                    double *work, const int *lwork, int *info);
-/* the columns of Q, formed in place */
-extern void dorgqr_(const int *m, const int *n, const int *k, double *a, const int *lda,
-                    const double *tau, double *work, const int *lwork, int *info);
-/* C = Q C, Q' C, C Q or C Q' */
-extern void dormqr_(const char *side, const char *trans, const int *m, const int *n, const int *k,
-                    const double *a, const int *lda, const double *tau, double *c, const int *ldc,
-                    double *work, const int *lwork, int *info);
-/* T X = B or T' X = B, T triangular */
-extern void dtrtrs_(const char *uplo, const char *trans, const char *diag, const int *n,
-                    const int *nrhs, const double *a, const int *lda, double *b, const int *ldb,
-                    int *info);
-/* eigenvalues (ascending) and eigenvectors */
-extern void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda,
-                   double *w, double *work, const int *lwork, int *info);
 
 /* --------------------------------------------------------------------- BLAS */
 

@@ -6,21 +6,18 @@
 
 enum { BLOCK = 24 }; /* columns that ambulo__band_forward_many takes at once */
 
-static int round_up(int count) {
-  return (count + AMBULO__TILE - 1) / AMBULO__TILE * AMBULO__TILE;
-}
-
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
   band->n = n;
   band->kd = kd < n ? kd : n - 1;
-  band->ld = round_up(band->kd + BLOCK) + 1;
+  band->ld = ambulo__whole_tiles(band->kd + BLOCK) + 1;
   band->kernels = ambulo__band_kernels_select();
   if (band->kernels && band->kd > band->kernels->largest_kd) band->kernels = NULL;
-  band->a = ambulo__pool_doubles(pool, (size_t)round_up(n) * (size_t)band->ld);
+  band->a = ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) * (size_t)band->ld);
   band->corner = NULL;
   if (band->kernels)
-    band->corner = ambulo__pool_doubles(pool, (size_t)round_up(n) / AMBULO__TILE * AMBULO__CORNER);
-  band->work = ambulo__pool_doubles(pool, (size_t)round_up(n));
+    band->corner =
+        ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) / AMBULO__TILE * AMBULO__CORNER);
+  band->work = ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n));
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -77,10 +74,31 @@ double ambulo__band_largest(const ambulo__band *band) {
   return largest;
 }
 
+/* four sums side by side, since one waits for itself */
+static double dot(int count, const double *restrict a, const double *restrict b) {
+  double sum[4] = {0.0};
+  int k = 0;
+  for (; k + 4 <= count; k += 4) {
+    for (int l = 0; l < 4; l++) sum[l] += a[k + l] * b[k + l];
+  }
+  for (; k < count; k++) sum[0] += a[k] * b[k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* elements of column j on and below the diagonal */
+static int height(const ambulo__band *band, int j) {
+  return band->n - j <= band->kd ? band->n - j : band->kd + 1;
+}
+
+/* not by dsbmv and dtbmv, which start threads for matrices of this size */
 void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y) {
-  double one = 1.0, zero = 0.0;
-  int step = 1;
-  dsbmv_("L", &band->n, &band->kd, &one, band->a, &band->ld, x, &step, &zero, y, &step);
+  memset(y, 0, (size_t)band->n * sizeof *y);
+  for (int j = 0; j < band->n; j++) {
+    const double *column = band->a + (size_t)j * (size_t)band->ld;
+    int rows = height(band, j);
+    y[j] += dot(rows, column, x + j);
+    add_scaled(rows - 1, x[j], column + 1, y + j + 1);
+  }
 }
 
 int ambulo__band_factor(ambulo__band *band) {
@@ -116,22 +134,26 @@ void ambulo__band_backward(const ambulo__band *l, double *x) {
 }
 
 void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
-  int step = 1;
-  dtbmv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
+  for (int j = 0; j < l->n; j++) x[j] = dot(height(l, j), l->a + (size_t)j * (size_t)l->ld, x + j);
 }
 
 /* Block columns: X_1 = L_11^-1 X_1, X_2 -= L_21 X_1, the blocks read from the band with
- * leading dimension ld - 1. */
-void ambulo__band_forward_many(const ambulo__band *l, int count, double *x) {
+ * leading dimension ld - 1; to LAPACK, which counts by columns, X is its transpose. */
+void ambulo__band_forward_many(const ambulo__band *l, int width, double *x) {
+  if (l->kernels) {
+    l->kernels->forward_many(l->n, l->kd, l->ld, l->a, l->corner, width, x);
+    return;
+  }
   double one = 1.0, minus = -1.0;
   int ld = l->ld - 1;
   for (int j = 0; j < l->n; j += BLOCK) {
     int columns = l->n - j < BLOCK ? l->n - j : BLOCK;
     int below = l->n - j - columns < l->kd ? l->n - j - columns : l->kd;
     const double *corner = l->a + (size_t)j * (size_t)l->ld;
-    dtrsm_("L", "L", "N", "N", &columns, &count, &one, corner, &ld, x + j, &l->n);
+    double *rows = x + (size_t)j * (size_t)width;
+    dtrsm_("R", "L", "T", "N", &width, &columns, &one, corner, &ld, rows, &width);
     if (below == 0) continue;
-    dgemm_("N", "N", &below, &count, &columns, &minus, corner + columns, &ld, x + j, &l->n, &one,
-           x + j + columns, &l->n);
+    dgemm_("N", "T", &width, &below, &columns, &minus, rows, &width, corner + columns, &ld, &one,
+           rows + (size_t)columns * (size_t)width, &width);
   }
 }

@@ -37,11 +37,11 @@ double ambulo__band_largest(const ambulo__band *band);
 void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y);
 /* A = L L' in place. 0, or 1 when A is not positive definite. */
 int ambulo__band_factor(ambulo__band *band);
-/* With the factor: x = L^-1 x, L^-T x, L' x; and L^-1 of count right-hand sides [n]
- * each, column-major. */
+/* With the factor: x = L^-1 x, L^-T x, L' x; and L^-1 of right-hand sides that stand side by side,
+ * x [n rounded up to 8][width], width a multiple of 8, aligned to 64 bytes, zero where padded. */
 void ambulo__band_forward(const ambulo__band *factor, double *x);
 void ambulo__band_backward(const ambulo__band *factor, double *x);
 void ambulo__band_upper_multiply(const ambulo__band *factor, double *x);
-void ambulo__band_forward_many(const ambulo__band *factor, int count, double *x);
+void ambulo__band_forward_many(const ambulo__band *factor, int width, double *x);
 
 #endif

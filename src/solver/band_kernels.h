@@ -21,7 +21,20 @@ typedef struct ambulo__band_kernels {
   /* x = L^-1 x and x = L^-T x */
   void (*forward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
   void (*backward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
+  /* Of rows W [n][width], width whole tiles: W = L^-1 W, with room for n rounded up */
+  void (*forward_many)(int n, int kd, int ld, const double *a, const double *corner, int width,
+                       double *w);
+  /* a = W'W, a band [width] without zeros outside (band.h), below and on its diagonal */
+  void (*gram)(int n, int width, const double *w, int ld, double *a);
+  /* y = W'x, y [width] aligned; x -= W y */
+  void (*gather)(int n, int width, const double *w, const double *x, double *y);
+  void (*scatter)(int n, int width, const double *w, const double *y, double *x);
 } ambulo__band_kernels;
+
+/* A count rounded up to whole tiles. */
+static inline int ambulo__whole_tiles(int count) {
+  return (count + AMBULO__TILE - 1) / AMBULO__TILE * AMBULO__TILE;
+}
 
 /* A set without functions was not compiled in. */
 #if defined(__x86_64__)

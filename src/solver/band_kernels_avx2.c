@@ -8,5 +8,5 @@
 #define AMBULO__BAND_KERNELS_NAME "avx2"
 #include "solver/band_source.h"
 #elif defined(__x86_64__)
-const ambulo__band_kernels ambulo__band_kernels_avx2 = {"avx2", 0, 0, 0, 0};
+const ambulo__band_kernels ambulo__band_kernels_avx2 = {.name = "avx2"};
 #endif

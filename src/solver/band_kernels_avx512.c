@@ -10,5 +10,5 @@
 #define AMBULO__BAND_KERNELS_NAME "avx512"
 #include "solver/band_source.h"
 #elif defined(__x86_64__)
-const ambulo__band_kernels ambulo__band_kernels_avx512 = {"avx512", 0, 0, 0, 0};
+const ambulo__band_kernels ambulo__band_kernels_avx512 = {.name = "avx512"};
 #endif

@@ -179,5 +179,95 @@ static void backward(int n, int kd, int ld, const double *a, const double *corne
   }
 }
 
-const ambulo__band_kernels AMBULO__BAND_KERNELS = {AMBULO__BAND_KERNELS_NAME, AMBULO__LARGEST_KD,
-                                                   factor, forward, backward};
+/* W numbers of the 8 rows of one block of X: X_I = L_II^-1 (X_I - sum_J L_IJ X_J) */
+static inline void forward_block(int block, int reach, size_t ld, const double *a,
+                                 const double *by_rows, size_t width, double *x) {
+  wide sum[T];
+  double *rows = x + (size_t)(block * T) * width;
+  for (size_t r = 0; r < T; r++) sum[r] = load(rows + r * width);
+  for (int other = block - reach; other < block; other++) {
+    const double *tile = a + (size_t)(other * T) * ld + (size_t)((block - other) * T);
+    const double *above = x + (size_t)(other * T) * width;
+    for (size_t c = 0; c < T; c++) {
+      wide value = load(above + c * width);
+      for (size_t r = 0; r < T; r++) sum[r] -= value * tile[c * (ld - 1) + r];
+    }
+  }
+  for (size_t r = 0; r < T; r++) {
+    wide value = sum[0] * by_rows[r * T];
+    for (size_t c = 1; c <= r; c++) value += sum[c] * by_rows[r * T + c];
+    store(rows + r * width, value);
+  }
+}
+
+static void forward_many(int n, int kd, int ld, const double *a, const double *corners, int width,
+                         double *x) {
+  int most = (kd + T - 1) / T;
+  for (int block = 0; block < blocks_of(n); block++) {
+    const double *by_rows = corners + (size_t)block * AMBULO__CORNER + T * T;
+    for (int v = 0; v < width; v += W)
+      forward_block(block, most < block ? most : block, (size_t)ld, a, by_rows, (size_t)width,
+                    x + v);
+  }
+}
+
+/* W rows of a tile of W'W, from those columns and the columns of the tile */
+static inline void gram_rows(int n, size_t width, const double *rows, const double *columns,
+                             wide sum[T]) {
+  for (size_t j = 0; j < T; j++) sum[j] = load(rows) * columns[j];
+  for (size_t k = 1; k < (size_t)n; k++) {
+    wide row = load(rows + k * width);
+    for (size_t j = 0; j < T; j++) sum[j] += row * columns[k * width + j];
+  }
+}
+
+static void gram(int n, int width, const double *w, int ld, double *a) {
+  size_t step = (size_t)ld - 1;
+  for (int j = 0; j < width; j += T) {
+    for (int i = j; i < width; i += W) {
+      wide sum[T];
+      gram_rows(n, (size_t)width, w + i, w + j, sum);
+      for (int c = 0; c < T; c++) {
+        double *at = a + (size_t)(j + c) * step + i;
+        if (i >= j + T) {
+          store(at, sum[c]);
+        } else { /* on the diagonal; what is above belongs to other columns */
+          for (int r = 0; r < W; r++) at[r] = i + r >= j + c ? sum[c][r] : at[r];
+        }
+      }
+    }
+  }
+}
+
+static void gather(int n, int width, const double *w, const double *x, double *y) {
+  size_t stride = (size_t)width, from = 0, end = (size_t)n;
+  for (size_t v = 0; v < stride; v++) y[v] = 0.0;
+  for (; from + T <= end; from += T) {
+    for (size_t v = 0; v < stride; v += W)
+      store(y + v, load(y + v) + product(w + from * stride + v, stride, x + from));
+  }
+  for (; from < end; from++) {
+    for (size_t v = 0; v < stride; v += W)
+      store(y + v, load(y + v) + load(w + from * stride + v) * x[from]);
+  }
+}
+
+static void scatter(int n, int width, const double *w, const double *y, double *x) {
+  size_t stride = (size_t)width;
+  for (size_t k = 0; k < (size_t)n; k++) {
+    const double *row = w + k * stride;
+    wide sum = load(row) * load(y);
+    for (size_t v = W; v < stride; v += W) sum += load(row + v) * load(y + v);
+    x[k] -= sum_of(sum);
+  }
+}
+
+const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_NAME,
+                                                   .largest_kd = AMBULO__LARGEST_KD,
+                                                   .factor = factor,
+                                                   .forward = forward,
+                                                   .backward = backward,
+                                                   .forward_many = forward_many,
+                                                   .gram = gram,
+                                                   .gather = gather,
+                                                   .scatter = scatter};

@@ -17,7 +17,6 @@
  * mu falls when E decreases as the model foretells, and rises when E does not decrease.
  */
 #include "solver/elastic.h"
-#include "base/lapack.h"
 #include "solver/metric.h"
 
 #include <math.h>
@@ -63,9 +62,6 @@ static ambulo_status create_vectors(ambulo__elastic *e, ambulo__pool *pool) {
   double **long_vectors[] = {&e->step, &e->total, &e->right, &e->trial};
   for (size_t i = 0; i < sizeof long_vectors / sizeof *long_vectors; i++)
     *long_vectors[i] = ambulo__pool_doubles(pool, n);
-  e->wing = ambulo__pool_doubles(pool, b * n);
-  e->schur = ambulo__pool_doubles(pool, b * b);
-  e->rest = ambulo__pool_doubles(pool, b);
   e->linear_border = ambulo__pool_doubles(pool, b);
   e->along_border = ambulo__pool_doubles(pool, b);
   e->linear_local = ambulo__pool_doubles(pool, l);
@@ -91,6 +87,7 @@ ambulo_status ambulo__elastic_create(const ambulo_problem *problem, ambulo_works
   int kd = ambulo__metric_diagonals(problem);
   if (!status) status = ambulo__band_create(pool, e->n, kd, &e->base);
   if (!status) status = ambulo__band_create(pool, e->n, kd, &e->factor);
+  if (!status) status = ambulo__border_create(&e->border, pool, &e->bordered);
   if (!status) status = ambulo__evaluate_jacobian(workspace, workspace->x);
   if (status) return status;
   ambulo__sparse_rows_fill(&e->local, workspace, 1);
@@ -173,23 +170,6 @@ static void assemble_equalities(ambulo__elastic *e) {
   }
 }
 
-static int factor_border(ambulo__elastic *e) {
-  int b = e->borders, n = e->n, info = 0;
-  if (b == 0) return 0;
-  double one = 1.0, zero = 0.0;
-  memset(e->wing, 0, (size_t)b * (size_t)n * sizeof *e->wing);
-  for (int i = 0; i < b; i++) {
-    double *column = e->wing + (size_t)i * (size_t)n;
-    for (int k = e->border.start[i]; e->active_border[i] && k < e->border.start[i + 1]; k++)
-      column[e->border.column[k]] += e->border.value[k];
-  }
-  ambulo__band_forward_many(&e->factor, b, e->wing);
-  dsyrk_("L", "T", &b, &n, &one, e->wing, &n, &zero, e->schur, &b);
-  for (int i = 0; i < b; i++) e->schur[i * b + i] += 1.0;
-  dpotrf_("L", &b, e->schur, &b, &info);
-  return info != 0;
-}
-
 static int factor(ambulo__elastic *e, double mu) {
   ambulo__band_copy(&e->base, &e->factor);
   ambulo__band_add_diagonal(&e->factor, mu);
@@ -197,19 +177,14 @@ static int factor(ambulo__elastic *e, double mu) {
     int equal = e->problem->table.rows[e->local.row[i]].relation == AMBULO_EQUAL;
     if (!equal && e->active_local[i]) ambulo__band_add_sparse(&e->factor, &e->local, i, 1.0);
   }
-  return ambulo__band_factor(&e->factor) || factor_border(e);
+  return ambulo__band_factor(&e->factor) ||
+         ambulo__border_factor(&e->bordered, &e->factor, e->active_border, 1.0, 0.0);
 }
 
 /* right becomes the solution */
-static void solve(const ambulo__elastic *e, double *right) {
-  int b = e->borders, n = e->n, step = 1, info = 0;
-  double one = 1.0, zero = 0.0, minus = -1.0;
+static void solve(ambulo__elastic *e, double *right) {
   ambulo__band_forward(&e->factor, right);
-  if (b > 0) {
-    dgemv_("T", &n, &b, &one, e->wing, &n, right, &step, &zero, e->rest, &step);
-    dpotrs_("L", &b, &step, e->schur, &b, e->rest, &b, &info);
-    dgemv_("N", &n, &b, &minus, e->wing, &n, e->rest, &step, &one, right, &step);
-  }
+  ambulo__border_eliminate(&e->bordered, NULL, right);
   ambulo__band_backward(&e->factor, right);
 }
 

@@ -14,7 +14,7 @@
 #ifndef AMBULO_SOLVER_ELASTIC_H
 #define AMBULO_SOLVER_ELASTIC_H
 
-#include "solver/band.h"
+#include "solver/border.h"
 #include "solver/run.h"
 
 typedef struct ambulo__elastic {
@@ -24,9 +24,7 @@ typedef struct ambulo__elastic {
   ambulo__sparse_rows local, border;
   int locals, borders, n;
   ambulo__band base, factor; /* equalities' J'J; with active inequalities and damping */
-  double *wing;              /* [borders][n]: L^-1 (w C / s)' */
-  double *schur;             /* [borders][borders] */
-  double *rest;              /* [borders] */
+  ambulo__border bordered;   /* the factor with the active border rows */
   double *size;              /* [rows]: s */
   double *weight;            /* [rows]: w */
   double *linear_local, *linear_border, *along_local, *along_border, *pull;

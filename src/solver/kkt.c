@@ -11,16 +11,13 @@
  * Dependent rows do no harm: M does not notice them. Rows that nearly depend on each other
  * make s small: S is then raised for the next factorization.
  *
- * Border rows by their Schur complement. M = L L', W = L^-1 C' (borders forward solves):
- *
- *     z = L^-1 right,   m = (W'W)^-1 (W'z - b),   d = L^-T (z - W m)
+ * Border rows by their Schur complement (border.h).
  *
  * Every pass moves d by M^-1 J'(...) only, that is within H^-1 range(J', C'): retractions
  * built from single passes stay on the same curved surface as exact solves would
  * (retraction.c).
  */
 #include "solver/kkt.h"
-#include "base/lapack.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,17 +32,13 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
                                  ambulo__kkt *kkt) {
   kkt->stiffness = stiffness_start;
   kkt->equality = equality;
-  kkt->border = border;
   kkt->n = equality->problem->variables;
   kkt->equalities = equality->count;
-  kkt->borders = border->count;
-  size_t n = (size_t)kkt->n, b = (size_t)kkt->borders, e = (size_t)kkt->equalities;
+  size_t e = (size_t)kkt->equalities;
   ambulo_status status = ambulo__band_create(pool, kkt->n, kd, &kkt->factor);
+  if (!status) status = ambulo__border_create(border, pool, &kkt->border);
   if (status) return status;
   kkt->penalty = ambulo__pool_doubles(pool, e);
-  kkt->wing = ambulo__pool_doubles(pool, b * n);
-  kkt->schur = ambulo__pool_doubles(pool, b * b);
-  kkt->rest = ambulo__pool_doubles(pool, b);
   kkt->residual = ambulo__pool_doubles(pool, e);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
@@ -57,33 +50,14 @@ static void set_penalties(ambulo__kkt *kkt, double size) {
   }
 }
 
-static int factor_border(ambulo__kkt *kkt) {
-  int b = kkt->borders, n = kkt->n, info = 0;
-  if (b == 0) return 0;
-  double one = 1.0, zero = 0.0;
-  memset(kkt->wing, 0, (size_t)b * (size_t)n * sizeof *kkt->wing);
-  for (int i = 0; i < b; i++) {
-    double *column = kkt->wing + (size_t)i * (size_t)n;
-    for (int e = kkt->border->start[i]; e < kkt->border->start[i + 1]; e++)
-      column[kkt->border->column[e]] += kkt->border->value[e];
-  }
-  ambulo__band_forward_many(&kkt->factor, b, kkt->wing);
-  dsyrk_("L", "T", &b, &n, &one, kkt->wing, &n, &zero, kkt->schur, &b);
-  double largest = 0.0;
-  for (int i = 0; i < b; i++) largest = fmax(largest, kkt->schur[i * b + i]);
-  /* a border row that the local rows imply would make this singular */
-  for (int i = 0; i < b; i++) kkt->schur[i * b + i] += 1e-14 * largest;
-  dpotrf_("L", &b, kkt->schur, &b, &info);
-  return info != 0;
-}
-
 static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
   ambulo__band_copy(h, &kkt->factor);
   set_penalties(kkt, ambulo__band_largest(h));
   for (int i = 0; i < kkt->equalities; i++)
     ambulo__band_add_sparse(&kkt->factor, kkt->equality, i, kkt->penalty[i]);
   if (ambulo__band_factor(&kkt->factor)) return 1;
-  return factor_border(kkt);
+  /* a border row that the local rows imply would make the complement singular */
+  return ambulo__border_factor(&kkt->border, &kkt->factor, NULL, 0.0, 1e-14);
 }
 
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
@@ -94,17 +68,10 @@ int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
 }
 
 void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m) {
-  int borders = kkt->borders, n = kkt->n, step = 1, info = 0;
-  double one = 1.0, zero = 0.0, minus = -1.0;
+  const ambulo__border *border = &kkt->border;
   ambulo__band_forward(&kkt->factor, right);
-  if (borders > 0) {
-    double *rest = kkt->rest;
-    dgemv_("T", &n, &borders, &one, kkt->wing, &n, right, &step, &zero, rest, &step);
-    for (int i = 0; b && i < borders; i++) rest[i] -= b[i];
-    dpotrs_("L", &borders, &step, kkt->schur, &borders, rest, &borders, &info);
-    dgemv_("N", &n, &borders, &minus, kkt->wing, &n, rest, &step, &one, right, &step);
-    if (m) memcpy(m, rest, (size_t)borders * sizeof *m);
-  }
+  ambulo__border_eliminate(&kkt->border, b, right);
+  if (m && border->count) memcpy(m, border->rest, (size_t)border->count * sizeof *m);
   ambulo__band_backward(&kkt->factor, right);
 }
 

@@ -8,18 +8,16 @@
 #ifndef AMBULO_SOLVER_KKT_H
 #define AMBULO_SOLVER_KKT_H
 
-#include "solver/band.h"
+#include "solver/border.h"
 
 typedef struct ambulo__kkt {
-  int n, borders, equalities;
-  const ambulo__sparse_rows *equality, *border;
+  int n, equalities;
+  const ambulo__sparse_rows *equality;
   ambulo__band factor; /* L of M = H + J' S J */
-  double stiffness;    /* S_r |J_r|^2 relative to the largest diagonal element of H */
-  double *penalty;     /* [equalities]: diagonal of S */
-  double *wing;        /* [borders][n]: L^-1 C' */
-  double *schur;       /* [borders][borders]: Cholesky factor of C M^-1 C' */
-  double *rest;        /* [borders] */
-  double *residual;    /* [equalities] */
+  ambulo__border border;
+  double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H */
+  double *penalty;  /* [equalities]: diagonal of S */
+  double *residual; /* [equalities] */
 } ambulo__kkt;
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
