@@ -179,20 +179,33 @@ void ambulo__sparse_rows_values(const ambulo__sparse_rows *s, const ambulo_works
   for (int i = 0; i < s->count; i++) value[i] = s->scale[i] * workspace->row_value[s->row[i]];
 }
 
-void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d, double *out) {
-  for (int i = 0; i < s->count; i++) {
-    double sum = 0.0;
-    for (int e = s->start[i]; e < s->start[i + 1]; e++) sum += s->value[e] * d[s->column[e]];
-    out[i] = sum;
+/* three sums side by side, since one waits for itself */
+static double product(const ambulo__sparse_rows *s, int i, const double *d) {
+  const double *value = s->value;
+  const int *column = s->column;
+  double sum[3] = {0.0};
+  int e = s->start[i], end = s->start[i + 1];
+  for (; e + 3 <= end; e += 3) {
+    for (int l = 0; l < 3; l++) sum[l] += value[e + l] * d[column[e + l]];
   }
+  for (; e < end; e++) sum[0] += value[e] * d[column[e]];
+  return sum[0] + sum[1] + sum[2];
+}
+
+void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d, double *out) {
+  for (int i = 0; i < s->count; i++) out[i] = product(s, i, d);
 }
 
 void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor, const double *w,
-                                       double *y) {
+                                       double *restrict y) {
+  const double *restrict value = s->value;
   for (int i = 0; i < s->count; i++) {
     double f = factor * w[i];
     if (f == 0.0) continue;
-    for (int e = s->start[i]; e < s->start[i + 1]; e++) y[s->column[e]] += f * s->value[e];
+    for (int e = s->start[i]; e < s->start[i + 1]; e = s->run_end[e]) {
+      double *restrict to = y + s->column[e];
+      for (int k = 0; k < s->run_end[e] - e; k++) to[k] += f * value[e + k];
+    }
   }
 }
 
