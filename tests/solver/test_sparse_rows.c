@@ -64,6 +64,41 @@ static void transpose_is_adjoint_of_product(void **state) {
   engine_close(&f);
 }
 
+/* row i has i entries, every fourth column left out */
+static void products_are_sums_over_entries(void **state) {
+  (void)state;
+  enum { ROWS = 11, COLUMNS = 30 };
+  int start[ROWS + 1] = {0}, column[ROWS * ROWS], run_end[ROWS * ROWS];
+  double value[ROWS * ROWS], d[COLUMNS], w[ROWS], out[ROWS], y[COLUMNS], want[COLUMNS];
+  unsigned seed = 8;
+  for (int i = 0; i < ROWS; i++) {
+    start[i + 1] = start[i] + i;
+    for (int e = 0; e < i; e++) {
+      column[start[i] + e] = i + e + (i + e) / 3;
+      value[start[i] + e] = random_number(&seed);
+    }
+    w[i] = i == 4 ? 0.0 : random_number(&seed);
+  }
+  for (int j = 0; j < COLUMNS; j++) {
+    d[j] = random_number(&seed);
+    y[j] = want[j] = random_number(&seed);
+  }
+  ambulo__sparse_rows rows = {
+      .count = ROWS, .start = start, .column = column, .run_end = run_end, .value = value};
+  ambulo__sparse_rows_find_runs(&rows);
+  ambulo__sparse_rows_multiply(&rows, d, out);
+  ambulo__sparse_rows_add_transpose(&rows, -2.0, w, y);
+  for (int i = 0; i < ROWS; i++) {
+    double sum = 0.0;
+    for (int e = start[i]; e < start[i + 1]; e++) {
+      sum += value[e] * d[column[e]];
+      want[column[e]] -= 2.0 * w[i] * value[e];
+    }
+    assert_close(out[i], sum, 1e-14);
+  }
+  for (int j = 0; j < COLUMNS; j++) assert_close(y[j], want[j], 1e-14);
+}
+
 static void control_point_rows_find_a_host(void **state) {
   (void)state;
   const char *overrides[] = {"constraints.joint_limits=control_points"};
@@ -93,6 +128,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gradients_are_the_dense_ones),
       cmocka_unit_test(transpose_is_adjoint_of_product),
+      cmocka_unit_test(products_are_sums_over_entries),
       cmocka_unit_test(control_point_rows_find_a_host),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
