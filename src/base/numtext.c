@@ -101,12 +101,36 @@ static void print_digits(char *buffer, int digits, double value) {
   }
 }
 
+/* Whole hundredths, as most numbers of pictures are, without printf: h / 100 is the double nearest
+ * to that decimal, so the text reads back, and it is the one that %.15g gives. 0: another number.
+ */
+static size_t print_hundredths(char *buffer, double value) {
+  double h = rint(value * 100.0);
+  if (!(fabs(h) < 1e15) || h / 100.0 != value || (value == 0.0 && signbit(value))) return 0;
+  long long rest = (long long)fabs(h);
+  char reversed[24];
+  size_t count = 0, length = 0;
+  int places = rest % 100 == 0 ? 0 : rest % 10 == 0 ? 1 : 2;
+  for (int skipped = places; skipped < 2; skipped++) rest /= 10;
+  for (int digit = 0; digit <= places || rest > 0; digit++) {
+    if (digit == places && places > 0) reversed[count++] = '.';
+    reversed[count++] = (char)('0' + rest % 10);
+    rest /= 10;
+  }
+  if (h < 0.0) buffer[length++] = '-';
+  while (count > 0) buffer[length++] = reversed[--count];
+  buffer[length] = '\0';
+  return length;
+}
+
 size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value) {
   if (!isfinite(value)) {
     const char *word = isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
     memcpy(buffer, word, strlen(word) + 1);
     return strlen(word);
   }
+  size_t length = print_hundredths(buffer, value);
+  if (length > 0) return length;
   /* every text of up to 15 digits survives in a normal double, so that %.15g already
      drops what is not needed; subnormal numbers carry fewer digits */
   for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {

@@ -48,6 +48,8 @@ static void shortest_text(void **state) {
   } cases[] = {{0.1, "0.1"},
                {1e-5, "1e-05"},
                {-2.0, "-2"},
+               {0.0, "0"},
+               {-0.0, "-0"},
                {100.0, "100"},
                {5e-324, "5e-324"},
                {1e22, "1e+22"},
@@ -60,6 +62,27 @@ static void shortest_text(void **state) {
     char text[AMBULO__NUMTEXT_SIZE];
     ambulo__print_double(text, cases[i].value);
     assert_string_equal(text, cases[i].want);
+  }
+}
+
+/* they take a way of their own: the text is printf's, where it stops too */
+static void hundredths_are_printed_as_others(void **state) {
+  (void)state;
+  static const double scales[] = {1.0, 1e-2, 1e2, 1e6, 1e9, 1e11, 1e12, 1e13};
+  unsigned long long bits = 12345;
+  for (int i = 0; i < 200000; i++) {
+    bits = bits * 6364136223846793005u + 1442695040888963407u;
+    double unit = (double)(bits >> 11) * 0x1p-53 * 2.0 - 1.0;
+    double value = rint(unit * 100.0 * scales[i % 8]) / 100.0;
+    double near[] = {value, nextafter(value, 1e300), nextafter(value, -1e300), rint(value)};
+    for (int k = 0; k < 4; k++) {
+      char text[AMBULO__NUMTEXT_SIZE], want[AMBULO__NUMTEXT_SIZE];
+      (void)snprintf(want, sizeof want, "%.15g", near[k]);
+      size_t length = ambulo__print_double(text, near[k]);
+      assert_int_equal(length, strlen(text));
+      if (fabs(near[k]) > 1e-300 && strtod(want, NULL) == near[k]) assert_string_equal(text, want);
+      assert_true(strtod(text, NULL) == near[k]);
+    }
   }
 }
 
@@ -160,16 +183,17 @@ static void a_comma_locale_changes_nothing(void **state) {
   double value = 0.0;
   int read = ambulo__parse_double("2.5", 3, &value);
   int comma = ambulo__parse_double("2,5", 3, &value);
-  ambulo__print_double(text, 1234567.25);
+  ambulo__print_double(text, 1234567.125);
   (void)setlocale(LC_ALL, "C");
   assert_string_equal(process, "0,5");
   assert_true(read && !comma && value == 2.5);
-  assert_string_equal(text, "1234567.25");
+  assert_string_equal(text, "1234567.125");
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(any_double_survives),
                                      cmocka_unit_test(shortest_text),
+                                     cmocka_unit_test(hundredths_are_printed_as_others),
                                      cmocka_unit_test(what_is_a_number),
                                      cmocka_unit_test(correctly_rounded),
                                      cmocka_unit_test(the_length_is_respected),
