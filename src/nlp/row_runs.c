@@ -26,14 +26,19 @@ static int place(const ambulo__row_table *table, int channels, int row, ambulo__
   return 1;
 }
 
-static void append(ambulo__row_runs *out, int row, int terms, int entry) {
-  ambulo__row_run *last = out->run_count ? &out->runs[out->run_count - 1] : NULL;
-  if (last && last->first + last->count == row && last->terms == terms) {
-    last->count++;
-    return;
+static int continues(const ambulo__row_run *run, int row, int terms) {
+  return run->first + run->count == row && run->terms == terms;
+}
+
+/* the number of runs with this row */
+static int append(ambulo__row_run *runs, int count, int row, int terms, int entry) {
+  if (count > 0 && continues(&runs[count - 1], row, terms)) {
+    runs[count - 1].count++;
+    return count;
   }
   ambulo__row_run run = {row, 1, terms, entry};
-  out->runs[out->run_count++] = run;
+  runs[count] = run;
+  return count + 1;
 }
 
 ambulo_status ambulo__row_runs_create(const ambulo__row_table *table, int channels,
@@ -57,7 +62,7 @@ ambulo_status ambulo__row_runs_create(const ambulo__row_table *table, int channe
     }
     int count = table->rows[r].term_count;
     if (!place(table, channels, r, out, entry)) return AMBULO_E_MEMORY;
-    append(out, r, count, entry);
+    out->run_count = append(out->runs, out->run_count, r, count, entry);
     entry += count;
   }
   return AMBULO_OK;
