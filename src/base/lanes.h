@@ -3,7 +3,8 @@
  * Every per-node quantity is stored [block][entry][lane] with AMBULO__LANES time
  * nodes in a block, lane innermost: node k is lane k % 8 of block k / 8, and entry
  * e of it stands at base[((k / 8) * entries + e) * 8 + k % 8]. The last block is
- * padded with copies of the last node, so that kernels never meet garbage. */
+ * padded, with copies of the last node where nothing else is said, so that kernels never
+ * meet garbage. */
 #ifndef AMBULO_BASE_LANES_H
 #define AMBULO_BASE_LANES_H
 

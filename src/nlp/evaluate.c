@@ -150,7 +150,7 @@ static double user_row_value(ambulo_workspace *workspace, int row) {
   return user->function(user->user, &state, &gradient);
 }
 
-/* terms on channels and on unknowns */
+/* a row with a term on an unknown */
 static double mixed_row_value(const ambulo_workspace *workspace, const ambulo__table_row *row) {
   const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;
   double value = row->constant;

@@ -93,7 +93,7 @@ static void add_user_row(ambulo_workspace *workspace, int r, double lambda) {
   }
 }
 
-/* terms on channels and on unknowns */
+/* a row with a term on an unknown */
 static void add_mixed_row(ambulo_workspace *workspace, const ambulo__table_row *row, double lambda,
                           double *gradient) {
   const ambulo__row_term *term = workspace->problem->table.terms + row->first_term;

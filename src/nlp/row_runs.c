@@ -12,7 +12,7 @@ static int is_odd(const ambulo__row_table *table, int row) {
   return odd;
 }
 
-/* 0 if a place does not fit an int: lanes that no machine holds */
+/* 0 if a place does not fit an int: more than 16 GB of lanes */
 static int place(const ambulo__row_table *table, int channels, int row, ambulo__row_runs *out,
                  int entry) {
   const ambulo__table_row *r = &table->rows[row];

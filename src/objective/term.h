@@ -50,7 +50,8 @@ double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, i
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u);
 
 /* Simple terms at a whole block (term_lanes.c). Residuals u[8] on coordinate i from the channel
- * y[8] of the nodes from `node` on, 0 or a copy of the last beyond the last of `nodes`. */
+ * y[8] of the nodes from `node` on; beyond the last of `nodes` whatever the padding gives
+ * (tracking: 0), which the caller weighs with zero. */
 void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int nodes, int i,
                         const double *y, double *u);
 /* phi and phi' of eight residuals. */

@@ -19,7 +19,8 @@ void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int 
 }
 
 static int is_squared(const ambulo_term *term) {
-  return term->kind != AMBULO_TORQUE_ABSOLUTE && term->kind != AMBULO_TORQUE_POWER;
+  return term->kind == AMBULO_TORQUE_SQUARED || term->kind == AMBULO_ACCELERATION ||
+         term->kind == AMBULO_TRACKING || term->kind == AMBULO_POSTURE;
 }
 
 void ambulo__term_values(const ambulo_term *term, const double *u, double *value) {

@@ -109,11 +109,18 @@ int ambulo__band_factor(ambulo__band *band) {
   return info != 0;
 }
 
+/* Zeros in the padding, each time: an infinite right-hand side leaves NaN there. */
+static void take_right_side(const ambulo__band *l, const double *x) {
+  size_t n = (size_t)l->n, padding = (size_t)ambulo__whole_tiles(l->n) - n;
+  memcpy(l->work, x, n * sizeof *x);
+  memset(l->work + n, 0, padding * sizeof *x);
+}
+
 void ambulo__band_forward(const ambulo__band *l, double *x) {
   size_t bytes = (size_t)l->n * sizeof *x;
   int step = 1;
   if (l->kernels) {
-    memcpy(l->work, x, bytes);
+    take_right_side(l, x);
     l->kernels->forward(l->n, l->kd, l->ld, l->a, l->corner, l->work);
     memcpy(x, l->work, bytes);
   } else {
@@ -125,7 +132,7 @@ void ambulo__band_backward(const ambulo__band *l, double *x) {
   size_t bytes = (size_t)l->n * sizeof *x;
   int step = 1;
   if (l->kernels) {
-    memcpy(l->work, x, bytes);
+    take_right_side(l, x);
     l->kernels->backward(l->n, l->kd, l->ld, l->a, l->corner, l->work);
     memcpy(x, l->work, bytes);
   } else {

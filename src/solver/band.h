@@ -33,12 +33,12 @@ void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows
                              double weight);
 /* Largest diagonal element. */
 double ambulo__band_largest(const ambulo__band *band);
-/* y = A x */
+/* y = A x, y apart from x */
 void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y);
 /* A = L L' in place. 0, or 1 when A is not positive definite. */
 int ambulo__band_factor(ambulo__band *band);
 /* With the factor: x = L^-1 x, L^-T x, L' x; and L^-1 of right-hand sides that stand side by side,
- * x [n rounded up to 8][width], width a multiple of 8, aligned to 64 bytes, zero where padded. */
+ * x [n rounded up to 8][width], width a multiple of 8, aligned to 64 bytes. */
 void ambulo__band_forward(const ambulo__band *factor, double *x);
 void ambulo__band_backward(const ambulo__band *factor, double *x);
 void ambulo__band_upper_multiply(const ambulo__band *factor, double *x);

@@ -21,10 +21,10 @@ typedef struct ambulo__band_kernels {
   /* x = L^-1 x and x = L^-T x */
   void (*forward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
   void (*backward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
-  /* Of rows W [n][width], width whole tiles: W = L^-1 W, with room for n rounded up */
+  /* Of rows W [n][width], aligned, width whole tiles: W = L^-1 W, with room for n rounded up */
   void (*forward_many)(int n, int kd, int ld, const double *a, const double *corner, int width,
                        double *w);
-  /* a = W'W, a band [width] without zeros outside (band.h), below and on its diagonal */
+  /* a = W'W, a full triangle of `width` unknowns in band storage */
   void (*gram)(int n, int width, const double *w, int ld, double *a);
   /* y = W'x, y [width] aligned; x -= W y */
   void (*gather)(int n, int width, const double *w, const double *x, double *y);

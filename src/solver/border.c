@@ -12,6 +12,7 @@ ambulo_status ambulo__border_create(const ambulo__sparse_rows *rows, ambulo__poo
   border->n = rows->problem->variables;
   border->count = rows->count;
   border->width = ambulo__whole_tiles(rows->count);
+  border->kernels = ambulo__band_kernels_select();
   if (border->count == 0) return AMBULO_OK;
   size_t n = (size_t)ambulo__whole_tiles(border->n), width = (size_t)border->width;
   border->wing = ambulo__pool_doubles(pool, n * width);
@@ -48,7 +49,6 @@ static void fill_schur(ambulo__border *border) {
 int ambulo__border_factor(ambulo__border *border, const ambulo__band *factor, const int *active,
                           double shift, double relative) {
   if (border->count == 0) return 0;
-  border->kernels = factor->kernels;
   fill_wing(border, factor, active);
   fill_schur(border);
   ambulo__band_add_diagonal(&border->schur,

@@ -18,7 +18,7 @@
 typedef struct ambulo__border {
   const ambulo__sparse_rows *rows;
   int n, count, width;                 /* width: count rounded up to whole tiles */
-  const ambulo__band_kernels *kernels; /* those of the factor; NULL: LAPACK */
+  const ambulo__band_kernels *kernels; /* NULL: LAPACK */
   double *wing;                        /* [n rounded up][width]: W */
   double *rest;                        /* [width]: m */
   ambulo__band schur;                  /* a full triangle: Cholesky factor of W'W + S */
@@ -28,8 +28,8 @@ typedef struct ambulo__border {
 ambulo_status ambulo__border_create(const ambulo__sparse_rows *rows, ambulo__pool *pool,
                                     ambulo__border *border);
 /* Factors W'W + S for the gradients that the rows hold; active NULL: all of them, else those
- * rows i with active[i]. S is `shift` + `relative` times the largest diagonal element of W'W.
- * 0, or 1 when it is not positive definite. */
+ * rows i with active[i], which takes S > 0. S is `shift` + `relative` times the largest diagonal
+ * element of W'W. 0, or 1 when it is not positive definite. */
 int ambulo__border_factor(ambulo__border *border, const ambulo__band *factor, const int *active,
                           double shift, double relative);
 /* z [n] becomes z - W m; m stays in border->rest. b NULL: zero. */

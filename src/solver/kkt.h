@@ -29,7 +29,7 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h);
 
 /* One pass: d solves M d + C' m = right, C d = b exactly; J d is what it comes out as.
- * b NULL: zero. right becomes d. m [borders] may be NULL. */
+ * b NULL: zero. right becomes d. m [border->count] may be NULL. */
 void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m);
 
 /* Solves (K) to rounding: a, h, b NULL are zero; l [equalities] is the first guess of the

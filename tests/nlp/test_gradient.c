@@ -1,4 +1,5 @@
 /* The reverse sweep against row gradients, central differences, and a sabotaged callback. */
+#include "nlp/nlp.h"
 #include "support/problem_fixture.h"
 
 static double hand_height(void *user, const ambulo_node_state *state,
@@ -129,12 +130,57 @@ static void weights_combine_objective_and_rows(void **state) {
   fixture_close(&f);
 }
 
+static void rows_on_unknowns_and_terms_on_one_channel(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  ambulo_problem_definition definition = arm_definition(f.model);
+  ambulo_term terms[] = {ambulo_term_default(AMBULO_TORQUE_SQUARED),
+                         ambulo_term_default(AMBULO_TORQUE_ABSOLUTE)};
+  definition.joint_limits = AMBULO_LIMIT_CONTROL_POINTS;
+  definition.terms = terms;
+  definition.term_count = 2;
+  fixture_open(&f, &definition);
+  double *weights = calloc((size_t)f.m, sizeof *weights);
+  double *rows = calloc((size_t)f.m, sizeof *rows);
+  assert_true(worst_error(&f, NULL) < 1e-7);
+  for (int r = 0; r < f.m; r++) weights[r] = cos(r);
+  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.7, weights, f.gradient),
+                   0);
+  for (int j = 0; j < f.n; j++) {
+    double value[2], keep = f.x[j], objective;
+    for (int side = 0; side < 2; side++) {
+      f.x[j] = keep + (side ? 1e-5 : -1e-5);
+      assert_int_equal(ambulo_problem_evaluate(f.problem, f.workspace, f.x, &objective, NULL, rows),
+                       0);
+      value[side] = 0.7 * objective;
+      for (int r = 0; r < f.m; r++) value[side] += weights[r] * rows[r];
+    }
+    f.x[j] = keep;
+    double slope = (value[1] - value[0]) / 2e-5;
+    assert_close(f.gradient[j], slope, 1e-6);
+  }
+  assert_int_equal(ambulo_problem_evaluate(f.problem, f.workspace, f.x, NULL, NULL, rows), 0);
+  int limits = 0;
+  for (int r = 0; r < f.m; r++) {
+    const ambulo__table_row *row = &f.problem->table.rows[r];
+    if (strcmp(row->family, "joint_limit")) continue;
+    double x = f.x[f.problem->table.terms[row->first_term].channel];
+    assert_close(rows[r], strcmp(row->detail, "upper") ? x + 2.0 : 2.5 - x, 1e-14);
+    limits++;
+  }
+  assert_int_equal(limits, 2 * f.n);
+  free(weights);
+  free(rows);
+  fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_family_and_term_agrees_with_central_differences),
       cmocka_unit_test(a_wrong_callback_is_found),
       cmocka_unit_test(other_bases_have_right_gradients_too),
       cmocka_unit_test(weights_combine_objective_and_rows),
+      cmocka_unit_test(rows_on_unknowns_and_terms_on_one_channel),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

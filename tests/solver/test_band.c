@@ -93,6 +93,28 @@ static void many_right_hand_sides_are_single_ones(void **state) {
   }
 }
 
+static void a_right_hand_side_that_overflows_leaves_nothing_behind(void **state) {
+  (void)state;
+  banded m;
+  double x[N], again[N];
+  fill(&m, 6);
+  assert_int_equal(ambulo__band_factor(&m.band), 0);
+  for (int i = 0; i < N; i++) x[i] = again[i] = cos(i);
+  ambulo__band_forward(&m.band, x);
+  ambulo__band_backward(&m.band, x);
+  for (int pass = 0; pass < 2; pass++) {
+    double wild[N];
+    for (int i = 0; i < N; i++) wild[i] = INFINITY;
+    (pass ? ambulo__band_backward : ambulo__band_forward)(&m.band, wild);
+    double good[N];
+    memcpy(good, again, sizeof good);
+    ambulo__band_forward(&m.band, good);
+    ambulo__band_backward(&m.band, good);
+    assert_memory_equal(good, x, sizeof x);
+  }
+  ambulo__pool_clear(&m.pool);
+}
+
 static void sparse_row_adds_its_outer_product(void **state) {
   (void)state;
   banded m;
@@ -131,6 +153,7 @@ int main(void) {
       cmocka_unit_test(product_is_the_dense_one),
       cmocka_unit_test(factor_solves_the_dense_system),
       cmocka_unit_test(many_right_hand_sides_are_single_ones),
+      cmocka_unit_test(a_right_hand_side_that_overflows_leaves_nothing_behind),
       cmocka_unit_test(sparse_row_adds_its_outer_product),
       cmocka_unit_test(indefinite_matrix_is_refused),
   };

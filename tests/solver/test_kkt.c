@@ -125,11 +125,27 @@ static void dependent_rows_do_no_harm(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
+/* the complement is singular then; a shift to rounding keeps it solvable */
+static void a_border_row_that_vanishes_does_no_harm(void **state) {
+  (void)state;
+  static kkt_case s;
+  double d[N], l[LOCAL] = {0.0}, out[BORDER];
+  open_system(&s);
+  for (int e = s.start[1][1]; e < s.start[1][2]; e++) s.value[1][e] = 0.0;
+  s.rhs_border[1] = 0.0;
+  assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+  ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+  ambulo__sparse_rows_multiply(&s.border, d, out);
+  for (int i = 0; i < BORDER; i++) assert_close(out[i], s.rhs_border[i], 1e-9);
+  ambulo__pool_clear(&s.pool);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(solution_is_the_dense_one),
       cmocka_unit_test(rows_hold_to_rounding),
       cmocka_unit_test(dependent_rows_do_no_harm),
+      cmocka_unit_test(a_border_row_that_vanishes_does_no_harm),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
