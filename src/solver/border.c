@@ -2,7 +2,6 @@
 #include "solver/border.h"
 #include "base/lapack.h"
 
-#include <math.h>
 #include <string.h>
 
 ambulo_status ambulo__border_create(const ambulo__sparse_rows *rows, ambulo__pool *pool,
