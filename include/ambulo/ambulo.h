@@ -15,7 +15,7 @@
  * belong to one thread at a time. The library has no global state, never prints and
  * never exits. OpenBLAS starts a thread per core unless OPENBLAS_NUM_THREADS=1 is set
  * before the process starts. The matrices here are too small to gain from them: set it
- * where AVX2 is missing or bodies have more than 24 coordinates, otherwise solves do not
+ * where AVX2 is missing or bodies have more than 21 coordinates, otherwise solves do not
  * wake them. The library does not change it, for it is a setting of the whole process.
  */
 #ifndef AMBULO_AMBULO_H
