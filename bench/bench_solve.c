@@ -42,7 +42,7 @@ static double solve(bench_table *table, const char *name, const char *path,
     double seconds = process_seconds() - start;
     if (best < 0 || seconds < best) best = seconds;
   }
-  if (!result || ambulo_result_verdict(result) > AMBULO_FEASIBLE) {
+  if (!result || !ambulo_verdict_is_solution(ambulo_result_verdict(result))) {
     printf("%-44s %s after %.3f s, violation %.1e\n", name,
            result ? ambulo_verdict_name(ambulo_result_verdict(result)) : "failed", best,
            result ? ambulo_result_audit(result)->violation.worst : 0.0);

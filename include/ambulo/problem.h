@@ -128,7 +128,11 @@ typedef struct ambulo_node_gradient {
 } ambulo_node_gradient;
 
 /* Value at one node, gradient added where `gradient` is not NULL. Must be a pure
- * function; called from the thread that evaluates. */
+ * function of the state's members; called from the thread that evaluates, also with members that do
+ * not belong to one motion: the solver learns the curvature of a term from gradients at states
+ * nearby. Of AMBULO_USER_SQUARE it knows the curvature without, and solves faster. A value or a
+ * gradient that is not finite gives a trial point up (a barrier may return NAN beyond its wall); at
+ * the start, at every iterate and at the end it is a numeric failure. */
 typedef double (*ambulo_node_function)(void *user, const ambulo_node_state *state,
                                        ambulo_node_gradient *gradient);
 
@@ -147,7 +151,8 @@ typedef enum ambulo_term_kind {
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
   AMBULO_UPRIGHT,      /* squared horizontal direction cosines of the line point[0] to point[1] */
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
-  AMBULO_CLEARANCE     /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
+  AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
+  AMBULO_USER_SQUARE   /* function(user, state, gradient)^2 */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
@@ -293,14 +298,40 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row(const ambulo_proble
 
 /* ---------------------------------------------------------------- evaluation */
 
+/* A value or a derivative that is not finite. Strings belong to the problem and the model. */
+typedef enum ambulo_fault_kind {
+  AMBULO_FAULT_NONE,      /* everything was finite */
+  AMBULO_FAULT_UNKNOWN,   /* an unknown of the point itself */
+  AMBULO_FAULT_TERM,      /* an objective term */
+  AMBULO_FAULT_ROW,       /* a row */
+  AMBULO_FAULT_MECHANICS, /* inverse dynamics: finite values, a derivative that is not */
+  AMBULO_FAULT_SUM        /* finite parts with a sum that is not */
+} ambulo_fault_kind;
+typedef struct ambulo_fault {
+  ambulo_fault_kind kind;
+  int derivative;               /* 0: the value; 1: its derivative by `by` of `of` */
+  const char *name;             /* of the term, family of the row; "" for others */
+  const char *subject, *detail; /* of the row; "" for others */
+  const char *by; /* "q", "qd", "qdd", "tau", "wrench", "points", "reaction", "unknown" */
+  const char *of; /* coordinate, component, point or foot */
+  int node;       /* -1: not tied to one node */
+  double time;    /* s */
+  double value;   /* NAN, INFINITY or -INFINITY */
+} ambulo_fault;
+/* In words: "the derivative of objective term 'effort' by tau of elbow at node 3 (t = 0.3 s) is
+ * nan". Writes at most `size` bytes, ended by 0. */
+AMBULO_API void ambulo_fault_text(const ambulo_fault *fault, char *buffer, size_t size);
+
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
                                                                   const ambulo_allocator *allocator,
                                                                   ambulo_workspace **workspace);
 AMBULO_API void ambulo_workspace_free(ambulo_workspace *workspace); /* accepts NULL */
+/* What made the last call with this workspace that returned E_NUMERIC do so. */
+AMBULO_API const ambulo_fault *ambulo_workspace_fault(const ambulo_workspace *workspace);
 
 /* Objective, its terms [term_count] and row values [row_count] at x
  * [variable_count]; each output may be NULL. Nothing is recomputed while x stays
- * the same. E_NUMERIC: a value is not finite. */
+ * the same. E_NUMERIC: a value is not finite (ambulo_workspace_fault tells which). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_evaluate(const ambulo_problem *problem,
                                                                   ambulo_workspace *workspace,
                                                                   const double *x,
@@ -308,12 +339,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_evaluate(const ambulo_p
                                                                   double *rows);
 
 /* Gradient [variable_count] of objective_weight * J + sum_r row_weights[r] c_r
- * (row_weights may be NULL): one reverse sweep. */
+ * (row_weights may be NULL): one reverse sweep. E_NUMERIC: a value or a derivative is not
+ * finite; the gradient is filled all the same. */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_problem_gradient(const ambulo_problem *problem, ambulo_workspace *workspace, const double *x,
                         double objective_weight, const double *row_weights, double *gradient);
 
-/* Gradient of one row, dense [variable_count]. */
+/* Gradient of one row, dense [variable_count]. E_NUMERIC as above. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambulo_problem *problem,
                                                                       ambulo_workspace *workspace,
                                                                       const double *x, int row,

@@ -14,12 +14,14 @@
 extern "C" {
 #endif
 
+/* Zero is no verdict, so that a result that nobody filled never reads as a good one. */
 #define AMBULO_VERDICT_LIST(X)                                                                     \
+  X(AMBULO_NOT_JUDGED, "not_judged", "no audit was made")                                          \
   X(AMBULO_OPTIMAL, "optimal", "feasible, and a first-order (KKT) point")                          \
   X(AMBULO_FEASIBLE, "feasible", "every row holds at the nodes; not shown to be optimal")          \
   X(AMBULO_INFEASIBLE, "infeasible", "some row is violated")                                       \
-  X(AMBULO_NUMERIC_FAILURE, "numeric_failure", "a value became non-finite")                        \
-  X(AMBULO_LIMIT_REACHED, "limit", "stopped by the time or evaluation limit, not feasible")        \
+  X(AMBULO_NUMERIC_FAILURE, "numeric_failure", "a value or a derivative is not finite")            \
+  X(AMBULO_LIMIT_REACHED, "limit", "stopped by a limit, not feasible")                             \
   X(AMBULO_INTERRUPTED, "interrupted", "stopped by the caller; the best point so far")
 
 typedef enum ambulo_verdict {
@@ -30,6 +32,38 @@ typedef enum ambulo_verdict {
 
 AMBULO_API const char *ambulo_verdict_name(ambulo_verdict verdict);
 AMBULO_API const char *ambulo_verdict_text(ambulo_verdict verdict);
+
+/* 1 for the verdicts of a motion that can be used: optimal and feasible. */
+AMBULO_API int ambulo_verdict_is_solution(ambulo_verdict verdict);
+
+/* Why a solve ended: which test was met, or which limit. It says nothing about the point. */
+#define AMBULO_ENDING_LIST(X)                                                                      \
+  X(AMBULO_ENDING_NONE, "none", "no solver ran")                                                   \
+  X(AMBULO_ENDING_CONVERGED, "converged",                                                          \
+    "the objective settled, the reduced gradient is small, the rows hold")                         \
+  X(AMBULO_ENDING_SETTLED, "settled",                                                              \
+    "the objective settled and the rows hold; no test of the gradient was met")                    \
+  X(AMBULO_ENDING_VANISHED, "vanished", "the objective went to zero")                              \
+  X(AMBULO_ENDING_STALLED, "stalled", "neither the violation nor the objective moved any more")    \
+  X(AMBULO_ENDING_NO_DESCENT, "no_descent", "no trial point lowered the merit function")           \
+  X(AMBULO_ENDING_NOT_RESTORED, "not_restored",                                                    \
+    "no point was found that satisfies the equalities")                                            \
+  X(AMBULO_ENDING_BREAKDOWN, "breakdown", "a factorization failed at every damping")               \
+  X(AMBULO_ENDING_NOT_FINITE, "not_finite", "a value or a derivative is not finite")               \
+  X(AMBULO_ENDING_NLOPT, "nlopt", "NLopt ended by a test of its own")                              \
+  X(AMBULO_ENDING_ITERATIONS, "maximum_iterations", "the iteration limit was met")                 \
+  X(AMBULO_ENDING_EVALUATIONS, "maximum_evaluations", "the evaluation limit was met")              \
+  X(AMBULO_ENDING_TIME, "time_limit", "the time limit was met")                                    \
+  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")
+
+typedef enum ambulo_ending {
+#define AMBULO_ENDING_ENUM(id, name, text) id,
+  AMBULO_ENDING_LIST(AMBULO_ENDING_ENUM)
+#undef AMBULO_ENDING_ENUM
+} ambulo_ending;
+
+AMBULO_API const char *ambulo_ending_name(ambulo_ending ending);
+AMBULO_API const char *ambulo_ending_text(ambulo_ending ending);
 
 typedef enum ambulo_algorithm {
   AMBULO_AUTO,  /* the whitened pipeline of docs/equations.md around NLopt's AUGLAG or SLSQP */
@@ -44,23 +78,29 @@ typedef enum ambulo_finisher {
                            better. Dense: up to 750 unknowns */
 } ambulo_finisher;
 
-/* Progress of a solve, given to the callback after every refresh or, without
- * presolve, every evaluation that improves. */
+/* Progress of a solve, given to the callback after every iteration (without presolve, every
+ * evaluation that improves), and at least every tenth of a second during set-up, audit and
+ * explanation, where objective and violation are NAN. */
 typedef struct ambulo_progress {
   int iteration, evaluations;
-  double objective, violation; /* violation: worst over all rows, in the row's unit */
+  double objective, violation; /* violation: worst over all rows, relative to their size */
   double seconds, time_limit;  /* since the start; 0 limit: none */
   double seconds_left;         /* estimate; < 0: unknown */
+  const char *stage;           /* "set-up", "coarse grids", "solve", "audit", "explanation" */
 } ambulo_progress;
 
 typedef struct ambulo_options {
   int cookie; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
-  int presolve; /* 1: drop dependent equalities, whiten, restore, retract, screen;
-                   0: every row handed straight to NLopt */
-  int maximum_evaluations;
-  double time_limit;            /* s; 0: none */
-  double feasibility_tolerance; /* worst violation that counts as feasible, row's unit; 1e-6 */
+  int presolve;            /* 1: drop dependent equalities, whiten, restore, retract, screen;
+                              0: every row handed straight to NLopt */
+  int maximum_evaluations; /* of the objective and the rows; 20000 */
+  int maximum_iterations;  /* refreshes of the pipeline, calls of NLopt otherwise; 150 */
+  double time_limit;       /* s of wall time; 0: none. It holds from set-up to explanation; what
+                              it takes to judge the last point may add a tenth of it */
+  double maximum_memory;   /* bytes that a solve may be predicted to take; 0: what is free */
+  double feasibility_tolerance; /* worst violation that counts as feasible, relative to the size of
+                                   its row (ambulo_violation.size); 1e-6 */
   double optimality_tolerance;  /* relative KKT residual that counts as optimal; 1e-3 */
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
@@ -74,23 +114,35 @@ AMBULO_API ambulo_options ambulo_options_default(void);
 /* The defaults, changed by what the problem file says under `solver:`. */
 AMBULO_API ambulo_options ambulo_problem_options(const ambulo_problem *problem);
 
-/* Violation of one family of rows. */
+/* Violation of one family of rows. It is judged relative to the size of the row, so that one
+ * tolerance fits every unit:
+ *
+ *     lengths 1 m, angles 1 rad
+ *     forces the body weight m g, torques m g times 1 m
+ *     rates 10 m/s and rad/s, accelerations 100 m/s^2 and rad/s^2
+ *     anything else 1 of its unit, as rows of the caller may have it
+ *
+ * With the default tolerance of 1e-6 a foot may stand a micrometre off its place, and a person of
+ * 75 kg may pass a torque limit by .0007 N m. */
 typedef struct ambulo_violation {
   const char *family, *subject, *detail, *unit;
   double time, worst; /* worst >= 0, in unit */
+  double size;        /* in unit; worst / size is what is compared with the tolerance */
 } ambulo_violation;
 
 typedef struct ambulo_audit {
   ambulo_violation violation; /* worst of all, at the nodes */
   ambulo_violation
-      dense_violation;    /* worst of all, between the nodes (inequalities and contacts) */
-  double kkt;             /* |projected gradient| / max(1e-12, |gradient|), infinity norms */
+      dense_violation; /* worst of all, between the nodes (inequalities and contacts) */
+  double kkt;          /* |projected gradient| / max(1e-12, |gradient|), infinity norms; infinite:
+                          unknown */
   double complementarity; /* largest |multiplier * row| / max(1, |J|) */
-  int active_rows, rank;  /* of the rows active at the point */
+  int active_rows, rank;  /* of the rows active at the point; -1: a limit left no time for it */
   int dropped_equalities; /* dependent on the others */
   int at_lower_bound;     /* 1: no term of the objective can be negative, none follows a reference,
                              and each is at most optimality_tolerance times its value with all
                              unknowns zero: no point is better by more, whatever kkt says */
+  ambulo_fault fault;     /* kind AMBULO_FAULT_NONE: every value and derivative is finite */
 } ambulo_audit;
 
 typedef struct ambulo_timing {
@@ -135,6 +187,14 @@ typedef struct ambulo_explanation {
   const char *suggestion; /* "" when there is none */
 } ambulo_explanation;
 
+/* Memory in bytes, predicted from sizes; within a factor of two for walks. */
+typedef struct ambulo_memory {
+  double problem;    /* the problem itself */
+  double evaluation; /* one workspace */
+  double solve;      /* peak of a solve, with both of them */
+} ambulo_memory;
+AMBULO_API ambulo_memory ambulo_problem_memory(const ambulo_problem *problem);
+
 typedef struct ambulo_result ambulo_result;
 
 /* Solves from `start` [variable_count] (NULL: zero) with `options` (NULL: those of the problem's
@@ -166,8 +226,10 @@ AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *res
 AMBULO_API int ambulo_result_iterations(const ambulo_result *result);
 AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
-/* Why the solver ended, in words ("NLopt: FTOL_REACHED after 138 evaluations"). */
+/* Why the solver ended, in words, with the method and what it took. */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
+/* The same as a code. */
+AMBULO_API ambulo_ending ambulo_result_ending_code(const ambulo_result *result);
 /* Of an infeasible problem or one that met a limit; NULL for every other verdict and for
  * points that were only audited. */
 AMBULO_API const ambulo_explanation *ambulo_result_explanation(const ambulo_result *result);

@@ -4,8 +4,6 @@
 
 /* Processors this process may use (affinity and control group), at least 1. */
 int ambulo__usable_processors(void);
-/* Free memory in megabytes (system and control group); 0: unknown. */
-double ambulo__free_megabytes(void);
 /* Processes at once: `wanted`, or the usable processors where that is 0; then no more than
  * fit into the free memory with `megabytes` each (0: 150, what a gait needs at most). */
 int ambulo__worker_count(int wanted, int megabytes);

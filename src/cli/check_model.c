@@ -58,7 +58,7 @@ static void compare(tables *t, int o, int i, int column, double step) {
     double numeric = (8.0 * near - far) / (12.0 * step);
     double analytic = t->jacobian[o][i][(size_t)r * (size_t)t->d + (size_t)column];
     double error = fabs(analytic - numeric) / scale;
-    if (error <= t->error[o][i]) continue;
+    if (isnan(t->error[o][i]) || error <= t->error[o][i]) continue; /* NaN is the worst */
     t->error[o][i] = error;
     t->worst_row[o][i] = r;
     t->worst_column[o][i] = column;

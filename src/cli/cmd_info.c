@@ -144,6 +144,9 @@ static void print_problem(const ambulo_problem *problem) {
          ambulo_model_coordinate_count(ambulo_problem_model(problem)));
   printf("constraints  %d equalities, %d inequalities\n", equalities,
          ambulo_problem_row_count(problem) - equalities);
+  ambulo_memory memory = ambulo_problem_memory(problem);
+  printf("memory       about %.3g MB to solve, %.3g MB of it to evaluate\n",
+         memory.solve / 1048576.0, memory.evaluation / 1048576.0);
   printf("input hash   %016llx\n", ambulo_problem_hash(problem));
   printf("\nobjective\n");
   for (int i = 0; i < ambulo_problem_term_count(problem); i++)

@@ -1,9 +1,11 @@
 /* cli/cmd_solve.c - ambulo solve: one problem, one result folder.
  *
  * Order: output is checked before any work is done; the problem is read; it is solved with a
- * progress line on terminals; the result is written whatever the verdict, and marked. Ctrl-C
- * and SIGTERM stop the solver at its next evaluation and keep the best point; a second one
- * ends the program at once. */
+ * progress line on terminals; the result is written whatever the verdict, and marked. Until the
+ * solve begins nothing is lost, and Ctrl-C and SIGTERM end the program. From then on they stop the
+ * solver within a tenth of a second, in set-up and explanation too, and keep the best point; a
+ * second one ends the program at once. */
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,7 +64,10 @@ typedef struct job {
 
 static int show_progress(void *user, const ambulo_progress *p) {
   const job *j = user;
-  if (j->terminal) {
+  if (j->terminal && isnan(p->objective)) {
+    fprintf(stderr, "\r%s: %.1f s\033[K", p->stage, p->seconds);
+    fflush(stderr);
+  } else if (j->terminal) {
     char left[40] = "";
     if (p->seconds_left >= 0.0) snprintf(left, sizeof left, ", %.0f s left", p->seconds_left);
     fprintf(stderr,
@@ -128,6 +133,7 @@ static ambulo_status solve(job *j) {
   if (j->time_limit >= 0.0) options.time_limit = j->time_limit;
   options.progress = show_progress;
   options.user = j;
+  catch_signals();
   ambulo_status status =
       ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
   if (j->terminal) fprintf(stderr, "\r\033[K");
@@ -160,7 +166,6 @@ static int verdict_exit_code(const ambulo_result *result) {
 static int run_job(job *j) {
   int code = read_options(j);
   if (code) return code;
-  catch_signals();
   const char *file = j->input->arguments[0];
   ambulo_status status = ambulo_report_check(j->directory, &j->report, j->diagnostics);
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, j->directory);

@@ -5,7 +5,11 @@
 
 void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3], double factor) {
   for (int axis = 0; axis < 3; axis++) {
-    if (direction[axis] == 0.0 || form->count == AMBULO__FORM_TERMS) continue;
+    if (direction[axis] == 0.0) continue;
+    if (form->count == AMBULO__FORM_TERMS) {
+      form->overflow = 1;
+      return;
+    }
     form->channel[form->count] = first + axis;
     form->coefficient[form->count++] = factor * direction[axis];
   }
@@ -24,6 +28,7 @@ static void side(const ambulo__gait_frame *frame, int node, const ambulo__band_n
 void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
                        const ambulo__linear *form, double low, double high,
                        ambulo__row_table *table) {
+  if (form->overflow && !table->status) table->status = AMBULO_E_INTERNAL;
   side(frame, node, name, form, 1.0, low, table);
   side(frame, node, name, form, -1.0, high, table);
 }

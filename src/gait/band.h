@@ -10,6 +10,7 @@ enum { AMBULO__FORM_TERMS = 12 };
 typedef struct ambulo__linear {
   double constant;
   int count;
+  int overflow; /* 1: a term found no room; ambulo__band_rows then refuses the form */
   int channel[AMBULO__FORM_TERMS];
   double coefficient[AMBULO__FORM_TERMS];
 } ambulo__linear;
@@ -22,7 +23,8 @@ typedef struct ambulo__band_name {
 /* Adds factor times the components first, first + 1, first + 2 along `direction`. */
 void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3], double factor);
 
-/* form - low >= 0 and high - form >= 0; an infinite bound has no row. */
+/* form - low >= 0 and high - form >= 0; an infinite bound has no row. A form that overflowed makes
+ * the table fail with E_INTERNAL. */
 void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
                        const ambulo__linear *form, double low, double high,
                        ambulo__row_table *table);

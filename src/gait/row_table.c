@@ -2,9 +2,10 @@
 #include "gait/row_table.h"
 
 #include <limits.h>
+#include <string.h>
 
 void ambulo__row_table_init(ambulo__row_table *table, const ambulo_allocator *allocator) {
-  ambulo__row_table empty = {.allocator = ambulo__allocator_or_default(allocator)};
+  ambulo__row_table empty = {.allocator = ambulo__allocator_or_default(allocator), .weight = 1.0};
   *table = empty;
 }
 
@@ -28,6 +29,18 @@ static int grow(const ambulo_allocator *allocator, void **array, int count, int 
   return 1;
 }
 
+double ambulo__unit_size(const ambulo__row_table *table, const char *unit) {
+  const struct {
+    const char *unit;
+    double size;
+  } sizes[] = {{"N", table->weight}, {"N m", table->weight}, {"m/s", 10.0},
+               {"rad/s", 10.0},      {"m/s^2", 100.0},       {"rad/s^2", 100.0}};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    if (strcmp(unit, sizes[i].unit) == 0) return sizes[i].size;
+  }
+  return 1.0;
+}
+
 void ambulo__row_begin(ambulo__row_table *table, const char *family, const char *subject,
                        const char *detail, const char *unit, ambulo_relation relation, int node,
                        double time, double constant) {
@@ -48,6 +61,7 @@ void ambulo__row_begin(ambulo__row_table *table, const char *family, const char 
                            .node = node,
                            .time = time,
                            .constant = constant,
+                           .size = ambulo__unit_size(table, unit),
                            .first_term = table->term_count,
                            .user = -1};
   table->rows[table->row_count++] = row;

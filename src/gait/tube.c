@@ -9,6 +9,8 @@
 
 #include <math.h>
 
+static const double furthest = 1e6; /* rad, m: of a reference */
+
 ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                                   ambulo_diagnostics *diagnostics) {
   static const ambulo__place nowhere = {NULL, 0, 0, NULL};
@@ -28,11 +30,13 @@ ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                            ambulo_model_coordinate(definition->model, (int)i)->name);
     }
     for (size_t i = 0; i < (size_t)tube->samples * coordinates; i++) {
-      if (isfinite(tube->reference[i]) || !isfinite(tube->half_width[i % coordinates])) continue;
-      return ambulo__error(
-          diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
-          "constraints.tubes[%d]: the reference of '%s' is not finite", t,
-          ambulo_model_coordinate(definition->model, (int)(i % coordinates))->name);
+      if (fabs(tube->reference[i]) <= furthest || !isfinite(tube->half_width[i % coordinates]))
+        continue;
+      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
+                           "constraints.tubes[%d]: the reference of '%s' is %g; expected -%g to %g",
+                           t,
+                           ambulo_model_coordinate(definition->model, (int)(i % coordinates))->name,
+                           tube->reference[i], furthest, furthest);
     }
   }
   return AMBULO_OK;

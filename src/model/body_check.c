@@ -10,7 +10,15 @@
 #include "model/check.h"
 
 static const double LEAST_MASS = 1e-9, LARGEST_MASS = 1e6; /* kg */
+static const double LONGEST = 1e6, LARGEST_INERTIA = 1e12; /* m, kg m^2: squares stay finite */
 static const double ROUNDING = 1e-9;                       /* relative to the largest moment */
+
+static int within(const double *v, int count, double most) {
+  for (int i = 0; i < count; i++) {
+    if (!(fabs(v[i]) <= most)) return 0;
+  }
+  return 1;
+}
 
 /* One Jacobi rotation that clears a[p][q]. */
 static void rotate(double a[3][3], int p, int q) {
@@ -88,9 +96,11 @@ ambulo_status ambulo__check_body(const char *what, double mass, const double com
                          "mass of '%s' is out of range (got %s kg); expected 1e-9 to 1e6 kg", what,
                          ambulo__number_text(mass).text);
   }
-  if (!ambulo__finite3(com) || !ambulo__finite3(inertia) || !ambulo__finite3(inertia + 3)) {
+  if (!within(com, 3, LONGEST) || !within(inertia, 6, LARGEST_INERTIA)) {
     return ambulo__error(diagnostics, AMBULO_E_MODEL, places.inertia, NULL,
-                         "centre of mass and inertia of '%s' must be finite numbers", what);
+                         "centre of mass or inertia of '%s' is out of range; expected finite "
+                         "numbers of at most 1e6 m and 1e12 kg m^2",
+                         what);
   }
   return check_inertia(what, inertia, places.inertia, diagnostics);
 }

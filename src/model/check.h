@@ -21,9 +21,6 @@ typedef struct ambulo__number {
 } ambulo__number;
 ambulo__number ambulo__number_text(double value);
 
-/* 1 if the three values are finite. */
-int ambulo__finite3(const double v[3]);
-
 /* A body that could exist: mass finite and in range, centre of mass finite, inertia
  * [xx yy zz xy xz yz] positive semidefinite with principal moments that obey the
  * triangle inequality. `what` names it in messages; the places are those of the mass and of

@@ -5,6 +5,9 @@
 
 #include "model/check.h"
 
+static const double LONGEST = 1e6;        /* m */
+static const double LARGEST_LIMIT = 1e12; /* rad, m, their rates, N m, N */
+
 static ambulo__place place_in(const ambulo__checker *c, const ambulo__place *list, int index) {
   return list ? list[index] : ambulo__place_of_model(c);
 }
@@ -26,6 +29,14 @@ static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, in
 static void check_interval(ambulo__checker *c, int index, const char *what,
                            const double interval[2]) {
   const char *name = c->definition->coordinates[index].name;
+  for (int k = 0; k < 2; k++) {
+    if (!isfinite(interval[k]) || fabs(interval[k]) <= LARGEST_LIMIT) continue;
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                              "%s limit of coordinate '%s' is out of range (got %s); expected at "
+                              "most 1e12, or none",
+                              what, name ? name : "", ambulo__number_text(interval[k]).text);
+    return;
+  }
   if (interval[0] <= interval[1] && interval[0] < INFINITY && interval[1] > -INFINITY) return;
   char in_degrees[80] = "";
   int angle = type_of_coordinate(c->definition, index) == AMBULO_REVOLUTE;
@@ -90,9 +101,13 @@ static void check_point(ambulo__checker *c, int index) {
                               "link of point '%s' does not exist (got index %d); expected 0 to %d",
                               name, point->link, c->definition->link_count - 1);
   }
-  if (!ambulo__finite3(point->position)) {
+  for (int i = 0; i < 3; i++) {
+    if (fabs(point->position[i]) <= LONGEST) continue;
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
-                              "position of point '%s' must be three finite numbers", name);
+                              "position of point '%s' is out of range (got %s m); expected three "
+                              "finite numbers up to 1e6 m",
+                              name, ambulo__number_text(point->position[i]).text);
+    return;
   }
 }
 

@@ -11,10 +11,6 @@ ambulo__number ambulo__number_text(double value) {
   return number;
 }
 
-int ambulo__finite3(const double v[3]) {
-  return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
-}
-
 ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
   return c->places ? c->places->model : (ambulo__place){0};
 }

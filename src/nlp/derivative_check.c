@@ -12,6 +12,7 @@
  * The check needs eight evaluations per unknown and rows * unknowns comparisons; it is meant
  * for grids of a few hundred unknowns.
  */
+#include "base/worst.h"
 #include "nlp/problem.h"
 
 #include <float.h>
@@ -78,7 +79,8 @@ static ambulo_status analytic_terms(check *c, const double *x) {
   for (int t = 0; t < p->definition.term_count; t++) {
     ambulo_status status = ambulo__evaluate(c->workspace, x);
     if (status) return status;
-    ambulo__term_gradient(c->workspace, t, c->analytic + (size_t)(p->rows + t) * n);
+    status = ambulo__term_gradient(c->workspace, t, c->analytic + (size_t)(p->rows + t) * n);
+    if (status) return status;
   }
   return AMBULO_OK;
 }
@@ -94,7 +96,7 @@ static void describe(check *c, int line, int j, double numeric, double error) {
   const ambulo__table_row *row = is_row ? &p->table.rows[line] : NULL;
   const char *family = is_row ? row->family : ambulo_problem_term_name(p, line - p->rows);
   int at = family_index(c, family);
-  if (at < 0 || error <= c->errors[at].error) return;
+  if (at < 0 || !ambulo__is_worse(c->errors[at].error, error)) return;
   ambulo_derivative_error *e = &c->errors[at];
   e->subject = is_row ? row->subject : "";
   e->time = is_row ? row->time : 0.0;
@@ -162,7 +164,7 @@ static void row_sizes(check *c) {
   for (int line = 0; line < lines; line++) {
     c->size[line] = 0.0;
     for (size_t j = 0; j < n; j++)
-      c->size[line] = fmax(c->size[line], fabs(c->analytic[(size_t)line * n + j]));
+      c->size[line] = ambulo__worse(c->size[line], fabs(c->analytic[(size_t)line * n + j]));
   }
 }
 

@@ -12,8 +12,10 @@
  * Everything is cached on x: solvers ask for the objective, the constraints and their
  * gradients separately, and SLSQP repeats every third point.
  */
-#include "nlp/nlp.h"
+#include "base/worst.h"
+#include "nlp/fault.h"
 #include "nlp/states.h"
+#include "nlp/user_term.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,11 +73,8 @@ ambulo_node_gradient ambulo__node_gradient_view(const ambulo_problem *p, double 
 static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
   const ambulo_problem *p = workspace->problem;
   double sum = 0.0;
-  for (int k = 0; k < p->nodes; k++) {
-    ambulo__node_state_fill(workspace, k, workspace->node_state);
-    ambulo_node_state state = ambulo__node_state_view(p, k, workspace->node_state);
-    sum += p->quadrature[k] * term->function(term->user, &state, NULL);
-  }
+  for (int k = 0; k < p->nodes; k++)
+    sum += p->quadrature[k] * ambulo__user_term_value(workspace, term, k);
   return sum;
 }
 
@@ -120,7 +119,7 @@ static double composite_term_value(const ambulo_workspace *workspace, const ambu
 }
 
 static double term_value(ambulo_workspace *workspace, const ambulo_term *term) {
-  if (term->kind == AMBULO_USER_TERM) return user_term_value(workspace, term);
+  if (ambulo__is_user_term(term)) return user_term_value(workspace, term);
   if (ambulo__term_is_simple(term)) return residual_term_value(workspace, term);
   return composite_term_value(workspace, term);
 }
@@ -174,18 +173,6 @@ static void evaluate_rows(ambulo_workspace *workspace) {
   }
 }
 
-/* x * 0 is NaN for what is not finite; eight sums side by side, since one waits for itself */
-static int all_finite(const double *x, int count) {
-  double sum[8] = {0.0}, total = 0.0;
-  int i = 0;
-  for (; i + 8 <= count; i += 8) {
-    for (int l = 0; l < 8; l++) sum[l] += x[i + l] * 0.0;
-  }
-  for (; i < count; i++) total += x[i] * 0.0;
-  for (int l = 0; l < 8; l++) total += sum[l];
-  return total == 0.0;
-}
-
 ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
   size_t bytes = (size_t)workspace->problem->variables * sizeof *x;
   if (workspace->has_values && memcmp(x, workspace->x, bytes) == 0) return AMBULO_OK;
@@ -195,8 +182,9 @@ ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
   compute_channels(workspace, workspace->x);
   workspace->objective = evaluate_terms(workspace);
   evaluate_rows(workspace);
-  int finite =
-      all_finite(workspace->row_value, workspace->problem->rows) && isfinite(workspace->objective);
+  int finite = ambulo__all_finite(workspace->row_value, (size_t)workspace->problem->rows) &&
+               isfinite(workspace->objective);
+  if (!finite) ambulo__fault_of_values(workspace);
   workspace->evaluations++;
   workspace->seconds_evaluate += ambulo__seconds_now() - start;
   if (!finite) return AMBULO_E_NUMERIC;

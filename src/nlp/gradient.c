@@ -8,8 +8,11 @@
  *   mechanics: (gq, gqd, gqdd) = reverse sweep of (tau, M, F, points) with their adjoints
  *   basis:     dL/dx = B0' (gq + w_q) + B1' (gqd + w_qd) + B2' (gqdd + w_qdd)
  */
-#include "nlp/nlp.h"
+#include "base/worst.h"
+#include "nlp/adjoint.h"
+#include "nlp/fault.h"
 #include "nlp/states.h"
+#include "nlp/user_term.h"
 
 #include <string.h>
 
@@ -42,16 +45,11 @@ static void add_residual_term(ambulo_workspace *workspace, const ambulo_term *te
 static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, double factor) {
   const ambulo_problem *p = workspace->problem;
   int count = workspace->channel_count;
-  double *state = workspace->node_state, *slope = state + count;
+  double *slope = workspace->node_state + count;
   for (int k = 0; k < p->nodes; k++) {
-    ambulo__node_state_fill(workspace, k, state);
-    memset(slope, 0, (size_t)count * sizeof *slope);
-    ambulo_node_state view = ambulo__node_state_view(p, k, state);
-    ambulo_node_gradient gradient = ambulo__node_gradient_view(p, slope);
-    (void)term->function(term->user, &view, &gradient);
-    for (int c = 0; c < count; c++) {
+    ambulo__user_term_slope(workspace, term, k, slope);
+    for (int c = 0; c < count; c++)
       *weight_at(workspace, k, c) += factor * p->quadrature[k] * slope[c];
-    }
   }
 }
 
@@ -72,11 +70,11 @@ static void add_composite_term(ambulo_workspace *workspace, const ambulo_term *t
   }
 }
 
-static void add_term(ambulo_workspace *workspace, int t, double objective_weight) {
+void ambulo__adjoint_term(ambulo_workspace *workspace, int t, double objective_weight) {
   const ambulo_term *term = &workspace->problem->definition.terms[t];
   double factor = objective_weight * term->weight;
   if (factor == 0.0) return;
-  if (term->kind == AMBULO_USER_TERM) {
+  if (ambulo__is_user_term(term)) {
     add_user_term(workspace, term, factor);
   } else if (ambulo__term_is_simple(term)) {
     add_residual_term(workspace, term, factor);
@@ -104,7 +102,8 @@ static void add_mixed_row(ambulo_workspace *workspace, const ambulo__table_row *
   }
 }
 
-static void add_rows(ambulo_workspace *workspace, const double *row_weights, double *gradient) {
+void ambulo__adjoint_rows(ambulo_workspace *workspace, const double *row_weights,
+                          double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const ambulo__row_runs *runs = &p->row_runs;
   ambulo__row_runs_adjoint(runs, row_weights, workspace->weight);
@@ -119,8 +118,7 @@ static void add_rows(ambulo_workspace *workspace, const double *row_weights, dou
   }
 }
 
-/* adds the mechanics' reverse sweep to the adjoints of q, qd, qdd of one block */
-static void reverse_block(ambulo_workspace *workspace, int block) {
+void ambulo__adjoint_block(ambulo_workspace *workspace, int block) {
   const ambulo_problem *p = workspace->problem;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   size_t offset = (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;
@@ -133,7 +131,7 @@ static void reverse_block(ambulo_workspace *workspace, int block) {
   for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
 }
 
-static void clear(ambulo_workspace *workspace, double *gradient) {
+void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {
   const ambulo_problem *p = workspace->problem;
   size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
   memset(workspace->weight, 0, lanes * sizeof *workspace->weight);
@@ -146,23 +144,30 @@ static void pull_back(ambulo_workspace *workspace, double *gradient) {
   size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *w = workspace->weight;
-  for (int block = 0; block < p->blocks; block++) reverse_block(workspace, block);
+  for (int block = 0; block < p->blocks; block++) ambulo__adjoint_block(workspace, block);
   ambulo__lane_map_transpose(p->map, w, w + d8, w + 2 * d8, NULL, stride, gradient);
 }
 
-void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
-                      const double *row_weights, double *gradient) {
+ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
+                               const double *row_weights, double *gradient) {
   double start = ambulo__seconds_now();
-  clear(workspace, gradient);
+  size_t n = (size_t)workspace->problem->variables;
+  ambulo__adjoint_clear(workspace, gradient);
   for (int t = 0; t < workspace->problem->definition.term_count; t++)
-    add_term(workspace, t, objective_weight);
-  if (row_weights) add_rows(workspace, row_weights, gradient);
+    ambulo__adjoint_term(workspace, t, objective_weight);
+  if (row_weights) ambulo__adjoint_rows(workspace, row_weights, gradient);
   pull_back(workspace, gradient);
+  int finite = ambulo__all_finite(gradient, n);
+  if (!finite) ambulo__fault_of_gradient(workspace, objective_weight, row_weights, gradient);
   workspace->seconds_evaluate += ambulo__seconds_now() - start;
+  return finite ? AMBULO_OK : AMBULO_E_NUMERIC;
 }
 
-void ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient) {
-  clear(workspace, gradient);
-  add_term(workspace, term, 1.0);
+ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient) {
+  ambulo__adjoint_clear(workspace, gradient);
+  ambulo__adjoint_term(workspace, term, 1.0);
   pull_back(workspace, gradient);
+  if (ambulo__all_finite(gradient, (size_t)workspace->problem->variables)) return AMBULO_OK;
+  ambulo__fault_of_term_gradient(workspace, term, gradient);
+  return AMBULO_E_NUMERIC;
 }

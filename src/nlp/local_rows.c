@@ -10,6 +10,7 @@
  */
 #include "nlp/nlp.h"
 #include "nlp/states.h"
+#include "nlp/user_term.h"
 
 #include <string.h>
 
@@ -177,7 +178,7 @@ void ambulo__node_gauss_newton(const ambulo_workspace *workspace, int node, doub
   }
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (term->kind != AMBULO_USER_TERM && !ambulo__term_is_simple(term) && term->weight > 0.0)
+    if (!ambulo__is_user_term(term) && !ambulo__term_is_simple(term) && term->weight > 0.0)
       add_composite(workspace, term, node, local);
   }
 }

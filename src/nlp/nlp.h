@@ -65,24 +65,35 @@ struct ambulo_workspace {
   double *motion_scratch; /* ... for one output's gradient by q, qd, qdd: [3][d] */
   double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
                              without ground reaction */
+  ambulo_fault fault;     /* of the last E_NUMERIC */
+  double *fault_scratch;  /* [variables]: while it is looked for */
   long evaluations, jacobians;
   double seconds_evaluate;
 };
 
+/* Longest text of ambulo_fault_text. */
+#define AMBULO__FAULT_TEXT 640
+
+/* A workspace without room for Jacobians: values, gradients by reverse sweep, motions. E_MEMORY. */
+ambulo_status ambulo__workspace_create_for_values(const ambulo_problem *problem,
+                                                  const ambulo_allocator *allocator,
+                                                  ambulo_workspace **workspace);
+
 /* ------------------------------------------------------------- evaluation */
 
 /* Channels, objective and rows at x; nothing if x is the point already held.
- * E_NUMERIC if a value is not finite (the workspace then holds no point). */
+ * E_NUMERIC if a value is not finite (the workspace then holds no point; workspace->fault). */
 ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x);
 /* Also the channel Jacobians. */
 ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x);
 
-/* After ambulo__evaluate: gradient of objective_weight * J + sum_r weights[r] c_r. */
-void ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
-                      const double *row_weights, double *gradient);
+/* After ambulo__evaluate: gradient of objective_weight * J + sum_r weights[r] c_r. E_NUMERIC if an
+ * entry is not finite (workspace->fault). */
+ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
+                               const double *row_weights, double *gradient);
 
-/* After ambulo__evaluate: gradient of one objective term (its weight included). */
-void ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient);
+/* After ambulo__evaluate: gradient of one objective term (its weight included). E_NUMERIC. */
+ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, double *gradient);
 
 /* ---------------------------------------------------------- ground reaction */
 

@@ -4,8 +4,14 @@
 
 #include "nlp/nlp.h"
 
-/* Every check that needs no grid; all faults are reported. E_ARGUMENT for a definition
- * that did not come from ambulo_problem_definition_default(). */
+/* A problem of more rows is refused. */
+enum { AMBULO__MOST_ROWS = 50000000 };
+
+/* What ambulo_problem_definition_default() sets. */
+enum { AMBULO__DEFINITION_COOKIE = 0x616d6270 };
+
+/* definition_check.c: every check that needs no grid; all faults are reported. E_ARGUMENT for a
+ * definition that did not come from ambulo_problem_definition_default(). */
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *definition,
                                        ambulo_diagnostics *diagnostics);
 /* Deep copy: arrays, names, scales, references (the model stays shared). E_MEMORY leaves

@@ -1,4 +1,5 @@
 /* nlp/query.c - what a problem tells about itself; evaluation behind the public names. */
+#include "nlp/fault.h"
 #include "nlp/problem.h"
 
 #include <math.h>
@@ -92,8 +93,7 @@ ambulo_status ambulo_problem_gradient(const ambulo_problem *p, ambulo_workspace 
   if (!p || !workspace || workspace->problem != p || !x || !gradient) return AMBULO_E_ARGUMENT;
   ambulo_status status = ambulo__evaluate(workspace, x);
   if (status) return status;
-  ambulo__gradient(workspace, objective_weight, row_weights, gradient);
-  return AMBULO_OK;
+  return ambulo__gradient(workspace, objective_weight, row_weights, gradient);
 }
 
 ambulo_status ambulo_problem_row_gradient(const ambulo_problem *p, ambulo_workspace *workspace,
@@ -104,5 +104,14 @@ ambulo_status ambulo_problem_row_gradient(const ambulo_problem *p, ambulo_worksp
   if (status) return status;
   memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
   ambulo__row_add_gradient(workspace, row, 1.0, gradient);
+  for (int j = 0; j < p->variables; j++) {
+    if (isfinite(gradient[j])) continue;
+    ambulo__fault_of_row(workspace, row, j, gradient[j]);
+    return AMBULO_E_NUMERIC;
+  }
   return AMBULO_OK;
+}
+
+const ambulo_fault *ambulo_workspace_fault(const ambulo_workspace *workspace) {
+  return &workspace->fault;
 }

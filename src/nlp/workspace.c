@@ -11,11 +11,28 @@ static int max_local_width(const ambulo_problem *problem) {
   return ambulo__basis_span(problem->basis) * problem->coordinates;
 }
 
-static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
+/* by far the largest part: the Jacobians of all nodes */
+static ambulo_status allocate_jacobians(ambulo_workspace *w, const ambulo_problem *p) {
   const ambulo_allocator *a = &w->allocator;
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  size_t lane_channels = (size_t)p->blocks * (size_t)w->channel_count * AMBULO__LANES;
   size_t block_entries = (size_t)p->blocks * AMBULO__LANES;
+  size_t word = sizeof(double);
+  w->jq = ambulo__alloc_aligned(a, block_entries * (size_t)pattern.count, word);
+  w->jqd = ambulo__alloc_aligned(a, block_entries * (size_t)pattern.dynamic_count, word);
+  w->jqdd = ambulo__alloc_aligned(a, block_entries * (size_t)pattern.dynamic_count, word);
+  size_t wrench = (size_t)p->nodes * (size_t)ambulo__wrench_entries(p);
+  int grounded = wrench > 0, gathered = 0;
+  for (int o = 0; o < 3 && grounded; o++) {
+    w->wrench[o] = ambulo__alloc_aligned(a, wrench, word);
+    gathered += w->wrench[o] != NULL;
+  }
+  int complete = w->jq && w->jqd && w->jqdd && gathered == 3 * grounded;
+  return complete ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
+  const ambulo_allocator *a = &w->allocator;
+  size_t lane_channels = (size_t)p->blocks * (size_t)w->channel_count * AMBULO__LANES;
   size_t instances = (size_t)user_row_instances(p);
   size_t word = sizeof(double);
   w->x = ambulo__alloc_aligned(a, (size_t)p->variables, word);
@@ -23,9 +40,6 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->weight = ambulo__alloc_aligned(a, lane_channels, word);
   w->gradient_lanes = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates * AMBULO__LANES, word);
   w->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), word);
-  w->jq = ambulo__alloc_aligned(a, block_entries * (size_t)pattern.count, word);
-  w->jqd = ambulo__alloc_aligned(a, block_entries * (size_t)pattern.dynamic_count, word);
-  w->jqdd = ambulo__alloc_aligned(a, block_entries * (size_t)pattern.dynamic_count, word);
   w->row_value = ambulo__alloc_aligned(a, (size_t)p->rows, word);
   w->term_value = ambulo__alloc_aligned(a, (size_t)p->definition.term_count, word);
   w->user_gradient = ambulo__alloc_aligned(a, instances * (size_t)w->channel_count, word);
@@ -33,23 +47,16 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
   w->local_scratch = ambulo__alloc_aligned(a, (size_t)max_local_width(p), word);
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
-  size_t wrench = (size_t)p->nodes * (size_t)ambulo__wrench_entries(p);
-  int grounded = wrench > 0, gathered = 0;
-  for (int o = 0; o < 3 && grounded; o++) {
-    w->wrench[o] = ambulo__alloc_aligned(a, wrench, word);
-    gathered += w->wrench[o] != NULL;
-  }
-  int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch && w->jq &&
-                 w->jqd && w->jqdd && w->row_value && w->term_value && w->user_gradient &&
-                 w->user_slot && w->node_state && w->local_scratch && w->motion_scratch &&
-                 gathered == 3 * grounded;
+  w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
+  int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch &&
+                 w->row_value && w->term_value && w->user_gradient && w->user_slot &&
+                 w->node_state && w->local_scratch && w->motion_scratch && w->fault_scratch;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
-ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
-                                      const ambulo_allocator *allocator,
-                                      ambulo_workspace **workspace) {
-  if (!problem || !workspace) return AMBULO_E_ARGUMENT;
+ambulo_status ambulo__workspace_create_for_values(const ambulo_problem *problem,
+                                                  const ambulo_allocator *allocator,
+                                                  ambulo_workspace **workspace) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo_workspace *w = ambulo__alloc(&own, 1, sizeof *w);
   if (!w) return AMBULO_E_MEMORY;
@@ -64,6 +71,21 @@ ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
   int slot = 0;
   for (int r = 0; r < problem->rows; r++) {
     w->user_slot[r] = problem->table.rows[r].user >= 0 ? slot++ : -1;
+  }
+  *workspace = w;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo_workspace_create(const ambulo_problem *problem,
+                                      const ambulo_allocator *allocator,
+                                      ambulo_workspace **workspace) {
+  ambulo_workspace *w = NULL;
+  if (!problem || !workspace) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__workspace_create_for_values(problem, allocator, &w);
+  if (!status) status = allocate_jacobians(w, problem);
+  if (status) {
+    ambulo_workspace_free(w);
+    return status;
   }
   *workspace = w;
   return AMBULO_OK;
@@ -86,6 +108,7 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->node_state,
                        w->local_scratch,
                        w->motion_scratch,
+                       w->fault_scratch,
                        w->wrench[0],
                        w->wrench[1],
                        w->wrench[2]};

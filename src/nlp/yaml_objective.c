@@ -152,6 +152,7 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_ACCELERATION:
   case AMBULO_TRACKING:
   case AMBULO_USER_TERM:
+  case AMBULO_USER_SQUARE:
   case AMBULO_TORQUE_RATE:
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:

@@ -2,6 +2,8 @@
  * hands out and a caller may still change. */
 #include "nlp/problem_yaml.h"
 
+static const double gigabyte = 1073741824.0;
+
 /* on, off, true or false */
 static int read_switch(const ambulo__yaml_node *node, int fallback) {
   static const char *const words[] = {"off", "on", "false", "true"};
@@ -21,8 +23,13 @@ void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node
   o->presolve = read_switch(ambulo__yaml_get(section, "presolve"), o->presolve);
   o->maximum_evaluations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_evaluations"), 1,
                                                 1000000000, o->maximum_evaluations);
+  o->maximum_iterations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_iterations"), 1,
+                                               1000000000, o->maximum_iterations);
   o->time_limit =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "time_limit"), 0.0, 1e9, o->time_limit);
+  double gigabytes = ambulo__yaml_number_in(ambulo__yaml_get(section, "maximum_memory"), 0.0, 1e9,
+                                            o->maximum_memory / gigabyte);
+  o->maximum_memory = gigabytes * gigabyte;
   o->feasibility_tolerance = ambulo__yaml_number_in(
       ambulo__yaml_get(section, "feasibility_tolerance"), 1e-14, 1.0, o->feasibility_tolerance);
   o->optimality_tolerance = ambulo__yaml_number_in(

@@ -3,6 +3,8 @@
 
 #include "base/lanes.h"
 
+#include <math.h>
+
 const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
   static const ambulo__term_info infos[] = {
       [AMBULO_TORQUE_SQUARED] = {.name = "torque_squared", .uses_tau = 1},
@@ -17,6 +19,7 @@ const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
       [AMBULO_UPRIGHT] = {.name = "upright", .uses_q = 1},
       [AMBULO_GROUND_FORCE] = {.name = "ground_force", .uses_tau = 1},
       [AMBULO_CLEARANCE] = {.name = "clearance", .uses_q = 1},
+      [AMBULO_USER_SQUARE] = {.name = "user_square", .uses_tau = 1, .uses_qdd = 1, .uses_q = 1},
   };
   int index = (int)kind;
   if (index < 0 || index >= (int)(sizeof infos / sizeof infos[0])) return NULL;
@@ -36,6 +39,7 @@ int ambulo__term_is_simple(const ambulo_term *term) {
   case AMBULO_TORQUE_POWER:
     return !term->passive && !term->strength;
   case AMBULO_USER_TERM:
+  case AMBULO_USER_SQUARE:
   case AMBULO_TORQUE_RATE:
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_UPRIGHT:
@@ -78,7 +82,10 @@ double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channe
 }
 
 void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope) {
-  if (form->count == AMBULO__FORM_CHANNELS) return;
+  if (form->count == AMBULO__FORM_CHANNELS) {
+    form->u = NAN;
+    return;
+  }
   form->channel[form->count] = channel;
   form->ahead[form->count] = ahead;
   form->slope[form->count] = slope;
@@ -104,6 +111,7 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame,
   case AMBULO_TRACKING:
   case AMBULO_POSTURE:
   case AMBULO_USER_TERM:
+  case AMBULO_USER_SQUARE:
     break;
   }
   return 0;
@@ -138,6 +146,7 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_frame *frame,
   case AMBULO_TRACKING:
   case AMBULO_POSTURE:
   case AMBULO_USER_TERM:
+  case AMBULO_USER_SQUARE:
     break;
   }
 }

@@ -13,8 +13,7 @@
  * phi'' of a smoothed absolute value is replaced by phi'(u)/u, the curvature of the
  * quadratic that majorizes it (iteratively reweighted least squares).
  *
- * User terms are arbitrary functions of a node; they offer a gradient only, and
- * contribute no curvature.
+ * User terms are functions of a node of the caller's own (nlp/user_term.h).
  */
 #ifndef AMBULO_OBJECTIVE_TERM_H
 #define AMBULO_OBJECTIVE_TERM_H
@@ -104,7 +103,8 @@ void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame 
 void ambulo__strength_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
                            int i, ambulo__form *form);
 
-/* Value of a channel at a node; adds a channel with a slope to a form. */
+/* Value of a channel at a node; adds a channel with a slope to a form. A form that is full has no
+ * value any more, u is NaN: a term that outgrows it fails loudly. */
 double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channel);
 void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope);
 

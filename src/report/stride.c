@@ -109,7 +109,7 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   double *scratch = NULL;
   ambulo_workspace *workspace = NULL;
   ambulo_status status = allocate(&s, &sample, &scratch);
-  if (!status) status = ambulo_workspace_create(problem, allocator, &workspace);
+  if (!status) status = ambulo__workspace_create_for_values(problem, allocator, &workspace);
   if (!status) {
     choose_times(&s, samples, &sample);
     ambulo_motion motion = {.q = s.q,

@@ -53,6 +53,7 @@ static void violation(ambulo__json *json, const char *key, const ambulo_violatio
   ambulo__json_open(json, key, '{');
   ambulo__json_number(json, "worst", v->worst);
   ambulo__json_text(json, "unit", v->unit);
+  ambulo__json_number(json, "size", v->size);
   ambulo__json_text(json, "family", v->family);
   ambulo__json_text(json, "row", v->subject);
   ambulo__json_text(json, "detail", v->detail);
@@ -62,6 +63,8 @@ static void violation(ambulo__json *json, const char *key, const ambulo_violatio
 
 static void audit(ambulo__json *json, const ambulo_result *result) {
   const ambulo_audit *a = ambulo_result_audit(result);
+  char fault[640];
+  ambulo_fault_text(&a->fault, fault, sizeof fault);
   ambulo__json_open(json, "audit", '{');
   violation(json, "violation", &a->violation);
   violation(json, "dense_violation", &a->dense_violation);
@@ -71,6 +74,7 @@ static void audit(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_integer(json, "rank", a->rank);
   ambulo__json_integer(json, "dropped_equalities", a->dropped_equalities);
   ambulo__json_integer(json, "at_lower_bound", a->at_lower_bound);
+  ambulo__json_text(json, "fault", a->fault.kind == AMBULO_FAULT_NONE ? NULL : fault);
   ambulo__json_close(json, '}');
   ambulo__json_open(json, "families", '[');
   for (int i = 0; i < ambulo_result_family_count(result); i++)
@@ -211,6 +215,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json_text(json, "problem", ambulo_problem_name(problem));
   ambulo__json_text(json, "model", ambulo_model_name(ambulo_problem_model(problem)));
   ambulo__json_text(json, "verdict", ambulo_verdict_name(verdict));
+  ambulo__json_text(json, "ended_by", ambulo_ending_name(ambulo_result_ending_code(result)));
   ambulo__json_text(json, "ending", ambulo_result_ending(result));
   ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
   body(json, ambulo_problem_model(problem));

@@ -15,6 +15,7 @@
  * the bound itself is the proof (engine.c, negligible_objective).
  */
 #include "solver/audit.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,43 +31,49 @@ double ambulo__row_violation(const ambulo_problem *p, int row, double value) {
   return p->table.rows[row].relation == AMBULO_EQUAL ? fabs(value) : fmax(0.0, -value);
 }
 
-/* -------------------------------------------------------------- violations */
-
-static ambulo_violation violation_of(const ambulo_problem *p, int row, double worst) {
+ambulo_violation ambulo__violation_of(const ambulo_problem *p, int row, double value) {
   const ambulo__table_row *r = &p->table.rows[row];
-  ambulo_violation v = {r->family, r->subject, r->detail, r->unit, r->time, worst};
+  ambulo_violation v = {.family = r->family,
+                        .subject = r->subject,
+                        .detail = r->detail,
+                        .unit = r->unit,
+                        .time = r->time,
+                        .worst = ambulo__row_violation(p, row, value),
+                        .size = r->size};
   return v;
 }
 
+/* -------------------------------------------------------------- violations */
+
+static ambulo_violation no_violation(double worst) {
+  ambulo_violation none = {.family = "", .subject = "", .detail = "", .unit = "", .size = 1.0};
+  none.worst = worst;
+  return none;
+}
+
+static void keep_worse(ambulo_violation v, ambulo_violation *worst) {
+  if (!worst->family[0] || ambulo__is_worse(ambulo__relative(worst), ambulo__relative(&v)))
+    *worst = v;
+}
+
 static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
-  ambulo_violation none = {"", "", "", "", 0.0, 0.0};
   int families = 0;
-  result->audit.violation = none;
+  result->audit.violation = no_violation(0.0);
   for (int r = 0; r < p->rows; r++) {
-    double worst = ambulo__row_violation(p, r, result->row[r]);
+    ambulo_violation v = ambulo__violation_of(p, r, result->row[r]);
     int f = 0;
-    while (f < families && strcmp(result->family[f].family, p->table.rows[r].family) != 0) f++;
-    if (f == families) {
-      result->family[families++] = violation_of(p, r, worst);
-    } else if (worst > result->family[f].worst) {
-      result->family[f] = violation_of(p, r, worst);
-    }
-    if (r == 0 || worst > result->audit.violation.worst)
-      result->audit.violation = violation_of(p, r, worst);
+    while (f < families && strcmp(result->family[f].family, v.family) != 0) f++;
+    if (f == families) result->family[families++] = v;
+    keep_worse(v, &result->family[f]);
+    keep_worse(v, &result->audit.violation);
   }
 }
 
 /* ------------------------------------------------------- first-order conditions */
 
-static double largest(const double *v, int n) {
-  double worst = 0.0;
-  for (int j = 0; j < n; j++) worst = fmax(worst, fabs(v[j]));
-  return worst;
-}
-
 /* solves the cone problem; the direction stays in engine->total; 0 on success */
 static int project(ambulo__engine *e) {
-  double decrease, bound = cone_tolerance * largest(e->gradient, e->n);
+  double decrease, bound = cone_tolerance * ambulo__largest(e->gradient, (size_t)e->n);
   ambulo__band_clear(&e->base);
   ambulo__band_add_diagonal(&e->base, 1.0);
   e->rho = cone_penalty;
@@ -78,12 +85,20 @@ static int project(ambulo__engine *e) {
     if (ambulo__model_minimize(e, &decrease) < 0) return 1;
     double worst = 0.0;
     for (int i = 0; i < e->inequalities; i++) {
-      worst = fmax(worst, fabs(fmax(e->linear[i], -e->lambda[i] / e->rho)));
-      e->lambda[i] = fmax(0.0, e->lambda[i] + e->rho * e->linear[i]);
+      double balance = ambulo__worse(e->linear[i], -e->lambda[i] / e->rho);
+      worst = ambulo__worse(worst, fabs(balance));
+      e->lambda[i] = ambulo__worse(0.0, e->lambda[i] + e->rho * e->linear[i]);
     }
     if (worst <= bound) break;
   }
   return 0;
+}
+
+/* the scales that the solver gave the rows */
+static void restore_scales(ambulo__engine *e) {
+  ambulo__sparse_rows *rows = &e->rows.inequality;
+  for (int i = 0; i < rows->count; i++)
+    ambulo__sparse_rows_set_scale(rows, i, -1.0 / e->rows.size[i]);
 }
 
 /* gradients of length 1, which neither the cone nor the tolerance of a row notices: on fine
@@ -96,13 +111,16 @@ static void normalize(ambulo__sparse_rows *rows) {
   }
 }
 
-/* marks active rows in held.excess: 0 active, -1 not; returns their number */
+/* marks active rows in held.excess: 0 active, -1 not; returns their number. The tolerance is
+ * relative to the sizes of the rows. */
 static int mark(ambulo__engine *e, double tolerance) {
   const ambulo__sparse_rows *rows = &e->rows.inequality;
+  const ambulo__table_row *table = e->problem->table.rows;
   int count = 0;
   ambulo__engine_excess(e, e->held.excess);
   for (int i = 0; i < e->inequalities; i++) {
-    int active = e->held.excess[i] >= tolerance * rows->scale[i];
+    double least = tolerance * table[rows->row[i]].size * rows->scale[i]; /* scale < 0 */
+    int active = e->held.excess[i] >= least;
     e->held.excess[i] = active ? 0.0 : -1.0;
     count += active;
   }
@@ -127,7 +145,7 @@ static void audit_complementarity(const ambulo__engine *e, ambulo_result *result
   for (int i = 0; i < e->inequalities; i++) {
     int r = rows->row[i];
     result->audit.complementarity =
-        fmax(result->audit.complementarity, fabs(result->multiplier[r] * result->row[r]));
+        ambulo__worse(result->audit.complementarity, fabs(result->multiplier[r] * result->row[r]));
   }
   result->audit.complementarity /= fmax(1.0, fabs(result->objective));
 }
@@ -147,55 +165,81 @@ static ambulo_status audit_rank(ambulo__engine *e, ambulo_result *result) {
     if (e->held.excess[i] >= 0.0) list[count++] = e->rows.inequality.row[i];
   }
   double *value = ambulo__pool_doubles(&e->pool, (size_t)count);
-  ambulo_status status = ambulo__sparse_rows_create(p, list, count, &e->pool, &rows);
+  ambulo_status status = ambulo__sparse_rows_create(p, list, count, NULL, &e->pool, &rows);
   if (status) return status;
   ambulo__sparse_rows_fill(&rows, e->workspace, 1);
   ambulo__sparse_rows_values(&rows, e->workspace, value);
-  status = ambulo__rank_sort(&rows, value, &e->pool, rank);
+  status = ambulo__rank_sort(&rows, value, NULL, &e->pool, rank);
   if (status) return status;
   result->audit.active_rows = count;
+  result->audit.rank = 0;
   for (int i = 0; i < count; i++) result->audit.rank += rank[list[i]] == AMBULO__ROW_INDEPENDENT;
   return AMBULO_OK;
 }
 
-static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
-                              ambulo_result *result) {
-  ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 1);
-  ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 1);
-  mark(e, active_factor * options->feasibility_tolerance);
-  ambulo__engine_gradient(e, NULL, NULL, e->gradient);
-  double size = largest(e->gradient, e->n);
-  result->audit.kkt = HUGE_VAL;
-  if (!isfinite(size)) return;
-  if (project(e)) {
-    normalize(&e->rows.inequality);
-    if (project(e)) return;
-  }
-  result->audit.kkt = size > 0.0 ? largest(e->total, e->n) / fmax(1e-12, size) : 0.0;
+/* every gradient at the point; 1 when one is not finite */
+static int take_gradients(ambulo__engine *e) {
+  return ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 1) ||
+         ambulo__sparse_rows_fill(&e->rows.border, e->workspace, 1) ||
+         ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 1) ||
+         ambulo__engine_gradient(e, NULL, NULL, e->gradient);
+}
+
+/* of the solved cone problem, for a gradient of this size */
+static void take_first_order(ambulo__engine *e, double size, ambulo_result *result) {
+  double left = ambulo__largest(e->total, (size_t)e->n);
+  result->audit.kkt = size == 0.0 ? 0.0 : left / fmax(1e-12, size);
+  if (!isfinite(result->audit.kkt)) result->audit.kkt = HUGE_VAL;
   collect_multipliers(e, result);
   audit_complementarity(e, result);
+}
+
+static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
+                              ambulo_result *result) {
+  double size = ambulo__largest(e->gradient, (size_t)e->n);
+  mark(e, active_factor * options->feasibility_tolerance);
+  int failed = project(e);
+  if (failed) {
+    normalize(&e->rows.inequality);
+    failed = project(e);
+  }
+  if (!failed) take_first_order(e, size, result);
+  restore_scales(e);
+}
+
+ambulo_status ambulo__audit_values(ambulo_workspace *w, ambulo_result *result) {
+  memset(&result->audit, 0, sizeof result->audit);
+  result->audit.kkt = HUGE_VAL;
+  result->audit.active_rows = result->audit.rank = -1;
+  result->audit.violation = result->audit.dense_violation = no_violation(NAN);
+  if (ambulo__evaluate(w, result->x)) {
+    result->audit.fault = w->fault;
+    result->objective = NAN;
+    return AMBULO_E_NUMERIC;
+  }
+  result->objective = w->objective;
+  memcpy(result->term, w->term_value, (size_t)result->terms * sizeof *result->term);
+  memcpy(result->row, w->row_value, (size_t)result->rows * sizeof *result->row);
+  audit_violations(w->problem, result);
+  return AMBULO_OK;
 }
 
 ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
                             ambulo_result *result) {
   const ambulo_problem *p = e->problem;
-  ambulo_violation none = {"", "", "", "", 0.0, NAN};
-  memset(&result->audit, 0, sizeof result->audit);
+  if (ambulo__audit_values(e->workspace, result)) return AMBULO_OK; /* the fault tells */
   result->audit.dropped_equalities = e->rows.dropped;
-  result->audit.kkt = HUGE_VAL;
-  result->audit.violation = result->audit.dense_violation = none;
-  if (ambulo__evaluate_jacobian(e->workspace, result->x)) {
-    result->objective = NAN;
+  result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
+  if (ambulo__run_late(e->run)) return AMBULO_OK;
+  if (ambulo__evaluate_jacobian(e->workspace, result->x) || take_gradients(e)) {
+    result->audit.fault = e->workspace->fault;
     return AMBULO_OK;
   }
-  result->objective = e->workspace->objective;
-  result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
-  memcpy(result->term, e->workspace->term_value, (size_t)result->terms * sizeof *result->term);
-  memcpy(result->row, e->workspace->row_value, (size_t)result->rows * sizeof *result->row);
-  audit_violations(p, result);
   audit_first_order(e, options, result);
+  if (ambulo__run_late(e->run)) return AMBULO_OK;
   ambulo_status status = audit_rank(e, result);
   if (status) return status;
+  if (ambulo__run_late(e->run)) return AMBULO_OK;
   return ambulo__audit_dense(p, result->x, options->dense_samples, &e->pool.allocator,
                              &result->audit.dense_violation);
 }

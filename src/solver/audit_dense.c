@@ -16,14 +16,15 @@ static int is_border(const ambulo__table_row *row) {
 
 static ambulo_violation worst_of(const ambulo_problem *dense, const ambulo_problem *p,
                                  const double *rows) {
-  ambulo_violation worst = {"", "", "", "", 0.0, 0.0};
+  ambulo_violation worst = {.family = "", .subject = "", .detail = "", .unit = "", .size = 1.0};
   int at = -1;
   for (int r = 0; r < dense->rows; r++) {
     if (is_border(&dense->table.rows[r])) continue;
-    double v = ambulo__row_violation(dense, r, rows[r]);
-    if (at >= 0 && v <= worst.worst) continue;
+    ambulo_violation v = ambulo__violation_of(dense, r, rows[r]);
+    if (at >= 0 && ambulo__relative(&v) <= ambulo__relative(&worst)) continue;
     at = r;
-    worst.worst = v;
+    worst.worst = v.worst;
+    worst.size = v.size;
   }
   if (at < 0) return worst;
   const ambulo__table_row *row = &dense->table.rows[at];
@@ -45,7 +46,7 @@ static ambulo_violation worst_of(const ambulo_problem *dense, const ambulo_probl
 
 ambulo_status ambulo__audit_dense(const ambulo_problem *p, const double *x, int samples,
                                   const ambulo_allocator *allocator, ambulo_violation *worst) {
-  ambulo_violation none = {"", "", "", "", 0.0, NAN};
+  ambulo_violation none = {"", "", "", "", 0.0, NAN, 1.0};
   ambulo_problem_definition d = p->definition;
   ambulo_problem *dense = NULL;
   ambulo_workspace *workspace = NULL;
@@ -58,7 +59,7 @@ ambulo_status ambulo__audit_dense(const ambulo_problem *p, const double *x, int 
   d.user_row_count = 0;
   ambulo_status status = ambulo_problem_create(&d, allocator, NULL, &dense);
   if (status) return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
-  status = ambulo_workspace_create(dense, allocator, &workspace);
+  status = ambulo__workspace_create_for_values(dense, allocator, &workspace);
   if (!status && dense->variables == p->variables && ambulo__evaluate(workspace, x) == AMBULO_OK)
     *worst = worst_of(dense, p, workspace->row_value);
   ambulo_workspace_free(workspace);

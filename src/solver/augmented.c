@@ -9,13 +9,16 @@
  *
  * The last point is held: NLopt asks for values and gradients of objective and constraint
  * separately.
+ *
+ * A point that cannot be reached, or where something is not finite, gets a value of a bowl above
+ * everything seen since the centre was set, F_max + (1 + |F_max|) (1 + |w|^2): no scale of the
+ * objective makes it look like a descent, and its slope sends line searches back.
  */
 #include "solver/engine.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double failed_value = 1e4;
 
 static void copy_trial(const ambulo__engine *e, const ambulo__trial *from, ambulo__trial *to) {
   to->value = from->value;
@@ -45,40 +48,45 @@ static void evaluate(ambulo__engine *e, const double *w) {
   held->objective = e->objective_scale * e->workspace->objective;
   double sum = 0.0;
   for (int i = 0; i < e->inequalities; i++) {
-    double p = fmax(0.0, e->lambda[i] + e->rho * held->excess[i]);
+    double p = ambulo__worse(0.0, e->lambda[i] + e->rho * held->excess[i]);
     held->multiplier[i] = p;
     sum += p * p - e->lambda[i] * e->lambda[i];
   }
   held->value = held->objective + sum / (2.0 * e->rho);
   held->gradient_norm = -1.0;
+  if (!isfinite(held->value)) held->value = HUGE_VAL;
+  if (held->value < HUGE_VAL && held->value > e->ceiling) e->ceiling = held->value;
 }
 
-/* gradient at the point held into engine->w_gradient */
+/* gradient at the point held into engine->w_gradient; without one the point is given up */
 static void differentiate(ambulo__engine *e) {
   ambulo__trial *held = &e->held;
-  e->has_held_gradient = 1;
-  ambulo__reduced_gradient(e, held->multiplier, e->w_gradient);
-  ambulo__band_upper_multiply(&e->whitener, e->w_gradient);
   double sum = 0.0;
+  e->has_held_gradient = 1;
+  if (ambulo__reduced_gradient(e, held->multiplier, e->w_gradient)) {
+    held->value = HUGE_VAL;
+    return;
+  }
+  ambulo__band_upper_multiply(&e->whitener, e->w_gradient);
   for (int j = 0; j < e->n; j++) sum += e->w_gradient[j] * e->w_gradient[j];
   held->gradient_norm = sqrt(sum);
+  if (!isfinite(sum)) held->value = HUGE_VAL;
   if (held->value < e->best.value) copy_trial(e, held, &e->best);
+}
+
+/* the bowl: see above */
+static double given_up(const ambulo__engine *e, const double *w, double *gradient) {
+  double top = e->ceiling > -HUGE_VAL ? e->ceiling : 0.0, height = 1.0 + fabs(top), sum = 1.0;
+  for (int j = 0; j < e->n; j++) sum += w[j] * w[j];
+  for (int j = 0; gradient && j < e->n; j++) gradient[j] = 2.0 * height * w[j];
+  return top + height * sum;
 }
 
 double ambulo__augmented(ambulo__engine *e, const double *w, double *gradient) {
   int same = e->has_held && memcmp(w, e->w, (size_t)e->n * sizeof *w) == 0;
   if (!same) evaluate(e, w);
-  int failed = !(e->held.value < HUGE_VAL);
-  if (failed) {
-    /* a bowl around the centre sends line searches back */
-    double sum = 0.0;
-    for (int j = 0; j < e->n; j++) sum += w[j] * w[j];
-    for (int j = 0; gradient && j < e->n; j++) gradient[j] = 10.0 * w[j];
-    return failed_value + 5.0 * sum;
-  }
-  if (gradient) {
-    if (!e->has_held_gradient) differentiate(e);
-    memcpy(gradient, e->w_gradient, (size_t)e->n * sizeof *gradient);
-  }
+  if (e->held.value < HUGE_VAL && gradient && !e->has_held_gradient) differentiate(e);
+  if (!(e->held.value < HUGE_VAL)) return given_up(e, w, gradient);
+  if (gradient) memcpy(gradient, e->w_gradient, (size_t)e->n * sizeof *gradient);
   return e->held.value;
 }

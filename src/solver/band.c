@@ -1,6 +1,7 @@
 /* solver/band.c - see band.h. */
 #include "solver/band.h"
 #include "base/lapack.h"
+#include "base/worst.h"
 
 #include <string.h>
 
@@ -68,8 +69,7 @@ void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows
 double ambulo__band_largest(const ambulo__band *band) {
   double largest = 0.0;
   for (int j = 0; j < band->n; j++) {
-    double value = band->a[(size_t)j * (size_t)band->ld];
-    if (value > largest) largest = value;
+    largest = ambulo__worse(largest, band->a[(size_t)j * (size_t)band->ld]);
   }
   return largest;
 }
@@ -106,6 +106,9 @@ int ambulo__band_factor(ambulo__band *band) {
   if (band->kernels)
     return band->kernels->factor(band->n, band->kd, band->ld, band->a, band->corner);
   dpbtrf_("L", &band->n, &band->kd, band->a, &band->ld, &info);
+  /* its pivots are asked to be at most zero, which NaN is not */
+  for (int j = 0; j < band->n && info == 0; j++)
+    info = !isfinite(band->a[(size_t)j * (size_t)band->ld]);
   return info != 0;
 }
 

@@ -17,7 +17,9 @@
  * mu falls when E decreases as the model foretells, and rises when E does not decrease.
  */
 #include "solver/elastic.h"
+#include "base/worst.h"
 #include "solver/metric.h"
+#include "solver/rows_split.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,16 +29,6 @@ static const double mu_start = 1e-2, mu_least = 1e-9, mu_largest = 1e8;
 static const double step_cap = 0.5; /* rad, m */
 static const double vanished = 1e-18;
 static const double steady_change = 1e-5; /* relative change of E that is no progress */
-
-/* see elastic.h */
-static double size_of(const ambulo_problem *p, const ambulo__sparse_rows *rows, int i) {
-  const ambulo__table_row *row = &p->table.rows[rows->row[i]];
-  if (row->user >= 0) return fmax(ambulo__sparse_rows_norm(rows, i), 1e-6);
-  if (row->unit[0] == 'N') return fmax(1.0, fabs(row->constant));
-  if (strstr(row->unit, "/s^2")) return 100.0;
-  if (strstr(row->unit, "/s")) return 10.0;
-  return 1.0;
-}
 
 static ambulo_status create_rows(ambulo__elastic *e, ambulo__pool *pool) {
   const ambulo_problem *p = e->problem;
@@ -52,9 +44,9 @@ static ambulo_status create_rows(ambulo__elastic *e, ambulo__pool *pool) {
     }
   }
   if (e->borders > MAX_BORDERS) return AMBULO_E_LIMIT;
-  ambulo_status status = ambulo__sparse_rows_create(p, local, e->locals, pool, &e->local);
+  ambulo_status status = ambulo__sparse_rows_create(p, local, e->locals, e->run, pool, &e->local);
   if (status) return status;
-  return ambulo__sparse_rows_create(p, border, e->borders, pool, &e->border);
+  return ambulo__sparse_rows_create(p, border, e->borders, e->run, pool, &e->border);
 }
 
 static ambulo_status create_vectors(ambulo__elastic *e, ambulo__pool *pool) {
@@ -90,17 +82,20 @@ ambulo_status ambulo__elastic_create(const ambulo_problem *problem, ambulo_works
   if (!status) status = ambulo__border_create(&e->border, pool, &e->bordered);
   if (!status) status = ambulo__evaluate_jacobian(workspace, workspace->x);
   if (status) return status;
-  ambulo__sparse_rows_fill(&e->local, workspace, 1);
-  ambulo__sparse_rows_fill(&e->border, workspace, 1);
-  for (int i = 0; i < e->locals; i++) e->size[e->local.row[i]] = size_of(problem, &e->local, i);
-  for (int i = 0; i < e->borders; i++) e->size[e->border.row[i]] = size_of(problem, &e->border, i);
+  status = ambulo__sparse_rows_fill(&e->local, workspace, 1);
+  if (!status) status = ambulo__sparse_rows_fill(&e->border, workspace, 1);
+  if (status) return status;
+  for (int i = 0; i < e->locals; i++)
+    e->size[e->local.row[i]] = ambulo__rows_size(problem, &e->local, i);
+  for (int i = 0; i < e->borders; i++)
+    e->size[e->border.row[i]] = ambulo__rows_size(problem, &e->border, i);
   for (int r = 0; r < problem->rows; r++) e->weight[r] = 1.0;
   return AMBULO_OK;
 }
 
 double ambulo__elastic_excess(const ambulo__elastic *e, int row, double value) {
   int equal = e->problem->table.rows[row].relation == AMBULO_EQUAL;
-  return (equal ? fabs(value) : fmax(0.0, -value)) / e->size[row];
+  return (equal ? fabs(value) : ambulo__worse(0.0, -value)) / e->size[row];
 }
 
 int ambulo__elastic_over(ambulo__elastic *e) {
@@ -251,18 +246,22 @@ static double energy(ambulo__elastic *e) {
   return model_rows(e, 0.0);
 }
 
-static void linearize(ambulo__elastic *e) {
-  ambulo__sparse_rows_fill(&e->local, e->workspace, 0);
-  ambulo__sparse_rows_fill(&e->border, e->workspace, 0);
+/* 0 when every gradient at x is finite */
+static int linearize(ambulo__elastic *e, const double *x) {
+  if (ambulo__evaluate_jacobian(e->workspace, x) ||
+      ambulo__sparse_rows_fill(&e->local, e->workspace, 0) ||
+      ambulo__sparse_rows_fill(&e->border, e->workspace, 0))
+    return 1;
   assemble_equalities(e);
+  return 0;
 }
 
 /* tries the step of damping mu from x; 1 when E fell to *value */
 static int advance(ambulo__elastic *e, double mu, double *x, double *value) {
-  double phi, largest = 0.0, before = *value;
+  double phi, largest, before = *value;
   if (minimize_model(e, mu, &phi)) return 0;
-  for (int j = 0; j < e->n; j++) largest = fmax(largest, fabs(e->total[j]));
-  double t = largest > step_cap ? step_cap / largest : 1.0;
+  largest = ambulo__largest(e->total, (size_t)e->n);
+  double t = largest <= step_cap ? 1.0 : step_cap / largest;
   for (int j = 0; j < e->n; j++) e->trial[j] = x[j] + t * e->total[j];
   if (ambulo__evaluate(e->workspace, e->trial)) return 0;
   double after = energy(e);
@@ -277,8 +276,7 @@ int ambulo__elastic_minimize(ambulo__elastic *e, double *x) {
   int steady = 0;
   set_scales(e, &e->local);
   set_scales(e, &e->border);
-  if (ambulo__evaluate_jacobian(e->workspace, x)) return 0;
-  linearize(e);
+  if (linearize(e, x)) return 0;
   double value = energy(e);
   for (int k = 0; k < MAX_STEPS && value > vanished && steady < STEADY; k++) {
     if (ambulo__elastic_over(e)) return 0;
@@ -286,8 +284,7 @@ int ambulo__elastic_minimize(ambulo__elastic *e, double *x) {
     if (advance(e, mu, x, &value)) {
       mu = fmax(mu_least, 0.2 * mu);
       steady = before - value <= steady_change * before ? steady + 1 : 0;
-      if (ambulo__evaluate_jacobian(e->workspace, x)) return 0;
-      linearize(e);
+      if (linearize(e, x)) return 0;
       continue;
     }
     mu *= 8.0;

@@ -5,11 +5,10 @@
  *     minimize  E(x) = sum_r w_r^2 e_r(x)^2 / 2,   e_r = c_r / s_r             (equality)
  *                                                  e_r = min(0, c_r) / s_r     (inequality)
  *
- * with s_r a size that makes rows of different unit comparable (m and rad: 1; torques and
- * forces: the limit; rates: 10, accelerations: 100; rows of the caller: their gradient) and
- * w_r a weight, 1 unless a caller of this header changes it. E = 0: the problem has a feasible
- * point. At a minimum with E > 0 the forces sum w^2 e grad e = 0 balance: the rows that carry
- * them contradict each other, at least near that point.
+ * with s_r a size that makes rows of different unit comparable (ambulo__rows_size) and w_r a
+ * weight, 1 unless a caller of this header changes it. E = 0: the problem has a feasible point. At
+ * a minimum with E > 0 the forces sum w^2 e grad e = 0 balance: the rows that carry them contradict
+ * each other, at least near that point.
  */
 #ifndef AMBULO_SOLVER_ELASTIC_H
 #define AMBULO_SOLVER_ELASTIC_H

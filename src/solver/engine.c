@@ -1,5 +1,7 @@
 /* solver/engine.c - setting up a solve on one grid; shared small steps. */
 #include "solver/engine.h"
+#include "base/worst.h"
+#include "nlp/user_term.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,10 +56,11 @@ static void create_vectors(ambulo__engine *e) {
 static double negligible_objective(ambulo__engine *e) {
   const ambulo_problem_definition *d = &e->problem->definition;
   double tolerance = e->run->options->optimality_tolerance;
-  for (int t = 0; t < d->term_count; t++) {
-    if (d->terms[t].kind == AMBULO_USER_TERM || d->terms[t].kind == AMBULO_TRACKING) return -1.0;
-  }
   if (ambulo__evaluate(e->workspace, e->center)) return -1.0; /* zeros so far */
+  e->at_rest = fabs(e->workspace->objective);
+  for (int t = 0; t < d->term_count; t++) {
+    if (ambulo__is_user_term(&d->terms[t]) || d->terms[t].kind == AMBULO_TRACKING) return -1.0;
+  }
   for (int t = 0; t < d->term_count; t++) {
     e->negligible_term[t] = tolerance * e->workspace->term_value[t];
   }
@@ -71,12 +74,31 @@ int ambulo__engine_at_lower_bound(const ambulo__engine *e) {
   return e->negligible >= 0.0;
 }
 
+/* Of an objective without curvature (linear terms of the caller): the factor that gives its
+ * gradient at the start the length 1 in the metric, where those of walks have 1 to 2.5. */
+static double scale_by_gradient(ambulo__engine *e, const double *start) {
+  const ambulo_problem *p = e->problem;
+  double sum = 0.0;
+  if (ambulo__evaluate_jacobian(e->workspace, start) ||
+      ambulo__gradient(e->workspace, 1.0, NULL, e->gradient))
+    return 1.0;
+  ambulo__metric_fill(&e->metric, e->workspace, 0.0, &e->base);
+  ambulo__band_add_diagonal(&e->base, p->definition.duration / ambulo__basis_intervals(p->basis));
+  if (ambulo__band_factor(&e->base)) return 1.0;
+  ambulo__band_forward(&e->base, e->gradient);
+  for (int j = 0; j < e->n; j++) sum += e->gradient[j] * e->gradient[j];
+  return sum > 0.0 && isfinite(sum) ? 1.0 / sqrt(sum) : 1.0;
+}
+
 static ambulo_status create_parts(ambulo__engine *e, const double *start,
                                   ambulo_diagnostics *diagnostics) {
   const ambulo_problem *p = e->problem;
   ambulo__pool *pool = &e->pool;
+  const double *zero = ambulo__pool_doubles(pool, (size_t)p->variables);
+  if (!zero) return AMBULO_E_MEMORY;
+  if (ambulo__evaluate(e->workspace, zero) == AMBULO_OK) start = zero;
   ambulo_status status =
-      ambulo__rows_split_create(p, e->workspace, start, pool, diagnostics, &e->rows);
+      ambulo__rows_split_create(p, e->workspace, start, e->run, pool, diagnostics, &e->rows);
   if (status) return status;
   e->n = p->variables;
   e->equalities = e->rows.equality.count;
@@ -96,6 +118,7 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   if (status) return status;
   for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(&p->model->coordinates[i]);
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
+  if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
   e->adjoint_tolerance = adjoint_tolerance;
   e->retraction_tolerance = retraction_tolerance;
   e->negligible = negligible_objective(e);
@@ -130,38 +153,51 @@ void ambulo__engine_free(ambulo__engine *e) {
   ambulo__free(&a, e);
 }
 
-double ambulo__engine_equality_error(ambulo__engine *e) {
+/* worst of a set of equalities whose values are there, relative to the sizes of the rows */
+static double worst_equality(const ambulo__engine *e, const ambulo__sparse_rows *rows,
+                             const double *value) {
+  const ambulo__table_row *table = e->problem->table.rows;
   double worst = 0.0;
+  for (int i = 0; i < rows->count; i++)
+    worst = ambulo__worse(worst, fabs(value[i]) / table[rows->row[i]].size);
+  return worst;
+}
+
+double ambulo__engine_equality_error(ambulo__engine *e) {
   ambulo__sparse_rows_values(&e->rows.equality, e->workspace, e->h);
   ambulo__sparse_rows_values(&e->rows.border, e->workspace, e->b);
-  for (int i = 0; i < e->equalities; i++) worst = fmax(worst, fabs(e->h[i]));
-  for (int i = 0; i < e->borders; i++) worst = fmax(worst, fabs(e->b[i]));
-  return worst;
+  return ambulo__worse(worst_equality(e, &e->rows.equality, e->h),
+                       worst_equality(e, &e->rows.border, e->b));
 }
 
 double ambulo__engine_excess(const ambulo__engine *e, double *excess) {
   const ambulo__sparse_rows *rows = &e->rows.inequality;
+  const ambulo__table_row *table = e->problem->table.rows;
   double worst = 0.0;
   ambulo__sparse_rows_values(rows, e->workspace, excess);
   for (int i = 0; i < e->inequalities; i++) {
-    if (excess[i] > 0.0) worst = fmax(worst, excess[i] / -rows->scale[i]);
+    if (excess[i] <= 0.0) continue;
+    worst = ambulo__worse(worst, excess[i] / (-rows->scale[i] * table[rows->row[i]].size));
   }
   return worst;
 }
 
-void ambulo__engine_gradient(ambulo__engine *e, const double *p, const double *l,
-                             double *gradient) {
+ambulo_status ambulo__engine_gradient(ambulo__engine *e, const double *p, const double *l,
+                                      double *gradient) {
   memset(e->row_weight, 0, (size_t)e->problem->rows * sizeof *e->row_weight);
   for (int i = 0; p && i < e->inequalities; i++)
     e->row_weight[e->rows.inequality.row[i]] = e->rows.inequality.scale[i] * p[i];
   for (int i = 0; l && i < e->equalities; i++)
     e->row_weight[e->rows.equality.row[i]] = e->rows.equality.scale[i] * l[i];
-  ambulo__gradient(e->workspace, e->objective_scale, e->row_weight, gradient);
+  ambulo_status status =
+      ambulo__gradient(e->workspace, e->objective_scale, e->row_weight, gradient);
+  if (status) ambulo__run_fault(e->run, &e->workspace->fault);
+  return status;
 }
 
 double ambulo__engine_step_limit(const ambulo__engine *e, const double *step, double share) {
   int d = e->problem->coordinates;
   double largest = 0.0;
-  for (int j = 0; j < e->n; j++) largest = fmax(largest, fabs(step[j]) / e->cap[j % d]);
-  return largest > share ? share / largest : 1.0;
+  for (int j = 0; j < e->n; j++) largest = ambulo__worse(largest, fabs(step[j]) / e->cap[j % d]);
+  return largest <= share ? 1.0 : share / largest;
 }

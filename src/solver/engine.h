@@ -20,7 +20,7 @@
 typedef struct ambulo__trial {
   double value;                /* augmented Lagrangian; HUGE_VAL: none */
   double objective;            /* f, scaled */
-  double violation;            /* worst inequality, row's own unit */
+  double violation;            /* worst inequality, relative to its size */
   double gradient_norm;        /* of the reduced, whitened gradient; < 0: not computed */
   double *x;                   /* [n] */
   double *excess;              /* [inequalities] */
@@ -43,6 +43,7 @@ typedef struct ambulo__engine {
   double objective_scale, mu, rho;
   double adjoint_tolerance;    /* relative error of a reduced gradient */
   double retraction_tolerance; /* worst equality of a retracted point */
+  double at_rest;              /* |objective| (not scaled) with all unknowns zero */
   double negligible; /* objective (not scaled) that counts as its lower bound 0; < 0: it has none */
   double *negligible_term;         /* [terms]: the same, each */
   double *cap;                     /* [coordinates]: largest change in one step, rad or m */
@@ -58,11 +59,13 @@ typedef struct ambulo__engine {
   double *iterate;        /* [n]: whitened point that NLopt works on */
   double *w, *w_gradient; /* [n]: whitened point held in `held`, gradient there */
   int has_held, has_held_gradient;
+  double ceiling; /* highest value of the augmented Lagrangian since the centre was set */
   ambulo__trial held, best;
 } ambulo__engine;
 
-/* Classifies rows, finds the objective's scale, allocates. `start` must be finite.
- * Errors: E_MEMORY, E_NUMERIC (no finite value at the start). */
+/* Classifies rows, finds the objective's scale, allocates. Both are found at zero, so that they are
+ * the same from every start; at `start` where zero has no finite values. `start` must have.
+ * Errors: E_MEMORY. */
 ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double *start,
                                     const ambulo_allocator *allocator, ambulo__run *run,
                                     ambulo_diagnostics *diagnostics, ambulo__engine **engine);
@@ -70,13 +73,15 @@ void ambulo__engine_free(ambulo__engine *engine); /* accepts NULL */
 /* Whether the point that the workspace holds has an objective next to its lower bound, zero. */
 int ambulo__engine_at_lower_bound(const ambulo__engine *engine);
 
-/* Worst |h| and |C x - b| at the point that the workspace holds; fills engine->h, b. */
+/* Worst |h| and |C x - b| at the point that the workspace holds, relative to the sizes of the
+ * rows; fills engine->h, b. */
 double ambulo__engine_equality_error(ambulo__engine *engine);
-/* Excesses at the point held; returns the worst in the row's own unit (>= 0). */
+/* Excesses at the point held; returns the worst relative to the size of its row (>= 0). */
 double ambulo__engine_excess(const ambulo__engine *engine, double *excess);
-/* Gradient of f + sum p v + sum l h at the point held (p, l may be NULL). */
-void ambulo__engine_gradient(ambulo__engine *engine, const double *p, const double *l,
-                             double *gradient);
+/* Gradient of f + sum p v + sum l h at the point held (p, l may be NULL). E_NUMERIC: it is not
+ * finite, which the run remembers. */
+ambulo_status ambulo__engine_gradient(ambulo__engine *engine, const double *p, const double *l,
+                                      double *gradient);
 /* Factor <= 1 that keeps a step below `share` of every coordinate's cap. */
 double ambulo__engine_step_limit(const ambulo__engine *engine, const double *step, double share);
 
@@ -88,21 +93,23 @@ ambulo_status ambulo__restore(ambulo__engine *engine, double *x, double *error);
  * workspace then holds it. 0 when that fails. */
 int ambulo__retract(ambulo__engine *engine, double *y);
 /* retraction.c: z, the gradient's tangent representative: see there. p as in
- * ambulo__engine_gradient. Uses and updates engine->equality_multiplier. */
-void ambulo__reduced_gradient(ambulo__engine *engine, const double *p, double *z);
+ * ambulo__engine_gradient. Uses and updates engine->equality_multiplier. E_NUMERIC as there. */
+ambulo_status ambulo__reduced_gradient(ambulo__engine *engine, const double *p, double *z);
 
 /* model_step.c: minimizes the piecewise quadratic model at the centre, sets whitener and
- * kkt; step in engine->total. Returns 0, or 1 when a factorization failed. */
+ * kkt; step in engine->total. Returns 0; 1 when a factorization failed; 2 when a value or a
+ * derivative at the centre is not finite, which the run remembers. */
 int ambulo__model_step(ambulo__engine *engine, double *predicted);
 /* model_step.c: its inner part: minimizes phi for the base, gradient, linear (excesses at
  * d = 0), lambda and rho that the engine holds; step in engine->total, forces of the rows in
  * engine->held.multiplier. Returns 1 when settled with the factor of the final active set,
- * 2 when done otherwise, -1 when a factorization failed. *phi: decrease (<= 0). */
+ * 2 when done otherwise, -1 when a factorization failed or the run is late. *phi: decrease
+ * (<= 0). */
 int ambulo__model_minimize(ambulo__engine *engine, double *phi);
 
 /* augmented.c: augmented Lagrangian at retract(center + L^-T w); the result in
- * engine->held (and engine->best). gradient [n] may be NULL. A failed retraction gives a
- * large finite value. */
+ * engine->held (and engine->best). gradient [n] may be NULL. A point that cannot be reached, or
+ * where something is not finite, has a finite value above that of the centre. */
 double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradient);
 
 /* polish.c: moves x by a few Newton steps until the inequalities hold to a fifth of the
@@ -114,10 +121,14 @@ typedef enum ambulo__inner_kind { AMBULO__INNER_AUGLAG, AMBULO__INNER_LBFGS } am
 int ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,
                            int evaluations);
 
-/* pipeline.c: the whole method from x (in and out). The last multipliers stay in
- * engine->lambda and engine->equality_multiplier. `loose`: a coarse grid whose solution
- * only starts the next one. */
-ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, int loose,
+/* pipeline.c: the whole method from x (in and out); run->ending says why it ended. The last
+ * multipliers stay in engine->lambda and engine->equality_multiplier. */
+typedef enum ambulo__stage {
+  AMBULO__COARSE, /* a coarse grid whose solution only starts the next one: wide tolerances */
+  AMBULO__FAR,    /* from anywhere */
+  AMBULO__NEAR    /* from a point that nearly satisfies the rows, and stays in its valley */
+} ambulo__stage;
+ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, ambulo__stage stage,
                                double *x);
 
 #endif

@@ -15,21 +15,15 @@ static const double steps_per_evaluation = 2.0;
 static const double least_work = 3e9, step_overhead = 1e5; /* operations */
 static const double on_limit_gap = 1e-4;                   /* relative to the row's size */
 
-static ambulo_violation violation_of(const ambulo_problem *p, int row, double worst) {
-  const ambulo__table_row *r = &p->table.rows[row];
-  ambulo_violation v = {r->family, r->subject, r->detail, r->unit, r->time, worst};
-  return v;
-}
-
 static void list_contradictions(const ambulo__engine *e, const ambulo_result *result,
                                 ambulo__explanation *out) {
   double tolerance = e->run->options->feasibility_tolerance;
   for (int r = 0; r < e->problem->rows; r++) {
     if (e->rows.rank[r] != AMBULO__ROW_CONTRADICTORY) continue;
-    double worst = ambulo__row_violation(e->problem, r, result->row[r]);
-    if (!(worst > tolerance)) continue;
+    ambulo_violation v = ambulo__violation_of(e->problem, r, result->row[r]);
+    if (!(ambulo__relative(&v) > tolerance)) continue;
     if (out->view.contradictory_count >= AMBULO__MOST_CONTRADICTIONS) break;
-    out->contradictory[out->view.contradictory_count++] = violation_of(e->problem, r, worst);
+    out->contradictory[out->view.contradictory_count++] = v;
   }
 }
 
@@ -98,6 +92,10 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
   double *x = ambulo__pool_doubles(pool, (size_t)e->n);
   if (pool->failed) return AMBULO_E_MEMORY;
   list_contradictions(e, result, out);
+  if (e->run->ending == AMBULO_ENDING_TIME || e->run->ending == AMBULO_ENDING_CALLER) {
+    ambulo__explain_lines(result, out); /* no time is left to look further */
+    return AMBULO_OK;
+  }
   ambulo_status status = start_point(e, result, x);
   if (!status) status = ambulo__elastic_create(e->problem, e->workspace, e->run, pool, &elastic);
   if (status == AMBULO_E_MEMORY) return status;

@@ -18,7 +18,7 @@
 #include <string.h>
 
 enum { ROUNDS = 3, EVALUATIONS = 40 };
-static const double margin = 1e-2; /* row's own unit */
+static const double margin = 1e-2; /* relative to the row's size */
 static const double gradient_tolerance = 1e-8, surface_tolerance = 1e-11;
 static const double row_tolerance = 1e-10, value_tolerance = 1e-13, point_tolerance = 1e-13;
 
@@ -50,28 +50,30 @@ static int move_to(finisher *s, const double *w) {
   return s->failed;
 }
 
-/* of the rows weighted by p, with the objective scaled by `scale`; l: first guess and result */
-static void differentiate(ambulo__engine *e, double scale, const double *p, double *l,
-                          double *gradient) {
+/* of the rows weighted by p, with the objective scaled by `scale`; l: first guess and result; 1
+ * when it is not finite */
+static int differentiate(ambulo__engine *e, double scale, const double *p, double *l,
+                         double *gradient) {
   double objective_scale = e->objective_scale;
   size_t bytes = (size_t)e->equalities * sizeof *l;
   e->objective_scale = scale;
   memcpy(e->equality_multiplier, l, bytes);
-  ambulo__reduced_gradient(e, p, gradient);
+  int failed = ambulo__reduced_gradient(e, p, gradient) != AMBULO_OK;
   ambulo__band_upper_multiply(&e->whitener, gradient);
   memcpy(l, e->equality_multiplier, bytes);
   e->objective_scale = objective_scale;
+  return failed;
 }
 
 static double objective(unsigned n, const double *w, double *gradient, void *data) {
   finisher *s = data;
   double begin = ambulo__seconds_now(), value = HUGE_VAL;
-  if (!move_to(s, w)) {
-    value = s->engine->objective_scale * s->engine->workspace->objective;
-    if (gradient)
-      differentiate(s->engine, s->engine->objective_scale, NULL, s->multiplier, gradient);
-  } else if (gradient) {
-    memset(gradient, 0, n * sizeof *gradient);
+  if (!move_to(s, w)) value = s->engine->objective_scale * s->engine->workspace->objective;
+  if (!s->failed && gradient)
+    s->failed = differentiate(s->engine, s->engine->objective_scale, NULL, s->multiplier, gradient);
+  if (s->failed) {
+    value = HUGE_VAL;
+    if (gradient) memset(gradient, 0, n * sizeof *gradient);
   }
   s->seconds += ambulo__seconds_now() - begin;
   return value;
@@ -91,7 +93,9 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
     s->one[r] = 1.0;
     memset(e->held.equality_multiplier, 0,
            (size_t)e->equalities * sizeof *e->held.equality_multiplier);
-    differentiate(e, 0.0, s->one, e->held.equality_multiplier, gradient + (size_t)i * (size_t)n);
+    double *row = gradient + (size_t)i * (size_t)n;
+    if (differentiate(e, 0.0, s->one, e->held.equality_multiplier, row))
+      memset(row, 0, n * sizeof *row);
     s->one[r] = 0.0;
   }
   s->seconds += ambulo__seconds_now() - begin;
@@ -104,7 +108,9 @@ static int screen(finisher *s) {
   int found = 0;
   for (int i = 0; i < e->inequalities; i++) {
     if (e->active_next[i]) continue;
-    double excess = e->held.excess[i] / -e->rows.inequality.scale[i];
+    int row = e->rows.inequality.row[i];
+    double size = e->problem->table.rows[row].size;
+    double excess = e->held.excess[i] / (-e->rows.inequality.scale[i] * size);
     if (excess < -margin) continue;
     e->active_next[i] = 1;
     s->row[s->count++] = i;

@@ -49,7 +49,7 @@ static double objective(unsigned n, const double *w, double *gradient, void *dat
   double begin = ambulo__seconds_now();
   double value = ambulo__augmented(s->engine, w, gradient);
   int failed = !(s->engine->held.value < HUGE_VAL);
-  if (s->auglag && !failed) value += s->offset - penalty_of(s->engine);
+  if (s->auglag) value += failed ? s->offset : s->offset - penalty_of(s->engine);
   if (!gradient && s->auglag && ++s->bare_calls == 2) nlopt_force_stop(s->outer);
   if (s->engine->run->stopped) nlopt_force_stop(s->outer);
   s->seconds += ambulo__seconds_now() - begin;

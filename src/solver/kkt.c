@@ -18,6 +18,7 @@
  * (retraction.c).
  */
 #include "solver/kkt.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
@@ -87,10 +88,10 @@ static double equality_error(ambulo__kkt *kkt, const double *h, const double *d)
       parts += fabs(part);
     }
     kkt->residual[i] = sum;
-    worst = fmax(worst, fabs(sum));
-    size = fmax(size, parts);
+    worst = ambulo__worse(worst, fabs(sum));
+    size = ambulo__worse(size, parts);
   }
-  return size > 0.0 ? worst / size : 0.0;
+  return size == 0.0 ? 0.0 : worst / size;
 }
 
 void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
@@ -109,7 +110,7 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
     ambulo__kkt_pass(kkt, d, b, m);
     error = equality_error(kkt, h, d);
     for (int i = 0; i < kkt->equalities; i++) l[i] += kkt->penalty[i] * kkt->residual[i];
-    if (error <= pass_tolerance || error > 0.5 * before) break;
+    if (error <= pass_tolerance || !(error <= 0.5 * before)) break;
     before = error;
   }
   if (error > slow) kkt->stiffness = fmin(stiffness_largest, stiffness_factor * kkt->stiffness);

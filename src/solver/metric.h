@@ -4,7 +4,8 @@
  *
  * H_GN = sum_k sum_u curvature_uk g_uk g_uk', u the residuals of the objective's terms
  * (objective/term.h) and g their gradients with respect to the unknowns of node k. Residuals
- * that span two nodes (torque rate) are split as in ambulo__node_gauss_newton.
+ * that span two nodes (torque rate) are split as in ambulo__node_gauss_newton. Terms of the caller
+ * have the curvature of nlp/user_term.h.
  */
 #ifndef AMBULO_SOLVER_METRIC_H
 #define AMBULO_SOLVER_METRIC_H
@@ -16,6 +17,8 @@ typedef struct ambulo__metric {
   int channels;
   int *channel;   /* [channels]: those with a weight in some simple term, ascending */
   int composites; /* terms whose residuals stand on several channels */
+  int users;      /* terms of the caller */
+  double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
   double *rows;   /* [row_capacity][widest window]: one node's weighted gradients */
   int row_capacity;
   double *one; /* [widest window]: gradient of one channel */
@@ -31,9 +34,13 @@ int ambulo__metric_diagonals(const ambulo_problem *problem);
 void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
                          double scale, ambulo__band *h);
 
-/* Factor by which the objective is multiplied inside the solver, a power of two, so that
- * the constants of the method (mu, rho) meet gradients of the size that they were found
- * for, whatever the objective's unit. */
+/* weight * sum_k w_k |qdd_k|^2 in its place. */
+void ambulo__metric_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,
+                                  double weight, ambulo__band *h);
+
+/* Factor by which the objective is multiplied inside the solver, so that the constants of the
+ * method (mu, rho) meet curvatures of the size that they were found for: an objective in another
+ * unit is solved alike. 0 where it has no curvature. */
 double ambulo__metric_objective_scale(const ambulo__metric *metric,
                                       const ambulo_workspace *workspace);
 

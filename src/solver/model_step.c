@@ -16,6 +16,7 @@
  * meet are felt before they are hit, which is what plain Gauss-Newton steps lack.
  */
 #include "solver/engine.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,7 +65,7 @@ static void assemble(ambulo__engine *e) {
 /* minus the gradient of phi at the step taken so far, into engine->previous */
 static void slope(ambulo__engine *e) {
   for (int i = 0; i < e->inequalities; i++)
-    e->held.multiplier[i] = fmax(0.0, e->lambda[i] + e->rho * e->linear[i]);
+    e->held.multiplier[i] = ambulo__worse(0.0, e->lambda[i] + e->rho * e->linear[i]);
   for (int j = 0; j < e->n; j++) e->previous[j] = -(e->gradient[j] + e->curved_total[j]);
   ambulo__sparse_rows_add_transpose(&e->rows.inequality, -1.0, e->held.multiplier, e->previous);
 }
@@ -122,17 +123,24 @@ int ambulo__model_minimize(ambulo__engine *e, double *phi) {
   memcpy(e->active, e->active_next, (size_t)e->inequalities * sizeof *e->active);
   memset(e->along, 0, (size_t)e->inequalities * sizeof *e->along);
   double start = penalty(e, 0.0), value = start;
-  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) settled = newton(e, start, &value);
+  for (int k = 0; k < MAX_NEWTON && settled == 0; k++)
+    settled = ambulo__run_late(e->run) ? -1 : newton(e, start, &value);
   *phi = value - start;
   return settled == 0 ? 2 : settled;
 }
 
+static int not_finite(ambulo__engine *e) {
+  ambulo__run_fault(e->run, &e->workspace->fault);
+  return 2;
+}
+
 int ambulo__model_step(ambulo__engine *e, double *predicted) {
-  if (ambulo__evaluate_jacobian(e->workspace, e->center)) return 1;
-  ambulo__engine_gradient(e, NULL, NULL, e->gradient);
+  if (ambulo__evaluate_jacobian(e->workspace, e->center)) return not_finite(e);
+  if (ambulo__engine_gradient(e, NULL, NULL, e->gradient)) return 2;
   double begin = ambulo__seconds_now();
-  ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0);
-  ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0);
+  if (ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0) ||
+      ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0))
+    return not_finite(e);
   ambulo__engine_excess(e, e->linear);
   ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
   ambulo__band_add_diagonal(&e->base, e->mu);

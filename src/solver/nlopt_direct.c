@@ -7,6 +7,7 @@
  * added; stop requests are polled in every callback.
  */
 #include "solver/nlopt_direct.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -45,14 +46,16 @@ ambulo_status ambulo__direct_create(ambulo__direct *d, ambulo__pool *pool) {
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
+/* worst over all sets, relative to the sizes of the rows */
 static double violation_of(ambulo__direct *d) {
+  const ambulo__table_row *table = d->problem->table.rows;
   double worst = 0.0;
   for (int s = 0; s < d->sets; s++) {
     const ambulo__sparse_rows *set = d->set[s];
     ambulo__sparse_rows_values(set, d->workspace, d->values);
     for (int i = 0; i < set->count; i++) {
-      double value = d->is_equality[s] ? fabs(d->values[i]) : fmax(0.0, d->values[i]);
-      worst = fmax(worst, value / fabs(set->scale[i]));
+      double value = d->is_equality[s] ? fabs(d->values[i]) : ambulo__worse(0.0, d->values[i]);
+      worst = ambulo__worse(worst, value / (fabs(set->scale[i]) * table[set->row[i]].size));
     }
   }
   return worst;
@@ -64,13 +67,15 @@ static void keep_best(ambulo__direct *d) {
   int feasible = violation <= tolerance, was = d->best_violation <= tolerance;
   int better = feasible && was ? objective < d->best_objective : violation < d->best_violation;
   if (!better) return;
+  ambulo__run_forgive(d->run);
   d->best_violation = violation;
   d->best_objective = objective;
   memcpy(d->best_x, d->x, (size_t)d->problem->variables * sizeof *d->x);
   if (!d->whitener) (void)ambulo__run_progress(d->run, objective, violation);
 }
 
-/* evaluates at w; 0 when the values are finite */
+/* evaluates at w; 0 when the values are finite. Values that are not, and gradients of them, give
+ * the point up: HUGE_VAL never looks like a descent. */
 static int move_to(ambulo__direct *d, const double *w) {
   size_t n = (size_t)d->problem->variables;
   for (size_t j = 0; j < n; j++) {
@@ -79,7 +84,9 @@ static int move_to(ambulo__direct *d, const double *w) {
   memcpy(d->x, w, n * sizeof *w);
   if (d->whitener) ambulo__band_backward(d->whitener, d->x);
   for (size_t j = 0; j < n; j++) d->x[j] += d->center[j];
-  return ambulo__evaluate(d->workspace, d->x) != AMBULO_OK;
+  if (!ambulo__evaluate(d->workspace, d->x)) return 0;
+  ambulo__run_fault(d->run, &d->workspace->fault);
+  return 1;
 }
 
 static int reached(const ambulo__direct *d) {
@@ -99,16 +106,17 @@ static double objective(unsigned n, const double *w, double *gradient, void *dat
   ambulo__direct *d = c->direct;
   ambulo__run_count(d->run);
   int failed = move_to(d, w);
+  if (!failed && gradient && !d->nearest) {
+    failed = ambulo__gradient(d->workspace, d->objective_scale, NULL, gradient) != AMBULO_OK;
+    if (failed) ambulo__run_fault(d->run, &d->workspace->fault);
+    if (d->whitener) ambulo__band_forward(d->whitener, gradient);
+  }
   if (!failed) keep_best(d);
   if (d->run->stopped || (d->nearest && reached(d))) nlopt_force_stop(c->opt);
   if (gradient && failed) memset(gradient, 0, n * sizeof *gradient);
   if (failed) return HUGE_VAL;
   if (!gradient) memcpy(d->last_x, d->x, n * sizeof *d->x);
   if (d->nearest) return distance(n, w, gradient);
-  if (gradient) {
-    ambulo__gradient(d->workspace, d->objective_scale, NULL, gradient);
-    if (d->whitener) ambulo__band_forward(d->whitener, gradient);
-  }
   return d->objective_scale * d->workspace->objective;
 }
 
@@ -119,13 +127,16 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
   int failed = move_to(d, w);
   if (!failed && gradient) failed = ambulo__evaluate_jacobian(d->workspace, d->x) != AMBULO_OK;
   if (gradient) memset(gradient, 0, (size_t)m * (size_t)n * sizeof *gradient);
+  if (!failed && gradient) {
+    failed = ambulo__sparse_rows_fill(c->set, d->workspace, 0) != AMBULO_OK;
+    if (failed) ambulo__run_fault(d->run, &d->workspace->fault);
+  }
   if (failed) {
     for (unsigned i = 0; i < m; i++) result[i] = failed_row;
     return;
   }
   ambulo__sparse_rows_values(c->set, d->workspace, result);
   if (!gradient) return;
-  ambulo__sparse_rows_fill(c->set, d->workspace, 0);
   for (unsigned i = 0; i < m; i++) {
     double *row = gradient + (size_t)i * (size_t)n;
     for (int e = c->set->start[i]; e < c->set->start[i + 1]; e++)

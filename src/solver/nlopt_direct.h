@@ -47,9 +47,9 @@ const char *ambulo__nlopt_name(int result);
 ambulo_status ambulo__solve_plain(ambulo__engine *engine, ambulo_algorithm algorithm,
                                   ambulo_diagnostics *diagnostics, double *x, const char **message);
 
-/* SLSQP in whitened coordinates on independent rows, restored and re-whitened in rounds,
- * from x (in and out): the way for small problems. */
-ambulo_status ambulo__solve_whitened(ambulo__engine *engine, ambulo_algorithm algorithm,
+/* SLSQP in whitened coordinates on independent rows, restored and re-whitened in at most `most`
+ * rounds, from x (in and out): the way for small problems. */
+ambulo_status ambulo__solve_whitened(ambulo__engine *engine, ambulo_algorithm algorithm, int most,
                                      ambulo_diagnostics *diagnostics, double *x,
                                      const char **message);
 

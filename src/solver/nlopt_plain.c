@@ -19,6 +19,7 @@
  *            ended is led to the rows by `reach` before it is judged. It is given all
  *            evaluations that are left: its multipliers do not outlive a call.
  *
+ * At most options->maximum_iterations calls that improve; run->ending says what ended them.
  * The best point of all calls (feasible: lowest objective; else smallest violation) is kept.
  */
 #include "solver/nlopt_direct.h"
@@ -26,7 +27,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { REACH_CALLS = 8, REACH_EVALUATIONS = 120, IMPROVE_CALLS = 12, CALL_EVALUATIONS = 1500 };
+enum { REACH_CALLS = 8, REACH_EVALUATIONS = 120, CALL_EVALUATIONS = 1500 };
 static const double settled = 1e-7; /* relative change of the objective */
 
 static void prepare(ambulo__engine *e, ambulo__direct *d) {
@@ -88,7 +89,9 @@ static ambulo_status improve_nearly(ambulo__direct *d, double *x, int *done) {
   double objective = d->best_objective, violation = d->best_violation;
   memcpy(x, d->best_x, bytes_of(d));
   int left = d->run->options->maximum_evaluations - d->run->evaluations;
-  int evaluations = left > 2 * REACH_EVALUATIONS ? left - REACH_EVALUATIONS : (left + 1) / 2;
+  /* the way back to the rows takes a few calls as well */
+  int reserve = REACH_CALLS / 2 * REACH_EVALUATIONS;
+  int evaluations = left > 2 * reserve ? left - reserve : (left + 1) / 2;
   ambulo_status status = ambulo__direct_minimize(d, AMBULO_AUGLAG, evaluations);
   if (status) return status;
   const char *message = d->message;
@@ -117,10 +120,15 @@ static ambulo_status solve(ambulo__engine *e, ambulo__direct *d, ambulo_algorith
   if (status) return status;
   memcpy(d->center, x, (size_t)e->n * sizeof *x);
   status = reach(d);
-  for (int k = 0; k < IMPROVE_CALLS && !status && !done; k++) {
-    if (is_over(d)) break;
+  ambulo_ending ending = AMBULO_ENDING_NLOPT;
+  for (int k = 0; !status && !done && !is_over(d); k++) {
+    if (k == e->run->options->maximum_iterations) {
+      ending = AMBULO_ENDING_ITERATIONS;
+      break;
+    }
     status = algorithm == AMBULO_AUGLAG ? improve_nearly(d, x, &done) : improve(d, &done);
   }
+  ambulo__run_end(e->run, d->best_violation < HUGE_VAL ? ending : AMBULO_ENDING_NO_DESCENT);
   return status;
 }
 

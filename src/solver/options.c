@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-enum { OPTIONS_COOKIE = 0x616d6273, DEFAULT_EVALUATIONS = 20000 };
+enum { OPTIONS_COOKIE = 0x616d6273, DEFAULT_EVALUATIONS = 20000, DEFAULT_ITERATIONS = 150 };
 
 ambulo_options ambulo_options_default(void) {
   ambulo_options options = {
@@ -11,6 +11,7 @@ ambulo_options ambulo_options_default(void) {
       .algorithm = AMBULO_AUTO,
       .presolve = 1,
       .maximum_evaluations = DEFAULT_EVALUATIONS,
+      .maximum_iterations = DEFAULT_ITERATIONS,
       .time_limit = 0.0,
       .feasibility_tolerance = 1e-6,
       .optimality_tolerance = 1e-3,
@@ -36,10 +37,18 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver.maximum_evaluations is %d; expected at least 1",
                          options->maximum_evaluations);
+  if (options->maximum_iterations < 1)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver.maximum_iterations is %d; expected at least 1",
+                         options->maximum_iterations);
   if (!(options->time_limit >= 0.0))
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver.time_limit is %g s; expected 0 (none) or more",
                          options->time_limit);
+  if (!(options->maximum_memory >= 0.0))
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "solver.maximum_memory is %g bytes; expected 0 (what is free) or more",
+                         options->maximum_memory);
   if (!(options->feasibility_tolerance > 0.0) || !(options->optimality_tolerance > 0.0))
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver tolerances are %g and %g; expected positive numbers",

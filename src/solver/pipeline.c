@@ -1,6 +1,7 @@
 /* solver/pipeline.c - the method on one grid: restore, then refresh and minimize in turn.
  *
- *     mu = mu_0 T/K, rho = 10, lambda = 0
+ *     mu = mu_0 T/K, rho = 10, lambda = 0; rho = 3000 where the start nearly satisfies the rows: a
+ *     weaker penalty would let go of them, and the solve would wander off into another valley
  *     restore
  *     repeat
  *         model step d, metric L L'                            (model_step.c)
@@ -13,17 +14,24 @@
  *         at the bound raises the bound tenfold, twice at most
  *     until f has settled, the reduced gradient is small, and v <= tolerance, or small enough
  *     for a few Newton steps on the rows                   (polish.c); f has also settled
- *     when it has fallen to a thousandth of its first value and is negligible (engine.c), or of
- *     its third one and changes by 1e-5 of that
+ *     when it has fallen to a thousandth of its first value and is negligible (engine.c). At most
+ * options->maximum_iterations refreshes; run->ending says which of these ended the loop
  *
  * Equalities hold all along: every point is a retracted one.
  */
 #include "solver/engine.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MAX_REFRESHES = 150, INNER_EVALUATIONS = 8, MAX_BACKTRACKS = 6, STALL = 15, EARLY = 3 };
+enum {
+  INNER_EVALUATIONS = 8,
+  MAX_BACKTRACKS = 6,
+  MAX_DAMPINGS = 6,
+  STALL = 15,
+  LONG_SETTLED = 3 /* refreshes without a change end a solve whose gradient is not small */
+};
 /* mu_0. Central differences want less: with 0.3 they take two to three times the refreshes at
  * N = 12, for a minimum that is lower by a tenth. */
 static const double mu_start = 0.3, mu_start_differences = 0.06;
@@ -34,8 +42,10 @@ static const double step_cap = 0.5; /* rad, m */
 static const double restored = 1e-6;
 static const double value_change = 1e-5; /* relative */
 static const double value_floor = 1e-9;  /* scaled objective */
-static const double vanished = 1e-3;     /* of an early f: an objective that goes to zero */
-static const double moving = 1e-3;       /* relative change of f that is progress */
+static const double vanished = 1e-3;     /* of the first f: an objective that goes to zero */
+static const double nothing = 1e-6; /* of f for the motionless body: the same, of terms without a
+                                       measure of their own (engine.c) */
+static const double moving = 1e-3;  /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
 static const double polishable = 1e-5;   /* excess, row's own unit */
 static const double polish_reach = 1e-2; /* the same, when nothing else helps */
@@ -45,8 +55,8 @@ typedef struct progress {
   double objective, measure, least_violation;
   int settled, since_better, loose, refreshes;
   double rho_limit;
-  double first, early; /* f after the first refresh, after the third */
-  double damping;      /* mu at the beginning */
+  double first;   /* f after the first refresh */
+  double damping; /* mu at the beginning */
 } progress;
 
 /* F before the step, after it, and what the model made of it (<= 0) */
@@ -58,17 +68,19 @@ typedef struct descent {
 static double measure(const ambulo__engine *e, const double *excess) {
   double worst = 0.0;
   for (int i = 0; i < e->inequalities; i++)
-    worst = fmax(worst, fabs(fmax(excess[i], -e->lambda[i] / e->rho)));
+    worst = ambulo__worse(worst, fabs(ambulo__worse(excess[i], -e->lambda[i] / e->rho)));
   return worst;
 }
 
-/* the model step, mu raised until it can be factored */
-static int model(ambulo__engine *e, double *predicted) {
-  for (int trial = 0; trial < 6; trial++) {
-    if (!ambulo__model_step(e, predicted)) return 0;
+/* the model step, mu raised until it can be factored; why it could not be, or none */
+static ambulo_ending model(ambulo__engine *e, double *predicted) {
+  for (int trial = 0; trial < MAX_DAMPINGS; trial++) {
+    int failed = ambulo__model_step(e, predicted);
+    if (failed == 0) return AMBULO_ENDING_NONE;
+    if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
     e->mu *= 10.0;
   }
-  return 1;
+  return AMBULO_ENDING_BREAKDOWN;
 }
 
 /* w = t L'd with the first t that descends; zero when none does */
@@ -76,13 +88,16 @@ static void line_search(ambulo__engine *e, descent *d, double *w) {
   size_t n = (size_t)e->n;
   double t = ambulo__engine_step_limit(e, e->total, step_cap);
   e->has_held = 0;
+  e->ceiling = -HUGE_VAL;
   memset(w, 0, n * sizeof *w);
   d->start = d->searched = ambulo__augmented(e, w, NULL);
+  if (!(e->held.value < HUGE_VAL)) d->start = d->searched = HUGE_VAL;
   ambulo__band_upper_multiply(&e->whitener, e->total);
   for (int trial = 0; trial < MAX_BACKTRACKS; trial++) {
     for (size_t j = 0; j < n; j++) w[j] = t * e->total[j];
     double f = ambulo__augmented(e, w, NULL);
-    if (f <= d->start + 1e-4 * t * d->predicted + 1e-12 * fabs(d->start)) {
+    double enough = d->start + 1e-4 * t * d->predicted + 1e-12 * fabs(d->start);
+    if (e->held.value < HUGE_VAL && (f <= enough || isinf(d->start))) {
       d->searched = f;
       return;
     }
@@ -111,16 +126,15 @@ static void update_multipliers(ambulo__engine *e, progress *p) {
 }
 
 /* Relative tests never end a solve whose objective goes to zero (nodes whose forces can all
- * vanish): then its size counts, and changes count against an early f. Not the first: from a
- * wild start that can be a thousand times a good one. */
-static int has_vanished(const ambulo__engine *e, const progress *p, double change) {
-  double objective = e->best.objective;
-  if (objective <= vanished * p->first && objective <= e->objective_scale * e->negligible) return 1;
-  return objective <= vanished * p->early && change <= value_change * p->early;
+ * vanish): then its size counts, beside that of the motionless body. */
+static int has_vanished(const ambulo__engine *e, const progress *p) {
+  double objective = fabs(e->best.objective); /* terms of the caller may be negative */
+  if (e->negligible < 0.0) return objective <= nothing * e->objective_scale * e->at_rest;
+  return objective <= vanished * p->first && objective <= e->objective_scale * e->negligible;
 }
 
-/* follows the best point; 1 when the loop is to end */
-static int finished(ambulo__engine *e, progress *p, double *x) {
+/* Follows the best point; why the loop is to end, or none. */
+static ambulo_ending finished(ambulo__engine *e, progress *p, double *x) {
   const ambulo__trial *best = &e->best;
   double change = fabs(best->objective - p->objective), violation = best->violation;
   double tolerance = p->loose ? loose_violation : e->run->options->feasibility_tolerance;
@@ -130,64 +144,94 @@ static int finished(ambulo__engine *e, progress *p, double *x) {
   int near = violation <= fmax(tolerance, polishable);
   p->settled = near && steady ? p->settled + 1 : 0;
   if (p->refreshes++ == 0) p->first = fabs(best->objective);
-  if (p->refreshes <= EARLY) p->early = fabs(best->objective);
   p->objective = best->objective;
   p->since_better++;
   if (violation < 0.9 * p->least_violation || change > moving * fabs(best->objective))
     p->since_better = 0;
   p->least_violation = fmin(p->least_violation, violation);
   int stalled = e->rho >= p->rho_limit && p->since_better > STALL;
-  int settled = (p->settled >= 1 && (small || p->loose)) || p->settled >= 3 ||
-                (near && has_vanished(e, p, change));
+  ambulo_ending settled = AMBULO_ENDING_NONE;
+  if (p->settled >= 1 && (small || p->loose)) {
+    settled = AMBULO_ENDING_CONVERGED;
+  } else if (near && has_vanished(e, p)) {
+    settled = AMBULO_ENDING_VANISHED;
+  } else if (p->settled >= LONG_SETTLED) {
+    settled = AMBULO_ENDING_SETTLED;
+  }
   if (violation <= tolerance) return settled;
-  if (!settled && !stalled) return 0;
-  if (violation <= polish_reach && ambulo__polish(e, x)) return 1;
-  if (!stalled || p->rho_limit >= rho_last) return stalled;
+  if (!settled && !stalled) return AMBULO_ENDING_NONE;
+  if (violation <= polish_reach && ambulo__polish(e, x))
+    return settled ? settled : AMBULO_ENDING_STALLED;
+  if (!stalled) return AMBULO_ENDING_NONE;
+  if (p->rho_limit >= rho_last) return AMBULO_ENDING_STALLED;
   p->rho_limit *= 10.0;
   p->since_better = 0;
-  return 0;
+  return AMBULO_ENDING_NONE;
 }
 
-/* one refresh; 1 when there is nothing more to do */
-static int refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, double *w, double *x) {
+/* one refresh; why there is nothing more to do, or none */
+static ambulo_ending refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, double *w,
+                             double *x) {
   descent d;
   memcpy(e->center, x, (size_t)e->n * sizeof *x);
-  if (model(e, &d.predicted)) return 1;
+  ambulo_ending failed = model(e, &d.predicted);
+  if (failed) return failed;
   e->best.value = HUGE_VAL;
   line_search(e, &d, w);
   ambulo__inner_minimize(e, kind, w, INNER_EVALUATIONS);
-  if (!(e->best.value < HUGE_VAL)) return 1;
+  if (!(e->best.value < HUGE_VAL)) return AMBULO_ENDING_NO_DESCENT;
+  ambulo__run_forgive(e->run);
   memcpy(x, e->best.x, (size_t)e->n * sizeof *x);
   update_damping(e, p, &d);
   update_multipliers(e, p);
   e->run->iterations++;
   int stop =
       ambulo__run_progress(e->run, e->best.objective / e->objective_scale, e->best.violation);
-  return finished(e, p, x) || stop;
+  ambulo_ending ending = finished(e, p, x);
+  return !ending && stop ? AMBULO_ENDING_CALLER : ending;
 }
 
-ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, int loose, double *x) {
+/* restores, then refreshes until something ends it */
+static ambulo_status iterate(ambulo__engine *e, ambulo__inner_kind kind, progress *p, double *x,
+                             ambulo_ending *ending) {
+  double error;
+  ambulo_status status = ambulo__restore(e, x, &error);
+  if (status || !(error <= restored)) {
+    *ending = status == AMBULO_E_NUMERIC ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_NOT_RESTORED;
+    return status;
+  }
+  for (int k = 0; !*ending && !ambulo__run_over(e->run); k++) {
+    if (k == e->run->options->maximum_iterations) {
+      *ending = AMBULO_ENDING_ITERATIONS;
+    } else {
+      *ending = refresh(e, kind, p, e->iterate, x);
+    }
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, ambulo__stage stage,
+                               double *x) {
   const ambulo_problem *p = e->problem;
+  int loose = stage == AMBULO__COARSE;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   progress state = {.objective = HUGE_VAL,
                     .measure = HUGE_VAL,
                     .least_violation = HUGE_VAL,
                     .loose = loose,
                     .rho_limit = rho_largest};
-  double error;
+  ambulo_ending ending = AMBULO_ENDING_NONE;
   int differences = p->definition.discretization == AMBULO_CENTRAL_DIFFERENCE;
   e->mu = state.damping = (differences ? mu_start_differences : mu_start) * interval;
-  e->rho = rho_start;
+  e->rho = stage == AMBULO__NEAR ? rho_largest : rho_start;
+  e->best.value = HUGE_VAL;
   memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
   memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
-  ambulo_status status = ambulo__restore(e, x, &error);
-  if (status) return status;
-  if (error > restored) return AMBULO_OK;
-  for (int k = 0; k < MAX_REFRESHES && !ambulo__run_over(e->run); k++) {
-    if (refresh(e, kind, &state, e->iterate, x)) return AMBULO_OK;
-  }
-  /* out of refreshes or of time: what can still be had at once */
-  if (!loose && e->best.value < HUGE_VAL && e->best.violation <= polish_reach)
+  ambulo_status status = iterate(e, kind, &state, x, &ending);
+  int cut = e->run->stopped || ending == AMBULO_ENDING_ITERATIONS;
+  /* out of iterations or of time: what can still be had at once */
+  if (!status && cut && !loose && e->best.value < HUGE_VAL && e->best.violation <= polish_reach)
     (void)ambulo__polish(e, x);
-  return AMBULO_OK;
+  if (ending) ambulo__run_end(e->run, ending);
+  return status;
 }

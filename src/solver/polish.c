@@ -23,8 +23,9 @@ static const double share = 0.2; /* of the feasibility tolerance */
 /* one step from engine->center into y; 0 on success */
 static int step(ambulo__engine *e, double *y) {
   double decrease;
-  ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0);
-  ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0);
+  if (ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0) ||
+      ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0))
+    return 1;
   ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
   ambulo__band_add_diagonal(&e->base, e->mu);
   memset(e->gradient, 0, (size_t)e->n * sizeof *e->gradient);

@@ -20,12 +20,13 @@
  * by cyclic projections.
  */
 #include "solver/presolve_rank.h"
+#include "base/worst.h"
 #include "solver/sparse_rows.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SMALL_PROBLEM = 200, SWEEPS = 500, MOST_WARNINGS = 5 };
+enum { SMALL_PROBLEM = 200, SWEEPS = 500, MOST_WARNINGS = 5, POLL_NODES = 256 };
 static const double shift_size = 0.1;     /* rad, m */
 static const double dependence = 1e-8;    /* relative */
 static const double contradiction = 1e-7; /* row unit, relative to 1 + |value| */
@@ -34,6 +35,8 @@ typedef struct group {
   const ambulo__sparse_rows *rows;
   const double *value;  /* [rows] */
   int *member, members; /* indices into rows, in order of priority */
+  int *by_host, *first; /* [rows], [nodes + 2]: rows in the order of their hosts, border rows first;
+                           where those of node k - 1 begin */
   int *position;        /* [variables]: place of an unknown among the group's, or -1 */
   int width;
   double *vector;    /* [capacity][width]: orthonormal */
@@ -71,7 +74,7 @@ static void satisfy_border(const ambulo__sparse_rows *s, const double *at0, cons
     for (int i = 0; i < s->count; i++) {
       if (s->host[i] >= 0 || !s->constant[i]) continue;
       double value = linear_value(s, i, at0[i], x0, x), norm = ambulo__sparse_rows_norm(s, i);
-      worst = fmax(worst, fabs(value));
+      worst = ambulo__worse(worst, fabs(value));
       if (norm == 0.0) continue;
       double factor = value / (norm * norm);
       for (int e = s->start[i]; e < s->start[i + 1]; e++) x[s->column[e]] -= factor * s->value[e];
@@ -82,7 +85,6 @@ static void satisfy_border(const ambulo__sparse_rows *s, const double *at0, cons
 
 static void group_columns(group *g) {
   const ambulo__sparse_rows *s = g->rows;
-  memset(g->position, -1, (size_t)s->problem->variables * sizeof *g->position);
   g->width = 0;
   for (int m = 0; m < g->members; m++) {
     int i = g->member[m];
@@ -132,6 +134,15 @@ static ambulo__row_rank add_member(group *g, int i) {
   return agrees ? AMBULO__ROW_DEPENDENT : AMBULO__ROW_CONTRADICTORY;
 }
 
+/* forgets the columns of the group */
+static void clear_columns(group *g) {
+  const ambulo__sparse_rows *s = g->rows;
+  for (int m = 0; m < g->members; m++) {
+    int i = g->member[m];
+    for (int e = s->start[i]; e < s->start[i + 1]; e++) g->position[s->column[e]] = -1;
+  }
+}
+
 static void sort_group(group *g, int *rank) {
   group_columns(g);
   g->basis = 0;
@@ -139,17 +150,28 @@ static void sort_group(group *g, int *rank) {
     int row = g->rows->row[g->member[m]];
     if (rank[row] == AMBULO__ROW_INDEPENDENT) rank[row] = (int)add_member(g, g->member[m]);
   }
+  clear_columns(g);
+}
+
+/* fills by_host and first, by counting */
+static void order_by_host(group *g) {
+  const ambulo__sparse_rows *s = g->rows;
+  int hosts = s->problem->nodes + 1;
+  for (int i = 0; i < s->count; i++) g->first[s->host[i] + 2]++;
+  for (int h = 0; h < hosts; h++) g->first[h + 1] += g->first[h];
+  for (int i = 0; i < s->count; i++) g->by_host[g->first[s->host[i] + 1]++] = i;
+  for (int h = hosts; h > 0; h--) g->first[h] = g->first[h - 1];
+  g->first[0] = 0;
 }
 
 /* appends the rows hosted by `node` (-1: border rows) */
 static void collect(group *g, int node) {
-  const ambulo__sparse_rows *s = g->rows;
-  for (int i = 0; i < s->count; i++) {
-    if (s->host[i] == node) g->member[g->members++] = i;
-  }
+  for (int k = g->first[node + 1]; k < g->first[node + 2]; k++)
+    g->member[g->members++] = g->by_host[k];
 }
 
-static void sort_all(group *g, int *rank) {
+/* 1 when the run was stopped before all was sorted */
+static int sort_all(group *g, ambulo__run *run, int *rank) {
   const ambulo_problem *p = g->rows->problem;
   int last = p->nodes - 1, borders = 0;
   for (int i = 0; i < g->rows->count; i++) borders += g->rows->host[i] < 0;
@@ -158,20 +180,22 @@ static void sort_all(group *g, int *rank) {
     collect(g, -1);
     for (int node = 0; node <= last; node++) collect(g, node);
     sort_group(g, rank);
-    return;
+    return 0;
   }
   for (int node = 0; node <= last; node++) {
     if (borders > 0 && (node == 0 || node == last)) continue;
+    if (node % POLL_NODES == POLL_NODES - 1 && ambulo__run_poll(run)) return 1;
     g->members = 0;
     collect(g, node);
     sort_group(g, rank);
   }
-  if (borders == 0) return;
+  if (borders == 0) return 0;
   g->members = 0;
   collect(g, -1);
   collect(g, 0);
   if (last > 0) collect(g, last);
   sort_group(g, rank);
+  return 0;
 }
 
 /* most unknowns that one group can touch */
@@ -200,31 +224,34 @@ static void report(const ambulo_problem *p, const int *rank, ambulo_diagnostics 
 }
 
 ambulo_status ambulo__rank_sort(const ambulo__sparse_rows *rows, const double *value,
-                                ambulo__pool *pool, int *rank) {
+                                ambulo__run *run, ambulo__pool *pool, int *rank) {
   int width = widest_group(rows), capacity = width < rows->count ? width : rows->count;
   group g = {.rows = rows, .value = value};
   g.member = ambulo__pool_ints(pool, (size_t)rows->count);
+  g.by_host = ambulo__pool_ints(pool, (size_t)rows->count);
+  g.first = ambulo__pool_ints(pool, (size_t)rows->problem->nodes + 3);
   g.position = ambulo__pool_ints(pool, (size_t)rows->problem->variables);
   g.vector = ambulo__pool_doubles(pool, (size_t)capacity * (size_t)width);
   g.level = ambulo__pool_doubles(pool, (size_t)capacity);
   g.candidate = ambulo__pool_doubles(pool, (size_t)width);
   if (pool->failed) return AMBULO_E_MEMORY;
+  memset(g.position, -1, (size_t)rows->problem->variables * sizeof *g.position);
+  order_by_host(&g);
   for (int i = 0; i < rows->count; i++) rank[rows->row[i]] = AMBULO__ROW_INDEPENDENT;
-  sort_all(&g, rank);
-  return AMBULO_OK;
+  return sort_all(&g, run, rank) ? AMBULO_E_LIMIT : AMBULO_OK;
 }
 
 /* gradients and values of the rows at x; 0 when they are finite */
 static int take(ambulo__sparse_rows *s, ambulo_workspace *workspace, const double *x,
                 double *value) {
-  if (ambulo__evaluate_jacobian(workspace, x)) return 1;
-  ambulo__sparse_rows_fill(s, workspace, 1);
+  if (ambulo__evaluate_jacobian(workspace, x) || ambulo__sparse_rows_fill(s, workspace, 1))
+    return 1;
   ambulo__sparse_rows_values(s, workspace, value);
   return 0;
 }
 
 ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *workspace,
-                                    const double *start, ambulo__pool *pool,
+                                    const double *start, ambulo__run *run, ambulo__pool *pool,
                                     ambulo_diagnostics *diagnostics, int *rank) {
   int count = 0;
   int *list = ambulo__pool_ints(pool, (size_t)p->equalities);
@@ -236,7 +263,7 @@ ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *w
     rank[r] = AMBULO__ROW_INDEPENDENT;
     if (p->table.rows[r].relation == AMBULO_EQUAL) list[count++] = r;
   }
-  ambulo_status status = ambulo__sparse_rows_create(p, list, count, pool, &s);
+  ambulo_status status = ambulo__sparse_rows_create(p, list, count, run, pool, &s);
   if (status) return status;
   double *x0 = x + p->variables;
   generic_point(p, start, x0);
@@ -244,7 +271,7 @@ ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *w
   if (take(&s, workspace, x0, value)) return AMBULO_OK; /* no finite point: keep every row */
   satisfy_border(&s, value, x0, x);
   if (take(&s, workspace, x, value)) return AMBULO_OK;
-  status = ambulo__rank_sort(&s, value, pool, rank);
+  status = ambulo__rank_sort(&s, value, run, pool, rank);
   if (!status) report(p, rank, diagnostics);
   return status;
 }

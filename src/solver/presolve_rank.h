@@ -13,14 +13,14 @@ typedef enum ambulo__row_rank {
 
 /* Sorts the equality rows: rank[rows] (inequalities are left independent). The check is
  * made at a generic point near `start`. `diagnostics` may be NULL: a warning with name and time for
- * each contradiction. */
+ * each contradiction. E_MEMORY; E_LIMIT: the run (may be NULL) was stopped meanwhile. */
 ambulo_status ambulo__presolve_rank(const ambulo_problem *problem, ambulo_workspace *workspace,
-                                    const double *start, ambulo__pool *pool,
+                                    const double *start, ambulo__run *run, ambulo__pool *pool,
                                     ambulo_diagnostics *diagnostics, int *rank);
 
-/* The same for any set of rows whose gradients are filled, with their values. rank is
+/* The same for any set of rows whose gradients are filled and finite, with their values. rank is
  * indexed by row number of the problem; only rows of the set are touched. */
 ambulo_status ambulo__rank_sort(const ambulo__sparse_rows *rows, const double *value,
-                                ambulo__pool *pool, int *rank);
+                                ambulo__run *run, ambulo__pool *pool, int *rank);
 
 #endif

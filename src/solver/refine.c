@@ -5,6 +5,7 @@
  * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones.
  */
 #include "nlp/problem.h"
+#include "nlp/user_term.h"
 #include "solver/refine.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ static int coarser(int intervals) {
 
 static int has_callbacks(const ambulo_problem *p) {
   for (int t = 0; t < p->definition.term_count; t++) {
-    if (p->definition.terms[t].kind == AMBULO_USER_TERM) return 1;
+    if (ambulo__is_user_term(&p->definition.terms[t])) return 1;
   }
   return p->definition.user_row_count > 0;
 }
@@ -42,9 +43,10 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
   }
   if (!status && warm) status = ambulo_problem_transfer(*previous, *x_previous, level, x);
   if (!status) status = ambulo__engine_create(level, x, a, run, NULL, &engine);
-  if (!status && engine->rows.regular)
-    status = ambulo__pipeline(engine, AMBULO__INNER_AUGLAG, 1, x);
-  int useful = !status && engine->rows.regular && engine->best.value < HUGE_VAL;
+  if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
+  if (!status && engine && engine->rows.regular)
+    status = ambulo__pipeline(engine, AMBULO__INNER_AUGLAG, AMBULO__COARSE, x);
+  int useful = !status && engine && engine->rows.regular && engine->best.value < HUGE_VAL;
   ambulo__engine_free(engine);
   if (useful) {
     ambulo_problem_free(*previous);

@@ -12,6 +12,7 @@
  */
 #include "solver/explain.h"
 #include "solver/audit.h"
+#include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,13 +38,6 @@ typedef struct relaxing {
 
 static const char *family_of(const ambulo__elastic *e, int row) {
   return e->problem->table.rows[row].family;
-}
-
-static ambulo_violation violation_of(const ambulo_problem *p, int row, double value) {
-  const ambulo__table_row *r = &p->table.rows[row];
-  double worst = ambulo__row_violation(p, row, value);
-  ambulo_violation v = {r->family, r->subject, r->detail, r->unit, r->time, worst};
-  return v;
 }
 
 static int is_ends(const char *family) {
@@ -78,7 +72,7 @@ static int worst_row(const relaxing *s, const double *value) {
 static double worst_outside(const relaxing *s, const double *value) {
   double worst = 0.0;
   for (int r = 0; r < s->elastic->problem->rows; r++) {
-    if (!gives(s, r)) worst = fmax(worst, ambulo__elastic_excess(s->elastic, r, value[r]));
+    if (!gives(s, r)) worst = ambulo__worse(worst, ambulo__elastic_excess(s->elastic, r, value[r]));
   }
   return worst;
 }
@@ -106,16 +100,19 @@ static void list_conflicts(const ambulo__elastic *e, double floor, ambulo__expla
     }
     if (next < 0) return;
     ambulo_conflict *c = &out->conflict[out->view.conflict_count++];
-    c->shared = violation_of(e->problem, next, value[next]);
+    c->shared = ambulo__violation_of(e->problem, next, value[next]);
     c->alone = -1;
     limit = fmax(limit, share * ambulo__elastic_excess(e, next, value[next]));
   }
 }
 
+/* of all rows at the point held, relative to their sizes */
 static double worst_violation(const ambulo__elastic *e) {
   double worst = 0.0;
-  for (int r = 0; r < e->problem->rows; r++)
-    worst = fmax(worst, ambulo__row_violation(e->problem, r, e->workspace->row_value[r]));
+  for (int r = 0; r < e->problem->rows; r++) {
+    ambulo_violation v = ambulo__violation_of(e->problem, r, e->workspace->row_value[r]);
+    worst = ambulo__worse(worst, ambulo__relative(&v));
+  }
   return worst;
 }
 
@@ -184,7 +181,7 @@ static void list_others(const relaxing *s, ambulo_conflict *c) {
     const ambulo__table_row *row = &e->problem->table.rows[r];
     double excess = ambulo__elastic_excess(e, r, s->value[r]);
     if (strcmp(row->family, s->family) != 0 || excess <= 0.01 * s->worst) continue;
-    ambulo_violation v = violation_of(e->problem, r, s->value[r]), *place = NULL;
+    ambulo_violation v = ambulo__violation_of(e->problem, r, s->value[r]), *place = NULL;
     if (!strcmp(v.subject, c->relaxation.subject) && !strcmp(v.detail, c->relaxation.detail))
       continue;
     for (int i = 0; i < c->other_count && !place; i++) {
@@ -260,7 +257,7 @@ static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
     s->family = c->shared.family;
     c->alone = relax_alone(s);
     if (c->alone != 1 || s->row < 0) continue;
-    c->relaxation = violation_of(s->elastic->problem, s->row, s->value[s->row]);
+    c->relaxation = ambulo__violation_of(s->elastic->problem, s->row, s->value[s->row]);
     list_others(s, c);
     double cost = s->worst * reluctance(s->family);
     if (strstr(s->family, "_limit")) cost *= (double)(1 + c->other_count);

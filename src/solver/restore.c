@@ -20,7 +20,10 @@ static const double damping = 10.0; /* times mu */
 
 static int direction(ambulo__engine *e, double *d) {
   double begin = ambulo__seconds_now();
-  ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0);
+  if (ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0)) {
+    ambulo__run_fault(e->run, &e->workspace->fault);
+    return 1;
+  }
   ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
   ambulo__band_add_diagonal(&e->base, damping * e->mu);
   int failed = ambulo__kkt_factor(&e->kkt, &e->base);
@@ -41,6 +44,7 @@ static int advance(ambulo__engine *e, const double *d, double *x) {
   for (int trial = 0; trial < MAX_HALVINGS; trial++) {
     for (int j = 0; j < e->n; j++) x[j] = e->center[j] + t * d[j];
     if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return 0;
+    ambulo__run_fault(e->run, &e->workspace->fault);
     t *= 0.5;
   }
   memcpy(x, e->center, (size_t)e->n * sizeof *x);

@@ -1,6 +1,7 @@
 /* solver/result.c - memory of a result and access to it. */
 #include "solver/result.h"
 
+#include <math.h>
 #include <string.h>
 
 static int count_families(const ambulo_problem *p) {
@@ -34,6 +35,10 @@ ambulo_status ambulo__result_create(const ambulo_problem *p, const ambulo_alloca
     ambulo_result_free(r);
     return AMBULO_E_MEMORY;
   }
+  ambulo_violation unknown = {.family = "", .subject = "", .detail = "", .unit = "", .size = 1.0};
+  unknown.worst = NAN;
+  r->audit.violation = r->audit.dense_violation = unknown;
+  r->audit.kkt = HUGE_VAL;
   *result = r;
   return AMBULO_OK;
 }
@@ -91,4 +96,7 @@ const ambulo_timing *ambulo_result_timing(const ambulo_result *r) {
 }
 const char *ambulo_result_ending(const ambulo_result *r) {
   return r->ending;
+}
+ambulo_ending ambulo_result_ending_code(const ambulo_result *r) {
+  return r->ending_code;
 }

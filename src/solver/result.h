@@ -4,13 +4,14 @@
 
 #include "nlp/nlp.h"
 
-#define AMBULO__ENDING_SIZE 160
+#define AMBULO__ENDING_SIZE 400
 
 struct ambulo__explanation; /* solver/explain.h */
 
 struct ambulo_result {
   ambulo_allocator allocator;
   ambulo_verdict verdict;
+  ambulo_ending ending_code;
   int variables, rows, terms, families;
   double objective;
   double *x;                /* [variables] */
@@ -25,7 +26,8 @@ struct ambulo_result {
   char ending[AMBULO__ENDING_SIZE];
 };
 
-/* Sized for `problem`, zero-filled. E_MEMORY. */
+/* Sized for `problem`; not judged, the audit that of a point of which nothing is known. E_MEMORY.
+ */
 ambulo_status ambulo__result_create(const ambulo_problem *problem,
                                     const ambulo_allocator *allocator, ambulo_result **result);
 

@@ -51,10 +51,13 @@ int ambulo__retract(ambulo__engine *e, double *y) {
   double least = HUGE_VAL;
   ambulo__mixing_reset(&e->retraction);
   for (int k = 0; k < MAX_CHORD; k++) {
-    if (ambulo__evaluate(e->workspace, y)) return 0;
+    if (ambulo__evaluate(e->workspace, y)) {
+      ambulo__run_fault(e->run, &e->workspace->fault);
+      return 0;
+    }
     double error = ambulo__engine_equality_error(e);
     if (error <= e->retraction_tolerance) return 1;
-    if (k >= 4 && error > 10.0 * least) return 0;
+    if (isnan(error) || (k >= 4 && error > 10.0 * least)) return 0;
     least = fmin(least, error);
     chord(e, y);
     for (int j = 0; j < e->n; j++) {
@@ -66,9 +69,10 @@ int ambulo__retract(ambulo__engine *e, double *y) {
 }
 
 /* one pass of (A); l moves. Right-hand side in engine->gradient. */
-static void adjoint_pass(ambulo__engine *e, const double *p, double *z) {
+static ambulo_status adjoint_pass(ambulo__engine *e, const double *p, double *z) {
   double *l = e->equality_multiplier;
-  ambulo__engine_gradient(e, p, l, e->gradient);
+  ambulo_status status = ambulo__engine_gradient(e, p, l, e->gradient);
+  if (status) return status;
   double begin = ambulo__seconds_now();
   memcpy(z, e->gradient, (size_t)e->n * sizeof *z);
   ambulo__kkt_pass(&e->kkt, z, NULL, NULL);
@@ -79,12 +83,14 @@ static void adjoint_pass(ambulo__engine *e, const double *p, double *z) {
   }
   ambulo__mixing_apply(&e->adjoint, e->balanced, l);
   e->run->seconds_linear += ambulo__seconds_now() - begin;
+  return AMBULO_OK;
 }
 
-void ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
+ambulo_status ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
   ambulo__mixing_reset(&e->adjoint);
   for (int k = 0; k < MAX_ADJOINT; k++) {
-    adjoint_pass(e, p, z);
+    ambulo_status status = adjoint_pass(e, p, z);
+    if (status) return status;
     double size = 0.0, change = 0.0;
     for (int j = 0; j < e->n; j++) {
       size += z[j] * e->gradient[j];
@@ -96,4 +102,5 @@ void ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
     double limit = e->adjoint_tolerance * sqrt(fabs(size)) + adjoint_floor;
     if (k > 0 && fabs(change) <= limit * limit) break;
   }
+  return AMBULO_OK;
 }

@@ -4,15 +4,21 @@
 #include <math.h>
 #include <string.h>
 
-static const double usual_speed = 10.0; /* rad/s, m/s: what a speed row is measured against */
+static const double least_gradient = 1e-6; /* of a row of the caller, where it vanishes */
 
-/* size of an inequality's unit: see rows_split.h */
-static double size_of(const ambulo_problem *p, const ambulo__sparse_rows *s, int i) {
+/* what an inequality is divided by: see rows_split.h */
+double ambulo__rows_size(const ambulo_problem *p, const ambulo__sparse_rows *s, int i) {
   const ambulo__table_row *row = &p->table.rows[s->row[i]];
-  if (row->user >= 0) return fmax(ambulo__sparse_rows_norm(s, i), 1e-6);
-  if (strcmp(row->family, "torque_limit") == 0) return fmax(1.0, fabs(row->constant));
-  if (strcmp(row->family, "speed_limit") == 0) return fmax(usual_speed, fabs(row->constant));
-  return 1.0;
+  if (row->user < 0) return row->size;
+  double norm = ambulo__sparse_rows_norm(s, i);
+  return norm >= least_gradient ? norm : least_gradient;
+}
+
+int ambulo__rows_contradict(const ambulo__rows_split *rows, int count) {
+  for (int r = 0; r < count; r++) {
+    if (rows->rank[r] == AMBULO__ROW_CONTRADICTORY) return 1;
+  }
+  return 0;
 }
 
 typedef struct lists {
@@ -39,7 +45,7 @@ static void classify(const ambulo_problem *p, const int *rank, lists *l, ambulo_
 }
 
 ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspace *workspace,
-                                        const double *start, ambulo__pool *pool,
+                                        const double *start, ambulo__run *run, ambulo__pool *pool,
                                         ambulo_diagnostics *diagnostics, ambulo__rows_split *out) {
   size_t rows = (size_t)p->rows;
   out->rank = ambulo__pool_ints(pool, rows);
@@ -47,21 +53,26 @@ ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspac
              .border = ambulo__pool_ints(pool, rows),
              .inequality = ambulo__pool_ints(pool, rows)};
   if (pool->failed) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__presolve_rank(p, workspace, start, pool, diagnostics, out->rank);
+  ambulo_status status =
+      ambulo__presolve_rank(p, workspace, start, run, pool, diagnostics, out->rank);
   if (status) return status;
   classify(p, out->rank, &l, out);
-  status = ambulo__sparse_rows_create(p, l.equality, l.equalities, pool, &out->equality);
-  if (!status) status = ambulo__sparse_rows_create(p, l.border, l.borders, pool, &out->border);
+  status = ambulo__sparse_rows_create(p, l.equality, l.equalities, run, pool, &out->equality);
+  if (!status) status = ambulo__sparse_rows_create(p, l.border, l.borders, run, pool, &out->border);
   if (!status)
-    status = ambulo__sparse_rows_create(p, l.inequality, l.inequalities, pool, &out->inequality);
+    status =
+        ambulo__sparse_rows_create(p, l.inequality, l.inequalities, run, pool, &out->inequality);
   if (!status) status = ambulo__evaluate_jacobian(workspace, start);
   if (status) return status;
-  ambulo__sparse_rows_fill(&out->equality, workspace, 1);
-  ambulo__sparse_rows_fill(&out->border, workspace, 1);
-  ambulo__sparse_rows_fill(&out->inequality, workspace, 1);
+  /* gradients that are not finite here are met again, and named, by whoever works with them */
+  (void)ambulo__sparse_rows_fill(&out->equality, workspace, 1);
+  (void)ambulo__sparse_rows_fill(&out->border, workspace, 1);
+  (void)ambulo__sparse_rows_fill(&out->inequality, workspace, 1);
+  out->size = ambulo__pool_doubles(pool, (size_t)l.inequalities);
+  if (!out->size) return AMBULO_E_MEMORY;
   for (int i = 0; i < l.inequalities; i++) {
-    double size = size_of(p, &out->inequality, i);
-    ambulo__sparse_rows_set_scale(&out->inequality, i, -1.0 / size);
+    out->size[i] = ambulo__rows_size(p, &out->inequality, i);
+    ambulo__sparse_rows_set_scale(&out->inequality, i, -1.0 / out->size[i]);
   }
   for (int i = 0; i < l.borders; i++) {
     if (!out->border.constant[i]) out->regular = 0;

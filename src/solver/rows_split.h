@@ -7,8 +7,9 @@
  * Each in the order of the problem's rows, as scaled gradients (solver/sparse_rows.h):
  *   equality    scale 1
  *   border      scale 1
- *   inequality  "excess" v = -s c <= 0, with s a size that makes rows of different unit
- *               comparable: 1 for lengths and angles, 1/|limit| for torques, ...
+ *   inequality  "excess" v = -c / size <= 0, size from the row table (gait/row_table.h), which
+ *               makes rows of different unit comparable; rows of the caller: the length of their
+ *               gradient at the start
  */
 #ifndef AMBULO_SOLVER_ROWS_SPLIT_H
 #define AMBULO_SOLVER_ROWS_SPLIT_H
@@ -18,14 +19,22 @@
 
 typedef struct ambulo__rows_split {
   ambulo__sparse_rows equality, border, inequality;
-  int *rank; /* [rows]: ambulo__row_rank */
+  double *size; /* [inequality.count]: what each is divided by */
+  int *rank;    /* [rows]: ambulo__row_rank */
   int dropped;
   int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */
 } ambulo__rows_split;
 
-/* Classifies, creates the three sets and fills their gradients at the start. */
+/* What row i of a filled set is divided by in the solver: see above. */
+double ambulo__rows_size(const ambulo_problem *problem, const ambulo__sparse_rows *rows, int i);
+
+/* 1 when some equality of the problem's `count` rows contradicts equalities before it. */
+int ambulo__rows_contradict(const ambulo__rows_split *rows, int count);
+
+/* Classifies, creates the three sets and fills their gradients at the start. E_MEMORY; E_LIMIT: the
+ * run was stopped meanwhile. */
 ambulo_status ambulo__rows_split_create(const ambulo_problem *problem, ambulo_workspace *workspace,
-                                        const double *start, ambulo__pool *pool,
+                                        const double *start, ambulo__run *run, ambulo__pool *pool,
                                         ambulo_diagnostics *diagnostics, ambulo__rows_split *out);
 
 #endif

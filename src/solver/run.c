@@ -1,26 +1,31 @@
 /* solver/run.c - see run.h. */
 #include "solver/run.h"
 
+#include <math.h>
 #include <string.h>
+
+static const double poll_interval = 0.1;                   /* s */
+static const double grace_share = 0.1, least_grace = 0.25; /* of the time used, s */
 
 void ambulo__run_begin(ambulo__run *run, const ambulo_options *options) {
   memset(run, 0, sizeof *run);
   run->options = options;
-  run->started = ambulo__seconds_now();
-  run->ending = AMBULO__ENDED_BY_ITSELF;
+  run->started = run->polled_at = ambulo__seconds_now();
+  run->stage = "set-up";
 }
 
-static void stop(ambulo__run *run, ambulo__ending_kind ending) {
+static void stop(ambulo__run *run, ambulo_ending ending) {
   if (run->stopped) return;
   run->stopped = 1;
+  run->stopped_at = ambulo__seconds_now();
   run->ending = ending;
 }
 
 int ambulo__run_over(ambulo__run *run) {
   const ambulo_options *o = run->options;
-  if (run->evaluations >= o->maximum_evaluations) stop(run, AMBULO__ENDED_BY_LIMIT);
+  if (run->evaluations >= o->maximum_evaluations) stop(run, AMBULO_ENDING_EVALUATIONS);
   if (o->time_limit > 0.0 && ambulo__seconds_now() - run->started >= o->time_limit)
-    stop(run, AMBULO__ENDED_BY_LIMIT);
+    stop(run, AMBULO_ENDING_TIME);
   return run->stopped;
 }
 
@@ -40,7 +45,38 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
       .seconds = ambulo__seconds_now() - run->started,
       .time_limit = o->time_limit,
       .seconds_left = -1.0,
+      .stage = run->stage,
   };
-  if (o->progress(o->user, &progress)) stop(run, AMBULO__ENDED_BY_CALLER);
+  if (o->progress(o->user, &progress)) stop(run, AMBULO_ENDING_CALLER);
   return run->stopped;
+}
+
+void ambulo__run_end(ambulo__run *run, ambulo_ending ending) {
+  if (!run->stopped) run->ending = ending;
+}
+
+void ambulo__run_fault(ambulo__run *run, const ambulo_fault *fault) {
+  if (run->faults++ == 0) run->first_fault = *fault;
+  if (run->faults_lately++ == 0) run->fault = *fault;
+}
+
+void ambulo__run_forgive(ambulo__run *run) {
+  run->faults_lately = 0;
+}
+
+int ambulo__run_poll(ambulo__run *run) {
+  if (!run) return 0;
+  double now = ambulo__seconds_now();
+  if (!run->stopped && now - run->polled_at >= poll_interval) {
+    run->polled_at = now;
+    (void)ambulo__run_progress(run, NAN, NAN);
+  }
+  return ambulo__run_over(run);
+}
+
+int ambulo__run_late(const ambulo__run *run) {
+  if (run->ending != AMBULO_ENDING_TIME && run->ending != AMBULO_ENDING_CALLER) return 0;
+  double grace = grace_share * (run->stopped_at - run->started);
+  if (grace < least_grace) grace = least_grace;
+  return run->stopped && ambulo__seconds_now() - run->stopped_at > grace;
 }

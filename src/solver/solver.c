@@ -5,21 +5,35 @@
  *   otherwise        the pipeline around NLopt's AUGLAG                  (pipeline.c),
  *                    from coarser grids when it starts at zero           (refine.c)
  *
- * Whatever happened, the result's numbers are those of the audit (audit.c).
+ * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no
+ * solution the solver tries its own, zero, before it explains anything; and a result is never worse
+ * than a start that was valid: of all points the best is kept (candidates.c).
+ *
+ * Whatever happened, the result's numbers are those of the audit (audit.c). A point that satisfies
+ * the rows and is not shown to be optimal is gone on from: the pipeline starts afresh there, with
+ * the damping and the penalty of a start, and often sees further.
  */
 #include "solver/audit.h"
+#include "solver/candidates.h"
 #include "solver/explain.h"
 #include "solver/finisher.h"
+#include "solver/memory.h"
 #include "solver/nlopt_direct.h"
 #include "solver/options.h"
 #include "solver/refine.h"
+#include "solver/smooth.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { SMALL = 60 };                      /* unknowns */
-static const double price_of_rows = 1e-5; /* relative change of the objective */
+enum {
+  SMALL = 60,       /* unknowns: SLSQP first */
+  SMALL_ROUNDS = 8, /* of it, before the pipeline takes over what has not settled */
+  SECOND_LOOKS = 3  /* at a point that satisfies the rows and is not shown to be optimal */
+};
+static const double near_rows = 1e-3; /* relative to their sizes */
 static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
 typedef struct solve {
@@ -29,47 +43,29 @@ typedef struct solve {
   ambulo__run run;
   ambulo__engine *engine;
   ambulo_result *result;
+  ambulo__candidates candidates;
+  const double *start; /* the caller's; NULL: zero */
   int from_zero, explains;
-  const char *method, *nlopt;
+  const char *method, *nlopt, *note;
 } solve;
 
 /* ------------------------------------------------------------------- start */
 
-/* names the first row that is not finite at x */
-static ambulo_status refuse_start(const solve *s, ambulo_workspace *workspace) {
-  const ambulo_problem *p = s->problem;
-  for (int r = 0; r < p->rows; r++) {
-    if (isfinite(workspace->row_value[r])) continue;
-    const ambulo__table_row *row = &p->table.rows[r];
-    return ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
-                         "at the start %s of %s (%s) at t = %.6g s is not finite", row->family,
-                         row->subject, row->detail, row->time);
-  }
-  return ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
-                       "at the start the objective is not finite");
-}
-
 static ambulo_status check_start(const solve *s) {
   const double *x = s->result->x;
   ambulo_workspace *workspace = NULL;
-  for (int j = 0; j < s->problem->variables; j++) {
-    if (!isfinite(x[j]))
-      return ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
-                           "unknown %d of the start is not finite", j);
+  ambulo_status status = ambulo__workspace_create_for_values(s->problem, s->allocator, &workspace);
+  if (!status && ambulo__evaluate(workspace, x)) {
+    char text[AMBULO__FAULT_TEXT];
+    ambulo_fault_text(&workspace->fault, text, sizeof text);
+    status =
+        ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, "at the start %s", text);
   }
-  ambulo_status status = ambulo_workspace_create(s->problem, s->allocator, &workspace);
-  if (!status && ambulo__evaluate(workspace, x)) status = refuse_start(s, workspace);
   ambulo_workspace_free(workspace);
   return status;
 }
 
 /* ---------------------------------------------------------------- strategies */
-
-static double violation_at(ambulo__engine *e, const double *x) {
-  if (ambulo__evaluate(e->workspace, x)) return HUGE_VAL;
-  double error = ambulo__engine_equality_error(e);
-  return fmax(error, ambulo__engine_excess(e, e->held.excess));
-}
 
 /* the coarse grids led astray: once more from zero; x stays if that is no better */
 static ambulo_status solve_again(solve *s, double *x) {
@@ -77,33 +73,16 @@ static ambulo_status solve_again(solve *s, double *x) {
   size_t n = (size_t)s->problem->variables;
   double *other = ambulo__alloc(&a, n, sizeof *other);
   if (!other) return AMBULO_E_MEMORY;
-  double before = violation_at(s->engine, x);
-  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, other);
-  if (!status && violation_at(s->engine, other) < before) memcpy(x, other, n * sizeof *x);
+  ambulo_ending before = s->run.ending;
+  double violation = ambulo__violation_at(s->engine, x);
+  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, AMBULO__FAR, other);
+  if (!status && ambulo__violation_at(s->engine, other) < violation) {
+    memcpy(x, other, n * sizeof *x);
+  } else {
+    ambulo__run_end(&s->run, before);
+  }
   ambulo__free(&a, other);
   return status;
-}
-
-/* what the tolerances leave of a point's faults: below 1 it passes */
-static double faults_of(const ambulo_result *r, const ambulo_options *o) {
-  double kkt = r->audit.at_lower_bound ? 0.0 : r->audit.kkt;
-  return fmax(r->audit.violation.worst / o->feasibility_tolerance, kkt / o->optimality_tolerance);
-}
-
-/* 1 when the audit finds x better than before: fewer faults, and no dearer for it */
-static int is_better(const solve *s, const double *before, const double *x) {
-  ambulo_result *old = NULL, *new = NULL;
-  const ambulo_options *o = s->run.options;
-  int better = 0;
-  if (!ambulo_audit_point(s->problem, o, before, s->allocator, NULL, &old) &&
-      !ambulo_audit_point(s->problem, o, x, s->allocator, NULL, &new)) {
-    double allowed = old->objective + price_of_rows * fabs(old->objective);
-    better = faults_of(new, o) < faults_of(old, o) &&
-             (faults_of(old, o) > 1.0 || new->objective <= allowed);
-  }
-  ambulo_result_free(old);
-  ambulo_result_free(new);
-  return better;
 }
 
 static ambulo_status finish_by_slsqp(solve *s, double *x) {
@@ -118,94 +97,232 @@ static ambulo_status finish_by_slsqp(solve *s, double *x) {
   if (!other) return AMBULO_E_MEMORY;
   memcpy(other, x, n * sizeof *x);
   const char *message = NULL;
+  int better = 0;
   ambulo_status status = ambulo__finish(s->engine, other, &message);
-  if (!status && is_better(s, x, other)) {
+  if (!status)
+    status = ambulo__is_better(s->problem, s->run.options, x, other, s->allocator, &better);
+  if (better) {
     memcpy(x, other, n * sizeof *x);
-    s->method = "AUGLAG with LBFGS, whitened, then SLSQP";
+    s->method = "pipeline (inner steps: NLopt's AUGLAG with LBFGS), then SLSQP";
     s->nlopt = message;
   }
   ambulo__free(&a, other);
   return status;
 }
 
+static ambulo__stage stage_of(solve *s, const double *x) {
+  int near = !s->from_zero && ambulo__violation_at(s->engine, x) <= near_rows;
+  return near ? AMBULO__NEAR : AMBULO__FAR;
+}
+
 static ambulo_status solve_by_pipeline(solve *s) {
+  const ambulo_options *o = s->run.options;
   double *x = s->result->x;
   int levels = 0;
   ambulo_status status = AMBULO_OK;
-  s->method = "AUGLAG with LBFGS, whitened";
-  if (s->from_zero && s->run.options->continuation)
+  s->method = "pipeline (inner steps: NLopt's AUGLAG with LBFGS)";
+  s->run.stage = "coarse grids";
+  if (s->from_zero && o->continuation)
     status = ambulo__refine(s->problem, s->allocator, &s->run, x, &levels);
-  if (!status) status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, 0, x);
+  s->run.stage = "solve";
+  if (!status) status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, stage_of(s, x), x);
   if (!status && levels > 0 && !s->run.stopped &&
-      !(violation_at(s->engine, x) <= s->run.options->feasibility_tolerance))
+      !(ambulo__violation_at(s->engine, x) <= o->feasibility_tolerance))
     status = solve_again(s, x);
-  if (status || s->run.stopped || s->run.options->finisher != AMBULO_FINISHER_SLSQP) return status;
+  if (status || s->run.stopped || o->finisher != AMBULO_FINISHER_SLSQP) return status;
   return finish_by_slsqp(s, x);
 }
 
-static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm) {
-  s->method = algorithm == AMBULO_SLSQP ? "SLSQP, whitened" : "AUGLAG with LBFGS, all rows";
-  return ambulo__solve_whitened(s->engine, algorithm, s->diagnostics, s->result->x, &s->nlopt);
+static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm, int most) {
+  s->method = algorithm == AMBULO_SLSQP ? "NLopt's SLSQP, whitened"
+                                        : "NLopt's AUGLAG with LBFGS, whitened, all rows";
+  if (most > s->run.options->maximum_iterations) most = s->run.options->maximum_iterations;
+  return ambulo__solve_whitened(s->engine, algorithm, most, s->diagnostics, s->result->x,
+                                &s->nlopt);
 }
 
 static ambulo_status solve_presolved(solve *s) {
   const ambulo_options *o = s->run.options;
   int small = s->problem->variables < SMALL;
-  if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP);
-  if (!s->engine->rows.regular) return solve_small(s, AMBULO_AUGLAG);
+  if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP, INT_MAX);
+  if (!s->engine->rows.regular) return solve_small(s, AMBULO_AUGLAG, INT_MAX);
   if (o->algorithm == AMBULO_AUGLAG || !small) return solve_by_pipeline(s);
-  ambulo_status status = solve_small(s, AMBULO_SLSQP);
-  if (status || s->run.stopped) return status;
-  if (violation_at(s->engine, s->result->x) <= o->feasibility_tolerance) return status;
+  ambulo_status status = solve_small(s, AMBULO_SLSQP, SMALL_ROUNDS);
+  if (status || s->run.stopped || s->run.ending == AMBULO_ENDING_SETTLED) return status;
+  ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
+  s->nlopt = NULL;
   return solve_by_pipeline(s);
 }
 
 static ambulo_status solve_problem(solve *s) {
   const ambulo_options *o = s->run.options;
+  s->nlopt = NULL;
   if (o->presolve) return solve_presolved(s);
   ambulo_algorithm algorithm = o->algorithm == AMBULO_AUGLAG ? AMBULO_AUGLAG : AMBULO_SLSQP;
-  s->method = algorithm == AMBULO_AUGLAG ? "AUGLAG with LBFGS, plain" : "SLSQP, plain";
+  s->method =
+      algorithm == AMBULO_AUGLAG ? "NLopt's AUGLAG with LBFGS, plain" : "NLopt's SLSQP, plain";
   return ambulo__solve_plain(s->engine, algorithm, s->diagnostics, s->result->x, &s->nlopt);
+}
+
+/* an attempt from where result->x stands; what it finds joins the candidates */
+static ambulo_status attempt(solve *s) {
+  ambulo_status status = solve_problem(s);
+  if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
+  if (!status) ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
+  return status;
+}
+
+/* from zero; or from the caller's start, and from zero when that leads nowhere */
+static ambulo_status search(solve *s) {
+  double *x = s->result->x;
+  size_t bytes = (size_t)s->problem->variables * sizeof *x;
+  ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
+  if (status) return status;
+  if (s->start) {
+    ambulo__candidates_offer_start(&s->candidates, s->engine, x);
+    if (s->run.options->presolve) ambulo__smooth_start(s->engine, x);
+  }
+  status = attempt(s);
+  if (status) return status;
+  if (s->start && !ambulo__candidates_solved(&s->candidates) && !ambulo__run_over(&s->run)) {
+    memset(x, 0, bytes);
+    s->from_zero = 1;
+    s->note = "; from zero, since the given start led to no solution";
+    status = attempt(s);
+    if (status) return status;
+  }
+  if (ambulo__candidates_take(&s->candidates, x))
+    s->note = "; what it found was worse than the given start, which is returned";
+  return AMBULO_OK;
 }
 
 /* -------------------------------------------------------------------- ending */
 
 static void describe(const solve *s) {
-  static const char *const reasons[] = {"converged or no progress left", "time or evaluation limit",
-                                        "stopped by the caller"};
   ambulo_result *r = s->result;
-  const char *reason = s->nlopt && !s->run.stopped ? s->nlopt : reasons[s->run.ending];
-  (void)snprintf(r->ending, sizeof r->ending, "NLopt %s: %s after %d evaluations", s->method,
-                 reason, s->run.evaluations);
+  const ambulo__run *run = &s->run;
+  char limit[48] = "", message[64] = "", dropped[64] = "";
+  r->ending_code = run->ending;
+  if (run->ending == AMBULO_ENDING_ITERATIONS)
+    (void)snprintf(limit, sizeof limit, " (%d)", run->options->maximum_iterations);
+  if (run->ending == AMBULO_ENDING_EVALUATIONS)
+    (void)snprintf(limit, sizeof limit, " (%d)", run->options->maximum_evaluations);
+  if (run->ending == AMBULO_ENDING_TIME)
+    (void)snprintf(limit, sizeof limit, " (%g s)", run->options->time_limit);
+  if (s->engine && ambulo__rows_contradict(&s->engine->rows, s->problem->rows))
+    (void)snprintf(dropped, sizeof dropped, "; of equalities that contradict, the first was kept");
+  if (s->nlopt && !run->stopped)
+    (void)snprintf(message, sizeof message, " (its last call: %s)", s->nlopt);
+  (void)snprintf(r->ending, sizeof r->ending, "%s%s: %s%s; %d iterations, %d evaluations%s%s",
+                 s->method, message, ambulo_ending_text(run->ending), limit, run->iterations,
+                 run->evaluations, dropped, s->note);
 }
 
 /* every family that could not be satisfied, by how much it would have to give */
-static void explain(const solve *s) {
+static void name_families(const solve *s) {
   const ambulo_result *r = s->result;
   double tolerance = s->run.options->feasibility_tolerance;
   if (r->verdict != AMBULO_INFEASIBLE) return;
   for (int f = 0; f < r->families; f++) {
     const ambulo_violation *v = &r->family[f];
-    if (!(v->worst > tolerance)) continue;
+    if (!(ambulo__relative(v) > tolerance)) continue;
     ambulo__warning(s->diagnostics, nowhere, NULL,
                     "no point was found that satisfies %s: %s (%s) at t = %.6g s is off by %.3g %s",
                     v->family, v->subject, v->detail, v->time, v->worst, v->unit);
   }
 }
 
-static ambulo_status finish(solve *s) {
+/* A method that gave up where values or derivatives were not finite failed for that reason. */
+static void take_faults(solve *s) {
+  ambulo__run *run = &s->run;
+  int gave_up = run->ending == AMBULO_ENDING_STALLED || run->ending == AMBULO_ENDING_NO_DESCENT ||
+                run->ending == AMBULO_ENDING_NOT_RESTORED ||
+                run->ending == AMBULO_ENDING_BREAKDOWN || run->ending == AMBULO_ENDING_NLOPT;
+  if (gave_up && run->faults_lately) run->ending = AMBULO_ENDING_NOT_FINITE;
+}
+
+/* nothing that was not finite stays unsaid */
+static void report_faults(solve *s) {
   ambulo_result *r = s->result;
+  char text[AMBULO__FAULT_TEXT];
+  if (r->verdict == AMBULO_NUMERIC_FAILURE && r->audit.fault.kind == AMBULO_FAULT_NONE)
+    r->audit.fault = s->run.fault;
+  if (r->audit.fault.kind != AMBULO_FAULT_NONE) {
+    ambulo_fault_text(&r->audit.fault, text, sizeof text);
+    ambulo__warning(s->diagnostics, nowhere, NULL, "%s", text);
+  } else if (s->run.faults > 0) {
+    ambulo_fault_text(&s->run.first_fault, text, sizeof text);
+    ambulo__note(s->diagnostics, nowhere, "%d of %d points were given up; at the first %s",
+                 s->run.faults, s->run.evaluations, text);
+  }
+}
+
+/* The method's own iteration limit is no answer where the least violation was found, and is not
+ * zero: then no more iterations would have helped. */
+static void settle_verdict(const solve *s) {
+  ambulo_result *r = s->result;
+  const ambulo_explanation *e = ambulo_result_explanation(r);
+  if (r->verdict != AMBULO_LIMIT_REACHED || s->run.ending != AMBULO_ENDING_ITERATIONS || !e) return;
+  if (e->complete && !e->feasible_point) r->verdict = AMBULO_INFEASIBLE;
+}
+
+static ambulo_status judge(solve *s) {
+  ambulo_result *r = s->result;
+  s->run.stage = "audit";
   ambulo_status status = ambulo__audit(s->engine, s->run.options, r);
   if (status) return status;
+  take_faults(s);
   r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
+  return AMBULO_OK;
+}
+
+static ambulo_status look_again(solve *s) {
+  ambulo_result *r = s->result;
+  ambulo_status status = AMBULO_OK;
+  int able = s->run.options->presolve && s->engine->rows.regular;
+  for (int k = 0; k < SECOND_LOOKS && !status; k++) {
+    double before = r->objective;
+    int cut = ambulo__run_over(&s->run) || s->run.ending == AMBULO_ENDING_ITERATIONS;
+    if (!able || cut || r->verdict != AMBULO_FEASIBLE) break;
+    status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, AMBULO__NEAR, r->x);
+    if (status && status != AMBULO_E_NUMERIC) return status;
+    ambulo__candidates_offer(&s->candidates, s->engine, r->x);
+    (void)ambulo__candidates_take(&s->candidates, r->x);
+    status = judge(s);
+    if (r->objective >= before && r->verdict != AMBULO_OPTIMAL) break;
+  }
+  return status;
+}
+
+/* the run ended before there was an engine: what the start is */
+static ambulo_status finish_unsolved(solve *s) {
+  ambulo_result *r = s->result;
+  ambulo_workspace *workspace = NULL;
+  ambulo_status status = ambulo__workspace_create_for_values(s->problem, s->allocator, &workspace);
+  if (!status) (void)ambulo__audit_values(workspace, r); /* was finite before */
+  ambulo_workspace_free(workspace);
+  r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
+  r->evaluations = s->run.evaluations;
+  r->timing.total = ambulo__seconds_now() - s->run.started;
+  describe(s);
+  return status;
+}
+
+static ambulo_status finish(solve *s) {
+  if (!s->engine) return finish_unsolved(s);
+  ambulo_result *r = s->result;
+  ambulo_status status = judge(s);
+  if (!status && s->explains) status = look_again(s);
+  if (status) return status;
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;
+  report_faults(s);
   describe(s);
-  if (s->explains) {
-    explain(s);
-    status = ambulo__explain(s->engine, r);
-  }
+  s->run.stage = "explanation";
+  if (s->explains) status = ambulo__explain(s->engine, r);
   if (status) return status;
+  settle_verdict(s);
+  if (s->explains) name_families(s);
   ambulo__engine_free(s->engine);
   s->engine = NULL;
   r->timing.evaluate = s->run.seconds_evaluate;
@@ -218,16 +335,22 @@ static ambulo_status finish(solve *s) {
 static ambulo_status begin(solve *s, const ambulo_options *options, const double *start) {
   ambulo_status status = ambulo__options_check(options, s->diagnostics);
   if (status) return status;
+  status = ambulo__solve_check_memory(s->problem, options, s->diagnostics);
+  if (status) return status;
   ambulo__run_begin(&s->run, options);
+  s->start = start;
   s->from_zero = start == NULL;
   s->method = "not called";
+  s->note = "";
   status = ambulo__result_create(s->problem, s->allocator, &s->result);
   if (status) return status;
   if (start) memcpy(s->result->x, start, (size_t)s->problem->variables * sizeof *start);
   status = check_start(s);
   if (status) return status;
-  return ambulo__engine_create(s->problem, s->result->x, s->allocator, &s->run, s->diagnostics,
-                               &s->engine);
+  status = ambulo__engine_create(s->problem, s->result->x, s->allocator, &s->run, s->diagnostics,
+                                 &s->engine);
+  /* stopped during set-up: there is no engine, and nothing is wrong */
+  return status == AMBULO_E_LIMIT && s->run.stopped ? AMBULO_OK : status;
 }
 
 /* frees what a failed call leaves, hands over the result of a good one */
@@ -249,9 +372,7 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.explains = 1;
   ambulo_status status = begin(&s, &own, start);
-  if (status) return end(&s, status, result);
-  status = solve_problem(&s);
-  if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
+  if (!status && s.engine) status = search(&s);
   if (!status) status = finish(&s);
   return end(&s, status, result);
 }

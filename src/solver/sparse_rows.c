@@ -1,8 +1,12 @@
 /* solver/sparse_rows.c - see sparse_rows.h. */
 #include "solver/sparse_rows.h"
+#include "base/worst.h"
+#include "nlp/fault.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { POLL_ROWS = 4096 };
 
 static const ambulo__basis_point *point_of(const ambulo_problem *p, int node) {
   return &ambulo__lane_map_points(p->map)[node];
@@ -71,11 +75,20 @@ static void mark_channel(const ambulo_problem *p, int node, int channel, double 
   }
 }
 
-static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, double *mark) {
-  memset(mark, 0, (size_t)p->variables * sizeof *mark);
+/* the unknowns among which a row's columns lie: the window of its host, or all */
+static void window_of(const ambulo_problem *p, int host, int *from, int *to) {
+  *from = host < 0 ? 0 : ambulo__node_first(p, host);
+  *to = host < 0 ? p->variables : *from + ambulo__node_width(p, host);
+}
+
+/* marks the unknowns that a row depends on; only its window is written */
+static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, int host,
+                     double *mark) {
+  int from, to;
+  window_of(p, host, &from, &to);
+  memset(mark + from, 0, (size_t)(to - from) * sizeof *mark);
   if (row->user >= 0) {
-    int first = ambulo__node_first(p, row->node), width = ambulo__node_width(p, row->node);
-    for (int j = 0; j < width; j++) mark[first + j] = 1.0;
+    for (int j = from; j < to; j++) mark[j] = 1.0;
     return;
   }
   const ambulo__row_term *term = p->table.terms + row->first_term;
@@ -90,9 +103,8 @@ static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, doub
 
 /* columns of a row into `column` (NULL: only counted) */
 static int list_columns(const ambulo_problem *p, int host, const double *mark, int *column) {
-  int from = host < 0 ? 0 : ambulo__node_first(p, host);
-  int to = host < 0 ? p->variables : from + ambulo__node_width(p, host);
-  int count = 0;
+  int count = 0, from, to;
+  window_of(p, host, &from, &to);
   for (int j = from; j < to; j++) {
     if (mark[j] == 0.0) continue;
     if (column) column[count] = j;
@@ -111,8 +123,14 @@ void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
   }
 }
 
+/* asked every few thousand rows */
+static int is_over(ambulo__run *run, int i) {
+  return i % POLL_ROWS == POLL_ROWS - 1 && ambulo__run_poll(run);
+}
+
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *rows, int count,
-                                         ambulo__pool *pool, ambulo__sparse_rows *s) {
+                                         ambulo__run *run, ambulo__pool *pool,
+                                         ambulo__sparse_rows *s) {
   size_t n = (size_t)count;
   s->problem = p;
   s->count = count;
@@ -126,11 +144,12 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     const ambulo__table_row *row = &p->table.rows[rows[i]];
+    if (is_over(run, i)) return AMBULO_E_LIMIT;
     s->row[i] = rows[i];
     s->host[i] = ambulo__row_host(p, rows[i]);
     s->constant[i] = is_linear(p, row);
     s->scale[i] = 1.0;
-    mark_row(p, row, s->dense);
+    mark_row(p, row, s->host[i], s->dense);
     s->start[i + 1] = s->start[i] + list_columns(p, s->host[i], s->dense, NULL);
   }
   s->column = ambulo__pool_ints(pool, (size_t)s->start[count]);
@@ -138,7 +157,8 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->value = ambulo__pool_doubles(pool, (size_t)s->start[count]);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
-    mark_row(p, &p->table.rows[rows[i]], s->dense);
+    if (is_over(run, i)) return AMBULO_E_LIMIT;
+    mark_row(p, &p->table.rows[rows[i]], s->host[i], s->dense);
     list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
   }
   ambulo__sparse_rows_find_runs(s);
@@ -162,10 +182,25 @@ static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, 
   }
 }
 
-void ambulo__sparse_rows_fill(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int all) {
+/* names the first entry that is not finite */
+static void find_fault(const ambulo__sparse_rows *s, ambulo_workspace *workspace) {
+  for (int i = 0; i < s->count; i++) {
+    for (int e = s->start[i]; e < s->start[i + 1]; e++) {
+      if (isfinite(s->value[e])) continue;
+      ambulo__fault_of_row(workspace, s->row[i], s->column[e], s->value[e]);
+      return;
+    }
+  }
+}
+
+ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *s, ambulo_workspace *workspace,
+                                       int all) {
   for (int i = 0; i < s->count; i++) {
     if (all || !s->constant[i]) fill_row(s, workspace, i);
   }
+  if (ambulo__all_finite(s->value, (size_t)s->start[s->count])) return AMBULO_OK;
+  find_fault(s, workspace);
+  return AMBULO_E_NUMERIC;
 }
 
 void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *s, int i, double scale) {

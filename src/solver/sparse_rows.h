@@ -15,6 +15,7 @@
 
 #include "nlp/nlp.h"
 #include "solver/pool.h"
+#include "solver/run.h"
 
 typedef struct ambulo__sparse_rows {
   const ambulo_problem *problem;
@@ -31,14 +32,17 @@ typedef struct ambulo__sparse_rows {
 /* The node whose window holds every unknown that the row depends on; -1: none. */
 int ambulo__row_host(const ambulo_problem *problem, int row);
 
-/* rows[count] with scale 1. Constant gradients are filled by the first fill. */
+/* rows[count] with scale 1. Constant gradients are filled by the first fill. `run` may be NULL.
+ * E_MEMORY; E_LIMIT: the run was stopped meanwhile. */
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *problem, const int *rows, int count,
-                                         ambulo__pool *pool, ambulo__sparse_rows *out);
+                                         ambulo__run *run, ambulo__pool *pool,
+                                         ambulo__sparse_rows *out);
 /* Writes run_end from start and column. */
 void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *rows);
-/* Gradients at the point held (ambulo__evaluate_jacobian); `all` includes constant ones. */
-void ambulo__sparse_rows_fill(ambulo__sparse_rows *rows, const ambulo_workspace *workspace,
-                              int all);
+/* Gradients at the point held (ambulo__evaluate_jacobian); `all` includes constant ones.
+ * E_NUMERIC: an entry is not finite (workspace->fault). */
+ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *rows, ambulo_workspace *workspace,
+                                       int all);
 /* Sets scale[i] and rescales the gradients held. */
 void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *rows, int i, double scale);
 /* value[count] at the point held. */

@@ -4,15 +4,12 @@
 
 #include "ambulo/solve.h"
 
-typedef enum ambulo__ending_kind {
-  AMBULO__ENDED_BY_ITSELF,
-  AMBULO__ENDED_BY_LIMIT, /* time or evaluations */
-  AMBULO__ENDED_BY_CALLER /* the progress callback said stop */
-} ambulo__ending_kind;
+/* worst / size: what the feasibility tolerance is compared with. */
+double ambulo__relative(const ambulo_violation *violation);
 
 /* A feasible point that is a KKT point or at the objective's lower bound is optimal however the
- * solver ended. */
+ * solver ended; one with a value or a derivative that is not finite never is. */
 ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_options *options,
-                                  ambulo__ending_kind ending);
+                                  ambulo_ending ending);
 
 #endif

@@ -48,8 +48,24 @@ static void no_memory_is_remembered(void **state) {
   }
 }
 
+static void sizes_go_with_units(void **state) {
+  (void)state;
+  static const char *const units[] = {"m",   "rad",   "body weights", "N",
+                                      "N m", "rad/s", "m/s^2",        "anything"};
+  static const double sizes[] = {1.0, 1.0, 1.0, 700.0, 700.0, 10.0, 100.0, 1.0};
+  ambulo__row_table table;
+  ambulo__row_table_init(&table, NULL);
+  table.weight = 700.0;
+  for (int i = 0; i < 8; i++) {
+    ambulo__row_begin(&table, "f", "s", "d", units[i], AMBULO_EQUAL, 0, 0.0, 0.0);
+    assert_close(table.rows[i].size, sizes[i], 0.0);
+  }
+  ambulo__row_table_clear(&table);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(rows_and_terms_grow),
-                                     cmocka_unit_test(no_memory_is_remembered)};
+                                     cmocka_unit_test(no_memory_is_remembered),
+                                     cmocka_unit_test(sizes_go_with_units)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

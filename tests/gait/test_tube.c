@@ -73,7 +73,7 @@ static void impossible_tubes_are_refused(void **state) {
   f.half_width[knee(&f)] = 0.1;
   f.reference[knee(&f)] = (double)NAN;
   assert_int_equal(ambulo__tubes_check(&f.rows.definition, list), AMBULO_E_PROBLEM);
-  assert_message(list, 1, "the reference of 'knee_r' is not finite");
+  assert_message(list, 1, "the reference of 'knee_r' is nan");
   f.tube.samples = 1;
   assert_int_equal(ambulo__tubes_check(&f.rows.definition, list), AMBULO_E_PROBLEM);
   assert_message(list, 2, "1 samples");

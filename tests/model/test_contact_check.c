@@ -65,7 +65,7 @@ static void points(void **state) {
             "link of point 'toe' does not exist (got index 3); expected 0 to 2");
   chain_make(&c);
   c.points[0].position[2] = NAN;
-  chain_bad(&c, AMBULO_E_MODEL, "position of point 'heel' must be three finite numbers");
+  chain_bad(&c, AMBULO_E_MODEL, "position of point 'heel' is out of range");
 }
 
 static void feet(void **state) {

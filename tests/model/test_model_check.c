@@ -118,9 +118,53 @@ static void all_faults_at_once(void **state) {
   ambulo_diagnostics_free(list);
 }
 
+/* numbers that are not finite, or whose products overflow, in every place that holds one; no limit
+ * is what an infinite one means */
+static void absurd_numbers(void **state) {
+  (void)state;
+  static const double absurd[] = {NAN, 1e308, -1e308, INFINITY, -INFINITY};
+  chain c;
+  chain_make(&c);
+  ambulo_link *link = &c.links[1];
+  ambulo_coordinate *coordinate = &c.coordinates[1];
+  double *const numbers[] = {&link->theta,
+                             &link->d,
+                             &link->a,
+                             &link->alpha,
+                             &link->mass,
+                             &link->com[2],
+                             &link->inertia[0],
+                             &link->inertia[5],
+                             &c.points[1].position[1],
+                             &c.definition.gravity[1],
+                             &c.definition.forward[0],
+                             &c.definition.stature,
+                             &coordinate->range[0],
+                             &coordinate->range[1],
+                             &coordinate->speed[0],
+                             &coordinate->speed[1],
+                             &coordinate->torque[0],
+                             &coordinate->torque[1]};
+  const size_t limits = 12;
+  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+    for (size_t k = 0; k < (i < limits ? 5 : 3); k++) {
+      double kept = *numbers[i];
+      ambulo_model *model = NULL;
+      *numbers[i] = absurd[k];
+      ambulo_status status = ambulo_model_create(&c.definition, NULL, NULL, &model);
+      if (status != AMBULO_E_MODEL) print_error("number %zu as %g passes\n", i, absurd[k]);
+      assert_int_equal(status, AMBULO_E_MODEL);
+      *numbers[i] = kept;
+    }
+  }
+  ambulo_model_free(chain_good(&c));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(arguments),  cmocka_unit_test(sizes), cmocka_unit_test(names),
-      cmocka_unit_test(duplicates), cmocka_unit_test(world), cmocka_unit_test(all_faults_at_once)};
+      cmocka_unit_test(arguments),     cmocka_unit_test(sizes),
+      cmocka_unit_test(names),         cmocka_unit_test(duplicates),
+      cmocka_unit_test(world),         cmocka_unit_test(all_faults_at_once),
+      cmocka_unit_test(absurd_numbers)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,12 +87,25 @@ static void composite_terms_count_their_residuals(void **state) {
   assert_int_equal(ambulo__term_forms(&term, &frame, 0), 0);
 }
 
+/* what finds no room is no part that may be missing: the residual has no value any more */
+static void a_full_form_has_no_value(void **state) {
+  (void)state;
+  ambulo__form form = {.u = 1.0};
+  for (int c = 0; c < AMBULO__FORM_CHANNELS; c++) ambulo__form_add(&form, c, 0, 1.0);
+  assert_int_equal(form.count, AMBULO__FORM_CHANNELS);
+  assert_close(form.u, 1.0, 0.0);
+  ambulo__form_add(&form, 0, 0, 1.0);
+  assert_int_equal(form.count, AMBULO__FORM_CHANNELS);
+  assert_true(isnan(form.u));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(names_are_those_of_problem_files),
                                      cmocka_unit_test(terms_look_at_their_channels),
                                      cmocka_unit_test(scales_and_offsets),
                                      cmocka_unit_test(each_kind_has_its_function),
                                      cmocka_unit_test(terms_with_curves_are_composite),
-                                     cmocka_unit_test(composite_terms_count_their_residuals)};
+                                     cmocka_unit_test(composite_terms_count_their_residuals),
+                                     cmocka_unit_test(a_full_form_has_no_value)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

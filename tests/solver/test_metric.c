@@ -33,12 +33,30 @@ static void band_is_the_sum_over_nodes(void **state) {
   engine_close(&f);
 }
 
-static void yardstick_is_not_rescaled(void **state) {
-  (void)state;
+static double scale_with(const char *name, const char *override) {
   engine_fixture f;
-  engine_open(&f, "yardstick_12");
-  assert_true(f.engine->objective_scale == 1.0);
+  engine_open_with(&f, name, override);
+  double scale = f.engine->objective_scale;
   engine_close(&f);
+  return scale;
+}
+
+static void scale_takes_the_unit_away(void **state) {
+  (void)state;
+  double one = scale_with("yardstick_12", NULL);
+  assert_true(one > 0.3 && one < 3.0); /* the problem that the constants were found on */
+  double heavy = scale_with("yardstick_12", "objective[0].weight=1e6");
+  double light = scale_with("yardstick_12", "objective[0].weight=3e-5");
+  assert_close(heavy * 1e6 / (light * 3e-5), 1.0, 1e-12);
+}
+
+/* angles and postures are not bent by accelerations as much as torques are */
+static void postures_do_not_move_the_scale(void **state) {
+  (void)state;
+  double with = scale_with("walk_normal", NULL);
+  assert_close(scale_with("walk_normal", "objective[1].weight=0") / with, 1.0, 0.1); /* upright */
+  assert_close(scale_with("walk_normal", "objective[4].weight=0") / with, 1.0, 0.1); /* ankle */
+  assert_close(scale_with("walk_normal", "objective[5].weight=0") / with, 1.0, 0.1); /* pelvis */
 }
 
 /* the scale of torque squared for one slider from rest to rest; tau = mass qdd, a row of the root
@@ -99,7 +117,8 @@ static void problem_without_objective_has_a_metric(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(band_is_the_sum_over_nodes),
-                                     cmocka_unit_test(yardstick_is_not_rescaled),
+                                     cmocka_unit_test(scale_takes_the_unit_away),
+                                     cmocka_unit_test(postures_do_not_move_the_scale),
                                      cmocka_unit_test(scale_goes_with_the_mass_squared),
                                      cmocka_unit_test(problem_without_objective_has_a_metric)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,7 +5,7 @@
 static double solve(ambulo__inner_kind kind, double *violation, int *evaluations) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
-  assert_int_equal(ambulo__pipeline(f.engine, kind, 0, f.x), AMBULO_OK);
+  assert_int_equal(ambulo__pipeline(f.engine, kind, AMBULO__FAR, f.x), AMBULO_OK);
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   double objective = f.engine->workspace->objective;
   *violation = fmax(ambulo__engine_equality_error(f.engine),
@@ -41,7 +41,7 @@ static void polish_closes_what_is_left(void **state) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
   f.options.feasibility_tolerance = 1e-3;
-  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__INNER_AUGLAG, 0, f.x), AMBULO_OK);
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__INNER_AUGLAG, AMBULO__FAR, f.x), AMBULO_OK);
   f.options.feasibility_tolerance = 1e-8;
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   double before = f.engine->workspace->objective;

@@ -50,7 +50,8 @@ static int ranks_of(const ambulo_end_value *ends, int count, const ambulo_user_r
   assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
   int *rank = calloc((size_t)problem->rows, sizeof *rank), dropped = 0;
   double *x = calloc((size_t)problem->variables, sizeof *x);
-  assert_int_equal(ambulo__presolve_rank(problem, workspace, x, &pool, list, rank), AMBULO_OK);
+  assert_int_equal(ambulo__presolve_rank(problem, workspace, x, NULL, &pool, list, rank),
+                   AMBULO_OK);
   for (int r = 0; r < problem->rows; r++) {
     if (rank[r] == AMBULO__ROW_INDEPENDENT) continue;
     *last = (ambulo__row_rank)rank[r];

@@ -15,7 +15,7 @@ static void evaluations_run_out(void **state) {
   ambulo__run_begin(&run, &options);
   assert_int_equal(ambulo__run_count(&run), 0);
   assert_int_equal(ambulo__run_count(&run), 1);
-  assert_int_equal(run.ending, AMBULO__ENDED_BY_LIMIT);
+  assert_int_equal(run.ending, AMBULO_ENDING_EVALUATIONS);
 }
 
 static void time_runs_out(void **state) {
@@ -26,7 +26,7 @@ static void time_runs_out(void **state) {
   ambulo__run_begin(&run, &options);
   run.started -= 1.0;
   assert_int_equal(ambulo__run_over(&run), 1);
-  assert_int_equal(run.ending, AMBULO__ENDED_BY_LIMIT);
+  assert_int_equal(run.ending, AMBULO_ENDING_TIME);
 }
 
 static void caller_says_stop(void **state) {
@@ -41,7 +41,7 @@ static void caller_says_stop(void **state) {
   assert_int_equal(ambulo__run_progress(&run, 1.0, 0.0), 1);
   run.evaluations = options.maximum_evaluations;
   assert_int_equal(ambulo__run_over(&run), 1);
-  assert_int_equal(run.ending, AMBULO__ENDED_BY_CALLER);
+  assert_int_equal(run.ending, AMBULO_ENDING_CALLER);
 }
 
 int main(void) {

@@ -2,41 +2,43 @@
 #include "solver/verdict.h"
 #include "support/test.h"
 
-static ambulo_verdict verdict(double violation, double kkt, ambulo__ending_kind ending) {
+static ambulo_verdict verdict(double violation, double kkt, ambulo_ending ending) {
   ambulo_options options = ambulo_options_default();
   ambulo_audit audit = {.kkt = kkt};
   audit.violation.worst = violation;
+  audit.violation.size = 1.0;
   return ambulo__verdict_of(&audit, &options, ending);
 }
 
 static void each_is_reached(void **state) {
   (void)state;
-  assert_int_equal(verdict(1e-7, 1e-5, AMBULO__ENDED_BY_ITSELF), AMBULO_OPTIMAL);
-  assert_int_equal(verdict(1e-7, 1e-5, AMBULO__ENDED_BY_LIMIT), AMBULO_OPTIMAL);
-  assert_int_equal(verdict(1e-7, 0.1, AMBULO__ENDED_BY_ITSELF), AMBULO_FEASIBLE);
-  assert_int_equal(verdict(1e-7, 0.1, AMBULO__ENDED_BY_LIMIT), AMBULO_FEASIBLE);
-  assert_int_equal(verdict(1e-3, 1e-5, AMBULO__ENDED_BY_ITSELF), AMBULO_INFEASIBLE);
-  assert_int_equal(verdict(1e-3, 1e-5, AMBULO__ENDED_BY_LIMIT), AMBULO_LIMIT_REACHED);
-  assert_int_equal(verdict(1e-3, 1e-5, AMBULO__ENDED_BY_CALLER), AMBULO_INTERRUPTED);
-  assert_int_equal(verdict(NAN, 1e-5, AMBULO__ENDED_BY_ITSELF), AMBULO_NUMERIC_FAILURE);
-  assert_int_equal(verdict(HUGE_VAL, 0.0, AMBULO__ENDED_BY_CALLER), AMBULO_NUMERIC_FAILURE);
+  assert_int_equal(verdict(1e-7, 1e-5, AMBULO_ENDING_CONVERGED), AMBULO_OPTIMAL);
+  assert_int_equal(verdict(1e-7, 1e-5, AMBULO_ENDING_TIME), AMBULO_OPTIMAL);
+  assert_int_equal(verdict(1e-7, 0.1, AMBULO_ENDING_CONVERGED), AMBULO_FEASIBLE);
+  assert_int_equal(verdict(1e-7, 0.1, AMBULO_ENDING_TIME), AMBULO_FEASIBLE);
+  assert_int_equal(verdict(1e-3, 1e-5, AMBULO_ENDING_CONVERGED), AMBULO_INFEASIBLE);
+  assert_int_equal(verdict(1e-3, 1e-5, AMBULO_ENDING_TIME), AMBULO_LIMIT_REACHED);
+  assert_int_equal(verdict(1e-3, 1e-5, AMBULO_ENDING_CALLER), AMBULO_INTERRUPTED);
+  assert_int_equal(verdict(NAN, 1e-5, AMBULO_ENDING_CONVERGED), AMBULO_NUMERIC_FAILURE);
+  assert_int_equal(verdict(HUGE_VAL, 0.0, AMBULO_ENDING_CALLER), AMBULO_NUMERIC_FAILURE);
 }
 
 static void a_lower_bound_is_a_proof(void **state) {
   (void)state;
   ambulo_options options = ambulo_options_default();
   ambulo_audit audit = {.kkt = 0.9, .at_lower_bound = 1};
-  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO__ENDED_BY_ITSELF), AMBULO_OPTIMAL);
+  audit.violation.size = 1.0;
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_CONVERGED), AMBULO_OPTIMAL);
   audit.violation.worst = 1e-3;
-  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO__ENDED_BY_ITSELF),
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_CONVERGED),
                    AMBULO_INFEASIBLE);
 }
 
 static void names_are_distinct(void **state) {
   (void)state;
-  for (int a = AMBULO_OPTIMAL; a <= AMBULO_INTERRUPTED; a++) {
+  for (int a = AMBULO_NOT_JUDGED; a <= AMBULO_INTERRUPTED; a++) {
     assert_true(strlen(ambulo_verdict_text((ambulo_verdict)a)) > 10);
-    for (int b = AMBULO_OPTIMAL; b < a; b++)
+    for (int b = AMBULO_NOT_JUDGED; b < a; b++)
       assert_string_not_equal(ambulo_verdict_name((ambulo_verdict)a),
                               ambulo_verdict_name((ambulo_verdict)b));
   }

@@ -21,8 +21,9 @@ static inline void walk_open(walk *w, int intervals) {
   walker_point(w->problem, w->result->x);
   w->result->objective = w->result->term[0] = 0.1 + 0.2;
   w->result->audit.violation =
-      (ambulo_violation){"foot_strike", "left_heel", "forward", "m", 0.25, 3e-7};
+      (ambulo_violation){"foot_strike", "left_heel", "forward", "m", 0.25, 3e-7, 1.0};
   w->result->audit.dense_violation = w->result->audit.violation;
+  w->result->audit.kkt = 0.0;
   w->result->verdict = AMBULO_FEASIBLE;
   snprintf(w->result->ending, sizeof w->result->ending, "made by \"hand\"\n");
 }

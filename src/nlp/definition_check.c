@@ -1,0 +1,254 @@
+/* nlp/definition_check.c - every check of a problem's definition that needs no grid.
+ *
+ * Each number has a range, also in definitions built in code: what is not finite, or so large that
+ * products of such numbers overflow, is refused here by name instead of spoiling a solve.
+ */
+#include "nlp/problem.h"
+#include "nlp/user_term.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_INTERVALS = 100000 };
+
+static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+
+#define REFUSE(diagnostics, ...)                                                                   \
+  ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, __VA_ARGS__)
+
+/* -------------------------------------------------------------- plain numbers */
+
+static const double shortest = 1e-6; /* s: no motion is shorter */
+static const double longest = 1e6;   /* m, s: no length or duration of a task is longer */
+static const double largest = 1e12;  /* weights, scales and offsets */
+static const double everything = HUGE_VAL;
+
+/* `count` numbers that have to lie in [low, high]; infinite ends let infinity pass */
+typedef struct number_range {
+  const char *name, *unit;
+  const double *value;
+  int count;
+  double low, high;
+} number_range;
+
+static int lies_in(const number_range *r, double value) {
+  return value >= r->low && value <= r->high && (isfinite(value) || r->high == everything);
+}
+
+static ambulo_status check_range(const number_range *r, ambulo_diagnostics *list) {
+  const char *space = r->unit[0] ? " " : "";
+  for (int i = 0; r->value && i < r->count; i++) {
+    if (lies_in(r, r->value[i])) continue;
+    char place[16] = "";
+    if (r->count > 1) (void)snprintf(place, sizeof place, "[%d]", i);
+    return REFUSE(list, "%s%s is %g%s%s; expected %g to %g", r->name, place, r->value[i], space,
+                  r->unit, r->low, r->high);
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status check_ranges(const number_range *ranges, size_t count,
+                                  ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  for (size_t i = 0; i < count; i++) {
+    ambulo_status one = check_range(&ranges[i], list);
+    if (one) status = one;
+  }
+  return status;
+}
+
+static ambulo_status check_task(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  const number_range ranges[] = {
+      {"constraints.ground_height", "m", &d->ground_height, 1, -longest, longest},
+      {"constraints.zmp_margin", "m", &d->support_margin, 1, 0.0, longest},
+      {"minimum_force", "body weights", &d->minimum_force, 1, -largest, largest},
+      {"constraints.contact_tolerance", "m", &d->contact_tolerance, 1, -longest, longest},
+      {"constraints.orientation_tolerance", "rad", &d->orientation_tolerance, 1, 0.0, 10.0},
+      {"constraints.strike_pitch", "rad", d->strike_pitch, 2, -10.0, 10.0},
+      {"ends.travel", "m", &d->travel, 1, -longest, longest},
+  };
+  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+}
+
+static ambulo_status check_clearance(const ambulo_clearance *c, ambulo_diagnostics *list) {
+  const number_range ranges[] = {
+      {"constraints.clearance.height", "m", &c->height, 1, -longest, longest},
+      {"constraints.clearance.tip_from", "", &c->tip_from, 1, -largest, largest},
+      {"constraints.clearance.ceiling", "m", &c->ceiling, 1, -longest, everything},
+      {"constraints.clearance.turn", "", &c->turn, 1, 0.0, everything},
+      {"constraints.clearance.outward", "m", &c->outward, 1, 0.0, everything},
+      {"constraints.clearance.inward", "m", &c->inward, 1, 0.0, everything},
+  };
+  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+}
+
+static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diagnostics *list) {
+  const number_range ranges[] = {
+      {"ground_reaction.exponent", "", &r->exponent, 1, 1.0, 100.0},
+      {"ground_reaction.shear", "", &r->shear, 1, -100.0, 100.0},
+      {"ground_reaction.friction", "", &r->friction, 1, -largest, largest},
+      {"ground_reaction.free_moment", "m", &r->free_moment, 1, -largest, largest},
+      {"ground_reaction.heel_pressure", "m", r->heel_pressure, 2, -longest, longest},
+      {"ground_reaction.heel_roll", "m", &r->heel_roll, 1, -longest, longest},
+      {"ground_reaction.flat_pressure", "m", r->flat_pressure, 2, -longest, longest},
+      {"ground_reaction.toe_pressure", "m", r->toe_pressure, 2, -longest, longest},
+      {"ground_reaction.pressure_width", "m", &r->pressure_width, 1, 0.0, longest},
+  };
+  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+}
+
+/* -------------------------------------------------------------------- the rest */
+
+static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  if (!(d->duration >= shortest && d->duration <= longest))
+    status =
+        REFUSE(list, "time.duration is %g s; expected %g to %g s", d->duration, shortest, longest);
+  if (d->intervals < 1 || d->intervals > MAX_INTERVALS)
+    status = REFUSE(list, "time.intervals is %d; expected 1 to %d", d->intervals, MAX_INTERVALS);
+  if (d->spline_intervals < 0 || d->spline_intervals > MAX_INTERVALS)
+    status =
+        REFUSE(list, "trajectory.intervals is %d; expected 1 to %d (0: as many as time intervals)",
+               d->spline_intervals, MAX_INTERVALS);
+  if (d->discretization == AMBULO_BSPLINE && (d->degree < 3 || d->degree > AMBULO__MAX_DEGREE))
+    status =
+        REFUSE(list, "trajectory.degree is %d; expected 3 to %d", d->degree, AMBULO__MAX_DEGREE);
+  for (int i = 0; d->breakpoints && !status && i < d->spline_intervals; i++) {
+    if (d->breakpoints[i + 1] > d->breakpoints[i]) continue;
+    status = REFUSE(list, "trajectory.breakpoints[%d] is %g s after %g s; expected rising times",
+                    i + 1, d->breakpoints[i + 1], d->breakpoints[i]);
+  }
+  return status;
+}
+
+static const char *point_name(const ambulo_model *model, int index) {
+  const ambulo_point *point = ambulo_model_point(model, index);
+  return point ? point->name : "(none)";
+}
+
+/* two different points of one link */
+static int is_line(const ambulo_model *model, const int point[2]) {
+  const ambulo_point *a = ambulo_model_point(model, point[0]);
+  const ambulo_point *b = ambulo_model_point(model, point[1]);
+  if (!a || !b || a->link != b->link) return 0;
+  return a->position[0] != b->position[0] || a->position[1] != b->position[1] ||
+         a->position[2] != b->position[2];
+}
+
+static ambulo_status check_term(const ambulo_problem_definition *d, int t,
+                                ambulo_diagnostics *list) {
+  const ambulo_term *term = &d->terms[t];
+  const ambulo__term_info *info = ambulo__term_info_of(term->kind);
+  if (!info) return REFUSE(list, "objective[%d]: unknown term kind %d", t, (int)term->kind);
+  if (!(term->weight >= 0.0 && term->weight <= largest))
+    return REFUSE(list, "objective[%d] (%s): weight is %g; expected 0 to %g", t, info->name,
+                  term->weight, largest);
+  int smoothed = term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_TORQUE_POWER ||
+                 term->kind == AMBULO_MECHANICAL_POWER;
+  if (smoothed && !(term->smoothing > 0.0 && term->smoothing <= largest))
+    return REFUSE(list, "objective[%d] (%s): smoothing is %g; expected a positive number", t,
+                  info->name, term->smoothing);
+  if (term->kind == AMBULO_TORQUE_POWER && !(term->power >= 2.0 && term->power <= 8.0))
+    return REFUSE(list, "objective[%d] (%s): power is %g; expected 2 to 8", t, info->name,
+                  term->power);
+  if (term->kind == AMBULO_CLEARANCE && !(term->height > 0.0 && term->height <= longest))
+    return REFUSE(list, "objective[%d] (%s): height is %g m; expected a positive length", t,
+                  info->name, term->height);
+  if (term->kind == AMBULO_UPRIGHT && !is_line(d->model, term->point))
+    return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points of one link", t,
+                  info->name, point_name(d->model, term->point[0]),
+                  point_name(d->model, term->point[1]));
+  if (term->kind == AMBULO_TRACKING && !term->reference)
+    return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
+  if (ambulo__is_user_term(term) && !term->function)
+    return REFUSE(list, "objective[%d] (%s): no function", t, info->name);
+  return AMBULO_OK;
+}
+
+static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t,
+                                       ambulo_diagnostics *list) {
+  const ambulo_term *term = &d->terms[t];
+  int n = ambulo_model_coordinate_count(d->model);
+  char scale[64], offset[64], passive[64], strength[64], reference[64];
+  (void)snprintf(scale, sizeof scale, "objective[%d]: scale", t);
+  (void)snprintf(offset, sizeof offset, "objective[%d]: offset", t);
+  (void)snprintf(passive, sizeof passive, "objective[%d]: passive", t);
+  (void)snprintf(strength, sizeof strength, "objective[%d]: strength", t);
+  (void)snprintf(reference, sizeof reference, "objective[%d]: reference", t);
+  int samples = d->intervals > 0 && d->intervals <= MAX_INTERVALS ? d->intervals + 1 : 0;
+  const number_range ranges[] = {
+      {scale, "", term->scale, n, -largest, largest},
+      {offset, "", term->offset, n, -largest, largest},
+      {passive, "", term->passive, 4 * n, -largest, largest},
+      {strength, "", term->strength, 6 * n, -largest, largest},
+      {reference, "", term->reference, n * samples, -largest, largest},
+  };
+  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+}
+
+static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  double total = 0.0;
+  for (int t = 0; t < d->term_count; t++) {
+    ambulo_status one = check_term(d, t, list);
+    if (!one) one = check_term_arrays(d, t, list);
+    if (one) status = one;
+    total += d->terms[t].weight;
+  }
+  if (!status && d->term_count > 0 && total == 0.0)
+    status = REFUSE(list, "every objective weight is 0; expected a positive one, or no objective");
+  for (int i = 0; i < d->user_row_count; i++) {
+    if (!d->user_rows[i].function || !d->user_rows[i].name || !d->user_rows[i].unit)
+      status = REFUSE(list, "user row %d has no function, name or unit", i);
+    if (isnan(d->user_rows[i].from) || isnan(d->user_rows[i].to))
+      status = REFUSE(list, "user row %d is asked for from %g s to %g s; expected times", i,
+                      d->user_rows[i].from, d->user_rows[i].to);
+  }
+  return status;
+}
+
+static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo_status status = AMBULO_OK;
+  int coordinates = ambulo_model_coordinate_count(d->model);
+  if (d->ends_order < 0 || d->ends_order > 2)
+    status = REFUSE(list, "ends.order is %d; expected 0, 1 or 2", d->ends_order);
+  for (int i = 0; i < d->end_value_count; i++) {
+    const ambulo_end_value *end = &d->end_values[i];
+    if (end->coordinate < 0 || end->coordinate >= coordinates)
+      status = REFUSE(list, "end value %d names coordinate %d; the model has %d", i,
+                      end->coordinate, coordinates);
+    if (end->order < 0 || end->order > 2 || !(fabs(end->value) <= largest))
+      status = REFUSE(list, "end value %d: order %d, value %g; expected order 0 to 2, at most %g",
+                      i, end->order, end->value, largest);
+  }
+  return status;
+}
+
+static int listed(const void *array, int count) {
+  return count == 0 || (count > 0 && array);
+}
+
+static int arrays_are_there(const ambulo_problem_definition *d) {
+  return listed(d->contacts, d->contact_count) && listed(d->terms, d->term_count) &&
+         listed(d->end_values, d->end_value_count) && listed(d->tubes, d->tube_count) &&
+         listed(d->user_rows, d->user_row_count);
+}
+
+ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
+                                       ambulo_diagnostics *diagnostics) {
+  if (!d || d->cookie != AMBULO__DEFINITION_COOKIE || !d->model || !arrays_are_there(d))
+    return AMBULO_E_ARGUMENT;
+  ambulo_status status = check_grid(d, diagnostics);
+  ambulo_status terms = check_terms(d, diagnostics);
+  ambulo_status ends = check_ends(d, diagnostics);
+  if (!status) status = terms;
+  if (!status) status = ends;
+  if (!status) status = ambulo__tubes_check(d, diagnostics);
+  ambulo_status numbers[] = {check_task(d, diagnostics),
+                             check_clearance(&d->clearance, diagnostics),
+                             check_reaction(&d->ground_reaction, diagnostics)};
+  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+    if (numbers[i]) status = numbers[i];
+  }
+  return status;
+}

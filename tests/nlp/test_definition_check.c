@@ -1,0 +1,154 @@
+/* Every number of a definition built in code: what is not finite, or absurd, is refused by name. */
+#include "support/messages.h"
+#include "support/problem_fixture.h"
+
+typedef struct built {
+  ambulo_model *model;
+  ambulo_problem_definition d;
+  ambulo_term terms[3];
+  ambulo_user_row row;
+  ambulo_tube tube;
+  ambulo_end_value end;
+  double scale[2], offset[2], passive[8], strength[12], reference[22], samples[6], width[2];
+} built;
+
+static double zero(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  (void)user, (void)state, (void)gradient;
+  return 1.0;
+}
+
+/* the arm with one of everything that holds numbers */
+static void build(built *b) {
+  memset(b, 0, sizeof *b);
+  b->model = arm_create();
+  b->d = arm_definition(b->model);
+  for (int i = 0; i < 2; i++) {
+    b->scale[i] = b->width[i] = 1.0;
+    for (int k = 0; k < 2; k++) b->strength[6 * i + 3 * k] = 40.0;
+  }
+  b->terms[0] = ambulo_term_default(AMBULO_TORQUE_POWER);
+  b->terms[0].scale = b->scale;
+  b->terms[0].offset = b->offset;
+  b->terms[0].passive = b->passive;
+  b->terms[0].strength = b->strength;
+  b->terms[1] = ambulo_term_default(AMBULO_TRACKING);
+  b->terms[1].reference = b->reference;
+  b->terms[2] = ambulo_term_default(AMBULO_CLEARANCE);
+  b->row = (ambulo_user_row){"row", "m", AMBULO_NOT_NEGATIVE, 0.0, 1.0, zero, NULL};
+  b->tube = (ambulo_tube){3, b->samples, b->width};
+  b->end = (ambulo_end_value){0, 0, 0, 0.1};
+  b->d.terms = b->terms;
+  b->d.term_count = 3;
+  b->d.user_rows = &b->row;
+  b->d.user_row_count = 1;
+  b->d.tubes = &b->tube;
+  b->d.tube_count = 1;
+  b->d.end_values = &b->end;
+  b->d.end_value_count = 1;
+}
+
+static ambulo_status create(const built *b, ambulo_diagnostics *list) {
+  ambulo_problem *problem = NULL;
+  ambulo_status status = ambulo_problem_create(&b->d, NULL, list, &problem);
+  ambulo_problem_free(problem);
+  return status;
+}
+
+/* `value` in place of *number is refused with E_PROBLEM and a message that holds `name` */
+static void expect_refused(built *b, double *number, double value, const char *name) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  double kept = *number;
+  *number = value;
+  ambulo_status status = create(b, list);
+  *number = kept;
+  if (status != AMBULO_E_PROBLEM)
+    print_error("%s = %g: %s\n", name, value, ambulo_status_name(status));
+  assert_int_equal(status, AMBULO_E_PROBLEM);
+  assert_message(list, 0, name);
+  ambulo_diagnostics_free(list);
+}
+
+static void numbers_have_ranges(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = create(&b, list);
+  if (status) assert_message(list, 0, "nothing is wrong");
+  assert_int_equal(status, AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  ambulo_ground_reaction *r = &b.d.ground_reaction;
+  ambulo_clearance *c = &b.d.clearance;
+  const struct {
+    double *number;
+    const char *name;
+    int may_be_infinite;
+  } all[] = {
+      {&b.d.duration, "time.duration", 0},
+      {&b.d.ground_height, "ground_height", 0},
+      {&b.d.support_margin, "zmp_margin", 0},
+      {&b.d.minimum_force, "minimum_force", 0},
+      {&b.d.contact_tolerance, "contact_tolerance", 0},
+      {&b.d.orientation_tolerance, "orientation_tolerance", 0},
+      {&b.d.strike_pitch[0], "strike_pitch[0]", 0},
+      {&b.d.strike_pitch[1], "strike_pitch[1]", 0},
+      {&b.d.travel, "ends.travel", 0},
+      {&c->height, "clearance.height", 0},
+      {&c->tip_from, "clearance.tip_from", 0},
+      {&c->ceiling, "clearance.ceiling", 1},
+      {&c->turn, "clearance.turn", 1},
+      {&c->outward, "clearance.outward", 1},
+      {&c->inward, "clearance.inward", 1},
+      {&r->exponent, "ground_reaction.exponent", 0},
+      {&r->shear, "ground_reaction.shear", 0},
+      {&r->friction, "ground_reaction.friction", 0},
+      {&r->free_moment, "ground_reaction.free_moment", 0},
+      {&r->heel_pressure[0], "heel_pressure[0]", 0},
+      {&r->heel_pressure[1], "heel_pressure[1]", 0},
+      {&r->heel_roll, "heel_roll", 0},
+      {&r->flat_pressure[1], "flat_pressure[1]", 0},
+      {&r->toe_pressure[0], "toe_pressure[0]", 0},
+      {&r->pressure_width, "pressure_width", 0},
+      {&b.terms[0].weight, "objective[0]", 0},
+      {&b.terms[0].smoothing, "objective[0]", 0},
+      {&b.terms[0].power, "objective[0]", 0},
+      {&b.terms[2].height, "objective[2]", 0},
+      {&b.scale[1], "objective[0]: scale[1]", 0},
+      {&b.offset[0], "objective[0]: offset[0]", 0},
+      {&b.passive[5], "objective[0]: passive[5]", 0},
+      {&b.strength[11], "objective[0]: strength[11]", 0},
+      {&b.reference[21], "objective[1]: reference[21]", 0},
+      {&b.samples[5], "tubes[0]", 0},
+      {&b.width[1], "tubes[0]", 1},
+      {&b.end.value, "end value 0", 0},
+      {&b.row.from, "user row 0", 1},
+      {&b.row.to, "user row 0", 1},
+  };
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+    expect_refused(&b, all[i].number, NAN, all[i].name);
+    if (all[i].may_be_infinite) continue;
+    expect_refused(&b, all[i].number, INFINITY, all[i].name);
+    expect_refused(&b, all[i].number, -INFINITY, all[i].name);
+    expect_refused(&b, all[i].number, 1e300, all[i].name);
+  }
+  ambulo_model_free(b.model);
+}
+
+/* where infinity says that there is no bound it passes */
+static void no_bound_is_a_bound(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  b.d.clearance.ceiling = b.d.clearance.turn = b.d.clearance.outward = INFINITY;
+  b.width[0] = INFINITY;
+  b.row.from = -INFINITY;
+  b.row.to = INFINITY;
+  assert_int_equal(create(&b, NULL), AMBULO_OK);
+  ambulo_model_free(b.model);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_have_ranges),
+                                     cmocka_unit_test(no_bound_is_a_bound)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,159 @@
+/* Of all points the best is returned: valid before invalid, lower before higher, the start where
+ * nothing better was found. */
+#include "solver/candidates.h"
+#include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
+
+typedef struct chosen {
+  engine_fixture f;
+  ambulo__candidates c;
+  double *good, *better, *invalid, *x;
+} chosen;
+
+/* points of the swing of the pendulum: its optimum, a valid point beside it, and one that is not */
+static void open_chosen(chosen *s) {
+  ambulo_result *result = NULL;
+  memset(s, 0, sizeof *s);
+  engine_open(&s->f, "pendulum_swing");
+  size_t n = (size_t)s->f.n;
+  s->good = calloc(n, sizeof *s->good);
+  s->better = calloc(n, sizeof *s->better);
+  s->invalid = calloc(n, sizeof *s->invalid);
+  s->x = calloc(n, sizeof *s->x);
+  assert_int_equal(ambulo_solve(s->f.problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  memcpy(s->better, ambulo_result_x(result), n * sizeof *s->x);
+  memcpy(s->good, s->better, n * sizeof *s->x);
+  s->good[n / 2] += 0.01; /* control points in the middle are free */
+  memcpy(s->invalid, s->better, n * sizeof *s->x);
+  s->invalid[0] += 0.2; /* the first is prescribed */
+  ambulo_result_free(result);
+  assert_int_equal(ambulo__candidates_create(&s->c, s->f.engine), AMBULO_OK);
+}
+
+static void close_chosen(chosen *s) {
+  free(s->good);
+  free(s->better);
+  free(s->invalid);
+  free(s->x);
+  engine_close(&s->f);
+}
+
+static void expect(chosen *s, int start_wins, const double *want) {
+  assert_int_equal(ambulo__candidates_take(&s->c, s->x), start_wins);
+  assert_memory_equal(s->x, want, (size_t)s->f.n * sizeof *s->x);
+}
+
+static void the_lowest_valid_point_wins(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.invalid);
+  assert_false(ambulo__candidates_solved(&s.c));
+  expect(&s, 0, s.invalid);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  assert_true(ambulo__candidates_solved(&s.c));
+  expect(&s, 0, s.good);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.invalid);
+  expect(&s, 0, s.good);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.better);
+  expect(&s, 0, s.better);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  expect(&s, 0, s.better);
+  close_chosen(&s);
+}
+
+static void a_valid_start_is_not_made_worse(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  ambulo__candidates_offer_start(&s.c, s.f.engine, s.good);
+  expect(&s, 1, s.good); /* nothing was found */
+  ambulo__candidates_offer(&s.c, s.f.engine, s.invalid);
+  expect(&s, 1, s.good);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.better);
+  expect(&s, 0, s.better);
+  close_chosen(&s);
+  open_chosen(&s);
+  ambulo__candidates_offer_start(&s.c, s.f.engine, s.better);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  expect(&s, 1, s.better);
+  close_chosen(&s);
+}
+
+static void an_invalid_start_never_wins(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  ambulo__candidates_offer_start(&s.c, s.f.engine, s.invalid);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  expect(&s, 0, s.good);
+  close_chosen(&s);
+}
+
+static void points_that_are_not_finite_are_no_candidates(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  double kept = s.invalid[1];
+  s.invalid[1] = NAN;
+  ambulo__candidates_offer_start(&s.c, s.f.engine, s.invalid);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.invalid);
+  assert_true(isinf(ambulo__violation_at(s.f.engine, s.invalid)));
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  expect(&s, 0, s.good);
+  s.invalid[1] = kept;
+  close_chosen(&s);
+}
+
+static void audits_decide_between_two(void **state) {
+  (void)state;
+  chosen s;
+  int better = -1;
+  open_chosen(&s);
+  ambulo_options o = ambulo_options_default();
+  const ambulo_problem *p = s.f.problem;
+  assert_int_equal(ambulo__is_better(p, &o, s.good, s.better, NULL, &better), AMBULO_OK);
+  assert_int_equal(better, 1);
+  assert_int_equal(ambulo__is_better(p, &o, s.better, s.good, NULL, &better), AMBULO_OK);
+  assert_int_equal(better, 0);
+  assert_int_equal(ambulo__is_better(p, &o, s.invalid, s.good, NULL, &better), AMBULO_OK);
+  assert_int_equal(better, 1);
+  close_chosen(&s);
+}
+
+/* "not better" is no answer to a lack of memory */
+static void lack_of_memory_is_said(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  ambulo_options o = ambulo_options_default();
+  int refused = 0;
+  for (long k = 0; k < 2000; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    int better = -1;
+    ambulo_status status =
+        ambulo__is_better(s.f.problem, &o, s.good, s.better, &allocator, &better);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) {
+      assert_int_equal(status, AMBULO_OK);
+      assert_int_equal(better, 1);
+      break;
+    }
+    refused++;
+    assert_int_equal(status, AMBULO_E_MEMORY);
+    assert_int_equal(better, 0);
+  }
+  assert_true(refused > 20);
+  close_chosen(&s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_valid_point_wins),
+                                     cmocka_unit_test(a_valid_start_is_not_made_worse),
+                                     cmocka_unit_test(an_invalid_start_never_wins),
+                                     cmocka_unit_test(points_that_are_not_finite_are_no_candidates),
+                                     cmocka_unit_test(audits_decide_between_two),
+                                     cmocka_unit_test(lack_of_memory_is_said)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
