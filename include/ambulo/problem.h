@@ -89,6 +89,13 @@ typedef enum ambulo_limit_mode {
   AMBULO_LIMIT_CONTROL_POINTS /* rows on control points: hold at all times, but tighter */
 } ambulo_limit_mode;
 
+/* What a coordinate has limits of. */
+typedef enum ambulo_limited {
+  AMBULO_LIMITED_POSITION, /* ambulo_coordinate.range */
+  AMBULO_LIMITED_SPEED,
+  AMBULO_LIMITED_TORQUE
+} ambulo_limited;
+
 typedef enum ambulo_ends {
   AMBULO_ENDS_FREE,
   AMBULO_ENDS_PERIODIC, /* state(T) = state(0), moved forward by `travel` */
@@ -274,6 +281,19 @@ AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
+
+/* The interval that `what` of coordinate `index` has to stay in over [0, T], in rad, m, per s, N m
+ * or N; +-INFINITY without limit. It is the model's, but with mirrored ends, where what the limits
+ * of the mirror partner leave in the other half of the stride is taken off it: low_of and high_of
+ * are the coordinates whose limits the two ends are. E_ARGUMENT: no such coordinate. */
+typedef struct ambulo_limits {
+  double low, high;
+  int low_of, high_of;
+} ambulo_limits;
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_limits(const ambulo_problem *problem,
+                                                                int index, ambulo_limited what,
+                                                                ambulo_limits *limits);
+
 /* FNV-1a 64 of everything that was resolved (model, schedule, terms, grid). */
 AMBULO_API unsigned long long ambulo_problem_hash(const ambulo_problem *problem);
 
@@ -285,7 +305,8 @@ typedef struct ambulo_row {
   const char *unit;    /* "m", "rad", "N m", ... */
   ambulo_relation relation;
   int node;    /* -1: not tied to one node */
-  double time; /* s */
+  double time; /* s; with mirrored ends beyond the duration where the row holds a limit in the
+                  mirrored half of the stride */
 } ambulo_row;
 /* E_ARGUMENT when out of range. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row(const ambulo_problem *problem,

@@ -82,6 +82,9 @@ ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                                   ambulo_diagnostics *diagnostics);
 /* "tracking_tube": distance from reference motions. */
 void ambulo__tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* How far the ends carry coordinate i from t = 0 to T, m: the travel along its axis, for a
+ * translation of the root. */
+double ambulo__end_shift(const ambulo_problem_definition *definition, int i);
 /* "initial_state", "final_state", "periodic", "mirrored". */
 void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 
