@@ -3,8 +3,11 @@
 
 #include "gait/gait.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+static const double rounding = 1e-9; /* m: what right angles leave of a travel across them */
 
 static const double *limits_of(const ambulo_coordinate *c, ambulo_limited what) {
   if (what == AMBULO_LIMITED_SPEED) return c->speed;
@@ -31,6 +34,7 @@ ambulo__bounds ambulo__bounds_of(const ambulo_problem_definition *d, int i, ambu
   if (d->ends != AMBULO_ENDS_MIRRORED) return b;
   int m = c->mirror, turned = c->mirror_sign < 0.0;
   double shift = what == AMBULO_LIMITED_POSITION ? ambulo__end_shift(d, m) : 0.0;
+  if (fabs(shift) < rounding) shift = 0.0;
   limit = limits_of(&d->model->coordinates[m], what);
   ambulo__bound low = image(limit, m, turned, c->mirror_sign, shift, d->duration);
   ambulo__bound high = image(limit, m, !turned, c->mirror_sign, shift, d->duration);

@@ -112,11 +112,11 @@ static ambulo_status check_change(const ambulo_problem_definition *d, int i,
   ambulo__bounds range = ambulo__bounds_of(d, i, AMBULO_LIMITED_POSITION);
   ambulo__bounds speeds = ambulo__bounds_of(d, i, AMBULO_LIMITED_SPEED);
   double low = range.low.value, high = range.high.value;
-  if (d->joint_limits != AMBULO_LIMIT_OFF && fabs(change) > high - low + tolerance) {
+  if (d->joint_limits != AMBULO_LIMIT_OFF && fabs(change) > fmax(0.0, high - low) + tolerance) {
     ambulo__bounds_whose(d->model, &range, whose);
     status = REFUSE(list, "widen the range in the model, or shorten the travel",
-                    "%s has to move by %.6g %s from beginning to end; its range, %.6g to %.6g %s%s, "
-                    "is only %.6g %s wide",
+                    "%s has to move by %.6g %s from beginning to end; its range, %.6g to %.6g "
+                    "%s%s, is only %.6g %s wide",
                     c->name, change, unit, low, high, unit, whose, fmax(0.0, high - low), unit);
   }
   if (d->speed_limits &&

@@ -6,6 +6,8 @@
  */
 #include "nlp/problem.h"
 
+#include "objective/mirror_terms.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -255,6 +257,8 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
   ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
   if (!status) status = ends;
+  ends = ambulo__schedule_check_ends(d, diagnostics);
+  if (!status) status = ends;
   return status ? status : ambulo__strength_check(d, &p->allocator, diagnostics);
 }
 
@@ -270,6 +274,12 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
   return ambulo__plan_create_grounded(p->model, d->ground_height, &p->allocator, &p->plan);
 }
 
+static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  ambulo_status status = ambulo__mirror_check(&p->definition, &p->allocator, diagnostics);
+  ambulo_status terms = ambulo__mirror_terms_check(&p->definition, &p->allocator, diagnostics);
+  return status ? status : terms;
+}
+
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->model = p->definition.model;
   p->coordinates = ambulo_model_coordinate_count(p->model);
@@ -277,7 +287,9 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->channels.points = ambulo_model_point_count(p->model);
   ambulo_status status = build_grid(p);
   if (!status) status = build_plan(p, diagnostics);
+  ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
   if (!status) status = build_schedule(p, diagnostics);
+  if (!status) status = symmetry;
   if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;

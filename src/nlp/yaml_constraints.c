@@ -92,6 +92,11 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
   if (!section) return;
   int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 0);
   d->ends = (ambulo_ends)kind;
+  if (d->ends == AMBULO_ENDS_MIRRORED && reader->unlike_steps)
+    (void)ambulo__yaml_error(ambulo__yaml_get(section, "kind"), AMBULO_E_PROBLEM,
+                             "ends: {kind: periodic} with an even number of steps",
+                             "mirrored ends make each step the mirror image of the one before, but "
+                             "the gait has steps of two lengths or times; expected equal steps");
   d->ends_order = ambulo__yaml_integer(ambulo__yaml_get(section, "order"), 0, 2, 1);
   d->travel = ambulo__yaml_number_in(ambulo__yaml_get(section, "travel"), -1e6, 1e6, d->travel);
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);

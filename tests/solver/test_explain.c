@@ -1,7 +1,8 @@
-/* Ten problems without a solution (tests/infeasible), each with what it has to be told: some are
+/* Thirteen problems without a solution (tests/infeasible), each with what it has to be told: some are
  * refused before solving, the others are explained afterwards. Where the suggestion changes the
  * problem file, following it leads to a motion that satisfies every row. */
 #include "ambulo/ambulo.h"
+#include "solver/explain.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"
 
@@ -32,6 +33,11 @@ static const example refused[] = {
      {"the final value of pelvis_tx is 0.5 m",
       "periodic ends with a travel of 0.6 m make it 0.6 m"},
      NULL},
+    {"footholds_against_travel",
+     {"foot 'right' stands at (0, 0) m at t = 0.6 s",
+      "periodic ends with a travel of 0.3 m put it at (0.3, 0) m",
+      "mirrored ends go with an odd number of equal steps"},
+     NULL},
     {"state_off_the_ground",
      {"the initial state puts heel_r (foot 'right') 0.04 m above the ground at t = 0 s"},
      NULL},
@@ -57,9 +63,10 @@ static const example explained[] = {
       "suggestion: lower constraints.zmp_margin by 0.04", "from 0.08 m to 0.03"},
      "constraints.zmp_margin=0.02"},
     {"equalities_contradict",
-     {"contradictory equality: foot_strike", "m at heel_r forward, t = 0.6 s",
-      "relaxing periodic alone is enough", "dropping ground_penetration alone does not",
-      "suggestion: change ends.travel from 0.3 m to 0 m"},
+     {"contradictory equality: tracking_tube", "m at pelvis_tx on, t = 0.6 s",
+      "relaxing tracking_tube alone is enough: by 0.15 m",
+      "relaxing periodic alone is enough: by 0.3 m at pelvis_tx value",
+      "suggestion: let tracking_tube of pelvis_tx (on) give way by 0.15"},
      "ends.travel=0"},
 };
 
@@ -154,6 +161,30 @@ static void are_explained(void **state) {
   }
 }
 
+/* periodic ends that miss by 0.3 m: a travel shorter by that much is what the rest allows */
+static void the_travel_that_can_be_reached_is_named(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(load("equalities_contradict", NULL, NULL, &problem), AMBULO_OK);
+  ambulo__explanation *out = calloc(1, sizeof *out);
+  double *value = calloc((size_t)problem->rows, sizeof *value);
+  ambulo__remedy remedy = {.conflict = 0, .row = -1, .value = value, .single = 1};
+  for (int r = 0; r < problem->rows; r++) {
+    const ambulo__table_row *row = &problem->table.rows[r];
+    if (strcmp(row->family, "periodic") || strcmp(row->subject, "pelvis_tx")) continue;
+    if (!strcmp(row->detail, "value")) remedy.row = r;
+  }
+  assert_true(remedy.row >= 0);
+  value[remedy.row] = -0.3;
+  ambulo__suggest(problem, &remedy, out);
+  if (!strstr(out->suggestion, "change ends.travel from 0.3 m to 0 m"))
+    print_error("got '%s'\n", out->suggestion);
+  assert_non_null(strstr(out->suggestion, "change ends.travel from 0.3 m to 0 m"));
+  free(value);
+  free(out);
+  ambulo_problem_free(problem);
+}
+
 static void good_ends_and_audits_need_no_explanation(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("pendulum_swing");
@@ -208,6 +239,7 @@ static void a_spent_time_limit_is_kept(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(are_refused_by_name), cmocka_unit_test(are_explained),
+      cmocka_unit_test(the_travel_that_can_be_reached_is_named),
       cmocka_unit_test(good_ends_and_audits_need_no_explanation),
       cmocka_unit_test(a_missed_solution_is_named), cmocka_unit_test(a_spent_time_limit_is_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
