@@ -65,6 +65,11 @@ static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   (c)->status = ambulo__error((c)->diagnostics, (c)->words->status, nowhere, hint, "%s" format,    \
                               (c)->words->before, __VA_ARGS__)
 
+/* 0 for what rounding has left of it beside a number of size `beside` */
+static double clean(double value, double beside) {
+  return fabs(value) < 1e-9 * fabs(beside) ? 0.0 : value;
+}
+
 /* a thing that is its own partner comes with the same name twice */
 static void report(comparison *c, const quantity *q, const char *name, double value,
                    const char *partner, double other) {
@@ -77,7 +82,8 @@ static void report(comparison *c, const quantity *q, const char *name, double va
   int digits = ambulo__digits_apart(value, q->odd ? -other : other);
   DIFFER(c, c->words->hint,
          "%s of '%s'%s is %.*g %s, that of its mirror partner '%s' %.*g %s; expected %s", q->what,
-         name, q->along, digits, value, q->unit, partner, digits, other, q->unit,
+         name, q->along, digits, clean(value, other), q->unit, partner, digits,
+         clean(other, value), q->unit,
          q->odd ? "the opposite" : "the same");
 }
 
@@ -118,17 +124,18 @@ static int compare_chain(comparison *c, int i, int m) {
   int parent = ambulo__segment_parent(&c->segments, i);
   int other = ambulo__segment_parent(&c->segments, m), expected = image_of(c, parent);
   if (other == expected) return 0;
+  if (i == m) {
+    DIFFER(c, c->words->hint,
+           "'%s' is its own mirror image, but hangs on '%s', whose mirror partner is '%s'",
+           name_of(c, i + 1), name_of(c, parent), name_of(c, expected));
+    return 1;
+  }
   DIFFER(c, c->words->hint,
          "'%s' hangs on '%s', its mirror partner '%s' on '%s'; expected '%s', the mirror partner "
          "of '%s'",
          name_of(c, i + 1), name_of(c, parent), name_of(c, m + 1), name_of(c, other),
          name_of(c, expected), name_of(c, parent));
   return 1;
-}
-
-/* what is left of rounding */
-static double clean(double value) {
-  return fabs(value) < 1e-9 ? 0.0 : value;
 }
 
 static int compare_directions(comparison *c, int i, int m, const double a[3], const double b[3]) {
@@ -147,13 +154,13 @@ static int compare_directions(comparison *c, int i, int m, const double a[3], co
   if (i != m)
     (void)snprintf(partner, sizeof partner,
                    ", that of its mirror partner '%s' to (%.6g, %.6g, %.6g)", name_of(c, m + 1),
-                   clean(b[0]), clean(b[1]), clean(b[2]));
+                   clean(b[0], 1.0), clean(b[1], 1.0), clean(b[2], 1.0));
   DIFFER(c, off_opposite <= tolerance ? sign_hint : c->words->hint,
          "the axis of '%s' points to (%.6g, %.6g, %.6g) along forward, up, left at q = 0%s; with "
          "%s and mirror_sign %d expected (%.6g, %.6g, %.6g)",
-         of->name, clean(a[0]), clean(a[1]), clean(a[2]), partner,
+         of->name, clean(a[0], 1.0), clean(a[1], 1.0), clean(a[2], 1.0), partner,
          i == m ? "itself as mirror image" : "this pair", of->mirror_sign > 0.0 ? 1 : -1,
-         clean(expected[0]), clean(expected[1]), clean(expected[2]));
+         clean(expected[0], 1.0), clean(expected[1], 1.0), clean(expected[2], 1.0));
   return 1;
 }
 

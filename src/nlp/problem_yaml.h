@@ -23,6 +23,7 @@ typedef struct ambulo__problem_reader {
   ambulo_model *model;            /* NULL if it could not be loaded */
   const ambulo__yaml_node *gait;  /* the section, or NULL */
   int has_duration;               /* time.duration is in the file */
+  int steps;                      /* of `gait`, 0 without */
   int unlike_steps;               /* two step lengths or times that differ */
   ambulo__model_setting *setting; /* [settings] overrides of the model file's keys */
   int settings;

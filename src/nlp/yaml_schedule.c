@@ -225,6 +225,7 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   ambulo__yaml_close(section);
   if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
   reader->definition.travel = ambulo__gait_place(&gait, gait.steps);
+  reader->steps = gait.steps;
   reader->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
                          differs(gait.step_length, gait.other_step_length);
   expand(reader, section, &gait);
