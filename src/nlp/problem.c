@@ -276,8 +276,9 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
 
 static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   ambulo_status status = ambulo__mirror_check(&p->definition, &p->allocator, diagnostics);
+  if (status == AMBULO_E_MEMORY) return status;
   ambulo_status terms = ambulo__mirror_terms_check(&p->definition, &p->allocator, diagnostics);
-  return status ? status : terms;
+  return terms ? terms : status;
 }
 
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
@@ -288,6 +289,7 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   ambulo_status status = build_grid(p);
   if (!status) status = build_plan(p, diagnostics);
   ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
+  if (symmetry == AMBULO_E_MEMORY) return symmetry;
   if (!status) status = build_schedule(p, diagnostics);
   if (!status) status = symmetry;
   if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
