@@ -46,6 +46,17 @@ typedef struct ambulo_coordinate {
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
 } ambulo_coordinate;
 
+/* What a coordinate has limits of, and an interval that they leave. */
+typedef enum ambulo_limited {
+  AMBULO_LIMITED_POSITION, /* `range` */
+  AMBULO_LIMITED_SPEED,
+  AMBULO_LIMITED_TORQUE
+} ambulo_limited;
+typedef struct ambulo_limits {
+  double low, high;    /* rad, m, per s, N m or N; +-INFINITY without limit */
+  int low_of, high_of; /* coordinates whose limits the two ends are */
+} ambulo_limits;
+
 /* One link as given (after scaling to the subject). */
 typedef struct ambulo_link {
   const char *name;

@@ -56,9 +56,10 @@ typedef struct ambulo_contact {
 
 /* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps)
  * strikes at s * step_time; its foot alternates from `first_foot`; its foothold is
- * (start + s * step_length, +-step_width / 2), left positive. Fractions of the
- * stride (two steps) relative to the foot's own strike; heel_strike may be
- * negative: the heel is down before the nominal strike. */
+ * (start + s * step_length, +-step_width / 2), left positive. An odd number of equal steps goes
+ * with mirrored ends, an even number with periodic ones. Fractions of the stride (two steps)
+ * relative to the foot's own strike; heel_strike may be negative: the heel is down before the
+ * nominal strike. */
 typedef struct ambulo_gait {
   int steps;
   int first_foot;                                   /* foot that strikes at t = 0 */
@@ -89,17 +90,13 @@ typedef enum ambulo_limit_mode {
   AMBULO_LIMIT_CONTROL_POINTS /* rows on control points: hold at all times, but tighter */
 } ambulo_limit_mode;
 
-/* What a coordinate has limits of. */
-typedef enum ambulo_limited {
-  AMBULO_LIMITED_POSITION, /* ambulo_coordinate.range */
-  AMBULO_LIMITED_SPEED,
-  AMBULO_LIMITED_TORQUE
-} ambulo_limited;
-
 typedef enum ambulo_ends {
   AMBULO_ENDS_FREE,
   AMBULO_ENDS_PERIODIC, /* state(T) = state(0), moved forward by `travel` */
-  AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel` */
+  AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel`: one step
+                           stands for both. Body, terms, tubes and footholds have to be the same on
+                           both sides, limits hold in both halves (docs/problem-format.md, "ends");
+                           references and user functions are about the one step */
 } ambulo_ends;
 
 /* A prescribed end value: the order-th derivative of a coordinate at t = 0 or T. */
@@ -226,7 +223,8 @@ typedef struct ambulo_problem_definition {
   int speed_limits, torque_limits;
 
   ambulo_ends ends;
-  int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2 */
+  int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2; below 2 forces jump
+                     from one period to the next */
   double travel;  /* m along forward */
   const ambulo_end_value *end_values;
   int end_value_count;
@@ -246,7 +244,8 @@ AMBULO_API ambulo_term ambulo_term_default(ambulo_term_kind kind);
 /* Checks the definition and builds the problem. Contradictions that need no solve
  * are refused by name, time and unit: footholds out of reach, no support at some
  * time, an empty support polygon, overlapping contacts, more equalities than
- * unknowns. Errors: E_ARGUMENT, E_PROBLEM, E_LIMIT, E_MEMORY. */
+ * unknowns, ends that do not match the footholds, mirrored ends of what is not symmetric. Errors:
+ * E_ARGUMENT, E_PROBLEM, E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
     const ambulo_problem_definition *definition, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
@@ -281,19 +280,11 @@ AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
-
-/* The interval that `what` of coordinate `index` has to stay in over [0, T], in rad, m, per s, N m
- * or N; +-INFINITY without limit. It is the model's, but with mirrored ends, where what the limits
- * of the mirror partner leave in the other half of the stride is taken off it: low_of and high_of
- * are the coordinates whose limits the two ends are. E_ARGUMENT: no such coordinate. */
-typedef struct ambulo_limits {
-  double low, high;
-  int low_of, high_of;
-} ambulo_limits;
+/* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with
+ * mirrored ends also within what those of its partner leave. E_ARGUMENT: no such coordinate. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_limits(const ambulo_problem *problem,
                                                                 int index, ambulo_limited what,
                                                                 ambulo_limits *limits);
-
 /* FNV-1a 64 of everything that was resolved (model, schedule, terms, grid). */
 AMBULO_API unsigned long long ambulo_problem_hash(const ambulo_problem *problem);
 

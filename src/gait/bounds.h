@@ -17,11 +17,11 @@
 
 /* One end of such an interval, and the limit of the model that it comes from. */
 typedef struct ambulo__bound {
-  double value;  /* on y_i; +-INFINITY without limit */
-  int owner;     /* coordinate whose limit it is */
-  int is_upper;  /* of the owner's two limits the upper one */
-  double given;  /* what the model says: rad, m, per s, N m, N */
-  double later;  /* s by which the owner comes to it after i: 0 or T */
+  double value; /* on y_i; +-INFINITY without limit */
+  int owner;    /* coordinate whose limit it is */
+  int is_upper; /* of the owner's two limits the upper one */
+  double given; /* what the model says: rad, m, per s, N m, N */
+  double later; /* s by which the owner comes to it after i: 0 or T */
 } ambulo__bound;
 
 typedef struct ambulo__bounds {

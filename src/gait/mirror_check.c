@@ -73,8 +73,8 @@ static ambulo_status check_tubes(const ambulo_problem_definition *d, int i,
 
 ambulo_status ambulo__mirror_check(const ambulo_problem_definition *d,
                                    const ambulo_allocator *allocator, ambulo_diagnostics *list) {
-  static const ambulo__mirror_words body = {
-      AMBULO_E_PROBLEM, "ends.kind: mirrored ends, but ", AMBULO__BOTH_SIDES};
+  static const ambulo__mirror_words body = {AMBULO_E_PROBLEM, "ends.kind: mirrored ends, but ",
+                                            AMBULO__BOTH_SIDES};
   if (d->ends != AMBULO_ENDS_MIRRORED) return AMBULO_OK;
   int asked[3] = {d->joint_limits != AMBULO_LIMIT_OFF, d->speed_limits, d->torque_limits};
   ambulo_status status = ambulo__mirror_image_check(d->model, &body, allocator, list);

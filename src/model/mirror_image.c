@@ -82,9 +82,8 @@ static void report(comparison *c, const quantity *q, const char *name, double va
   int digits = ambulo__digits_apart(value, q->odd ? -other : other);
   DIFFER(c, c->words->hint,
          "%s of '%s'%s is %.*g %s, that of its mirror partner '%s' %.*g %s; expected %s", q->what,
-         name, q->along, digits, clean(value, other), q->unit, partner, digits,
-         clean(other, value), q->unit,
-         q->odd ? "the opposite" : "the same");
+         name, q->along, digits, clean(value, other), q->unit, partner, digits, clean(other, value),
+         q->unit, q->odd ? "the opposite" : "the same");
 }
 
 /* 1 if b is not the mirror image of a; NaN differs from everything */
@@ -196,8 +195,8 @@ static const char *body_name(const comparison *c, int segment) {
 }
 
 static void compare_inertias(comparison *c, int segment, int image) {
-  static const char *const about[6] = {" about forward",      " about up",
-                                       " about left",         " of forward and up",
+  static const char *const about[6] = {" about forward",       " about up",
+                                       " about left",          " of forward and up",
                                        " of forward and left", " of up and left"};
   const double *a = c->segments.body[segment].inertia, *b = c->segments.body[image].inertia;
   double largest = 0.0;

@@ -35,8 +35,7 @@ static void place(const ambulo__frame *frame, const double v[3], double out[3]) 
   for (int i = 0; i < 3; i++) out[i] += frame->origin[i];
 }
 
-static ambulo__frame frame_of(const ambulo__frame *parent,
-                                      const ambulo_link *link) {
+static ambulo__frame frame_of(const ambulo__frame *parent, const ambulo_link *link) {
   double c = cos(link->theta), s = sin(link->theta);
   double ca = cos(link->alpha), sa = sin(link->alpha);
   const double columns[3][3] = {{c, s, 0.0}, {-s * ca, c * ca, sa}, {s * sa, -c * sa, ca}};
@@ -60,8 +59,8 @@ static ambulo__part body_of(const ambulo__frame *frame, const ambulo_link *link)
   for (int e = 0; e < 6; e++) {
     for (int u = 0; u < 3; u++) {
       for (int v = 0; v < 3; v++) {
-        body.inertia[e] += frame->axes[row[e]][u] * link->inertia[entry[u][v]] *
-                           frame->axes[column[e]][v];
+        body.inertia[e] +=
+            frame->axes[row[e]][u] * link->inertia[entry[u][v]] * frame->axes[column[e]][v];
       }
     }
   }
@@ -87,11 +86,9 @@ static void fill(ambulo__segments *s) {
   }
 }
 
-ambulo_status ambulo__segments_create(const ambulo_model *model,
-                                              const ambulo_allocator *allocator,
-                                              ambulo__segments *segments) {
-  ambulo__segments s = {.allocator = ambulo__allocator_or_default(allocator),
-                                .model = model};
+ambulo_status ambulo__segments_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo__segments *segments) {
+  ambulo__segments s = {.allocator = ambulo__allocator_or_default(allocator), .model = model};
   size_t links = (size_t)model->link_count, count = (size_t)model->coordinate_count + 1;
   s.frame = ambulo__alloc(&s.allocator, links, sizeof *s.frame);
   s.of_link = ambulo__alloc(&s.allocator, links, sizeof *s.of_link);

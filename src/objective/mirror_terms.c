@@ -216,13 +216,14 @@ static ambulo_status check_line(const ambulo_problem_definition *d, const ambulo
   }
   double line[3];
   int segment = line_of(s, term, line);
-  return REFUSE(list,
-                "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; it moves "
-                "with '%s' and points %.6g to the left at q = 0; expected a line in the mirror plane, "
-                "or another upright term of weight %g on the other side, with mirrored ends",
-                t, d->model->points[term->point[0]].name, d->model->points[term->point[1]].name,
-                segment == 0 ? "the world" : d->model->coordinates[segment - 1].name,
-                fabs(line[2]) < AMBULO__MIRROR_TOLERANCE ? 0.0 : line[2], term->weight);
+  return REFUSE(
+      list,
+      "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; it moves "
+      "with '%s' and points %.6g to the left at q = 0; expected a line in the mirror plane, "
+      "or another upright term of weight %g on the other side, with mirrored ends",
+      t, d->model->points[term->point[0]].name, d->model->points[term->point[1]].name,
+      segment == 0 ? "the world" : d->model->coordinates[segment - 1].name,
+      fabs(line[2]) < AMBULO__MIRROR_TOLERANCE ? 0.0 : line[2], term->weight);
 }
 
 ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *d,

@@ -49,8 +49,7 @@ static void mirror_point(const ambulo_model *model, double travel, double *point
 /* scratch: [2][coordinates] */
 static void mirror_second_step(ambulo__stride *s, const sampling *sample, double *scratch) {
   double *shift = scratch + s->coordinates;
-  for (int i = 0; i < s->coordinates; i++)
-    shift[i] = ambulo__end_shift(&s->problem->definition, i);
+  for (int i = 0; i < s->coordinates; i++) shift[i] = ambulo__end_shift(&s->problem->definition, i);
   for (int k = 0; k < s->samples; k++) {
     if (!sample->mirrored[k]) continue;
     size_t at = (size_t)k * (size_t)s->coordinates;

@@ -138,7 +138,8 @@ static void words_name_the_owner(void **state) {
   open_mirrored(&f);
   ambulo__bounds b = ambulo__bounds_of(&f.definition, 5, AMBULO_LIMITED_POSITION);
   ambulo__bounds_whose(f.model, &b, text);
-  assert_string_equal(text, " (the upper end by the upper limit of hip_r, 1.5, in the mirrored half)");
+  assert_string_equal(text,
+                      " (the upper end by the upper limit of hip_r, 1.5, in the mirrored half)");
   b = ambulo__bounds_of(&f.definition, 3, AMBULO_LIMITED_POSITION);
   ambulo__bounds_whose(f.model, &b, text);
   assert_string_equal(text, "");

@@ -81,7 +81,8 @@ static void periodic_rates_follow(void **state) {
   }
 }
 
-/* a value within its own range may be beyond what the other half of the stride allows its partner */
+/* a value within its own range may be beyond what the other half of the stride allows its partner
+ */
 static void mirrored_values_keep_the_partners_limits(void **state) {
   (void)state;
   const ambulo_end_value value = {4, 0, 0, 0.6};

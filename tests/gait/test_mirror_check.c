@@ -133,17 +133,17 @@ static void tubes_are_as_wide_on_both_sides(void **state) {
     open_fixture(&f);
     f.definition.tubes = &tube;
     f.definition.tube_count = 1;
-    expect(&f, i == 1 ? "constraints.tubes[0]: the half width of 'knee_angle_r' is 0.1 rad, that of "
-                        "its mirror partner 'knee_angle_l' 0.2 rad; expected the same with mirrored "
-                        "ends, or none on one side"
-                      : NULL);
+    expect(&f, i == 1
+                   ? "constraints.tubes[0]: the half width of 'knee_angle_r' is 0.1 rad, that of "
+                     "its mirror partner 'knee_angle_l' 0.2 rad; expected the same with mirrored "
+                     "ends, or none on one side"
+                   : NULL);
   }
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_heavier_shank_is_refused),
-      cmocka_unit_test(a_symmetric_body_is_accepted),
+      cmocka_unit_test(a_heavier_shank_is_refused), cmocka_unit_test(a_symmetric_body_is_accepted),
       cmocka_unit_test(limits_with_nothing_in_common_are_refused),
       cmocka_unit_test(a_range_and_its_image_may_have_nothing_in_common),
       cmocka_unit_test(tubes_are_as_wide_on_both_sides)};

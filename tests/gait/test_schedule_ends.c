@@ -22,9 +22,9 @@ static void open_fixture(fixture *f, const ambulo_gait *gait) {
   f->definition = ambulo_problem_definition_default();
   f->definition.model = f->model;
   f->definition.foot_strike = 1;
-  assert_int_equal(ambulo_gait_expand(f->model, gait, f->contacts, MOST_CONTACTS,
-                                      &f->definition.contact_count),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_gait_expand(f->model, gait, f->contacts, MOST_CONTACTS, &f->definition.contact_count),
+      AMBULO_OK);
   f->definition.contacts = f->contacts;
   f->definition.duration = ambulo__gait_strike(gait, gait->steps);
   f->definition.travel = ambulo__gait_place(gait, gait->steps);
@@ -64,9 +64,10 @@ static void odd_steps_mirrored_even_steps_periodic(void **state) {
         open_fixture(&f, &gait);
         f.definition.ends = (ambulo_ends)ends;
         int fits = ends == AMBULO_ENDS_FREE || (ends == AMBULO_ENDS_MIRRORED) == (steps % 2);
-        expect(&f, fits ? NULL
-                        : "mirrored ends go with an odd number of equal steps, periodic ends with an "
-                          "even number");
+        expect(&f,
+               fits ? NULL
+                    : "mirrored ends go with an odd number of equal steps, periodic ends with an "
+                      "even number");
       }
     }
   }
@@ -79,9 +80,10 @@ static void the_message_has_both_places(void **state) {
   open_fixture(&f, &gait);
   f.definition.ends = AMBULO_ENDS_MIRRORED;
   f.definition.travel = 0.5;
-  expect(&f, "ends.travel: foot 'left' stands at (0, 0.05) m at t = 0.5 s, but mirrored ends with a "
-             "travel of 0.5 m put it at (-0.1, 0.05) m, from foot 'right' at (-0.6, -0.05) m at "
-             "t = 0; expected the same place");
+  expect(&f,
+         "ends.travel: foot 'left' stands at (0, 0.05) m at t = 0.5 s, but mirrored ends with a "
+         "travel of 0.5 m put it at (-0.1, 0.05) m, from foot 'right' at (-0.6, -0.05) m at "
+         "t = 0; expected the same place");
 }
 
 /* footholds 0.02 m further left than the mirror plane allows */

@@ -205,7 +205,7 @@ static void the_tolerance_is_as_documented(void **state) {
 
 static void shipped_bodies_are_symmetric_at_any_size(void **state) {
   (void)state;
-  static const char *const names[] = {"lower_body_18",     "lower_body_21", "walker_2d",
+  static const char *const names[] = {"lower_body_18", "lower_body_21", "walker_2d",
                                       "opensim_2d_gait10", "yardstick_body"};
   static const ambulo_subject subjects[] = {
       {0}, {50, 1.52, AMBULO_FEMALE}, {117, 1.97, AMBULO_MALE}, {1, 0.31, AMBULO_MALE}};
@@ -226,9 +226,9 @@ static void differences_are_told_with_both_numbers(void **state) {
   static const struct {
     const char *key, *message;
   } cases[] = {
-      {"links[shank_l].body.mass=0.0866",
-       "the mass of 'shank_r' is 3.2475 kg, that of its mirror partner 'shank_l' 6.495 kg; expected "
-       "the same"},
+      {"links[shank_l].body.mass=0.0866", "the mass of 'shank_r' is 3.2475 kg, that of its mirror "
+                                          "partner 'shank_l' 6.495 kg; expected "
+                                          "the same"},
       {"links[shank_l].body.com=[0, -0.109559, 0.01]",
        "the centre of mass of 'shank_r' along left at q = 0 is -0.0849993 m, that of its mirror "
        "partner 'shank_l' 0.0674992 m; expected the opposite"},
@@ -242,9 +242,9 @@ static void differences_are_told_with_both_numbers(void **state) {
       {"links[ankle_l].dh=[-91, 0, 0.249282, 0]",
        "the axis of 'ankle_angle_r' along forward at q = 0 is 0 m, that of its mirror partner "
        "'ankle_angle_l' "},
-      {"links[knee_l].dh=[-90, 0, 0.242504, 170]",
-       "the axis of 'knee_angle_r' points to (0, 0, 1) along forward, up, left at q = 0, that of its "
-       "mirror partner 'knee_angle_l' to ("},
+      {"links[knee_l].dh=[-90, 0, 0.242504, 170]", "the axis of 'knee_angle_r' points to (0, 0, 1) "
+                                                   "along forward, up, left at q = 0, that of its "
+                                                   "mirror partner 'knee_angle_l' to ("},
       {"points[toe_l].position=[0.12, -0.042857, 0]",
        "the place of 'toe_r' along forward at q = 0 is 0.195001 m, that of its mirror partner "
        "'toe_l' 0.21 m; expected the same"},
@@ -257,9 +257,9 @@ static void differences_are_told_with_both_numbers(void **state) {
     *value++ = '\0';
     ambulo__model_setting setting = {text, value};
     ambulo_model *model = NULL;
-    assert_int_equal(ambulo__model_load_with("models/lower_body_18.yaml", NULL, &setting, 1, NULL,
-                                             NULL, &model),
-                     AMBULO_OK);
+    assert_int_equal(
+        ambulo__model_load_with("models/lower_body_18.yaml", NULL, &setting, 1, NULL, NULL, &model),
+        AMBULO_OK);
     assert_int_equal(check(model, message), AMBULO_E_MODEL);
     if (!strstr(message, cases[i].message))
       print_error("%s says\n  %s\nexpected\n  %s\n", cases[i].key, message, cases[i].message);
@@ -276,15 +276,19 @@ static void wrong_pairs_are_told(void **state) {
     double sign;
     const char *message;
   } cases[] = {
-      {2, 2, 1, "the axis of 'pelvis_tz' points to (0, 0, -1) along forward, up, left at q = 0; with "
-                "itself as mirror image and mirror_sign 1 expected (0, 0, 1)"},
+      {2, 2, 1,
+       "the axis of 'pelvis_tz' points to (0, 0, -1) along forward, up, left at q = 0; with "
+       "itself as mirror image and mirror_sign 1 expected (0, 0, 1)"},
       {3, 3, -1, "the axis of 'pelvis_tilt' points"},
-      {9, 15, -1, "'knee_angle_l' to (0, 0, 1); with this pair and mirror_sign -1 expected (0, 0, -1)"},
-      {9, 9, 1, "'knee_angle_r' is its own mirror image, but hangs on 'hip_rotation_r', whose mirror "
-                "partner is 'hip_rotation_l'"},
-      {9, 16, 1, "'knee_angle_r' hangs on 'hip_rotation_r', its mirror partner 'ankle_angle_l' on "
-                 "'knee_angle_l'; expected 'hip_rotation_l', the mirror partner of "
-                 "'hip_rotation_r'"},
+      {9, 15, -1,
+       "'knee_angle_l' to (0, 0, 1); with this pair and mirror_sign -1 expected (0, 0, -1)"},
+      {9, 9, 1,
+       "'knee_angle_r' is its own mirror image, but hangs on 'hip_rotation_r', whose mirror "
+       "partner is 'hip_rotation_l'"},
+      {9, 16, 1,
+       "'knee_angle_r' hangs on 'hip_rotation_r', its mirror partner 'ankle_angle_l' on "
+       "'knee_angle_l'; expected 'hip_rotation_l', the mirror partner of "
+       "'hip_rotation_r'"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char message[1024];
@@ -367,17 +371,16 @@ static void any_allocation_may_fail(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(symmetric_bodies_are_never_refused),
-      cmocka_unit_test(one_number_is_found_by_name),
-      cmocka_unit_test(the_tolerance_is_as_documented),
-      cmocka_unit_test(shipped_bodies_are_symmetric_at_any_size),
-      cmocka_unit_test(differences_are_told_with_both_numbers),
-      cmocka_unit_test(wrong_pairs_are_told),
-      cmocka_unit_test(the_sign_that_fits_is_hinted),
-      cmocka_unit_test(feet_follow_the_coordinates),
-      cmocka_unit_test(markers_need_no_partner),
-      cmocka_unit_test(two_numbers_are_told_apart),
-      cmocka_unit_test(any_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(symmetric_bodies_are_never_refused),
+                                     cmocka_unit_test(one_number_is_found_by_name),
+                                     cmocka_unit_test(the_tolerance_is_as_documented),
+                                     cmocka_unit_test(shipped_bodies_are_symmetric_at_any_size),
+                                     cmocka_unit_test(differences_are_told_with_both_numbers),
+                                     cmocka_unit_test(wrong_pairs_are_told),
+                                     cmocka_unit_test(the_sign_that_fits_is_hinted),
+                                     cmocka_unit_test(feet_follow_the_coordinates),
+                                     cmocka_unit_test(markers_need_no_partner),
+                                     cmocka_unit_test(two_numbers_are_told_apart),
+                                     cmocka_unit_test(any_allocation_may_fail)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -123,9 +123,8 @@ static void any_allocation_may_fail(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(places_and_centres_agree_with_the_mechanics),
-      cmocka_unit_test(fixed_links_belong_to_what_carries_them),
-      cmocka_unit_test(any_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(places_and_centres_agree_with_the_mechanics),
+                                     cmocka_unit_test(fixed_links_belong_to_what_carries_them),
+                                     cmocka_unit_test(any_allocation_may_fail)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

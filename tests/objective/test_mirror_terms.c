@@ -21,8 +21,8 @@ typedef struct fixture {
 
 static void open_fixture(fixture *f, int count, ambulo_term_kind kind) {
   memset(f, 0, sizeof *f);
-  assert_int_equal(
-      ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &f->model), AMBULO_OK);
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &f->model),
+                   AMBULO_OK);
   for (int t = 0; t < count; t++) {
     f->terms[t] = ambulo_term_default(kind);
     for (int i = 0; i < D; i++) f->scale[t][i] = 0.01;
@@ -133,8 +133,8 @@ static void sides_may_stand_in_different_terms(void **state) {
     if (k == 1) f.terms[1].weight = 1.5;
     if (k == 2) f.terms[1].power = 4.0;
     if (k == 3) f.terms[1].smoothing = 0.02;
-    expect(&f, k ? "of 'hip_flexion_r' is 0.01, that of its mirror partner 'hip_flexion_l' 0;"
-                 : NULL);
+    expect(&f,
+           k ? "of 'hip_flexion_r' is 0.01, that of its mirror partner 'hip_flexion_l' 0;" : NULL);
   }
 }
 
@@ -223,11 +223,12 @@ static void curves_of_what_changes_its_sign(void **state) {
     open_with_two(&f, ROTATION, ROTATION);
     set(f.strength[0], ROTATION, 6, k == 1 ? lopsided : strength);
     set(f.passive[0], ROTATION, 4, k == 2 ? even : odd);
-    expect(&f, k == 0 ? NULL
-               : k == 1
-                   ? "the strength for positive torque of 'pelvis_rotation' at -1 rad"
-                   : "the passive torque of 'pelvis_rotation' at -1 rad is 7.52439 N m, that of its "
-                     "mirror partner 'pelvis_rotation' at 1 rad 7.52439 N m; expected the opposite");
+    expect(&f,
+           k == 0 ? NULL
+           : k == 1
+               ? "the strength for positive torque of 'pelvis_rotation' at -1 rad"
+               : "the passive torque of 'pelvis_rotation' at -1 rad is 7.52439 N m, that of its "
+                 "mirror partner 'pelvis_rotation' at 1 rad 7.52439 N m; expected the opposite");
   }
 }
 

@@ -145,9 +145,10 @@ static void test_the_second_half_obeys_the_same_equations(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nodes), cmocka_unit_test(test_mirror),
-                                     cmocka_unit_test(test_contacts_change_sides),
-                                     cmocka_unit_test(test_limits_hold_in_both_halves),
-                                     cmocka_unit_test(test_the_second_half_obeys_the_same_equations)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_nodes), cmocka_unit_test(test_mirror),
+      cmocka_unit_test(test_contacts_change_sides),
+      cmocka_unit_test(test_limits_hold_in_both_halves),
+      cmocka_unit_test(test_the_second_half_obeys_the_same_equations)};
   return cmocka_run_group_tests_name("report/stride", tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Thirteen problems without a solution (tests/infeasible), each with what it has to be told: some are
- * refused before solving, the others are explained afterwards. Where the suggestion changes the
+/* Thirteen problems without a solution (tests/infeasible), each with what it has to be told: some
+ * are refused before solving, the others are explained afterwards. Where the suggestion changes the
  * problem file, following it leads to a motion that satisfies every row. */
 #include "ambulo/ambulo.h"
 #include "solver/explain.h"
@@ -304,11 +304,13 @@ static void a_spent_time_limit_is_kept(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(are_refused_by_name), cmocka_unit_test(are_explained),
+      cmocka_unit_test(are_refused_by_name),
+      cmocka_unit_test(are_explained),
       cmocka_unit_test(the_travel_that_can_be_reached_is_named),
       cmocka_unit_test(a_limit_of_the_mirrored_half_is_named),
       cmocka_unit_test(limits_that_the_motion_rests_on_have_the_models_numbers),
       cmocka_unit_test(good_ends_and_audits_need_no_explanation),
-      cmocka_unit_test(a_missed_solution_is_named), cmocka_unit_test(a_spent_time_limit_is_kept)};
+      cmocka_unit_test(a_missed_solution_is_named),
+      cmocka_unit_test(a_spent_time_limit_is_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
