@@ -103,6 +103,25 @@ static void what_travels_needs_room_for_two_steps(void **state) {
   row_fixture_close(&f);
 }
 
+/* right angles of a model are right to rounding only: what crosses the travel has no share of it */
+static void rounding_is_no_travel(void **state) {
+  (void)state;
+  ambulo_model *model = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &model),
+                   AMBULO_OK);
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  d.model = model;
+  d.ends = AMBULO_ENDS_MIRRORED;
+  d.travel = 0.68;
+  for (int i = 0; i < model->coordinate_count; i++) {
+    ambulo__bounds b = ambulo__bounds_of(&d, i, AMBULO_LIMITED_POSITION);
+    assert_close(b.low.later, 0.0, 0);
+    assert_close(b.high.later, i == 0 ? d.duration : 0.0, 0);
+    assert_int_equal(b.high.owner, i);
+  }
+  ambulo_model_free(model);
+}
+
 static void speed_and_torque_likewise(void **state) {
   (void)state;
   row_fixture f;
@@ -152,6 +171,7 @@ int main(void) {
                                      cmocka_unit_test(equal_limits_are_ones_own),
                                      cmocka_unit_test(a_sign_turns_the_interval),
                                      cmocka_unit_test(what_travels_needs_room_for_two_steps),
+                                     cmocka_unit_test(rounding_is_no_travel),
                                      cmocka_unit_test(speed_and_torque_likewise),
                                      cmocka_unit_test(the_limit_of_a_row_is_the_models),
                                      cmocka_unit_test(words_name_the_owner)};

@@ -242,6 +242,9 @@ static void differences_are_told_with_both_numbers(void **state) {
       {"links[ankle_l].dh=[-91, 0, 0.249282, 0]",
        "the axis of 'ankle_angle_r' along forward at q = 0 is 0 m, that of its mirror partner "
        "'ankle_angle_l' "},
+      {"links[shank_l].dh=[-90, 0, 0.01, 180]",
+       "the centre of mass of 'shank_r' along forward at q = 0 is 0 m, that of its mirror partner "
+       "'shank_l' "},
       {"links[knee_l].dh=[-90, 0, 0.242504, 170]", "the axis of 'knee_angle_r' points to (0, 0, 1) "
                                                    "along forward, up, left at q = 0, that of its "
                                                    "mirror partner 'knee_angle_l' to ("},

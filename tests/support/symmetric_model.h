@@ -4,7 +4,8 @@
  * random links; its partner is built from frames that are reflected, F_l = M F_r S, with S the
  * reflection along one of the frame's own axes, which changes from link to link (a fixed link
  * between them turns by 180 degrees): so left and right are described in frames of either
- * handedness, with either sign. A DH row (theta, d, a, alpha) between two such frames becomes
+ * handedness, with either sign; and an origin may lie elsewhere on its axis. A DH row (theta, d, a,
+ * alpha) between two such frames becomes
  *
  *     S along z   ( theta, -d,  a, -alpha),   hinge +q, slider -q
  *     S along y   (-theta,  d,  a, -alpha),   hinge -q, slider +q
@@ -136,9 +137,16 @@ static inline void symmetric_pair(random_source *source, symmetric_body *b, int 
   r->d = random_length(source);
   if (random_unit(source) < 0.7) random_body(source, r);
   int coordinate = type == AMBULO_FIXED ? -1 : symmetric_coordinate(b, "qr", -1, 1);
+  double along = random_unit(source) < 0.3 ? random_between(source, -0.3, 0.3) : 0;
+  if (along != 0) { /* the joint's frame stands elsewhere on the same axis */
+    symmetric_link(b, "k", *left, AMBULO_FIXED)->d = along;
+    *left = b->definition.link_count - 1;
+    b->across[*left] = across;
+  }
   ambulo_link *l = symmetric_link(b, "l", *left, type);
   *left = b->definition.link_count - 1;
   symmetric_row(across, r, l);
+  l->d -= along;
   b->across[*right] = b->across[*left] = across;
   b->partner[*right] = *left;
   b->partner[*left] = *right;
@@ -195,7 +203,9 @@ static inline void symmetric_make(symmetric_body *b, uint64_t seed, int trunk, i
     for (int k = 0; k < length; k++) symmetric_pair(&source, b, &right, &left);
     if (b->links[right].mass == 0) {
       random_body(&source, &b->links[right]);
+      double kept = b->links[left].d;
       symmetric_row(b->across[left], &b->links[right], &b->links[left]);
+      b->links[left].d = kept;
     }
     if (i == 0) symmetric_feet(&source, b, right, left);
   }
