@@ -124,7 +124,7 @@ static int compare_chain(comparison *c, int i, int m) {
   int other = ambulo__segment_parent(&c->segments, m), expected = image_of(c, parent);
   if (other == expected) return 0;
   if (i == m) {
-    DIFFER(c, c->words->hint,
+    DIFFER(c, "'mirror' of a coordinate names the one on the other side",
            "'%s' is its own mirror image, but hangs on '%s', whose mirror partner is '%s'",
            name_of(c, i + 1), name_of(c, parent), name_of(c, expected));
     return 1;
@@ -260,7 +260,7 @@ static void compare_feet(comparison *c, int i, int m) {
   const ambulo_foot *a = &c->model->feet[i], *b = &c->model->feet[m];
   int segment = segment_of(c, a->heel_center), image = segment_of(c, b->heel_center);
   if (image != image_of(c, segment)) {
-    DIFFER(c, c->words->hint,
+    DIFFER(c, i == m ? "'mirror' of a foot names the one on the other side" : c->words->hint,
            "foot '%s' moves with '%s', its mirror image '%s' with '%s'; expected '%s', the mirror "
            "partner of '%s'",
            a->name, name_of(c, segment), b->name, name_of(c, image),

@@ -330,6 +330,10 @@ static void feet_follow_the_coordinates(void **state) {
   ambulo_model *model = shipped("lower_body_18", NULL);
   model->feet[0].mirror = 0;
   model->feet[1].mirror = 1;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo_model_check_mirror(model, NULL, list), AMBULO_E_MODEL);
+  assert_message(list, 0, "hint: 'mirror' of a foot names the one on the other side");
+  ambulo_diagnostics_free(list);
   assert_int_equal(check(model, message), AMBULO_E_MODEL);
   assert_non_null(strstr(message, "foot 'right' moves with 'subtalar_angle_r', its mirror image "
                                   "'right' with 'subtalar_angle_r'; expected 'subtalar_angle_l'"));
