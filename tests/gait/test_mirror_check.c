@@ -85,8 +85,8 @@ static void a_symmetric_body_is_accepted(void **state) {
 static void limits_with_nothing_in_common_are_refused(void **state) {
   (void)state;
   static const char *const phrases[3] = {
-      "constraints.joint_limits: the range of 'knee_angle_r', 0 to 1 rad, and that of its mirror "
-      "partner 'knee_angle_l', 1.5 to 2 rad, have nothing in common; mirrored ends keep both",
+      ("constraints.joint_limits: the range of 'knee_angle_r', 0 to 1 rad, and that of its mirror "
+       "partner 'knee_angle_l', 1.5 to 2 rad, have nothing in common; mirrored ends keep both"),
       "constraints.speed_limits: the speed limits of 'knee_angle_r', 0 to 1 rad/s, and that",
       "constraints.torque_limits: the torque limits of 'knee_angle_r', 0 to 1 N m, and that"};
   for (int what = 0; what < 3; what++) {
