@@ -46,6 +46,17 @@ typedef struct ambulo_coordinate {
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
 } ambulo_coordinate;
 
+/* What a coordinate has limits of, and an interval that they leave. */
+typedef enum ambulo_limited {
+  AMBULO_LIMITED_POSITION, /* `range` */
+  AMBULO_LIMITED_SPEED,
+  AMBULO_LIMITED_TORQUE
+} ambulo_limited;
+typedef struct ambulo_limits {
+  double low, high;    /* rad, m, per s, N m or N; +-INFINITY without limit */
+  int low_of, high_of; /* coordinates whose limits the two ends are */
+} ambulo_limits;
+
 /* One link as given (after scaling to the subject). */
 typedef struct ambulo_link {
   const char *name;
@@ -160,6 +171,18 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
                                                              const ambulo_allocator *allocator,
                                                              ambulo_diagnostics *diagnostics,
                                                              ambulo_model **adapted);
+
+/* --------------------------------------------------------- left against right */
+
+/* Is the body its own mirror image across the plane through the world's origin that contains up
+ * and forward, coordinate for coordinate as `mirror` and `mirror_sign` have it? Compared are, at
+ * q = 0: which joint hangs on which, axes of joints, mass, centre of mass and inertia of what each
+ * joint carries, and the points of the feet; within 1e-6 of their size (lengths: of the body's;
+ * directions: rad). Points that no foot uses, limits and `actuated` are not. Link frames may be of
+ * either handedness. Each difference is a message with the names of both partners and both
+ * numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_check_mirror(
+    const ambulo_model *model, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics);
 
 /* ------------------------------------------------------------------ queries */
 /* Pointers belong to the model. Out-of-range indices give NULL; names that do

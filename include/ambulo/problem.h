@@ -56,9 +56,10 @@ typedef struct ambulo_contact {
 
 /* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps)
  * strikes at s * step_time; its foot alternates from `first_foot`; its foothold is
- * (start + s * step_length, +-step_width / 2), left positive. Fractions of the
- * stride (two steps) relative to the foot's own strike; heel_strike may be
- * negative: the heel is down before the nominal strike. */
+ * (start + s * step_length, +-step_width / 2), left positive. An odd number of equal steps goes
+ * with mirrored ends, an even number with periodic ones. Fractions of the stride (two steps)
+ * relative to the foot's own strike; heel_strike may be negative: the heel is down before the
+ * nominal strike. */
 typedef struct ambulo_gait {
   int steps;
   int first_foot;                                   /* foot that strikes at t = 0 */
@@ -92,7 +93,10 @@ typedef enum ambulo_limit_mode {
 typedef enum ambulo_ends {
   AMBULO_ENDS_FREE,
   AMBULO_ENDS_PERIODIC, /* state(T) = state(0), moved forward by `travel` */
-  AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel` */
+  AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel`: one step
+                           stands for both. Body, terms, tubes and footholds have to be the same on
+                           both sides, limits hold in both halves (docs/problem-format.md, "ends");
+                           references and user functions are about the one step */
 } ambulo_ends;
 
 /* A prescribed end value: the order-th derivative of a coordinate at t = 0 or T. */
@@ -224,7 +228,8 @@ typedef struct ambulo_problem_definition {
   int speed_limits, torque_limits;
 
   ambulo_ends ends;
-  int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2 */
+  int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2; below 2 forces jump
+                     from one period to the next */
   double travel;  /* m along forward */
   const ambulo_end_value *end_values;
   int end_value_count;
@@ -244,7 +249,8 @@ AMBULO_API ambulo_term ambulo_term_default(ambulo_term_kind kind);
 /* Checks the definition and builds the problem. Contradictions that need no solve
  * are refused by name, time and unit: footholds out of reach, no support at some
  * time, an empty support polygon, overlapping contacts, more equalities than
- * unknowns. Errors: E_ARGUMENT, E_PROBLEM, E_LIMIT, E_MEMORY. */
+ * unknowns, ends that do not match the footholds, mirrored ends of what is not symmetric. Errors:
+ * E_ARGUMENT, E_PROBLEM, E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
     const ambulo_problem_definition *definition, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
@@ -279,6 +285,11 @@ AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
+/* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with
+ * mirrored ends also within what those of its partner leave. E_ARGUMENT: no such coordinate. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_limits(const ambulo_problem *problem,
+                                                                int index, ambulo_limited what,
+                                                                ambulo_limits *limits);
 /* FNV-1a 64 of everything that was resolved (model, schedule, terms, grid). */
 AMBULO_API unsigned long long ambulo_problem_hash(const ambulo_problem *problem);
 
@@ -290,7 +301,8 @@ typedef struct ambulo_row {
   const char *unit;    /* "m", "rad", "N m", ... */
   ambulo_relation relation;
   int node;    /* -1: not tied to one node */
-  double time; /* s */
+  double time; /* s; with mirrored ends beyond the duration where the row holds a limit in the
+                  mirrored half of the stride */
 } ambulo_row;
 /* E_ARGUMENT when out of range. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row(const ambulo_problem *problem,

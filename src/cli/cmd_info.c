@@ -79,6 +79,17 @@ static void print_points(const ambulo_model *model) {
   }
 }
 
+/* its own mirror image, or the first difference */
+static void print_symmetry(const ambulo_model *model) {
+  ambulo_diagnostics *differences = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_model_check_mirror(model, NULL, differences);
+  const ambulo_diagnostic *first = ambulo_diagnostics_get(differences, 0);
+  if (!status) printf("symmetry     the body is its own mirror image, left for right\n");
+  if (status == AMBULO_E_MODEL)
+    printf("symmetry     none, left for right: %s\n", first ? first->message : "it differs");
+  ambulo_diagnostics_free(differences);
+}
+
 static void print_model(const ambulo_model *model) {
   const double *g = ambulo_model_gravity(model), *f = ambulo_model_forward(model);
   printf("model        %s\n", ambulo_model_name(model));
@@ -86,6 +97,7 @@ static void print_model(const ambulo_model *model) {
   if (ambulo_model_stature(model) > 0.0) printf(", %.3f m tall", ambulo_model_stature(model));
   printf("\ngravity      %g %g %g m/s^2\nforward      %g %g %g\n", g[0], g[1], g[2], f[0], f[1],
          f[2]);
+  print_symmetry(model);
   print_links(model);
   print_coordinates(model);
   print_points(model);
@@ -132,6 +144,32 @@ static void print_families(const ambulo_problem *problem) {
   if (kind_count == 0) printf("  none\n");
 }
 
+/* where mirrored ends leave less than the model's limits */
+static void print_limits(const ambulo_problem *problem) {
+  static const char *const words[] = {"range", "speed", "torque"};
+  const ambulo_model *model = ambulo_problem_model(problem);
+  int printed = 0;
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
+    const double *given[] = {c->range, c->speed, c->torque};
+    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
+      ambulo_limits l;
+      if (ambulo_problem_limits(problem, i, (ambulo_limited)what, &l)) continue;
+      int lower = l.low > given[what][0], upper = l.high < given[what][1];
+      if (!lower && !upper) continue;
+      if (!printed++)
+        printf("\nlimits, narrower than the model's because of the mirrored half of the stride\n");
+      double interval[2] = {l.low, l.high};
+      int angle = c->type == AMBULO_REVOLUTE && what != AMBULO_LIMITED_TORQUE;
+      printf("  %-22s %-6s", c->name, words[what]);
+      print_range(interval, angle ? degrees : 1.0);
+      if (lower) printf("  lower end by %s", ambulo_model_coordinate(model, l.low_of)->name);
+      if (upper) printf("  upper end by %s", ambulo_model_coordinate(model, l.high_of)->name);
+      printf("\n");
+    }
+  }
+}
+
 static void print_problem(const ambulo_problem *problem) {
   static const char *const ends[] = {"free", "periodic", "mirrored"};
   int equalities = ambulo_problem_equality_count(problem);
@@ -153,6 +191,7 @@ static void print_problem(const ambulo_problem *problem) {
     printf("  %s\n", ambulo_problem_term_name(problem, i));
   if (ambulo_problem_term_count(problem) == 0) printf("  none: a feasible motion\n");
   print_families(problem);
+  print_limits(problem);
   print_schedule(problem);
   printf("\n");
   print_model(ambulo_problem_model(problem));

@@ -33,9 +33,9 @@ void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__
   side(frame, node, name, form, -1.0, high, table);
 }
 
-int ambulo__distinct_nodes(const ambulo__gait_frame *frame) {
+int ambulo__distinct_nodes(const ambulo__gait_frame *frame, int order) {
   const ambulo_problem_definition *d = frame->definition;
-  int repeats = d->ends != AMBULO_ENDS_FREE &&
+  int repeats = d->ends != AMBULO_ENDS_FREE && d->ends_order >= order &&
                 (d->ground_reaction.kind != AMBULO_REACTION_NONE || d->contact_tolerance > 0.0);
   return repeats ? frame->nodes - 1 : frame->nodes;
 }

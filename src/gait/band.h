@@ -29,8 +29,12 @@ void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__
                        const ambulo__linear *form, double low, double high,
                        ambulo__row_table *table);
 
-/* Number of nodes that have rows of contact and force: with ground reaction or tolerances and
- * ends that match, the last node is the first one again and has none. */
-int ambulo__distinct_nodes(const ambulo__gait_frame *frame);
+/* Derivatives of q that rows look at: places none, forces and the zero-moment point two. */
+enum { AMBULO__OF_PLACES = 0, AMBULO__OF_FORCES = 2 };
+
+/* Number of nodes that have rows of contact (`order` AMBULO__OF_PLACES) or force
+ * (AMBULO__OF_FORCES): with ground reaction or tolerances and ends that match up to that
+ * derivative, the last node is the first one again and has none. */
+int ambulo__distinct_nodes(const ambulo__gait_frame *frame, int order);
 
 #endif

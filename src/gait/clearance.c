@@ -92,7 +92,7 @@ static void swing_rows(const swing *w) {
 
 void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
-  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
       if (frame->active[node * feet + foot] >= 0) continue;
       double time = frame->times[node];

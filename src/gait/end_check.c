@@ -11,9 +11,9 @@
  *             on the ground where the schedule has it down, not below it elsewhere
  */
 #include "ambulo/mechanics.h"
+#include "gait/bounds.h"
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
-#include "gait/neutral_pose.h"
 
 #include <math.h>
 #include <string.h>
@@ -48,15 +48,18 @@ static ambulo_status check_range(const ambulo_problem_definition *d, const ambul
   int asked = end->order == 0   ? d->joint_limits != AMBULO_LIMIT_OFF
               : end->order == 1 ? d->speed_limits
                                 : 0;
-  const double *range = end->order == 0 ? c->range : c->speed;
-  if (!asked || (end->value >= range[0] - tolerance && end->value <= range[1] + tolerance))
-    return AMBULO_OK;
+  ambulo__bounds b = ambulo__bounds_of(
+      d, end->coordinate, end->order == 0 ? AMBULO_LIMITED_POSITION : AMBULO_LIMITED_SPEED);
+  double low = b.low.value, high = b.high.value;
+  if (!asked || (end->value >= low - tolerance && end->value <= high + tolerance)) return AMBULO_OK;
+  char whose[AMBULO__WHOSE_SIZE];
+  ambulo__bounds_whose(d->model, &b, whose);
   return REFUSE(list,
                 end->order ? "change the end value, or set speed_limits: false"
                            : "change the end value, the range in the model, or joint_limits",
-                "the %s %s of %s is %.6g %s; expected %.6g to %.6g %s, its limits",
+                "the %s %s of %s is %.6g %s; expected %.6g to %.6g %s, its limits%s",
                 end_words[end->final != 0], order_words[end->order], c->name, end->value,
-                unit_of(c, end->order), range[0], range[1], unit_of(c, end->order));
+                unit_of(c, end->order), low, high, unit_of(c, end->order), whose);
 }
 
 static ambulo_status check_twice(const ambulo_problem_definition *d, int e,
@@ -74,21 +77,13 @@ static ambulo_status check_twice(const ambulo_problem_definition *d, int e,
 
 /* ------------------------------------------------------------------ both ends */
 
-static double shift_of(const ambulo_problem_definition *d, int i) {
-  if (d->ends == AMBULO_ENDS_FREE || !ambulo__is_root_translation(d->model, i)) return 0.0;
-  double axis[3], along = 0.0;
-  ambulo__neutral_axis(d->model, i, axis);
-  for (int k = 0; k < 3; k++) along += axis[k] * d->model->forward[k];
-  return d->travel * along;
-}
-
 static ambulo_status check_matching(const ambulo_problem_definition *d, int i, int order,
                                     ambulo_diagnostics *list) {
   const ambulo_coordinate *from = &d->model->coordinates[i];
   int mirrored = d->ends == AMBULO_ENDS_MIRRORED, to = mirrored ? from->mirror : i;
   double first = 0.0, last = 0.0, sign = mirrored ? from->mirror_sign : 1.0;
   if (!value_at(d, i, order, 0, &first) || !value_at(d, to, order, 1, &last)) return AMBULO_OK;
-  double shift = order == 0 ? shift_of(d, to) : 0.0, expected = sign * first + shift;
+  double shift = order == 0 ? ambulo__end_shift(d, to) : 0.0, expected = sign * first + shift;
   if (fabs(last - expected) <= tolerance) return AMBULO_OK;
   const char *unit = unit_of(from, order);
   return REFUSE(
@@ -104,7 +99,7 @@ static ambulo_status check_matching(const ambulo_problem_definition *d, int i, i
 static double change_of(const ambulo_problem_definition *d, int i) {
   double first = 0.0, last = 0.0;
   if (value_at(d, i, 0, 0, &first) && value_at(d, i, 0, 1, &last)) return last - first;
-  return shift_of(d, i);
+  return ambulo__end_shift(d, i);
 }
 
 static ambulo_status check_change(const ambulo_problem_definition *d, int i,
@@ -112,20 +107,27 @@ static ambulo_status check_change(const ambulo_problem_definition *d, int i,
   const ambulo_coordinate *c = &d->model->coordinates[i];
   double change = change_of(d, i), speed = change / d->duration;
   const char *unit = unit_of(c, 0);
+  char whose[AMBULO__WHOSE_SIZE];
   ambulo_status status = AMBULO_OK;
-  if (d->joint_limits != AMBULO_LIMIT_OFF && fabs(change) > c->range[1] - c->range[0] + tolerance)
+  ambulo__bounds range = ambulo__bounds_of(d, i, AMBULO_LIMITED_POSITION);
+  ambulo__bounds speeds = ambulo__bounds_of(d, i, AMBULO_LIMITED_SPEED);
+  double low = range.low.value, high = range.high.value;
+  if (d->joint_limits != AMBULO_LIMIT_OFF && fabs(change) > fmax(0.0, high - low) + tolerance) {
+    ambulo__bounds_whose(d->model, &range, whose);
     status = REFUSE(list, "widen the range in the model, or shorten the travel",
-                    "%s has to move by %.6g %s from beginning to end; its range, %.6g to %.6g %s, "
-                    "is only %.6g %s wide",
-                    c->name, change, unit, c->range[0], c->range[1], unit,
-                    c->range[1] - c->range[0], unit);
-  if (d->speed_limits && (speed > c->speed[1] + tolerance || speed < c->speed[0] - tolerance)) {
-    double limit = speed > 0.0 ? c->speed[1] : c->speed[0];
+                    "%s has to move by %.6g %s from beginning to end; its range, %.6g to %.6g "
+                    "%s%s, is only %.6g %s wide",
+                    c->name, change, unit, low, high, unit, whose, fmax(0.0, high - low), unit);
+  }
+  if (d->speed_limits &&
+      (speed > speeds.high.value + tolerance || speed < speeds.low.value - tolerance)) {
+    ambulo__bounds_whose(d->model, &speeds, whose);
     status =
         REFUSE(list, "allow a higher speed, more time, or less travel",
                "%s has to move by %.6g %s in %.6g s, at %.6g %s on average; its speed limit is "
-               "%.6g %s",
-               c->name, change, unit, d->duration, speed, unit_of(c, 1), limit, unit_of(c, 1));
+               "%.6g %s%s",
+               c->name, change, unit, d->duration, speed, unit_of(c, 1),
+               speed > 0.0 ? speeds.high.value : speeds.low.value, unit_of(c, 1), whose);
   }
   return status;
 }

@@ -43,13 +43,13 @@ static double order_scale(const ambulo__gait_frame *frame, int order) {
   return largest > 0.0 ? 1.0 / largest : 1.0;
 }
 
-/* how far one period carries coordinate i, m */
-static double shift_of(const ambulo__gait_frame *frame, int i) {
-  if (!ambulo__is_root_translation(frame->model, i)) return 0.0;
+double ambulo__end_shift(const ambulo_problem_definition *definition, int i) {
+  const ambulo_model *model = definition->model;
+  if (definition->ends == AMBULO_ENDS_FREE || !ambulo__is_root_translation(model, i)) return 0.0;
   double axis[3], along = 0.0;
-  ambulo__neutral_axis(frame->model, i, axis);
-  for (int k = 0; k < 3; k++) along += axis[k] * frame->model->forward[k];
-  return frame->definition->travel * along;
+  ambulo__neutral_axis(model, i, axis);
+  for (int k = 0; k < 3; k++) along += axis[k] * model->forward[k];
+  return definition->travel * along;
 }
 
 static void matching_row(const ambulo__gait_frame *frame, int i, int order, int mirrored,
@@ -58,7 +58,7 @@ static void matching_row(const ambulo__gait_frame *frame, int i, int order, int 
   int target = mirrored ? from->mirror : i;
   double sign = mirrored ? from->mirror_sign : 1.0;
   double scale = order_scale(frame, order);
-  double shift = order == 0 ? shift_of(frame, target) : 0.0;
+  double shift = order == 0 ? ambulo__end_shift(frame->definition, target) : 0.0;
   const ambulo_coordinate *to = &frame->model->coordinates[target];
   int last = frame->nodes - 1;
   ambulo__row_begin(table, mirrored ? "mirrored" : "periodic", to->name, order_words[order],

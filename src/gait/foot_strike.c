@@ -39,7 +39,7 @@ void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
       int contact = frame->active[node * feet + foot];
       if (contact < 0) continue;

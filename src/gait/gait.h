@@ -48,6 +48,19 @@ ambulo_status ambulo__ends_check(const ambulo_problem_definition *definition, in
                                  const int *active, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics);
 
+/* Footholds at the end of a repeating motion against those at its beginning. E_PROBLEM. */
+ambulo_status ambulo__schedule_check_ends(const ambulo_problem_definition *definition,
+                                          ambulo_diagnostics *diagnostics);
+
+/* With mirrored ends: the body is its own mirror image, the limits of partners have something in
+ * common, tubes are as wide on both sides. E_PROBLEM, each difference with both names and numbers;
+ * E_MEMORY. */
+ambulo_status ambulo__mirror_check(const ambulo_problem_definition *definition,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics);
+/* The hint of what one step cannot predict. */
+#define AMBULO__BOTH_SIDES "ends: {kind: periodic} predicts both sides; a gait then takes two steps"
+
 /* With ground reaction and torque limits: a warning for each joint that could not carry the
  * body standing still. E_MEMORY. */
 ambulo_status ambulo__strength_check(const ambulo_problem_definition *definition,
@@ -82,6 +95,9 @@ ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                                   ambulo_diagnostics *diagnostics);
 /* "tracking_tube": distance from reference motions. */
 void ambulo__tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+/* How far the ends carry coordinate i from t = 0 to T, m: the travel along its axis, for a
+ * translation of the root. */
+double ambulo__end_shift(const ambulo_problem_definition *definition, int i);
 /* "initial_state", "final_state", "periodic", "mirrored". */
 void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
 

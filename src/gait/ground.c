@@ -36,7 +36,7 @@ void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *tab
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
       foot_rows(frame, node, frame->active[node * feet + foot], &outlines[foot], table);
     }

@@ -7,33 +7,44 @@
  * lies in the convex hull of its control points, so such rows hold at all times. A
  * coordinate that is fixed has them there in any case: more nodes than control points
  * would repeat its equations, those less well conditioned the further they are apart.
+ *
+ * lo and hi are those of gait/bounds.h. Where a limit of the mirror partner is the narrower one,
+ * the row carries its name and the time T later at which it comes to it.
  */
+#include "gait/bounds.h"
 #include "gait/gait.h"
 
 #include <math.h>
 
 typedef struct limit {
-  const char *family, *subject, *unit;
-  double low, high;
+  const char *family, *unit;
+  ambulo__bounds bounds;
+  int coordinate;
   int node; /* -1: on an unknown */
   double time;
   int channel; /* or index of the unknown */
 } limit;
 
-static void limit_row(const limit *l, const char *detail, ambulo_relation relation, double sign,
-                      double bound, ambulo__row_table *table) {
-  ambulo__row_begin(table, l->family, l->subject, detail, l->unit, relation, l->node, l->time,
-                    -sign * bound);
+static void limit_row(const ambulo__gait_frame *frame, const limit *l, const ambulo__bound *bound,
+                      const char *detail, ambulo_relation relation, double sign,
+                      ambulo__row_table *table) {
+  ambulo__row_begin(table, l->family, frame->model->coordinates[bound->owner].name, detail, l->unit,
+                    relation, l->node, l->time + bound->later, -sign * bound->value);
   ambulo__row_term_add(table, l->node, l->channel, sign);
 }
 
-static void add_limit(const limit *l, ambulo__row_table *table) {
-  if (l->low == l->high) {
-    limit_row(l, "fixed", AMBULO_EQUAL, 1.0, l->low, table);
+static void add_limit(const ambulo__gait_frame *frame, const limit *l, ambulo__row_table *table) {
+  static const char *const details[] = {"lower", "upper"};
+  const ambulo__bound *low = &l->bounds.low, *high = &l->bounds.high;
+  if (low->value == high->value) {
+    const ambulo__bound *bound = high->owner == l->coordinate ? high : low;
+    limit_row(frame, l, bound, "fixed", AMBULO_EQUAL, 1.0, table);
     return;
   }
-  if (isfinite(l->low)) limit_row(l, "lower", AMBULO_NOT_NEGATIVE, 1.0, l->low, table);
-  if (isfinite(l->high)) limit_row(l, "upper", AMBULO_NOT_NEGATIVE, -1.0, l->high, table);
+  if (isfinite(low->value))
+    limit_row(frame, l, low, details[low->is_upper], AMBULO_NOT_NEGATIVE, 1.0, table);
+  if (isfinite(high->value))
+    limit_row(frame, l, high, details[high->is_upper], AMBULO_NOT_NEGATIVE, -1.0, table);
 }
 
 static int revolute(const ambulo_coordinate *coordinate) {
@@ -41,38 +52,30 @@ static int revolute(const ambulo_coordinate *coordinate) {
 }
 
 static int fixed_by_points(const ambulo__gait_frame *frame, int i) {
-  const double *range = frame->model->coordinates[i].range;
-  return range[0] == range[1] && ambulo__basis_get_kind(frame->basis) == AMBULO__BSPLINE;
+  ambulo__bounds b = ambulo__bounds_of(frame->definition, i, AMBULO_LIMITED_POSITION);
+  return b.low.value == b.high.value && ambulo__basis_get_kind(frame->basis) == AMBULO__BSPLINE;
 }
 
 static void node_limits(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
+  static const char *const families[] = {"joint_limit", "speed_limit", "torque_limit"};
+  static const char *const units[3][2] = {{"m", "rad"}, {"m/s", "rad/s"}, {"N", "N m"}};
   const ambulo_problem_definition *definition = frame->definition;
+  const ambulo__channels *channels = &frame->channels;
   for (int i = 0; i < frame->model->coordinate_count; i++) {
-    const ambulo_coordinate *c = &frame->model->coordinates[i];
-    limit l = {.subject = c->name, .node = node, .time = frame->times[node]};
-    if (definition->joint_limits == AMBULO_LIMIT_NODES && !fixed_by_points(frame, i)) {
-      l.family = "joint_limit";
-      l.unit = revolute(c) ? "rad" : "m";
-      l.low = c->range[0];
-      l.high = c->range[1];
-      l.channel = ambulo__channel_q(&frame->channels, i);
-      add_limit(&l, table);
-    }
-    if (definition->speed_limits) {
-      l.family = "speed_limit";
-      l.unit = revolute(c) ? "rad/s" : "m/s";
-      l.low = c->speed[0];
-      l.high = c->speed[1];
-      l.channel = ambulo__channel_qd(&frame->channels, i);
-      add_limit(&l, table);
-    }
-    if (definition->torque_limits) {
-      l.family = "torque_limit";
-      l.unit = revolute(c) ? "N m" : "N";
-      l.low = c->torque[0];
-      l.high = c->torque[1];
-      l.channel = ambulo__channel_tau(&frame->channels, i);
-      add_limit(&l, table);
+    int asked[3] = {definition->joint_limits == AMBULO_LIMIT_NODES && !fixed_by_points(frame, i),
+                    definition->speed_limits, definition->torque_limits};
+    int channel[3] = {ambulo__channel_q(channels, i), ambulo__channel_qd(channels, i),
+                      ambulo__channel_tau(channels, i)};
+    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
+      if (!asked[what]) continue;
+      limit l = {families[what],
+                 units[what][revolute(&frame->model->coordinates[i])],
+                 ambulo__bounds_of(definition, i, (ambulo_limited)what),
+                 i,
+                 node,
+                 frame->times[node],
+                 channel[what]};
+      add_limit(frame, &l, table);
     }
   }
 }
@@ -87,16 +90,14 @@ static void control_point_limits(const ambulo__gait_frame *frame, int fixed_only
     if (!is_value) continue;
     for (int i = 0; i < coordinates; i++) {
       if (fixed_only && !fixed_by_points(frame, i)) continue;
-      const ambulo_coordinate *c = &frame->model->coordinates[i];
-      limit l = {.family = "joint_limit",
-                 .subject = c->name,
-                 .unit = revolute(c) ? "rad" : "m",
-                 .low = c->range[0],
-                 .high = c->range[1],
-                 .node = -1,
-                 .time = time,
-                 .channel = p * coordinates + i};
-      add_limit(&l, table);
+      limit l = {"joint_limit",
+                 revolute(&frame->model->coordinates[i]) ? "rad" : "m",
+                 ambulo__bounds_of(frame->definition, i, AMBULO_LIMITED_POSITION),
+                 i,
+                 -1,
+                 time,
+                 p * coordinates + i};
+      add_limit(frame, &l, table);
     }
   }
 }

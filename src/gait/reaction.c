@@ -139,7 +139,7 @@ void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *t
   node_frame n = {.frame = frame, .outlines = outlines, .table = table};
   n.planar = !ambulo__model_moves_sideways(model);
   n.weight = model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-  for (n.node = 0; n.node < ambulo__distinct_nodes(frame); n.node++) {
+  for (n.node = 0; n.node < ambulo__distinct_nodes(frame, AMBULO__OF_FORCES); n.node++) {
     n.load = ambulo__load_at(frame->definition, outlines, frame->times[n.node]);
     node_rows(&n);
   }

@@ -7,7 +7,9 @@
  *
  * by central differences, exact enough for a comparison. The centre of mass follows from the
  * root wrench: F = m g n, M = r x F. A torque beyond its limits is a warning, not an error: a
- * motion need not pass through this pose.
+ * motion need not pass through this pose. Each joint is held against the model's own limits, also
+ * with mirrored ends (gait/bounds.h): this pose is symmetric, so its partner is held against its
+ * own as well.
  */
 #include "ambulo/mechanics.h"
 #include "gait/gait.h"

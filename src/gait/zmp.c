@@ -119,7 +119,7 @@ ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_tabl
                                ambulo_diagnostics *diagnostics) {
   int planar = !ambulo__model_moves_sideways(frame->model);
   ambulo__support_region region = {.count = 0};
-  for (int node = 0; node < ambulo__distinct_nodes(frame); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_FORCES); node++) {
     if (frame->definition->support != AMBULO_SUPPORT_OFF) {
       if (!same_contacts(frame, node)) {
         ambulo_status status = region_at(frame, node, planar, &region, diagnostics);

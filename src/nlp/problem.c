@@ -6,6 +6,7 @@
  */
 #include "nlp/problem.h"
 #include "nlp/memory.h"
+#include "objective/mirror_terms.h"
 
 #include <math.h>
 #include <string.h>
@@ -132,6 +133,8 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
   ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
   if (!status) status = ends;
+  ends = ambulo__schedule_check_ends(d, diagnostics);
+  if (!status) status = ends;
   return status ? status : ambulo__strength_check(d, &p->allocator, diagnostics);
 }
 
@@ -147,6 +150,13 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
   return ambulo__plan_create_grounded(p->model, d->ground_height, &p->allocator, &p->plan);
 }
 
+static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  ambulo_status status = ambulo__mirror_check(&p->definition, &p->allocator, diagnostics);
+  if (status == AMBULO_E_MEMORY) return status;
+  ambulo_status terms = ambulo__mirror_terms_check(&p->definition, &p->allocator, diagnostics);
+  return terms ? terms : status;
+}
+
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->model = p->definition.model;
   p->coordinates = ambulo_model_coordinate_count(p->model);
@@ -155,7 +165,10 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   ambulo_status status = build_grid(p);
   if (!status) status = build_plan(p, diagnostics);
   if (!status) status = ambulo__check_memory(p, diagnostics);
+  ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
+  if (symmetry == AMBULO_E_MEMORY) return symmetry;
   if (!status) status = build_schedule(p, diagnostics);
+  if (!status) status = symmetry;
   if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;

@@ -23,6 +23,8 @@ typedef struct ambulo__problem_reader {
   ambulo_model *model;            /* NULL if it could not be loaded */
   const ambulo__yaml_node *gait;  /* the section, or NULL */
   int has_duration;               /* time.duration is in the file */
+  int steps;                      /* of `gait`, 0 without */
+  int unlike_steps;               /* two step lengths or times that differ */
   ambulo__model_setting *setting; /* [settings] overrides of the model file's keys */
   int settings;
   ambulo_problem_definition definition;
@@ -57,6 +59,7 @@ void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node
 /* An angle that belongs to no coordinate, in the file's unit. */
 double ambulo__read_plain_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                                 double fallback);
+/* After the schedule. */
 void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);

@@ -2,6 +2,8 @@
 #include "nlp/fault.h"
 #include "nlp/problem.h"
 
+#include "gait/bounds.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -51,6 +53,16 @@ const char *ambulo_problem_term_name(const ambulo_problem *p, int index) {
   if (index < 0 || index >= p->definition.term_count) return NULL;
   const ambulo_term *term = &p->definition.terms[index];
   return term->name ? term->name : ambulo__term_info_of(term->kind)->name;
+}
+
+ambulo_status ambulo_problem_limits(const ambulo_problem *p, int index, ambulo_limited what,
+                                    ambulo_limits *limits) {
+  int known = (int)what >= AMBULO_LIMITED_POSITION && (int)what <= AMBULO_LIMITED_TORQUE;
+  if (!p || !limits || !known || index < 0 || index >= p->coordinates) return AMBULO_E_ARGUMENT;
+  ambulo__bounds b = ambulo__bounds_of(&p->definition, index, what);
+  ambulo_limits view = {b.low.value, b.high.value, b.low.owner, b.high.owner};
+  *limits = view;
+  return AMBULO_OK;
 }
 
 ambulo_status ambulo_problem_row(const ambulo_problem *p, int index, ambulo_row *row) {

@@ -86,12 +86,34 @@ static void read_values(ambulo__problem_reader *reader, const ambulo__yaml_node 
   ambulo__yaml_close(mapping);
 }
 
+/* Feet alternate: after an odd number of steps the other one leads, and the motion can only go on
+ * as its mirror image; after an even number as itself. */
+static void check_steps(const ambulo__problem_reader *reader, const ambulo__yaml_node *kind) {
+  ambulo_ends ends = reader->definition.ends;
+  int odd = reader->steps % 2;
+  if (reader->steps == 0 || ends == AMBULO_ENDS_FREE) return;
+  if (odd != (ends == AMBULO_ENDS_MIRRORED))
+    (void)ambulo__yaml_error(kind, AMBULO_E_PROBLEM,
+                             odd ? "ends: {kind: mirrored}, or an even number of steps"
+                                 : "ends: {kind: periodic}, or an odd number of steps",
+                             "%s ends with %d step%s; expected an %s number, after which %s",
+                             odd ? "periodic" : "mirrored", reader->steps,
+                             reader->steps == 1 ? "" : "s", odd ? "even" : "odd",
+                             odd ? "the same foot strikes again" : "the other foot strikes");
+  else if (odd && reader->unlike_steps)
+    (void)ambulo__yaml_error(kind, AMBULO_E_PROBLEM,
+                             "ends: {kind: periodic} with an even number of steps",
+                             "mirrored ends make each step the mirror image of the one before, but "
+                             "the gait has steps of two lengths or times; expected equal steps");
+}
+
 void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const kinds[] = {"free", "periodic", "mirrored"};
   ambulo_problem_definition *d = &reader->definition;
   if (!section) return;
   int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 0);
   d->ends = (ambulo_ends)kind;
+  check_steps(reader, ambulo__yaml_get(section, "kind"));
   d->ends_order = ambulo__yaml_integer(ambulo__yaml_get(section, "order"), 0, 2, 1);
   d->travel = ambulo__yaml_number_in(ambulo__yaml_get(section, "travel"), -1e6, 1e6, d->travel);
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);

@@ -206,6 +206,11 @@ static void read_step_lengths(const ambulo__problem_reader *reader,
   }
 }
 
+/* the other one is 0 where it was not given */
+static int differs(double value, double other) {
+  return other != 0.0 && fabs(value - other) > 1e-9 * fabs(value);
+}
+
 static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   ambulo_gait gait = {.steps = 1};
   gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
@@ -220,6 +225,9 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   ambulo__yaml_close(section);
   if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
   reader->definition.travel = ambulo__gait_place(&gait, gait.steps);
+  reader->steps = gait.steps;
+  reader->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
+                         differs(gait.step_length, gait.other_step_length);
   expand(reader, section, &gait);
 }
 

@@ -1,10 +1,7 @@
 /* report/stride.c - sampling a motion, and adding the mirrored second step (stride.h). */
 #include "report/stride.h"
 
-#include <math.h>
 #include <string.h>
-
-#include "gait/neutral_pose.h"
 
 /* times at which the problem itself is sampled, and which of them stand for the mirrored step */
 typedef struct sampling {
@@ -49,21 +46,10 @@ static void mirror_point(const ambulo_model *model, double travel, double *point
   for (int i = 0; i < 3; i++) point[i] += travel * model->forward[i] - 2.0 * aside * model->left[i];
 }
 
-static void fill_shift(const ambulo__stride *s, double *shift) {
-  double travel = s->problem->definition.travel;
-  for (int i = 0; i < s->coordinates; i++) {
-    double axis[3];
-    shift[i] = 0.0;
-    if (!ambulo__is_root_translation(s->model, i)) continue;
-    ambulo__neutral_axis(s->model, i, axis);
-    for (int k = 0; k < 3; k++) shift[i] += travel * axis[k] * s->model->forward[k];
-  }
-}
-
 /* scratch: [2][coordinates] */
 static void mirror_second_step(ambulo__stride *s, const sampling *sample, double *scratch) {
   double *shift = scratch + s->coordinates;
-  fill_shift(s, shift);
+  for (int i = 0; i < s->coordinates; i++) shift[i] = ambulo__end_shift(&s->problem->definition, i);
   for (int k = 0; k < s->samples; k++) {
     if (!sample->mirrored[k]) continue;
     size_t at = (size_t)k * (size_t)s->coordinates;

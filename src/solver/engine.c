@@ -3,6 +3,8 @@
 #include "base/worst.h"
 #include "nlp/user_term.h"
 
+#include "gait/bounds.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -10,9 +12,11 @@ static const double adjoint_tolerance = 1e-4, retraction_tolerance = 1e-8;
 static const double usual_cap = 1.0; /* rad, m: unit of ambulo__engine_step_limit */
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
-static double cap_of(const ambulo_coordinate *c) {
+static double cap_of(const ambulo_problem *problem, int i) {
+  const ambulo_coordinate *c = &problem->model->coordinates[i];
+  ambulo__bounds bounds = ambulo__bounds_of(&problem->definition, i, AMBULO_LIMITED_POSITION);
   if (c->type == AMBULO_REVOLUTE) return usual_cap;
-  double width = c->range[1] - c->range[0];
+  double width = bounds.high.value - bounds.low.value;
   return isfinite(width) ? fmax(usual_cap, 2.0 * width) : HUGE_VAL;
 }
 
@@ -116,7 +120,7 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   status = create_trial(e, &e->held);
   if (!status) status = create_trial(e, &e->best);
   if (status) return status;
-  for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(&p->model->coordinates[i]);
+  for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(p, i);
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
   if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
   e->adjoint_tolerance = adjoint_tolerance;

@@ -6,6 +6,8 @@
  * busy machine; but never past the time limit of the solve.
  */
 #include "solver/explain.h"
+
+#include "gait/bounds.h"
 #include "solver/audit.h"
 
 #include <math.h>
@@ -35,7 +37,8 @@ static int is_limit(const char *family) {
 }
 
 /* entry of the row's limit, made if need be; NULL when there is no room */
-static ambulo_on_limit *entry_of(const ambulo__table_row *row, ambulo__explanation *out) {
+static ambulo_on_limit *entry_of(const ambulo_model *model, const ambulo__table_row *row,
+                                 ambulo__explanation *out) {
   for (int i = 0; i < out->view.on_limit_count; i++) {
     ambulo_on_limit *l = &out->on_limit[i];
     if (!strcmp(l->family, row->family) && !strcmp(l->subject, row->subject) &&
@@ -48,7 +51,7 @@ static ambulo_on_limit *entry_of(const ambulo__table_row *row, ambulo__explanati
   l->subject = row->subject;
   l->detail = row->detail;
   l->unit = row->unit;
-  l->bound = strcmp(row->detail, "upper") ? -row->constant : row->constant;
+  l->bound = ambulo__limit_given(model, row);
   l->from = l->to = row->time;
   l->nodes = 0;
   return l;
@@ -61,7 +64,7 @@ static void list_on_limits(const ambulo__elastic *e, ambulo__explanation *out) {
     const ambulo__table_row *row = &p->table.rows[r];
     if (row->relation != AMBULO_NOT_NEGATIVE || !is_limit(row->family)) continue;
     if (!(e->workspace->row_value[r] <= on_limit_gap * e->size[r])) continue;
-    ambulo_on_limit *l = entry_of(row, out);
+    ambulo_on_limit *l = entry_of(p->model, row, out);
     if (!l) continue;
     l->from = fmin(l->from, row->time);
     l->to = fmax(l->to, row->time);

@@ -13,6 +13,8 @@
  */
 #include "solver/explain.h"
 
+#include "gait/bounds.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -48,7 +50,7 @@ static const char *in_degrees(const wording *w, double angle, char buffer[32]) {
 static void limit(const wording *w, const char *what) {
   char a[32], b[32];
   int upper = !strcmp(w->row->detail, "upper");
-  double bound = upper ? w->row->constant : -w->row->constant;
+  double bound = ambulo__limit_given(w->problem->model, w->row);
   double enough = upper ? bound + w->give : bound - w->give;
   (void)snprintf(
       w->text, AMBULO__LINE_SIZE, "%s the %s %s of %s by %.4g %s: from %.4g%s to %.4g %s%s",

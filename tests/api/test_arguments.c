@@ -130,6 +130,13 @@ static void points_and_outputs_are_needed(void **state) {
   REFUSED(ambulo_problem_row(p, ambulo_problem_row_count(p), &row));
   REFUSED(ambulo_problem_row(p, 0, NULL));
   assert_int_equal(row.node, 77);
+  ambulo_limits limits = {.low_of = 77};
+  REFUSED(ambulo_problem_limits(NULL, 0, AMBULO_LIMITED_POSITION, &limits));
+  REFUSED(ambulo_problem_limits(p, -1, AMBULO_LIMITED_POSITION, &limits));
+  REFUSED(ambulo_problem_limits(p, 1 << 20, AMBULO_LIMITED_POSITION, &limits));
+  REFUSED(ambulo_problem_limits(p, 0, (ambulo_limited)3, &limits));
+  REFUSED(ambulo_problem_limits(p, 0, AMBULO_LIMITED_POSITION, NULL));
+  assert_int_equal(limits.low_of, 77);
   assert_untouched(o);
   assert_int_equal(ambulo_problem_evaluate(p, w, x, NULL, NULL, NULL), AMBULO_OK);
 }

@@ -1,4 +1,5 @@
 /* Each contradiction of end values is refused by name, and sound ones are not. */
+#include "model/model.h"
 #include "support/messages.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
@@ -80,6 +81,44 @@ static void periodic_rates_follow(void **state) {
   }
 }
 
+/* a value within its own range may be beyond what the other half of the stride allows its partner
+ */
+static void mirrored_values_keep_the_partners_limits(void **state) {
+  (void)state;
+  const ambulo_end_value value = {4, 0, 0, 0.6};
+  for (int mirrored = 0; mirrored < 2; mirrored++) {
+    fixture f;
+    open_fixture(&f);
+    f.model->coordinates[7].range[1] = 0.5;
+    f.definition.joint_limits = AMBULO_LIMIT_NODES;
+    f.definition.ends = mirrored ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+    f.definition.end_values = &value;
+    f.definition.end_value_count = 1;
+    expect(&f, mirrored ? "the initial value of knee_angle_r is 0.6 rad; expected -inf to 0.5 rad, "
+                          "its limits (the upper end by the upper limit of knee_angle_l, 0.5, in "
+                          "the mirrored half)"
+                        : NULL);
+  }
+}
+
+/* two steps of 0.6 m need a range of 1.2 m */
+static void a_mirrored_stride_needs_room_for_both_steps(void **state) {
+  (void)state;
+  for (int wide = 0; wide < 2; wide++) {
+    fixture f;
+    open_fixture(&f);
+    f.model->coordinates[0].range[0] = 0.0;
+    f.model->coordinates[0].range[1] = wide ? 1.2 : 1.1;
+    f.definition.joint_limits = AMBULO_LIMIT_NODES;
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.travel = 0.6;
+    expect(&f, wide ? NULL
+                    : "pelvis_tx has to move by 0.6 m from beginning to end; its range, 0 to 0.5 m "
+                      "(the upper end by the upper limit of pelvis_tx, 1.1, in the mirrored half), "
+                      "is only 0.5 m wide");
+  }
+}
+
 /* q = 0 in all coordinates puts the pelvis on the ground: corners far below */
 static void a_prescribed_state_respects_the_ground(void **state) {
   (void)state;
@@ -121,6 +160,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(one_value_an_end),
                                      cmocka_unit_test(mirrored_values_follow),
                                      cmocka_unit_test(periodic_rates_follow),
+                                     cmocka_unit_test(mirrored_values_keep_the_partners_limits),
+                                     cmocka_unit_test(a_mirrored_stride_needs_room_for_both_steps),
                                      cmocka_unit_test(a_prescribed_state_respects_the_ground),
                                      cmocka_unit_test(an_open_chain_is_left_to_the_solver)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -109,11 +109,74 @@ static void rates_are_not_bounded(void **state) {
   row_fixture_close(&f);
 }
 
+/* with mirrored ends a row of hip_r may be a limit of hip_l: its name, T = 1 s later */
+static void a_partners_limit_carries_its_name(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.definition.torque_limits = 1;
+  ambulo__limit_rows(&f.frame, &f.table);
+  /* hip_r upper, hip_l by hip_r; knee_r both, knee_l by knee_r; torque of both hips by hip_r's */
+  assert_int_equal(f.table.row_count, (2 + 4 + 2) * ROW_NODES);
+  *row_channel(&f, 2, ambulo__channel_q(&f.frame.channels, 5)) = 1.6;
+  *row_channel(&f, 2, ambulo__channel_tau(&f.frame.channels, 5)) = 20.0;
+  int row = row_find(&f, "joint_limit", "hip_r", "upper", 1.5);
+  assert_int_equal(f.table.rows[row].node, 2);
+  assert_close(row_value(&f, row), -0.1, 1e-14);
+  assert_close(row_value(&f, row_find(&f, "torque_limit", "hip_r", "upper", 1.5)), 100.0, 1e-14);
+  row_fixture_close(&f);
+}
+
+/* pelvis_tz is minus itself in the mirror: its upper limit is its lower one, too */
+static void a_limit_turns_with_the_sign(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.model->coordinates[0].range[1] = 0.1;
+  ambulo__limit_rows(&f.frame, &f.table);
+  *row_channel(&f, 1, ambulo__channel_q(&f.frame.channels, 0)) = -0.3;
+  int row = row_find(&f, "joint_limit", "pelvis_tz", "upper", 0.25);
+  assert_close(row_value(&f, row), 0.4, 1e-14);
+  row = row_find(&f, "joint_limit", "pelvis_tz", "upper", 1.25);
+  assert_close(row_value(&f, row), -0.2, 1e-14);
+  assert_int_equal(f.table.rows[row].relation, AMBULO_NOT_NEGATIVE);
+  row_fixture_close(&f);
+}
+
+/* a partner that cannot move fixes the other one: equations on its control points */
+static void a_fixed_partner_fixes(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.model->coordinates[5].range[0] = f.model->coordinates[5].range[1] = 0.2;
+  ambulo__limit_rows(&f.frame, &f.table);
+  int fixed = 0;
+  for (int r = 0; r < f.table.row_count; r++) {
+    const ambulo__table_row *row = &f.table.rows[r];
+    if (strcmp(row->detail, "fixed") != 0) continue;
+    assert_string_equal(row->subject, "hip_l");
+    assert_int_equal(row->relation, AMBULO_EQUAL);
+    assert_close(row->constant, -0.2, 0);
+    fixed++;
+  }
+  assert_int_equal(fixed, 2 * ambulo__basis_control_points(f.basis));
+  row_fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(limits_at_nodes),
                                      cmocka_unit_test(a_range_of_no_width_is_one_equation),
                                      cmocka_unit_test(limits_on_control_points),
                                      cmocka_unit_test(a_fixed_coordinate_is_fixed_everywhere),
-                                     cmocka_unit_test(rates_are_not_bounded)};
+                                     cmocka_unit_test(rates_are_not_bounded),
+                                     cmocka_unit_test(a_partners_limit_carries_its_name),
+                                     cmocka_unit_test(a_limit_turns_with_the_sign),
+                                     cmocka_unit_test(a_fixed_partner_fixes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

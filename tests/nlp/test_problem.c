@@ -1,6 +1,7 @@
 /* Building: what is refused and how it is said; copies; memory running out; the hash. */
 #include "nlp/problem.h"
 #include "support/fail_alloc.h"
+#include "support/planar_walker.h"
 #include "support/problem_fixture.h"
 
 static void expect_refusal(const ambulo_problem_definition *definition, const char *text) {
@@ -149,6 +150,58 @@ static void the_hash_sees_every_change(void **state) {
   ambulo_model_free(model);
 }
 
+/* a mirrored step of the planar walker whose left knee is stiffer than its right one */
+static void limits_are_those_of_both_halves(void **state) {
+  (void)state;
+  enum { KNEE_R = 4, KNEE_L = 7 };
+  ambulo_model *model = walker_create();
+  ambulo_problem *problem = NULL;
+  ambulo_limits l;
+  model->coordinates[KNEE_R].range[0] = -1.5;
+  model->coordinates[KNEE_L].range[0] = -0.2;
+  problem = walker_problem(model, 4);
+  assert_non_null(problem);
+  assert_int_equal(ambulo_problem_limits(problem, KNEE_R, AMBULO_LIMITED_POSITION, &l), AMBULO_OK);
+  assert_close(l.low, -0.2, 0);
+  assert_true(l.high == INFINITY);
+  assert_int_equal(l.low_of, KNEE_L);
+  assert_int_equal(l.high_of, KNEE_R);
+  assert_int_equal(ambulo_problem_limits(problem, KNEE_L, AMBULO_LIMITED_TORQUE, &l), AMBULO_OK);
+  assert_true(l.low == -INFINITY);
+  assert_int_equal(l.low_of, KNEE_L);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
+/* also when only one request fails, and when the problem would be refused for another reason */
+static void a_mirrored_problem_survives_failed_allocations(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create();
+  const ambulo_end_value twice[2] = {{4, 0, 1, 0.2}, {4, 0, 1, 0.3}};
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  d.model = model;
+  d.terms = &term;
+  d.term_count = 1;
+  d.ends = AMBULO_ENDS_MIRRORED;
+  d.end_values = twice;
+  for (d.end_value_count = 0; d.end_value_count <= 2; d.end_value_count += 2) {
+    ambulo_status verdict = d.end_value_count ? AMBULO_E_PROBLEM : AMBULO_OK;
+    for (long k = 0, completed = 0; k < 1000 && !completed; k++) {
+      fail_alloc memory = fail_alloc_at(k);
+      memory.only_once = 1;
+      ambulo_allocator allocator = fail_alloc_hook(&memory);
+      ambulo_problem *problem = NULL;
+      ambulo_status status = ambulo_problem_create(&d, &allocator, NULL, &problem);
+      assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : verdict);
+      ambulo_problem_free(problem);
+      assert_int_equal(memory.live, 0);
+      completed = !memory.failed;
+    }
+  }
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(faults_are_named),
@@ -157,6 +210,8 @@ int main(void) {
       cmocka_unit_test(the_problem_owns_its_arrays),
       cmocka_unit_test(every_allocation_may_fail),
       cmocka_unit_test(the_hash_sees_every_change),
+      cmocka_unit_test(limits_are_those_of_both_halves),
+      cmocka_unit_test(a_mirrored_problem_survives_failed_allocations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,10 +102,74 @@ static void faults_are_placed(void **state) {
   expect_refusal(WALKER TIME "ends: {final: 3}\n", AMBULO_E_SCHEMA, "'final' is not a mapping");
 }
 
+#define STEPS(rest) WALKER "objective: none\ntime: {intervals: 4}\n" rest
+#define GAIT "gait: {first_foot: left, step_time: 0.5, "
+
+/* feet alternate: an odd number of steps ends in the mirror image, an even one where it began */
+static void ends_go_with_the_number_of_steps(void **state) {
+  (void)state;
+  ambulo_problem_free(
+      problem_of(STEPS(GAIT "steps: 3, step_length: 0.6}\nends: {kind: mirrored}\n")));
+  ambulo_problem_free(
+      problem_of(STEPS(GAIT "steps: 4, step_length: [0.6, 0.7]}\nends: {kind: periodic}\n")));
+  ambulo_problem_free(problem_of(STEPS(GAIT "steps: 2, step_length: 0.6}\nends: {kind: free}\n")));
+  expect_refusal(
+      STEPS(GAIT "steps: 2, step_length: 0.6}\nends: {kind: mirrored}\n"), AMBULO_E_PROBLEM,
+      "p.yaml:7:14: error[E_PROBLEM]: mirrored ends with 2 steps; expected an odd number, "
+      "after which the other foot strikes\n  hint: ends: {kind: periodic}, or an odd");
+  expect_refusal(
+      STEPS(GAIT "steps: 1, step_length: 0.6}\nends: {kind: periodic}\n"), AMBULO_E_PROBLEM,
+      "p.yaml:7:14: error[E_PROBLEM]: periodic ends with 1 step; expected an even number, "
+      "after which the same foot strikes again");
+}
+
+/* the gait would be told of one kind of step only */
+static void mirrored_steps_are_equal(void **state) {
+  (void)state;
+  ambulo_problem_free(
+      problem_of(STEPS(GAIT "steps: 1, step_length: [0.6, 0.6]}\nends: {kind: mirrored}\n")));
+  expect_refusal(STEPS(GAIT "steps: 1, step_length: [0.6, 0.7]}\nends: {kind: mirrored}\n"),
+                 AMBULO_E_PROBLEM, "the gait has steps of two lengths or times");
+  expect_refusal(STEPS("gait: {first_foot: left, steps: 1, step_length: 0.6, "
+                       "step_time: [0.5, 0.6]}\nends: {kind: mirrored}\n"),
+                 AMBULO_E_PROBLEM,
+                 "p.yaml:7:14: error[E_PROBLEM]: mirrored ends make each step the mirror image");
+}
+
+/* what the problem itself objects to points to the key that it is about */
+static void differences_are_placed(void **state) {
+  (void)state;
+  expect_refusal(STEPS("gait: {first_foot: left, steps: 1, step_length: 0.6, step_time: 0.5}\n"
+                       "constraints: {foot_strike: true}\n"
+                       "ends: {kind: mirrored, travel: 0.5}\n"),
+                 AMBULO_E_PROBLEM,
+                 "p.yaml:8:32: error[E_PROBLEM]: ends.travel: foot 'left' stands");
+  expect_refusal(
+      WALKER "time: {duration: 0.5, intervals: 4}\n"
+             "load: {link: shank_l, mass: 3, position: [0, 0, 0]}\n"
+             "ends: {kind: mirrored}\n"
+             "objective: [{term: torque_squared}]\n",
+      AMBULO_E_PROBLEM,
+      "p.yaml:6:14: error[E_PROBLEM]: ends.kind: mirrored ends, but the mass of 'shank_r' "
+      "is 3.2475 kg, that of its mirror partner 'shank_l' 6.2475 kg");
+  expect_refusal(WALKER "time: {duration: 0.5, intervals: 4}\n"
+                        "ends: {kind: mirrored}\n"
+                        "objective:\n"
+                        "  - {term: torque_squared}\n"
+                        "  - {term: acceleration, scale: {knee_angle_l: 2}}\n",
+                 AMBULO_E_PROBLEM,
+                 "p.yaml:8:5: error[E_PROBLEM]: objective[1] (acceleration): the scale of "
+                 "'knee_angle_r' is 1, that of its mirror partner 'knee_angle_l' 2");
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_key_arrives), cmocka_unit_test(absent_means_off),
-      cmocka_unit_test(end_values_are_in_radians), cmocka_unit_test(units_of_angles_are_asked_for),
-      cmocka_unit_test(faults_are_placed)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_key_arrives),
+                                     cmocka_unit_test(absent_means_off),
+                                     cmocka_unit_test(end_values_are_in_radians),
+                                     cmocka_unit_test(units_of_angles_are_asked_for),
+                                     cmocka_unit_test(faults_are_placed),
+                                     cmocka_unit_test(ends_go_with_the_number_of_steps),
+                                     cmocka_unit_test(mirrored_steps_are_equal),
+                                     cmocka_unit_test(differences_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

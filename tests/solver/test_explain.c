@@ -1,7 +1,8 @@
-/* Ten problems without a solution (tests/infeasible), each with what it has to be told: some are
- * refused before solving, the others are explained afterwards. Where the suggestion changes the
+/* Thirteen problems without a solution (tests/infeasible), each with what it has to be told: some
+ * are refused before solving, the others are explained afterwards. Where the suggestion changes the
  * problem file, following it leads to a motion that satisfies every row. */
 #include "ambulo/ambulo.h"
+#include "solver/explain.h"
 #include "support/engine_fixture.h"
 #include "support/test.h"
 
@@ -32,6 +33,11 @@ static const example refused[] = {
      {"the final value of pelvis_tx is 0.5 m",
       "periodic ends with a travel of 0.6 m make it 0.6 m"},
      NULL},
+    {"footholds_against_travel",
+     {"foot 'right' stands at (0, 0) m at t = 0.6 s",
+      "periodic ends with a travel of 0.3 m put it at (0.3, 0) m",
+      "mirrored ends go with an odd number of equal steps"},
+     NULL},
     {"state_off_the_ground",
      {"the initial state puts heel_r (foot 'right') 0.04 m above the ground at t = 0 s"},
      NULL},
@@ -57,9 +63,10 @@ static const example explained[] = {
       "suggestion: lower constraints.zmp_margin by 0.04", "from 0.08 m to 0.03"},
      "constraints.zmp_margin=0.02"},
     {"equalities_contradict",
-     {"contradictory equality: foot_strike", "m at heel_r forward, t = 0.6 s",
-      "relaxing periodic alone is enough", "dropping ground_penetration alone does not",
-      "suggestion: change ends.travel from 0.3 m to 0 m"},
+     {"contradictory equality: tracking_tube", "m at pelvis_tx on, t = 0.6 s",
+      "relaxing tracking_tube alone is enough: by 0.15 m",
+      "relaxing periodic alone is enough: by 0.3 m at pelvis_tx value",
+      "suggestion: let tracking_tube of pelvis_tx (on) give way by 0.15"},
      "ends.travel=0"},
 };
 
@@ -154,6 +161,96 @@ static void are_explained(void **state) {
   }
 }
 
+/* what is suggested when one row, the last one of these labels, is missed by `value` */
+static void expect_suggestion(const ambulo_problem *problem, const char *family,
+                              const char *subject, const char *detail, double value,
+                              const char *phrase) {
+  ambulo__explanation *out = calloc(1, sizeof *out);
+  double *values = calloc((size_t)problem->rows, sizeof *values);
+  ambulo__remedy remedy = {.conflict = 0, .row = -1, .value = values, .single = 1};
+  for (int r = 0; r < problem->rows; r++) {
+    const ambulo__table_row *row = &problem->table.rows[r];
+    if (strcmp(row->family, family) || strcmp(row->subject, subject)) continue;
+    if (!strcmp(row->detail, detail)) remedy.row = r;
+  }
+  assert_true(remedy.row >= 0);
+  values[remedy.row] = value;
+  ambulo__suggest(problem, &remedy, out);
+  if (!strstr(out->suggestion, phrase)) print_error("got '%s'\n", out->suggestion);
+  assert_non_null(strstr(out->suggestion, phrase));
+  free(values);
+  free(out);
+}
+
+/* periodic ends that miss by 0.3 m: a travel shorter by that much is what the rest allows */
+static void the_travel_that_can_be_reached_is_named(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(load("equalities_contradict", NULL, NULL, &problem), AMBULO_OK);
+  expect_suggestion(problem, "periodic", "pelvis_tx", "value", -0.3,
+                    "change ends.travel from 0.3 m to 0 m");
+  ambulo_problem_free(problem);
+}
+
+/* mirrored ends: the right knee may rest on the limit of the left one, the pelvis on one that it
+ * comes to a step later; the model's numbers are told, not what is left of them */
+static void a_limit_of_the_mirrored_half_is_named(void **state) {
+  (void)state;
+  static const char *const overrides[] = {"model.links[shank_l].coordinate.range=[0, 10]",
+                                          "constraints.joint_limits=nodes"};
+  ambulo_problem *problem = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/walker_2d_step.yaml", overrides, 2, NULL, NULL, &problem),
+      AMBULO_OK);
+  double latest = 0.0;
+  for (int r = 0; r < problem->rows; r++) latest = fmax(latest, problem->table.rows[r].time);
+  assert_close(latest, 2.0 * ambulo_problem_duration(problem), 1e-12);
+  expect_suggestion(problem, "joint_limit", "knee_angle_l", "upper", -0.1,
+                    "raise the upper end of the range of knee_angle_l by 0.1 rad: from 0.1745 (10 "
+                    "deg) to 0.2745 rad");
+  expect_suggestion(problem, "joint_limit", "pelvis_tx", "upper", -0.1,
+                    "raise the upper end of the range of pelvis_tx by 0.1 m: from 7 to 7.1 m");
+  for (int r = 0; r < problem->rows; r++) /* nothing about the right one's upper limit */
+    assert_false(!strcmp(problem->table.rows[r].subject, "knee_angle_r") &&
+                 !strcmp(problem->table.rows[r].detail, "upper"));
+  ambulo_problem_free(problem);
+}
+
+/* knees that cannot straighten: the rows of both rest on what the model says of the left one; a
+ * range of two steps of 0.6 m and 0.001 m leaves the pelvis no choice (lengths of a model are
+ * shares of the stature) */
+static void limits_that_the_motion_rests_on_have_the_models_numbers(void **state) {
+  (void)state;
+  static const char *const overrides[] = {
+      "model.links[shank_l].coordinate.range=[100, 120]",
+      "model.links[pelvis_forward].coordinate.range=[-0.1, 0.5863]"};
+  ambulo_problem *problem = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/walker_2d_step.yaml", overrides, 2, NULL, NULL, &problem),
+      AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  ambulo_result *result = solve(problem, &options);
+  const ambulo_explanation *e = ambulo_result_explanation(result);
+  int left = 0, ahead = 0;
+  assert_non_null(e);
+  for (int i = 0; i < e->on_limit_count; i++) {
+    const ambulo_on_limit *l = &e->on_limits[i];
+    int knee = strstr(l->subject, "knee_angle_") != NULL && !strcmp(l->detail, "lower");
+    if (!strcmp(l->subject, "pelvis_tx") && !strcmp(l->detail, "upper")) {
+      assert_close(l->bound, 0.5863 * 1.75, 1e-12);
+      ahead = 1;
+    }
+    if (!knee) continue;
+    assert_string_equal(l->subject, "knee_angle_l");
+    assert_close(l->bound, 100.0 / 57.295779513082321, 1e-12);
+    assert_true(l->to > ambulo_problem_duration(problem));
+    left = 1;
+  }
+  assert_true(left && ahead);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 static void good_ends_and_audits_need_no_explanation(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("pendulum_swing");
@@ -207,8 +304,13 @@ static void a_spent_time_limit_is_kept(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(are_refused_by_name), cmocka_unit_test(are_explained),
+      cmocka_unit_test(are_refused_by_name),
+      cmocka_unit_test(are_explained),
+      cmocka_unit_test(the_travel_that_can_be_reached_is_named),
+      cmocka_unit_test(a_limit_of_the_mirrored_half_is_named),
+      cmocka_unit_test(limits_that_the_motion_rests_on_have_the_models_numbers),
       cmocka_unit_test(good_ends_and_audits_need_no_explanation),
-      cmocka_unit_test(a_missed_solution_is_named), cmocka_unit_test(a_spent_time_limit_is_kept)};
+      cmocka_unit_test(a_missed_solution_is_named),
+      cmocka_unit_test(a_spent_time_limit_is_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

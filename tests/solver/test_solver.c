@@ -86,7 +86,7 @@ static void limits_end_the_solve(void **state) {
 
 static void impossible_problem_is_called_infeasible(void **state) {
   (void)state;
-  const char *overrides[] = {"ends.travel=3.4"};
+  const char *overrides[] = {"gait.step_length=1.35"};
   ambulo_problem *problem = NULL;
   assert_int_equal(
       ambulo_problem_load("models/yardstick_12.yaml", overrides, 1, NULL, NULL, &problem),

@@ -1,0 +1,90 @@
+/* gait/mirror_check.c - what mirrored ends ask of a body: one step stands for both.
+ *
+ *   body     is its own mirror image (model/mirror_image.h)
+ *   limits   what the limits of two partners leave in both halves (gait/bounds.h) is not empty,
+ *            where limits are rows
+ *   tubes    two partners that both have a half width have the same; one that the reference lacks
+ *            may be free on one side, for the reference is that of one step
+ *
+ * Terms: objective/mirror_terms.c. Footholds: gait/schedule_ends.c.
+ */
+#include "gait/bounds.h"
+#include "gait/gait.h"
+#include "model/mirror_image.h"
+
+#include <math.h>
+
+static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+
+#define REFUSE(list, ...)                                                                          \
+  ambulo__error(list, AMBULO_E_PROBLEM, nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
+
+static const char *const keys[3] = {"joint_limits", "speed_limits", "torque_limits"};
+static const char *const words[3] = {"range", "speed limits", "torque limits"};
+static const char *const units[2][3] = {{"m", "m/s", "N"}, {"rad", "rad/s", "N m"}};
+
+static const double *limits_of(const ambulo_coordinate *c, int what) {
+  return what == AMBULO_LIMITED_POSITION ? c->range
+         : what == AMBULO_LIMITED_SPEED  ? c->speed
+                                         : c->torque;
+}
+
+static ambulo_status check_limits(const ambulo_problem_definition *d, int i, ambulo_limited what,
+                                  ambulo_diagnostics *list) {
+  const ambulo_coordinate *c = &d->model->coordinates[i];
+  const ambulo_coordinate *m = &d->model->coordinates[c->mirror];
+  ambulo__bounds b = ambulo__bounds_of(d, i, what);
+  int travels = what == AMBULO_LIMITED_POSITION && fabs(ambulo__end_shift(d, i)) > 1e-9;
+  /* too little room for the travel: gait/end_check.c says so */
+  if (!(b.low.value > b.high.value) || travels) return AMBULO_OK;
+  const char *unit = units[c->type == AMBULO_REVOLUTE][what];
+  const double *own = limits_of(c, (int)what), *other = limits_of(m, (int)what);
+  if (m == c)
+    return REFUSE(list,
+                  "constraints.%s: the %s of '%s', %.6g to %.6g %s, and its mirror image, %.6g to "
+                  "%.6g %s, have nothing in common; mirrored ends keep both",
+                  keys[what], words[what], c->name, own[0], own[1], unit, -own[1], -own[0], unit);
+  return REFUSE(list,
+                "constraints.%s: the %s of '%s', %.6g to %.6g %s, and that of its mirror partner "
+                "'%s', %.6g to %.6g %s%s, have nothing in common; mirrored ends keep both",
+                keys[what], words[what], c->name, own[0], own[1], unit, m->name, other[0], other[1],
+                unit, c->mirror_sign < 0.0 ? " with the opposite sign" : "");
+}
+
+static ambulo_status check_tubes(const ambulo_problem_definition *d, int i,
+                                 ambulo_diagnostics *list) {
+  const ambulo_coordinate *c = &d->model->coordinates[i];
+  ambulo_status status = AMBULO_OK;
+  for (int t = 0; t < d->tube_count; t++) {
+    double own = d->tubes[t].half_width[i], other = d->tubes[t].half_width[c->mirror];
+    if (!isfinite(own) || !isfinite(other)) continue;
+    if (fabs(own - other) <= AMBULO__MIRROR_TOLERANCE * fmax(own, other)) continue;
+    int digits = ambulo__digits_apart(own, other);
+    const char *unit = units[c->type == AMBULO_REVOLUTE][0];
+    status = REFUSE(list,
+                    "constraints.tubes[%d]: the half width of '%s' is %.*g %s, that of its mirror "
+                    "partner '%s' %.*g %s; expected the same with mirrored ends, or none on one "
+                    "side",
+                    t, c->name, digits, own, unit, d->model->coordinates[c->mirror].name, digits,
+                    other, unit);
+  }
+  return status;
+}
+
+ambulo_status ambulo__mirror_check(const ambulo_problem_definition *d,
+                                   const ambulo_allocator *allocator, ambulo_diagnostics *list) {
+  static const ambulo__mirror_words body = {AMBULO_E_PROBLEM, "ends.kind: mirrored ends, but ",
+                                            AMBULO__BOTH_SIDES};
+  if (d->ends != AMBULO_ENDS_MIRRORED) return AMBULO_OK;
+  int asked[3] = {d->joint_limits != AMBULO_LIMIT_OFF, d->speed_limits, d->torque_limits};
+  ambulo_status status = ambulo__mirror_image_check(d->model, &body, allocator, list);
+  if (status == AMBULO_E_MEMORY) return status;
+  for (int i = 0; i < d->model->coordinate_count; i++) {
+    if (d->model->coordinates[i].mirror < i) continue;
+    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
+      if (asked[what] && check_limits(d, i, (ambulo_limited)what, list)) status = AMBULO_E_PROBLEM;
+    }
+    if (check_tubes(d, i, list)) status = AMBULO_E_PROBLEM;
+  }
+  return status;
+}

@@ -1,0 +1,63 @@
+/* gait/schedule_ends.c - footholds at the end of a motion that repeats against those at its
+ * beginning.
+ *
+ * A foot that is down at T stands where it, or its mirror foot when the ends are mirrored, stands
+ * at 0, moved on by the travel:
+ *
+ *     place(T) = (place_f(0) + travel, +-place_l(0)),   m;   - when mirrored
+ *
+ * It need not be down at both: at T it may strike, or leave the ground. Rows at the last node are
+ * left out where they repeat those of the first (gait/band.h), so a disagreement would be a foot
+ * that slides in the last interval. It is what the wrong number of steps comes to, too: after two
+ * steps the same foot strikes again, after one the other one does.
+ */
+#include "gait/gait.h"
+
+#include <math.h>
+
+static const double time_tolerance = 1e-9; /* s */
+static const double tolerance = 1e-6;      /* m */
+static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+
+/* do places enter the rows at all? */
+static int uses_places(const ambulo_problem_definition *d) {
+  return d->foot_strike || d->contact_tolerance > 0.0 || d->support != AMBULO_SUPPORT_OFF ||
+         d->ground_reaction.kind != AMBULO_REACTION_NONE;
+}
+
+static ambulo_status check_pair(const ambulo_problem_definition *d, const ambulo_contact *first,
+                                const ambulo_contact *last, ambulo_diagnostics *list) {
+  int mirrored = d->ends == AMBULO_ENDS_MIRRORED;
+  double ahead = first->place[0] + d->travel;
+  double left = mirrored ? -first->place[1] : first->place[1];
+  if (fabs(last->place[0] - ahead) <= tolerance && fabs(last->place[1] - left) <= tolerance)
+    return AMBULO_OK;
+  const char *kind = mirrored ? "mirrored" : "periodic";
+  return ambulo__error(
+      list, AMBULO_E_PROBLEM, nowhere,
+      "mirrored ends go with an odd number of equal steps, periodic ends with an even number; or "
+      "change the travel",
+      "ends.travel: foot '%s' stands at (%.6g, %.6g) m at t = %.6g s, but %s ends with a travel of "
+      "%.6g m put it at (%.6g, %.6g) m, from foot '%s' at (%.6g, %.6g) m at t = 0; expected the "
+      "same place",
+      d->model->feet[last->foot].name, last->place[0], last->place[1], d->duration, kind, d->travel,
+      ahead, left, d->model->feet[first->foot].name, first->place[0], first->place[1]);
+}
+
+ambulo_status ambulo__schedule_check_ends(const ambulo_problem_definition *d,
+                                          ambulo_diagnostics *list) {
+  if (d->ends == AMBULO_ENDS_FREE || !uses_places(d)) return AMBULO_OK;
+  for (int i = 0; i < d->contact_count; i++) {
+    const ambulo_contact *last = &d->contacts[i];
+    if (last->to < d->duration - time_tolerance) continue;
+    int mirror = d->model->feet[last->foot].mirror;
+    int foot = d->ends == AMBULO_ENDS_MIRRORED ? mirror : last->foot;
+    for (int k = 0; k < d->contact_count; k++) {
+      const ambulo_contact *first = &d->contacts[k];
+      if (first->foot != foot || first->from > time_tolerance) continue;
+      ambulo_status status = check_pair(d, first, last, list);
+      if (status) return status; /* one is enough: the others follow */
+    }
+  }
+  return AMBULO_OK;
+}

@@ -1,0 +1,138 @@
+/* Footholds at T against those at 0, through ambulo_gait_expand: which numbers of steps go with
+ * which ends, and travels that do not fit. */
+#include "gait/gait.h"
+
+#include "support/messages.h"
+#include "support/test.h"
+
+#include "ambulo/ambulo.h"
+
+enum { MOST_CONTACTS = 64 };
+
+typedef struct fixture {
+  ambulo_model *model;
+  ambulo_problem_definition definition;
+  ambulo_contact contacts[MOST_CONTACTS];
+} fixture;
+
+static void open_fixture(fixture *f, const ambulo_gait *gait) {
+  f->model = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &f->model),
+                   AMBULO_OK);
+  f->definition = ambulo_problem_definition_default();
+  f->definition.model = f->model;
+  f->definition.foot_strike = 1;
+  assert_int_equal(
+      ambulo_gait_expand(f->model, gait, f->contacts, MOST_CONTACTS, &f->definition.contact_count),
+      AMBULO_OK);
+  f->definition.contacts = f->contacts;
+  f->definition.duration = ambulo__gait_strike(gait, gait->steps);
+  f->definition.travel = ambulo__gait_place(gait, gait->steps);
+}
+
+static void expect(fixture *f, const char *phrase) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo__schedule_check_ends(&f->definition, list);
+  if (phrase) assert_message(list, 0, phrase);
+  assert_int_equal(status, phrase ? AMBULO_E_PROBLEM : AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(f->model);
+}
+
+static ambulo_gait walk(int steps) {
+  ambulo_gait gait = {.steps = steps,
+                      .first_foot = 1,
+                      .step_length = 0.6,
+                      .step_time = 0.5,
+                      .step_width = 0.1,
+                      .foot_flat = 0.08,
+                      .heel_off = 0.38,
+                      .toe_off = 0.62};
+  return gait;
+}
+
+/* also when the strike comes early; a foot that comes down after T is down at neither end */
+static void odd_steps_mirrored_even_steps_periodic(void **state) {
+  (void)state;
+  static const double strikes[] = {-0.07, 0.0};
+  for (int steps = 1; steps <= 5; steps++) {
+    for (int s = 0; s < 2; s++) {
+      for (int ends = AMBULO_ENDS_FREE; ends <= AMBULO_ENDS_MIRRORED; ends++) {
+        fixture f;
+        ambulo_gait gait = walk(steps);
+        gait.heel_strike = strikes[s];
+        open_fixture(&f, &gait);
+        f.definition.ends = (ambulo_ends)ends;
+        int fits = ends == AMBULO_ENDS_FREE || (ends == AMBULO_ENDS_MIRRORED) == (steps % 2);
+        expect(&f,
+               fits ? NULL
+                    : "mirrored ends go with an odd number of equal steps, periodic ends with an "
+                      "even number");
+      }
+    }
+  }
+}
+
+static void the_message_has_both_places(void **state) {
+  (void)state;
+  fixture f;
+  ambulo_gait gait = walk(1);
+  open_fixture(&f, &gait);
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  f.definition.travel = 0.5;
+  expect(&f,
+         "ends.travel: foot 'left' stands at (0, 0.05) m at t = 0.5 s, but mirrored ends with a "
+         "travel of 0.5 m put it at (-0.1, 0.05) m, from foot 'right' at (-0.6, -0.05) m at "
+         "t = 0; expected the same place");
+}
+
+/* footholds 0.02 m further left than the mirror plane allows */
+static void the_walk_straddles_the_mirror_plane(void **state) {
+  (void)state;
+  for (int ends = AMBULO_ENDS_PERIODIC; ends <= AMBULO_ENDS_MIRRORED; ends++) {
+    fixture f;
+    ambulo_gait gait = walk(ends == AMBULO_ENDS_PERIODIC ? 2 : 1);
+    open_fixture(&f, &gait);
+    for (int i = 0; i < f.definition.contact_count; i++) f.contacts[i].place[1] += 0.02;
+    f.definition.ends = (ambulo_ends)ends;
+    expect(&f, ends == AMBULO_ENDS_PERIODIC ? NULL : "put it at (0, 0.03) m");
+  }
+}
+
+static void unlike_steps_repeat_after_two(void **state) {
+  (void)state;
+  for (int steps = 1; steps <= 2; steps++) {
+    fixture f;
+    ambulo_gait gait = walk(steps);
+    gait.other_step_length = 0.7;
+    open_fixture(&f, &gait);
+    f.definition.ends = steps == 1 ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+    expect(&f, steps == 1 ? "expected the same place" : NULL);
+  }
+}
+
+/* places that enter no row say nothing */
+static void only_where_places_are_rows(void **state) {
+  (void)state;
+  for (int use = 0; use < 5; use++) {
+    fixture f;
+    ambulo_gait gait = walk(1);
+    open_fixture(&f, &gait);
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.travel = 0.5;
+    f.definition.foot_strike = use == 1;
+    f.definition.contact_tolerance = use == 2 ? 0.002 : 0.0;
+    f.definition.support = use == 3 ? AMBULO_SUPPORT_BOX : AMBULO_SUPPORT_OFF;
+    if (use == 4) f.definition.ground_reaction.kind = AMBULO_REACTION_TWO_STEP;
+    expect(&f, use ? "expected the same place" : NULL);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(odd_steps_mirrored_even_steps_periodic),
+                                     cmocka_unit_test(the_message_has_both_places),
+                                     cmocka_unit_test(the_walk_straddles_the_mirror_plane),
+                                     cmocka_unit_test(unlike_steps_repeat_after_two),
+                                     cmocka_unit_test(only_where_places_are_rows)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
