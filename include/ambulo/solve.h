@@ -185,6 +185,10 @@ typedef struct ambulo_explanation {
   const char *const *lines; /* all of it in words, the suggestion last */
   int line_count;
   const char *suggestion; /* "" when there is none */
+  /* the suggestion as settings "path=value", for --set or ambulo_problem_load; none for problems
+   * made from C, nor where no key says it */
+  const char *const *settings;
+  int setting_count;
 } ambulo_explanation;
 
 /* Memory in bytes, predicted from sizes; within a factor of two for walks. */

@@ -1,4 +1,5 @@
-/* base/yaml_set.c - replacing values by path, as `--set time.intervals=36` does. */
+/* base/yaml_set.c - replacing values by path, as `--set time.intervals=36` does, and leaving keys
+ * and items out, as `--set gait.speed=null` does. */
 #include "base/yaml_tree.h"
 
 #include "base/numtext.h"
@@ -33,7 +34,7 @@ static ambulo_status no_item(const ambulo__yaml *document, const char *file,
                        "no item [%d]; expected an index below %d", index, parent->count);
 }
 
-/* a key that is not there, in a mapping that the path goes through */
+/* a key that is not there, in a mapping that the path goes through or that should lose it */
 static ambulo_status no_key(const ambulo__yaml *document, const char *file,
                             const ambulo__yaml_node *parent, const char *key) {
   const char *names[AMBULO__YAML_MAX_KEYS];
@@ -43,7 +44,7 @@ static ambulo_status no_key(const ambulo__yaml *document, const char *file,
   if (nearest) (void)snprintf(hint, sizeof hint, "did you mean '%.100s'?", nearest);
   ambulo__place place = {file, 0, 0, NULL};
   return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, place, hint,
-                       "the path goes through a key that is not there (got '%.100s')", key);
+                       "the path needs a key that is not there (got '%.100s')", key);
 }
 
 /* the item of a sequence whose `name`, or else whose `term`, is the word; NULL: none */
@@ -153,6 +154,20 @@ static ambulo_status put(ambulo__yaml *document, const char *file, ambulo__yaml_
   return AMBULO_OK;
 }
 
+/* null and ~ without quotes take away what the path leads to */
+static int takes_away(const ambulo__yaml_node *value) {
+  return value->kind == AMBULO__YAML_SCALAR && !value->quoted &&
+         (strcmp(value->text, "null") == 0 || strcmp(value->text, "~") == 0);
+}
+
+static void take_away(ambulo__yaml_node *parent, const ambulo__yaml_node *old) {
+  parent->count--;
+  for (int i = old->index; i < parent->count; i++) {
+    parent->items[i] = parent->items[i + 1];
+    parent->items[i]->index = i;
+  }
+}
+
 /* walks to the last step of `path`; *parent is what holds it, *old its value or NULL */
 static ambulo_status locate(ambulo__yaml *document, const char *file, const char *path,
                             ambulo__yaml_node **parent, ambulo__yaml_node **old, char **key,
@@ -191,7 +206,13 @@ ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, 
   if (!made) {
     ambulo__place place = {file, 0, 0, NULL};
     return ambulo__error(document->diagnostics, AMBULO_E_PARSE, place, NULL,
-                         "got no value; expected YAML text such as 36, [1, 2] or off");
+                         "got no value; expected YAML text such as 36, [1, 2] or off, or null "
+                         "to leave the key out");
+  }
+  if (takes_away(made)) {
+    if (!old) return no_key(document, file, parent, key);
+    take_away(parent, old);
+    return AMBULO_OK;
   }
   return put(document, file, parent, old, key, made);
 }

@@ -9,7 +9,7 @@
 
 static const double rounding = 1e-9; /* m: what right angles leave of a travel across them */
 
-static const double *limits_of(const ambulo_coordinate *c, ambulo_limited what) {
+const double *ambulo__limits_of(const ambulo_coordinate *c, ambulo_limited what) {
   if (what == AMBULO_LIMITED_SPEED) return c->speed;
   return what == AMBULO_LIMITED_TORQUE ? c->torque : c->range;
 }
@@ -29,13 +29,13 @@ static ambulo__bound image(const double *limit, int partner, int is_upper, doubl
 
 ambulo__bounds ambulo__bounds_of(const ambulo_problem_definition *d, int i, ambulo_limited what) {
   const ambulo_coordinate *c = &d->model->coordinates[i];
-  const double *limit = limits_of(c, what);
+  const double *limit = ambulo__limits_of(c, what);
   ambulo__bounds b = {own(limit, i, 0), own(limit, i, 1)};
   if (d->ends != AMBULO_ENDS_MIRRORED) return b;
   int m = c->mirror, turned = c->mirror_sign < 0.0;
   double shift = what == AMBULO_LIMITED_POSITION ? ambulo__end_shift(d, m) : 0.0;
   if (fabs(shift) < rounding) shift = 0.0;
-  limit = limits_of(&d->model->coordinates[m], what);
+  limit = ambulo__limits_of(&d->model->coordinates[m], what);
   ambulo__bound low = image(limit, m, turned, c->mirror_sign, shift, d->duration);
   ambulo__bound high = image(limit, m, !turned, c->mirror_sign, shift, d->duration);
   if (low.value > b.low.value) b.low = low;
@@ -50,7 +50,7 @@ double ambulo__limit_given(const ambulo_model *model, const ambulo__table_row *r
                         : !strcmp(row->family, "torque_limit") ? AMBULO_LIMITED_TORQUE
                                                                : AMBULO_LIMITED_POSITION;
   if (i < 0) return is_upper ? row->constant : -row->constant;
-  return limits_of(&model->coordinates[i], what)[is_upper];
+  return ambulo__limits_of(&model->coordinates[i], what)[is_upper];
 }
 
 void ambulo__bounds_whose(const ambulo_model *model, const ambulo__bounds *bounds,

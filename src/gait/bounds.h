@@ -31,6 +31,9 @@ typedef struct ambulo__bounds {
 ambulo__bounds ambulo__bounds_of(const ambulo_problem_definition *definition, int coordinate,
                                  ambulo_limited what);
 
+/* range, speed or torque of a coordinate: [lower, upper] */
+const double *ambulo__limits_of(const ambulo_coordinate *coordinate, ambulo_limited what);
+
 /* What the model says about the limit that a row of ambulo__limit_rows holds. */
 double ambulo__limit_given(const ambulo_model *model, const ambulo__table_row *row);
 

@@ -16,6 +16,7 @@
 #include "gait/gait.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double tolerance = 1e-6; /* rad, m and their rates */
@@ -85,14 +86,17 @@ static ambulo_status check_matching(const ambulo_problem_definition *d, int i, i
   if (!value_at(d, i, order, 0, &first) || !value_at(d, to, order, 1, &last)) return AMBULO_OK;
   double shift = order == 0 ? ambulo__end_shift(d, to) : 0.0, expected = sign * first + shift;
   if (fabs(last - expected) <= tolerance) return AMBULO_OK;
-  const char *unit = unit_of(from, order);
+  const char *unit = unit_of(from, order), *final = d->model->coordinates[to].name;
+  char hint[200];
+  (void)snprintf(hint, sizeof hint,
+                 "leave one of the two out, the other follows (--set ends.final%s.%s=null)",
+                 order == 1 ? "_speed" : "", final);
   return REFUSE(
-      list, "leave one of the two out: the other follows",
+      list, hint,
       "the final %s of %s is %.6g %s, but %s ends with a travel of %.6g m make it %.6g %s "
       "from the initial %s of %s, %.6g %s",
-      order_words[order], d->model->coordinates[to].name, last, unit,
-      mirrored ? "mirrored" : "periodic", d->travel, expected, unit, order_words[order], from->name,
-      first, unit);
+      order_words[order], final, last, unit, mirrored ? "mirrored" : "periodic", d->travel,
+      expected, unit, order_words[order], from->name, first, unit);
 }
 
 /* how far coordinate i has to move from 0 to T; 0 when that is open */

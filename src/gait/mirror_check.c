@@ -23,12 +23,6 @@ static const char *const keys[3] = {"joint_limits", "speed_limits", "torque_limi
 static const char *const words[3] = {"range", "speed limits", "torque limits"};
 static const char *const units[2][3] = {{"m", "m/s", "N"}, {"rad", "rad/s", "N m"}};
 
-static const double *limits_of(const ambulo_coordinate *c, int what) {
-  return what == AMBULO_LIMITED_POSITION ? c->range
-         : what == AMBULO_LIMITED_SPEED  ? c->speed
-                                         : c->torque;
-}
-
 static ambulo_status check_limits(const ambulo_problem_definition *d, int i, ambulo_limited what,
                                   ambulo_diagnostics *list) {
   const ambulo_coordinate *c = &d->model->coordinates[i];
@@ -38,7 +32,7 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int i, amb
   /* too little room for the travel: gait/end_check.c says so */
   if (!(b.low.value > b.high.value) || travels) return AMBULO_OK;
   const char *unit = units[c->type == AMBULO_REVOLUTE][what];
-  const double *own = limits_of(c, (int)what), *other = limits_of(m, (int)what);
+  const double *own = ambulo__limits_of(c, what), *other = ambulo__limits_of(m, what);
   if (m == c)
     return REFUSE(list,
                   "constraints.%s: the %s of '%s', %.6g to %.6g %s, and its mirror image, %.6g to "

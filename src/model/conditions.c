@@ -75,6 +75,7 @@ static ambulo_status copy_model(const ambulo_model *model, const ambulo_allocato
   memcpy((*copy)->forward, model->forward, sizeof model->forward);
   memcpy((*copy)->left, model->left, sizeof model->left);
   (*copy)->mass = model->mass;
+  (*copy)->units = model->units;
   return AMBULO_OK;
 }
 

@@ -5,6 +5,11 @@
 #include "ambulo/model.h"
 #include "base/alloc.h"
 
+/* One of the file's units in SI units and radians; all 0: the model was made from C. */
+typedef struct ambulo__model_units {
+  double angle, length, moment, force; /* of coordinates: range and speed, torque */
+} ambulo__model_units;
+
 /* Arrays are owned by the model. Links stand in topological order: every parent
  * before its children (a definition in another order is sorted, names kept). */
 struct ambulo_model {
@@ -14,6 +19,7 @@ struct ambulo_model {
   double gravity[3]; /* world, m/s^2 */
   double up[3], forward[3], left[3];
   double mass, stature;
+  ambulo__model_units units;
   ambulo_link *links; /* [link_count] */
   int link_count;
   ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */

@@ -150,6 +150,10 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
     status = ambulo__model_build(&reader.definition, &reader.places, &reader.allocator, diagnostics,
                                  model);
   }
+  if (status == AMBULO_OK) {
+    ambulo__model_units units = {reader.angle, reader.length, reader.moment, reader.force};
+    (*model)->units = units;
+  }
   release(&reader);
   return status;
 }

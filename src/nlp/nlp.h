@@ -21,6 +21,18 @@
 #include "trajectory/basis.h"
 #include "trajectory/lane_map.h"
 
+/* Which keys the problem's file has, for advice in its words; all 0: the problem was made from C.
+ */
+typedef struct ambulo__problem_keys {
+  int file;         /* it was read from a file */
+  int gait;         /* the contacts come from `gait` */
+  int steps;        /* of the gait */
+  int unlike_steps; /* two step lengths or times that differ */
+  int speed;        /* gait.speed is there: with it the step length decides on the duration */
+  int travel;       /* ends.travel is there */
+  double radians;   /* per unit of `angles`; 0: not stated */
+} ambulo__problem_keys;
+
 struct ambulo_problem {
   ambulo_allocator allocator;
   ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
@@ -41,6 +53,7 @@ struct ambulo_problem {
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;
+  ambulo__problem_keys keys;
   unsigned long long hash;
 };
 

@@ -219,6 +219,9 @@ static ambulo_status create(ambulo__problem_reader *reader, const ambulo__yaml_n
   created->owned_model = reader->model;
   reader->model = NULL;
   created->file_options = reader->options;
+  created->keys = reader->keys;
+  created->keys.file = 1;
+  created->keys.radians = reader->radians;
   *problem = created;
   return AMBULO_OK;
 }

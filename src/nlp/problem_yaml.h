@@ -9,6 +9,7 @@
 #include "ambulo/solve.h"
 #include "base/yaml_node.h"
 #include "model/model.h"
+#include "nlp/nlp.h"
 
 typedef struct ambulo__reader_block ambulo__reader_block;
 
@@ -27,6 +28,7 @@ typedef struct ambulo__problem_reader {
   int unlike_steps;               /* two step lengths or times that differ */
   ambulo__model_setting *setting; /* [settings] overrides of the model file's keys */
   int settings;
+  ambulo__problem_keys keys; /* of the file */
   ambulo_problem_definition definition;
   ambulo_options options;
 } ambulo__problem_reader;

@@ -92,7 +92,8 @@ static double neutral_width(const ambulo_model *model) {
 static void check_agreement(const ambulo__yaml_node *node, const char *what, double step_time,
                             double other) {
   if (!node || fabs(step_time - other) <= 1e-9 * fabs(other)) return;
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, "leave one of them out",
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM,
+                           "expected one of them: '--set gait.speed=null' leaves one out",
                            "'%s' makes a step last %.9g s; expected %.9g s, from the other keys",
                            what, step_time, other);
 }
@@ -228,6 +229,10 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   reader->steps = gait.steps;
   reader->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
                          differs(gait.step_length, gait.other_step_length);
+  reader->keys.gait = 1;
+  reader->keys.steps = gait.steps;
+  reader->keys.unlike_steps = reader->unlike_steps;
+  reader->keys.speed = ambulo__yaml_get(section, "speed") != NULL;
   expand(reader, section, &gait);
 }
 

@@ -116,6 +116,9 @@ static void explanation(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_integer(json, "complete", e->complete);
   ambulo__json_integer(json, "feasible_point", e->feasible_point);
   ambulo__json_text(json, "suggestion", e->suggestion);
+  ambulo__json_open(json, "settings", '[');
+  for (int i = 0; i < e->setting_count; i++) ambulo__json_text(json, NULL, e->settings[i]);
+  ambulo__json_close(json, ']');
   ambulo__json_open(json, "lines", '[');
   for (int i = 0; i < e->line_count; i++) ambulo__json_text(json, NULL, e->lines[i]);
   ambulo__json_close(json, ']');

@@ -96,7 +96,7 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
   if (pool->failed) return AMBULO_E_MEMORY;
   list_contradictions(e, result, out);
   if (e->run->ending == AMBULO_ENDING_TIME || e->run->ending == AMBULO_ENDING_CALLER) {
-    ambulo__explain_lines(result, out); /* no time is left to look further */
+    ambulo__explain_lines(e->problem, result, out); /* no time is left to look further */
     return AMBULO_OK;
   }
   ambulo_status status = start_point(e, result, x);
@@ -112,7 +112,7 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
     list_on_limits(&elastic, out);
     ambulo__suggest(e->problem, &remedy, out);
   }
-  ambulo__explain_lines(result, out);
+  ambulo__explain_lines(e->problem, result, out);
   return AMBULO_OK;
 }
 
@@ -128,6 +128,7 @@ ambulo_status ambulo__explain(ambulo__engine *e, ambulo_result *result) {
   out->view.on_limits = out->on_limit;
   out->view.lines = out->line;
   out->view.suggestion = out->suggestion;
+  out->view.settings = out->settings;
   ambulo__pool_init(&pool, &result->allocator);
   ambulo_status status = explain(e, result, &pool, out);
   ambulo__pool_clear(&pool);

@@ -14,9 +14,13 @@ enum {
   AMBULO__MOST_CONTRADICTIONS = 6,
   AMBULO__MOST_CONFLICTS = 8,
   AMBULO__MOST_ON_LIMITS = 12,
-  AMBULO__MOST_LINES = 48,
+  AMBULO__MOST_LINES = 56,
+  AMBULO__MOST_SETTINGS = 3,
   AMBULO__LINE_SIZE = 360
 };
+
+/* Violation that counts as none, relative to the row's size, while a family gives way. */
+#define AMBULO__HOLDS 1e-4
 
 /* The public view and the memory it points into. */
 typedef struct ambulo__explanation {
@@ -27,6 +31,8 @@ typedef struct ambulo__explanation {
   const char *line[AMBULO__MOST_LINES];
   char text[AMBULO__MOST_LINES][AMBULO__LINE_SIZE];
   char suggestion[AMBULO__LINE_SIZE];
+  const char *settings[AMBULO__MOST_SETTINGS];
+  char setting[AMBULO__MOST_SETTINGS][AMBULO__LINE_SIZE];
 } ambulo__explanation;
 
 /* What relax.c leaves for suggest.c: the family that gives way most easily. */
@@ -50,7 +56,13 @@ ambulo_status ambulo__relax(ambulo__elastic *elastic, double tolerance, double *
 void ambulo__suggest(const ambulo_problem *problem, const ambulo__remedy *remedy,
                      ambulo__explanation *out);
 
-/* explain_lines.c: writes the lines from everything else. */
-void ambulo__explain_lines(const ambulo_result *result, ambulo__explanation *out);
+/* explain_task.c: lines about a gait that is no walk; none about one that may be. */
+void ambulo__explain_task(const ambulo_problem *problem, ambulo__explanation *out);
+
+/* explain_lines.c: one more line, and all lines from everything else. */
+void ambulo__explain_line(ambulo__explanation *out, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void ambulo__explain_lines(const ambulo_problem *problem, const ambulo_result *result,
+                           ambulo__explanation *out);
 
 #endif

@@ -5,10 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static void add_line(ambulo__explanation *out, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-
-static void add_line(ambulo__explanation *out, const char *format, ...) {
+void ambulo__explain_line(ambulo__explanation *out, const char *format, ...) {
   if (out->view.line_count >= AMBULO__MOST_LINES) return;
   char *text = out->text[out->view.line_count];
   va_list arguments;
@@ -36,20 +33,24 @@ static void contradictions(ambulo__explanation *out) {
   for (int i = 0; i < out->view.contradictory_count; i++) {
     const ambulo_violation *v = &out->contradictory[i];
     place(v, where, sizeof where);
-    add_line(out,
-             "contradictory equality: %s (%s) cannot hold together with the equalities before "
-             "it",
-             v->family, where);
+    ambulo__explain_line(
+        out,
+        "contradictory equality: %s (%s) cannot hold together with the equalities before "
+        "it",
+        v->family, where);
   }
 }
 
+/* in conflict: at a minimum of all violations. A search that was cut short shows none. */
 static void conflicts(ambulo__explanation *out) {
   char where[200];
   if (out->view.conflict_count == 0) return;
-  add_line(out, "in conflict, where every row gives way a little:");
+  ambulo__explain_line(out, out->view.complete
+                                ? "in conflict, where every row gives way a little:"
+                                : "still violated, where every row gives way a little:");
   for (int i = 0; i < out->view.conflict_count; i++) {
     place(&out->conflict[i].shared, where, sizeof where);
-    add_line(out, "  %s: %s", out->conflict[i].shared.family, where);
+    ambulo__explain_line(out, "  %s: %s", out->conflict[i].shared.family, where);
   }
 }
 
@@ -59,18 +60,19 @@ static void relaxations(ambulo__explanation *out) {
   for (int i = 0; i < out->view.conflict_count; i++) {
     const ambulo_conflict *c = &out->conflict[i];
     if (c->alone == 0)
-      add_line(out, "dropping %s alone does not make the problem feasible", c->shared.family);
+      ambulo__explain_line(out, "dropping %s alone did not make the problem feasible",
+                           c->shared.family);
     if (c->alone != 1) continue;
     alone++;
     place(&c->relaxation, where, sizeof where);
-    add_line(out, "relaxing %s alone is enough: by %s", c->shared.family, where);
+    ambulo__explain_line(out, "relaxing %s alone is enough: by %s", c->shared.family, where);
     for (int k = 0; k < c->other_count; k++) {
       place(&c->others[k], where, sizeof where);
-      add_line(out, "  and %s", where);
+      ambulo__explain_line(out, "  and %s", where);
     }
   }
   if (out->view.complete && alone == 0 && out->view.conflict_count > 0)
-    add_line(out, "no single family of rows is to blame: several have to give way");
+    ambulo__explain_line(out, "no single family of rows is to blame: several have to give way");
 }
 
 static void limits(ambulo__explanation *out) {
@@ -79,30 +81,36 @@ static void limits(ambulo__explanation *out) {
     const ambulo_on_limit *l = &out->on_limit[i];
     (void)name_of(l->subject, l->detail, name);
     if (l->from < l->to) {
-      add_line(out, "on its limit: %s %s, %.4g %s, t = %.4g to %.4g s (%d nodes)", l->family, name,
-               l->bound, l->unit, l->from, l->to, l->nodes);
+      ambulo__explain_line(out, "on its limit: %s %s, %.4g %s, t = %.4g to %.4g s (%d nodes)",
+                           l->family, name, l->bound, l->unit, l->from, l->to, l->nodes);
     } else {
-      add_line(out, "on its limit: %s %s, %.4g %s, t = %.4g s", l->family, name, l->bound, l->unit,
-               l->from);
+      ambulo__explain_line(out, "on its limit: %s %s, %.4g %s, t = %.4g s", l->family, name,
+                           l->bound, l->unit, l->from);
     }
   }
 }
 
-void ambulo__explain_lines(const ambulo_result *result, ambulo__explanation *out) {
+void ambulo__explain_lines(const ambulo_problem *problem, const ambulo_result *result,
+                           ambulo__explanation *out) {
   char where[200];
   const ambulo_violation *worst = &result->audit.violation;
   place(worst, where, sizeof where);
-  add_line(out, "worst row of the point returned: %s, %s", worst->family, where);
+  ambulo__explain_line(out, "worst row of the point returned: %s, %s", worst->family, where);
+  ambulo__explain_task(problem, out);
   contradictions(out);
   if (out->view.feasible_point) {
-    add_line(out, "a motion that satisfies every row exists near the point returned: the solver "
-                  "missed it; allow more time or evaluations, or start from another motion");
+    ambulo__explain_line(
+        out, "a motion that satisfies every row at the nodes exists near the point returned: "
+             "the solver missed it; allow more time or evaluations, or start from another motion");
     return;
   }
   conflicts(out);
   relaxations(out);
   limits(out);
   if (!out->view.complete)
-    add_line(out, "cut short by the time limit: not every family could be tried");
-  if (out->suggestion[0]) add_line(out, "suggestion: %s", out->suggestion);
+    ambulo__explain_line(out, "cut short by the time limit: not every family could be tried");
+  if (!out->suggestion[0]) return;
+  ambulo__explain_line(out, "suggestion: %s", out->suggestion);
+  for (int i = 0; i < out->view.setting_count; i++)
+    ambulo__explain_line(out, "  --set '%s'", out->settings[i]);
 }

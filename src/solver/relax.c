@@ -19,7 +19,6 @@
 
 enum { LAWSON_PASSES = 5 };
 static const double stiff = 1e3;         /* weight of the other families */
-static const double holds = 1e-4;        /* violation of the others that counts as none */
 static const double share = 1e-3;        /* of the worst: what still counts as in conflict */
 static const double least_share = 0.03;  /* of a weight that Lawson's iteration leaves */
 static const double narrowed_most = 4.0; /* how much more one limit may give than a family */
@@ -49,7 +48,7 @@ static int gives(const relaxing *s, int r) {
   const ambulo__table_row *row = &s->elastic->problem->table.rows[r], *only = s->only;
   if (strcmp(row->family, s->family) != 0) return 0;
   if (!only) return 1;
-  if (is_ends(s->family)) return row->constant != 0.0; /* the travel */
+  if (is_ends(s->family)) return fabs(row->constant) > 1e-9; /* the travel, m */
   return !strcmp(row->subject, only->subject) && !strcmp(row->detail, only->detail);
 }
 
@@ -148,7 +147,7 @@ static void keep(relaxing *s) {
   double others = worst_outside(s, value);
   int row = worst_row(s, value);
   double worst = row < 0 ? 0.0 : ambulo__elastic_excess(e, row, value[row]);
-  if (s->row >= -1 && (others > holds || worst >= s->worst)) return;
+  if (s->row >= -1 && (others > AMBULO__HOLDS || worst >= s->worst)) return;
   s->worst = worst;
   s->others = others;
   s->row = row;
@@ -164,7 +163,7 @@ static int relax_alone(relaxing *s) {
   int settled = ambulo__elastic_minimize(e, s->candidate);
   if (ambulo__evaluate(e->workspace, s->candidate)) return -1;
   keep(s);
-  if (s->others > holds) return settled ? 0 : -1;
+  if (s->others > AMBULO__HOLDS) return settled ? 0 : -1;
   for (int pass = 0; pass < LAWSON_PASSES && settled; pass++) {
     shift_weights(s);
     settled = ambulo__elastic_minimize(e, s->candidate);

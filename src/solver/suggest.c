@@ -1,173 +1,186 @@
-/* solver/suggest.c - one suggestion, in the words of the problem file.
- *
- * With c the value of the worst row where its family gives way alone (explain.h):
- *
- *   limits       y - lo = c or hi - y = c, c < 0: the bound has to move by -c
- *   end values   y - value = c: the value that can be reached is value + c
- *   ends         travel that can be reached: travel + c
- *   foot strike  footholds are missed by c: the spacing that can be reached while two feet are
- *                down is (place_b + c_b) - (place_a + c_a)
- *
- * These numbers suffice: a point that meets them has been found. Lengths,
- * torques and angles are in SI units and radians, as everywhere in results.
+/* solver/suggest.c - one suggestion (suggest.h): limits, ends, tubes, and the choice among rooms.
  */
-#include "solver/explain.h"
+#include "solver/suggest.h"
 
 #include "gait/bounds.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-typedef struct wording {
-  const ambulo_problem *problem;
-  const ambulo__table_row *row;
-  double value, give;   /* of the worst row; give = |value| */
-  const double *values; /* [rows] */
-  char *text;
-} wording;
-
-static int is(const wording *w, const char *family) {
-  return !strcmp(w->row->family, family);
-}
-
-/* what is left of zero after a descent */
-static double clean(double value) {
-  return fabs(value) < 1e-5 ? 0.0 : value;
-}
+static const double settled = 1e-5; /* of a value: what is left of zero after a descent */
+static const double travels = 1e-9; /* m: a row whose two ends are that far apart has the travel */
 
 static double degrees(double angle) {
   return angle * 57.29577951308232;
 }
 
+double ambulo__outward(double value, int up) {
+  if (value == 0.0 || !isfinite(value)) return value;
+  double scale = pow(10.0, 3.0 - floor(log10(fabs(value))));
+  double steps = value * scale;
+  return (up ? ceil(steps - 1e-6) : floor(steps + 1e-6)) / scale;
+}
+
+void ambulo__advice_say(const ambulo__advice *a, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(a->out->suggestion, AMBULO__LINE_SIZE, format, arguments);
+  va_end(arguments);
+}
+
+void ambulo__advice_set(const ambulo__advice *a, const char *format, ...) {
+  ambulo__explanation *out = a->out;
+  int i = out->view.setting_count;
+  if (!a->problem->keys.file || i >= AMBULO__MOST_SETTINGS) return;
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(out->setting[i], AMBULO__LINE_SIZE, format, arguments);
+  va_end(arguments);
+  out->settings[i] = out->setting[i];
+  out->view.setting_count++;
+}
+
 /* " (12 deg)" after angles */
-static const char *in_degrees(const wording *w, double angle, char buffer[32]) {
+static const char *in_degrees(const ambulo__advice *a, double angle, char buffer[32]) {
   buffer[0] = '\0';
-  if (!strcmp(w->row->unit, "rad")) (void)snprintf(buffer, 32, " (%.3g deg)", degrees(angle));
+  if (!strcmp(a->row->unit, "rad")) (void)snprintf(buffer, 32, " (%.3g deg)", degrees(angle));
   return buffer;
 }
 
-static void limit(const wording *w, const char *what) {
-  char a[32], b[32];
-  int upper = !strcmp(w->row->detail, "upper");
-  double bound = ambulo__limit_given(w->problem->model, w->row);
-  double enough = upper ? bound + w->give : bound - w->give;
-  (void)snprintf(
-      w->text, AMBULO__LINE_SIZE, "%s the %s %s of %s by %.4g %s: from %.4g%s to %.4g %s%s",
-      upper ? "raise" : "lower", w->row->detail, what, w->row->subject, w->give, w->row->unit,
-      bound, in_degrees(w, bound, a), enough, w->row->unit, in_degrees(w, enough, b));
-}
+/* --------------------------------------------------------------------- limits */
 
-static void end_value(const wording *w) {
-  char a[32], b[32];
-  double asked = -w->row->constant, reached = clean(asked + w->value);
-  (void)snprintf(
-      w->text, AMBULO__LINE_SIZE,
-      "ask for another %s %s of %s at t = %.4g s: %.4g %s%s instead of %.4g %s%s, or give "
-      "the motion more time",
-      is(w, "final_state") ? "final" : "initial", w->row->detail, w->row->subject, w->row->time,
-      reached, w->row->unit, in_degrees(w, reached, a), asked, w->row->unit,
-      in_degrees(w, asked, b));
-}
-
-static void matching_ends(const wording *w) {
-  double travel = w->problem->definition.travel;
-  if (!strcmp(w->row->detail, "value") && w->row->constant != 0.0) {
-    double sign = -w->row->constant / travel;
-    (void)snprintf(w->text, AMBULO__LINE_SIZE,
-                   "change ends.travel from %.4g m to %.4g m, which the other rows allow (%s)",
-                   travel, clean(travel + sign * w->value), w->row->subject);
-  } else {
-    (void)snprintf(w->text, AMBULO__LINE_SIZE,
-                   "the two ends of %s (%s) stay %.4g %s apart: use 'ends: {kind: free}', or drop "
-                   "what else fixes its state there",
-                   w->row->subject, w->row->detail, w->give, w->row->unit);
+/* "model.links[shank_l].coordinate.range=[0, 70]" with one of the two limits of coordinate i
+ * replaced; units of the model's file */
+static void set_limit(const ambulo__advice *a, int i, const char *key, const double limits[2],
+                      int upper, double value, double unit) {
+  const ambulo_model *model = a->problem->model;
+  char text[2][32];
+  if (!(unit > 0.0)) return;
+  for (int k = 0; k < 2; k++) {
+    double bound = (k == upper ? value : limits[k]) / unit;
+    if (isfinite(bound))
+      (void)snprintf(text[k], sizeof text[k], "%.6g",
+                     k == upper ? ambulo__outward(bound, upper) : bound);
+    else
+      (void)snprintf(text[k], sizeof text[k], "none");
   }
+  ambulo__advice_set(a, "model.links[%s].coordinate.%s=[%s, %s]",
+                     model->links[model->coordinate_link[i]].name, key, text[0], text[1]);
 }
 
-static void zmp(const wording *w) {
-  double margin = w->problem->definition.support_margin;
-  if (margin >= w->give) {
-    (void)snprintf(w->text, AMBULO__LINE_SIZE,
-                   "lower constraints.zmp_margin by %.4g m: from %.4g m to %.4g m (worst: %s at "
-                   "t = %.4g s)",
-                   w->give, margin, margin - w->give, w->row->detail, w->row->time);
-  } else {
-    (void)snprintf(w->text, AMBULO__LINE_SIZE,
-                   "the zero-moment point leaves the support by %.4g m (%s) at t = %.4g s: give "
-                   "the motion more time there, widen the support%s",
-                   w->give, w->row->detail, w->row->time,
-                   margin > 0.0 ? ", or set constraints.zmp_margin to 0" : "");
+/* the partner's limit binds in the mirrored half of the stride: both have to move */
+static void set_both(const ambulo__advice *a, const char *key, ambulo_limited what, int upper,
+                     double value) {
+  const ambulo_model *model = a->problem->model;
+  int i = ambulo_model_find_coordinate(model, a->row->subject);
+  if (i < 0) return;
+  const ambulo_coordinate *c = &model->coordinates[i];
+  int m = a->problem->definition.ends == AMBULO_ENDS_MIRRORED && c->mirror >= 0 ? c->mirror : i;
+  int angle = c->type == AMBULO_REVOLUTE;
+  const ambulo__model_units *u = &model->units;
+  double unit = angle ? u->angle : u->length;
+  if (what == AMBULO_LIMITED_TORQUE) unit = angle ? u->moment : u->force;
+  set_limit(a, i, key, ambulo__limits_of(c, what), upper, value, unit);
+  if (m == i) return;
+  int turned = c->mirror_sign < 0 ? !upper : upper;
+  const double *limits = ambulo__limits_of(&model->coordinates[m], what);
+  double mirrored = c->mirror_sign < 0 ? -value : value;
+  if (turned ? limits[1] < mirrored : limits[0] > mirrored)
+    set_limit(a, m, key, limits, turned, mirrored, unit);
+}
+
+static void limit(const ambulo__advice *a, const char *what, const char *key, ambulo_limited kind) {
+  char from[32], to[32];
+  int upper = !strcmp(a->row->detail, "upper");
+  double bound = ambulo__limit_given(a->problem->model, a->row);
+  double enough = ambulo__outward(upper ? bound + a->room : bound - a->room, upper);
+  ambulo__advice_say(a, "%s the %s %s of %s by %.4g %s: from %.4g%s to %.4g %s%s",
+                     upper ? "raise" : "lower", a->row->detail, what, a->row->subject, a->give,
+                     a->row->unit, bound, in_degrees(a, bound, from), enough, a->row->unit,
+                     in_degrees(a, enough, to));
+  set_both(a, key, kind, upper, enough);
+}
+
+/* ----------------------------------------------------------------------- ends */
+
+static void end_value(const ambulo__advice *a) {
+  char from[32], to[32];
+  double asked = -a->row->constant, reached = asked + a->value;
+  if (fabs(reached) < settled) reached = 0.0;
+  int final = ambulo__advice_is(a, "final_state", NULL);
+  const char *end = final ? "final" : "initial";
+  ambulo__advice_say(a,
+                     "ask for another %s %s of %s at t = %.4g s: %.4g %s%s instead of %.4g %s%s, "
+                     "or give the motion more time",
+                     end, a->row->detail, a->row->subject, a->row->time, reached, a->row->unit,
+                     in_degrees(a, reached, from), asked, a->row->unit, in_degrees(a, asked, to));
+  const ambulo_model *model = a->problem->model;
+  int i = ambulo_model_find_coordinate(model, a->row->subject);
+  int value = !strcmp(a->row->detail, "value"), rate = !strcmp(a->row->detail, "rate");
+  if (i < 0 || (!value && !rate)) return; /* accelerations have no key */
+  double unit = model->coordinates[i].type == AMBULO_REVOLUTE ? a->problem->keys.radians : 1.0;
+  if (unit > 0.0)
+    ambulo__advice_set(a, "ends.%s%s.%s=%.7g", end, rate ? "_speed" : "", a->row->subject,
+                       reached / unit);
+}
+
+static void free_ends(const ambulo__advice *a) {
+  ambulo__advice_say(a,
+                     "the two ends of %s (%s) stay %.4g %s apart: leave the ends free, or drop "
+                     "what else fixes its state there",
+                     a->row->subject, a->row->detail, a->give, a->row->unit);
+  ambulo__advice_set(a, "ends.kind=free");
+}
+
+static void matching_ends(const ambulo__advice *a) {
+  const ambulo_problem_definition *d = &a->problem->definition;
+  if (strcmp(a->row->detail, "value") != 0 || !(fabs(a->row->constant) > travels)) {
+    free_ends(a);
+    return;
   }
-}
-
-/* ------------------------------------------------------------------ footholds */
-
-/* how far the point that contact `index` holds stands off its place along forward, at a node;
- * the row belongs to the foot when its subject is a point of the foot's link */
-static int offset_of(const wording *w, int node, int index, double *offset) {
-  const ambulo_problem *p = w->problem;
-  const ambulo_model *model = p->model;
-  const ambulo_foot *foot = &model->feet[p->definition.contacts[index].foot];
-  int link = model->points[foot->heel_center].link;
-  for (int r = 0; r < p->rows; r++) {
-    const ambulo__table_row *row = &p->table.rows[r];
-    int is_strike = !strcmp(row->family, "foot_strike") && !strcmp(row->detail, "forward");
-    if (row->node != node || !is_strike) continue;
-    int point = ambulo_model_find_point(model, row->subject);
-    if (point < 0 || model->points[point].link != link) continue;
-    *offset = w->values[r];
-    return 1;
+  double sign = -a->row->constant / d->travel, reached = d->travel + sign * a->value;
+  if (fabs(reached) < settled) reached = 0.0;
+  if (d->contact_count > 0) {
+    ambulo__advice_say(a,
+                       "%s gets %.4g m forward where %.4g m are asked for: shorter steps, whose "
+                       "footholds go with it, or more time",
+                       a->row->subject, reached, d->travel);
+    ambulo__advice_set_step(a, reached / fmax(1.0, (double)a->problem->keys.steps));
+    return;
   }
-  return 0;
+  ambulo__advice_say(a, "change the travel from %.4g m to %.4g m, which the other rows allow (%s)",
+                     d->travel, reached, a->row->subject);
+  ambulo__advice_set(a, "ends.travel=%.7g", reached);
 }
 
-/* the pair of contacts, both down at one node, whose spacing is missed most */
-static int missed_spacing(const wording *w, double *asked, double *reached) {
-  const ambulo_problem *p = w->problem;
-  int feet = p->model->foot_count;
-  double most = 0.0;
-  for (int k = 0; k < p->nodes; k++) {
-    const int *active = p->active + k * feet;
-    for (int a = 0; a < feet; a++) {
-      for (int b = 0; b < feet; b++) {
-        double from, to;
-        if (a == b || active[a] < 0 || active[b] < 0) continue;
-        const ambulo_contact *ca = &p->definition.contacts[active[a]];
-        const ambulo_contact *cb = &p->definition.contacts[active[b]];
-        double apart = cb->place[0] - ca->place[0];
-        if (apart <= 0.0 || !offset_of(w, k, active[a], &from) ||
-            !offset_of(w, k, active[b], &to) || from - to <= most)
-          continue;
-        most = from - to;
-        *asked = apart;
-        *reached = apart - most;
-      }
-    }
+/* ----------------------------------------------------------------------- tubes */
+
+static void tube(const ambulo__advice *a) {
+  const ambulo_problem_definition *d = &a->problem->definition;
+  const ambulo_model *model = a->problem->model;
+  int i = ambulo_model_find_coordinate(model, a->row->subject), only = -1;
+  for (int t = 0; t < d->tube_count && i >= 0; t++) {
+    if (isfinite(d->tubes[t].half_width[i])) only = only < 0 ? t : d->tube_count;
   }
-  return most > 0.5 * w->give;
+  ambulo__advice_say(a,
+                     "let %s leave the motion that it follows by %.4g %s more (t = %.4g s), as a "
+                     "wider tube does",
+                     a->row->subject, a->give, a->row->unit, a->row->time);
+  if (only < 0 || only >= d->tube_count) return;
+  double unit = model->coordinates[i].type == AMBULO_REVOLUTE ? a->problem->keys.radians : 1.0;
+  double width = d->tubes[only].half_width[i] + a->room;
+  if (unit > 0.0)
+    ambulo__advice_set(a, "constraints.tubes[%d].coordinates.%s=%.6g", only, a->row->subject,
+                       ambulo__outward(width / unit, 1));
 }
 
-static void foothold(const wording *w) {
-  double asked = 0.0, reached = 0.0;
-  if (!strcmp(w->row->detail, "forward") && missed_spacing(w, &asked, &reached)) {
-    (void)snprintf(w->text, AMBULO__LINE_SIZE,
-                   "the foothold of %s at t = %.4g s is %.2g m beyond reach: shorten the step "
-                   "(gait.step_length, ends.travel) from %.4g m to %.4g m or less",
-                   w->row->subject, w->row->time, asked - reached, asked,
-                   floor(1000.0 * reached) / 1000.0);
-  } else {
-    (void)snprintf(w->text, AMBULO__LINE_SIZE,
-                   "move the foothold of %s at t = %.4g s %s by %.4g m, or change the time of its "
-                   "contact",
-                   w->row->subject, w->row->time, w->row->detail, w->value);
-  }
-}
+/* ------------------------------------------------------------------------ all */
 
-static void other(const wording *w) {
-  (void)snprintf(w->text, AMBULO__LINE_SIZE, "let %s of %s (%s) give way by %.4g %s at t = %.4g s",
-                 w->row->family, w->row->subject, w->row->detail, w->give, w->row->unit,
-                 w->row->time);
+static void other(const ambulo__advice *a) {
+  ambulo__advice_say(a, "let %s of %s (%s) give way by %.4g %s at t = %.4g s", a->row->family,
+                     a->row->subject, a->row->detail, a->give, a->row->unit, a->row->time);
 }
 
 /* the rest of the family that has to give way with it */
@@ -188,23 +201,23 @@ void ambulo__suggest(const ambulo_problem *p, const ambulo__remedy *remedy,
   if (remedy->conflict < 0) return;
   const ambulo__table_row *row = &p->table.rows[remedy->row];
   double value = remedy->value[remedy->row];
-  wording w = {p, row, value, fabs(value), remedy->value, out->suggestion};
-  if (is(&w, "torque_limit")) {
-    limit(&w, "torque limit");
-  } else if (is(&w, "speed_limit")) {
-    limit(&w, "speed limit");
-  } else if (is(&w, "joint_limit")) {
-    limit(&w, "end of the range");
-  } else if (is(&w, "initial_state") || is(&w, "final_state")) {
-    end_value(&w);
-  } else if (is(&w, "periodic") || is(&w, "mirrored")) {
-    matching_ends(&w);
-  } else if (is(&w, "zmp")) {
-    zmp(&w);
-  } else if (is(&w, "foot_strike")) {
-    foothold(&w);
-  } else {
-    other(&w);
+  double give = fabs(value), room = give + fmax(0.01 * give, 2.0 * AMBULO__HOLDS * row->size);
+  ambulo__advice a = {p, row, value, give, room, remedy->value, out};
+  if (ambulo__advice_is(&a, "torque_limit", NULL)) {
+    limit(&a, "torque limit", "torque", AMBULO_LIMITED_TORQUE);
+  } else if (ambulo__advice_is(&a, "speed_limit", NULL)) {
+    limit(&a, "speed limit", "speed", AMBULO_LIMITED_SPEED);
+  } else if (ambulo__advice_is(&a, "joint_limit", NULL)) {
+    limit(&a, "end of the range", "range", AMBULO_LIMITED_POSITION);
+  } else if (ambulo__advice_is(&a, "initial_state", NULL) ||
+             ambulo__advice_is(&a, "final_state", NULL)) {
+    end_value(&a);
+  } else if (ambulo__advice_is(&a, "periodic", NULL) || ambulo__advice_is(&a, "mirrored", NULL)) {
+    matching_ends(&a);
+  } else if (ambulo__advice_is(&a, "tracking_tube", NULL)) {
+    tube(&a);
+  } else if (!ambulo__advise_feet(&a) && !ambulo__advise_forces(&a)) {
+    other(&a);
   }
   if (!remedy->single) mention_others(&out->conflict[remedy->conflict], out->suggestion);
 }

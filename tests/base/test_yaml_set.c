@@ -47,6 +47,34 @@ static void values_are_replaced_and_added(void **state) {
   yaml_shut(&c);
 }
 
+/* null and ~ leave a key or an item out; what follows moves up and keeps its place in messages */
+static void null_leaves_out(void **state) {
+  (void)state;
+  yaml_case c = yaml_open(TEXT);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "null"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[torque]", "~"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "matrix[1][0]", " null "), AMBULO_OK);
+  const ambulo__yaml_node *time = at(c.root, "time"), *terms = at(c.root, "objective");
+  const ambulo__yaml_node *row = ambulo__yaml_item(at(c.root, "matrix"), 1);
+  assert_null(at(time, "duration"));
+  assert_int_equal(ambulo__yaml_count(time), 1);
+  assert_int_equal(ambulo__yaml_integer(at(time, "intervals"), 1, 100, 0), 36);
+  assert_int_equal(ambulo__yaml_count(terms), 1);
+  assert_string_equal(ambulo__yaml_text(at(ambulo__yaml_item(terms, 0), "term")), "upright");
+  assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(terms, 0)).path, "objective[0]");
+  assert_int_equal(ambulo__yaml_count(row), 1);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[0].term", "torque"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[torque]", "null"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_count(at(c.root, "objective")), 0);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "\"null\""), AMBULO_OK);
+  assert_string_equal(ambulo__yaml_text(at(time, "duration")), "null");
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "null"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "2"), AMBULO_OK);
+  assert_true(ambulo__yaml_number(at(time, "duration"), 0.0) == 2.0);
+  expect_messages(&c, 0);
+  yaml_shut(&c);
+}
+
 static void faults_name_the_setting(void **state) {
   (void)state;
   static const char hint[] = "\n  hint: paths look like 'time.intervals' or 'objective[0].weight'";
@@ -57,9 +85,9 @@ static void faults_name_the_setting(void **state) {
     int hinted;
   } cases[] = {
       {"nothing.there", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path goes through a key that is not there (got 'nothing')", 1},
+       ": error[E_SCHEMA]: the path needs a key that is not there (got 'nothing')", 1},
       {"tmie.duration", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path goes through a key that is not there (got 'tmie')\n"
+       ": error[E_SCHEMA]: the path needs a key that is not there (got 'tmie')\n"
        "  hint: did you mean 'time'?",
        0},
       {"time.duration.x", "1", AMBULO_E_SCHEMA,
@@ -85,7 +113,15 @@ static void faults_name_the_setting(void **state) {
       {"objective[99999999999999999999]", "1", AMBULO_E_SCHEMA,
        ": error[E_SCHEMA]: the path is not well-formed", 1},
       {"time.intervals", "", AMBULO_E_PARSE,
-       ": error[E_PARSE]: got no value; expected YAML text such as 36, [1, 2] or off", 0},
+       ": error[E_PARSE]: got no value; expected YAML text such as 36, [1, 2] or off, or null "
+       "to leave the key out",
+       0},
+      {"time.intervls", "null", AMBULO_E_SCHEMA,
+       ": error[E_SCHEMA]: the path needs a key that is not there (got 'intervls')\n"
+       "  hint: did you mean 'intervals'?",
+       0},
+      {"objective[2]", "~", AMBULO_E_SCHEMA,
+       ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
       {"time.intervals", "*a", AMBULO_E_PARSE,
        ":1:1: error[E_PARSE]: aliases ('*') are not allowed; expected a plain value", 0},
       {"time.intervals", "{a: 1, a: 2}", AMBULO_E_SCHEMA,
@@ -150,6 +186,7 @@ static void out_of_memory_anywhere(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_replaced_and_added),
+                                     cmocka_unit_test(null_leaves_out),
                                      cmocka_unit_test(faults_name_the_setting),
                                      cmocka_unit_test(a_wrong_value_is_blamed_on_the_setting),
                                      cmocka_unit_test(out_of_memory_anywhere)};
