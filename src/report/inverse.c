@@ -58,7 +58,7 @@ static ambulo_status select_columns(inverse *v, const char **names, unsigned cha
   memcpy(v->motion->time, v->given->time, (size_t)v->given->rows * sizeof *v->motion->time);
   v->motion->in_degrees = v->given->in_degrees;
   for (int i = 0; i < d; i++) {
-    int column = ambulo__motion_coordinate(v->given, names[i]);
+    int column = ambulo__motion_column(v->given, names[i]);
     is_angle[i] = model->coordinates[i].type == AMBULO_REVOLUTE;
     if (column >= 0) {
       copy_column(v, i, column);
@@ -71,7 +71,7 @@ static ambulo_status select_columns(inverse *v, const char **names, unsigned cha
                          "example '%s'",
                          model->name, d ? names[0] : "");
   for (int i = 0; i < d; i++) {
-    if (ambulo__motion_coordinate(v->given, names[i]) < 0)
+    if (ambulo__motion_column(v->given, names[i]) < 0)
       ambulo__warning(v->diagnostics, place, NULL,
                       "no column for coordinate '%s'; it is taken as 0", names[i]);
   }
