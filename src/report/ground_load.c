@@ -10,6 +10,8 @@
 
 /* of the body weight: a foot that carries less may lack its point */
 static const double light = 0.05;
+/* times the step of the motion: forces are recorded more often than that */
+static const double sparse = 20.0;
 
 /* a group of columns on its way to forces and moments on the file's own rows */
 typedef struct group_load {
@@ -255,12 +257,25 @@ static ambulo_status load_foot(group_load *g, const ambulo__force_columns *colum
 
 /* ------------------------------------------------------------------- the whole */
 
+/* 1000 ms cover the first second of any motion, and tell nothing about it */
+static void doubt_steps(const ambulo__load_source *s, const ambulo__motion *table) {
+  double span = table->time[table->rows - 1] - table->time[0];
+  double step = s->options->force_time_unit * span / (double)(table->rows - 1);
+  double own = (s->times[s->rows - 1] - s->times[0]) / (double)(s->rows > 1 ? s->rows - 1 : 1);
+  if (table->rows > 2 && own > 0.0 && step >= sparse * own)
+    ambulo__doubt(s->doubts, s->file, "times in milliseconds: --grf-time ms",
+                  "the rows of the forces are %g s apart, those of the motion %g s", step, own);
+}
+
 static ambulo_status check_times(const ambulo__load_source *s, const ambulo__motion *table) {
   ambulo__place place = {.file = s->file};
   double first = s->times[0], last = s->times[s->rows - 1], slack = 1e-6 * (last - first);
   double unit = s->options->force_time_unit;
   double begin = unit * table->time[0], end = unit * table->time[table->rows - 1];
-  if (table->rows >= 2 && begin <= first + slack && end >= last - slack) return AMBULO_OK;
+  if (table->rows >= 2 && begin <= first + slack && end >= last - slack) {
+    doubt_steps(s, table);
+    return AMBULO_OK;
+  }
   int milliseconds = 1e-3 * begin <= first + slack && 1e-3 * end >= last - slack && end > 100.0 * last;
   return ambulo__error(s->doubts->diagnostics, AMBULO_E_SCHEMA, place,
                        milliseconds ? "times in milliseconds: --grf-time ms" : NULL,

@@ -18,6 +18,9 @@ static void the_rate_is_that_of_the_rows(void **state) {
   double most = 0.0;
   for (int k = 100; k < 300; k++) most = fmax(most, fabs(x[k]));
   assert_close(most, sqrt(0.5), 2e-3);
+  double rounded[4] = {0.0, 0.108, 0.2, 0.3}, y[4] = {1.0, 1.0, 1.0, 1.0};
+  f = (ambulo__filtering){.time = rounded, .rows = 4, .time_unit = 1.0, .cutoff = 2.0, .order = 4};
+  assert_int_equal(ambulo__filter(&f, y, 1, NULL), AMBULO_OK);
 }
 
 static void refuse(ambulo__filtering *f, const char *message) {

@@ -67,6 +67,13 @@ static void every_convention_is_read(void **state) {
        "ground_force_calcn_l", "calcn_l");
 }
 
+static void letter_case_does_not_part_a_group(void **state) {
+  (void)state;
+  nine("R_Ground_Force_VX,r_ground_force_vy,R_GROUND_FORCE_VZ,r_ground_force_Px,R_ground_force_py,"
+       "r_ground_force_pZ,r_ground_torque_X,R_ground_torque_y,r_Ground_Torque_z",
+       "R_ground_force", "R");
+}
+
 static void own_columns_have_a_free_moment(void **state) {
   (void)state;
   ambulo__motion *motion = table("q.hip,grf.left.x,grf.left.y,grf.left.z,cop.left.x,cop.left.y,"
@@ -202,6 +209,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_convention_is_read),
+      cmocka_unit_test(letter_case_does_not_part_a_group),
       cmocka_unit_test(own_columns_have_a_free_moment),
       cmocka_unit_test(what_is_no_force_is_left),
       cmocka_unit_test(one_component_has_one_column),

@@ -2,6 +2,7 @@
 #include "report/force_columns.h"
 #include "support/arm.h"
 #include "support/messages.h"
+#include "support/model_text.h"
 #include "support/planar_walker.h"
 
 /* messages of a table whose one group belongs to foot 0 */
@@ -84,9 +85,40 @@ static void an_arm_in_a_plane_is_planar_too(void **state) {
   ambulo_model_free(model);
 }
 
+static int idle_axis_of(const char *links) {
+  char text[1024];
+  ambulo_model *model = NULL;
+  int axis = 7;
+  snprintf(text, sizeof text, "%s%s", MODEL_HEAD "links:\n", links);
+  assert_int_equal(ambulo_model_load_text(text, strlen(text), "t.yaml", NULL, NULL, NULL, &model),
+                   AMBULO_OK);
+  assert_int_equal(ambulo__idle_axis(model, NULL, &axis), AMBULO_OK);
+  ambulo_model_free(model);
+  return axis;
+}
+
+/* z is to the right: one joint that leaves the plane is enough */
+static void one_joint_out_of_the_plane(void **state) {
+  (void)state;
+#define LINK "parent: none, joint: "
+  assert_int_equal(idle_axis_of("  - {name: a, " LINK "revolute, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"),
+                   2);
+  assert_int_equal(idle_axis_of("  - {name: a, " LINK "prismatic, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"),
+                   -1);
+  assert_int_equal(idle_axis_of("  - {name: b, " LINK "fixed, dh: [0, 0, 0, 90]}\n"
+                                "  - {name: a, parent: b, joint: revolute, dh: [0, 0, 1, 0], " MODEL_BODY
+                                "}\n"),
+                   -1);
+  assert_int_equal(idle_axis_of("  - {name: b, " LINK "fixed, dh: [0, 0, 0, 90]}\n"
+                                "  - {name: a, parent: b, joint: prismatic, dh: [0, 0, 1, 0], " MODEL_BODY
+                                "}\n"),
+                   2);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_planar_model_feels_its_plane),
                                      cmocka_unit_test(a_spatial_model_feels_all),
-                                     cmocka_unit_test(an_arm_in_a_plane_is_planar_too)};
+                                     cmocka_unit_test(an_arm_in_a_plane_is_planar_too),
+                                     cmocka_unit_test(one_joint_out_of_the_plane)};
   return cmocka_run_group_tests_name("report/force_complete", tests, NULL, NULL);
 }

@@ -126,6 +126,11 @@ static void light_rows_lend_a_point(void **state) {
   expect(&f, 1, 0.0, 10.0, 10.0 * 1.2);
   expect(&f, 2, 0.0, 600.0, 600.0 * 1.4);
   ambulo__ground_load_free(&f.load);
+  GOOD("time,ground_force_r_vx,ground_force_r_vy,ground_force_r_px,ground_force_r_py\n"
+       "0,0,500,1.2,0\n0.5,0,10,0,0\n0.7,0,0,0,0\n0.9,0,600,1.4,0\n1,0,600,1.4,0\n",
+       NOTHING_LEFT, NO_TORQUE, NULL);
+  expect(&f, 1, 0.0, 10.0, 10.0 * 1.4);
+  ambulo__ground_load_free(&f.load);
   BAD("time,ground_force_r_vx,ground_force_r_vy,ground_force_r_px,ground_force_r_py\n"
       "0,0,500,1.2,0\n0.5,0,312,nan,nan\n1,0,600,1.4,0\n",
       AMBULO_E_SCHEMA, NOTHING_LEFT, NO_TORQUE,
@@ -216,6 +221,17 @@ static void times_must_be_covered(void **state) {
   BAD(HEAD "0,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT, "forces from 0 to 0 s", NULL);
   BAD(HEAD "500,0,5,1,0,0\n1500,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT,
       "forces from 500 to 1500 s", NULL);
+  BAD(HEAD "400,0,5,1,0,0\n900,0,5,1,0,0\n1000,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT,
+      "forces from 400 to 1000 s", NULL);
+  GOOD(HEAD "0,0,5,1,0,0\n500,0,5,1,0,0\n1000,0,5,1,0,0\n", NOTHING_LEFT,
+       "warning: the rows of the forces are 500 s apart, those of the motion 0.5 s\n  hint: times "
+       "in milliseconds: --grf-time ms",
+       NULL);
+  ambulo__ground_load_free(&f.load);
+  f.options.force_time_unit = 0.001;
+  GOOD(HEAD "0,0,5,1,0,0\n500,0,5,1,0,0\n1000,0,5,1,0,0\n", NOTHING_LEFT, NULL);
+  ambulo__ground_load_free(&f.load);
+  f.options.force_time_unit = 1.0;
   BAD(HEAD "-5,0,5,1,0,0\n0.2,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT, "from -5 to 0.2 s",
       NULL);
   close_fixture(&f);
@@ -260,6 +276,35 @@ static void every_allocation_may_fail(void **state) {
   close_fixture(&f);
 }
 
+/* the error names the option where it would help, and only there */
+static void milliseconds_are_recognized(void **state) {
+  static const double later[ROWS] = {0.2, 0.7, 1.2};
+  static const struct {
+    const char *rows;
+    int hint;
+  } cases[] = {{"200,0,5,1,0,0\n1200,0,5,1,0,0\n", 1}, {"0.3,0,5,1,0,0\n1.2,0,5,1,0,0\n", 0}};
+  fixture f = open_fixture();
+  for (int i = 0; i < 2; i++) {
+    char text[256], message[512];
+    const char *path = scratch_path(state, "forces.csv");
+    snprintf(text, sizeof text, HEAD "%s", cases[i].rows);
+    scratch_write(path, text);
+    f.doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0};
+    ambulo__load_source source = {.model = f.model,
+                                  .file = path,
+                                  .options = &f.options,
+                                  .times = later,
+                                  .rows = ROWS,
+                                  .doubts = &f.doubts};
+    assert_int_equal(ambulo__ground_load_read(&source, NULL, &f.load), AMBULO_E_SCHEMA);
+    ambulo_diagnostics_format(f.doubts.diagnostics, 1, message, sizeof message);
+    assert_non_null(strstr(message, "expected them from 0.2 to 1.2 s"));
+    assert_int_equal(strstr(message, "--grf-time ms") != NULL, cases[i].hint);
+    ambulo_diagnostics_free(f.doubts.diagnostics);
+  }
+  close_fixture(&f);
+}
+
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
@@ -270,6 +315,7 @@ int main(void) {
                                      SCRATCH_TEST(forces_without_points),
                                      SCRATCH_TEST(units_and_several_plates),
                                      SCRATCH_TEST(times_must_be_covered),
+                                     SCRATCH_TEST(milliseconds_are_recognized),
                                      SCRATCH_TEST(forces_are_filtered_as_moments),
                                      SCRATCH_TEST(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("report/ground_load", tests, NULL, NULL);

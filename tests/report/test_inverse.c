@@ -227,6 +227,27 @@ static void inputs_and_files_of_others_are_kept(void **state) {
   ambulo_model_free(model);
 }
 
+/* an allocator that meanwhile lets somebody else write where the output is to go */
+static void *resize_and_intrude(void *user, void *pointer, size_t size) {
+  const char *path = user;
+  if (access(path, F_OK) != 0) scratch_write(path, "years of work");
+  if (size > 0) return realloc(pointer, size);
+  free(pointer);
+  return NULL;
+}
+
+static void what_appears_in_the_meantime_is_kept(void **state) {
+  ambulo_model *model = arm_create();
+  char output[SCRATCH_PATH + 256];
+  snprintf(output, sizeof output, "%s", scratch_path(state, "out.csv"));
+  ambulo_allocator intruder = {resize_and_intrude, output};
+  assert_int_equal(
+      ambulo_inverse_dynamics_file(model, write_arm(state), output, &intruder, NULL, NULL),
+      AMBULO_E_IO);
+  assert_file_equal(output, "years of work");
+  ambulo_model_free(model);
+}
+
 static void nothing_is_written_after_a_doubt_of_the_strict(void **state) {
   ambulo_model *model = arm_create();
   ambulo_inverse_options options = ambulo_inverse_options_default();
@@ -298,6 +319,7 @@ int main(void) {
                                      SCRATCH_TEST(wrench_power_and_residual),
                                      SCRATCH_TEST(files_and_texts_agree),
                                      SCRATCH_TEST(inputs_and_files_of_others_are_kept),
+                                     SCRATCH_TEST(what_appears_in_the_meantime_is_kept),
                                      SCRATCH_TEST(nothing_is_written_after_a_doubt_of_the_strict),
                                      SCRATCH_TEST(bad_arguments),
                                      SCRATCH_TEST(a_full_device)};

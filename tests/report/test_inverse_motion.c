@@ -109,6 +109,28 @@ static void what_the_file_has_is_used(void **state) {
   one(state, &d, NULL, silence, 0.0, 0.0);
 }
 
+/* accelerations are the slopes of the given rates, not of the values */
+static void slopes_of_rates(void **state) {
+  ambulo_model *model = arm_create();
+  const char *path = scratch_path(state, "m.csv");
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, "time,shoulder,elbow,qd.shoulder,qd.elbow\n");
+  for (int k = 0; k < ROWS; k++) {
+    double t = 0.1 * k, q[2], qd[2], qdd[2];
+    at(t, q, qd, qdd);
+    fprintf(file, "%.17g,%.17g,%.17g,%.17g,%.17g\n", t, q[0], q[1], qd[0], qd[1] + 0.05 * t);
+  }
+  fclose(file);
+  ambulo__motion *m = inverse_of(model, path, NULL, NULL, AMBULO_OK);
+  for (int k = 0; k < ROWS; k++) {
+    assert_close(table_cell(m, k, "qdd.shoulder"), -0.3 * k, 1e-8);
+    assert_close(table_cell(m, k, "qdd.elbow"), 1.45, 1e-8);
+  }
+  ambulo__motion_free(m);
+  ambulo_model_free(model);
+}
+
 /* accelerations given alone stay, and rates come from the values */
 static void accelerations_alone(void **state) {
   dress d = {"time,q.shoulder,q.elbow,qdd.shoulder,qdd.elbow", 1.0, 1.0, 1, 0, 1, 0.05};
@@ -167,7 +189,7 @@ static void values_are_filtered(void **state) {
     fprintf(file, "time,shoulder,elbow%s\n", order == 4 ? ",qd.elbow" : "");
     for (int k = 0; k <= 200; k++)
       fprintf(file, "%.17g,%.17g,0.5%s\n", 0.01 * k, 0.2 * sin(2.0 * pi * 5.0 * 0.01 * k),
-              order == 4 ? ",0" : "");
+              order == 4 ? ",0.01" : "");
     fclose(file);
     options.cutoff = 5.0;
     options.filter_order = order;
@@ -179,6 +201,7 @@ static void values_are_filtered(void **state) {
       most = fmax(most, fabs(table_cell(m, k, "q.shoulder")));
       fastest = fmax(fastest, fabs(table_cell(m, k, "qd.shoulder")));
       assert_close(table_cell(m, k, "q.elbow"), 0.5, 1e-12);
+      assert_close(table_cell(m, k, "qd.elbow"), 0.0, 1e-9);
     }
     assert_close(most, 0.2 * sqrt(0.5), 1e-6);
     assert_close(fastest, 0.2 * sqrt(0.5) * 2.0 * pi * 5.0, 1e-3);
@@ -253,7 +276,7 @@ static void missing_columns(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(what_the_file_has_is_used), SCRATCH_TEST(accelerations_alone),
+      SCRATCH_TEST(what_the_file_has_is_used), SCRATCH_TEST(slopes_of_rates), SCRATCH_TEST(accelerations_alone),
       SCRATCH_TEST(units_of_all_orders),       SCRATCH_TEST(lengths_in_millimetres),
       SCRATCH_TEST(values_are_filtered),       SCRATCH_TEST(few_rows),
       SCRATCH_TEST(columns_that_contradict),   SCRATCH_TEST(missing_columns)};

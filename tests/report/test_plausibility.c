@@ -69,6 +69,21 @@ static void units_are_doubted(void **state) {
   ambulo_model_free(model);
 }
 
+/* nobody stands that high, even without moving */
+static void lengths_at_rest_are_doubted(void **state) {
+  ambulo_model *model = walker();
+  ambulo_inverse_options mended = ambulo_inverse_options_default();
+  const char *path = scratch_path(state, "stand.csv");
+  scratch_write(path, "time,pelvis_tx,pelvis_ty,hip_flexion_r,knee_angle_r,pelvis_tilt,lumbar,"
+                      "ankle_angle_r,hip_flexion_l,knee_angle_l,ankle_angle_l\n"
+                      "0,0,950,0,0,0,0,0,0,0,0\n0.1,0,950,0,0,0,0,0,0,0,0\n"
+                      "0.2,0,950,0,0,0,0,0,0,0,0\n0.3,0,950,0,0,0,0,0,0,0,0\n");
+  mended.length_unit = 0.001;
+  doubted(model, path, NULL, &mended, "'pelvis_ty' is at 950 m at t = 0 s; its range is -3 to 3 m",
+          "--lengths mm");
+  ambulo_model_free(model);
+}
+
 /* joints without range: ten turns, or a speed that no joint has */
 static void speeds_are_doubted(void **state) {
   ambulo_model *model = NULL;
@@ -219,6 +234,7 @@ static void places_and_residuals_are_doubted(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(units_are_doubted),
+                                     SCRATCH_TEST(lengths_at_rest_are_doubted),
                                      SCRATCH_TEST(speeds_are_doubted),
                                      SCRATCH_TEST(rates_that_contradict_are_doubted),
                                      SCRATCH_TEST(another_body_is_doubted),

@@ -74,9 +74,34 @@ static void free_ends(void **state) {
   assert_close(s[0].time, 0.5, 0.0);
 }
 
+/* a schedule may list the end of the cycle first: the strike stays at its beginning */
+static void the_earlier_time_stays(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create();
+  ambulo_problem *problem = NULL;
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  ambulo_contact contacts[] = {{.foot = 0, .mode = AMBULO_CONTACT_FLAT, .from = 1.0, .to = 1.0},
+                               {.foot = 1, .mode = AMBULO_CONTACT_FLAT, .from = 0.3, .to = 0.9},
+                               {.foot = 0, .mode = AMBULO_CONTACT_FLAT, .from = 0.0, .to = 0.4}};
+  ambulo__strike s[16];
+  d.model = model;
+  d.contacts = contacts;
+  d.contact_count = 3;
+  d.ends = AMBULO_ENDS_PERIODIC;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &problem), AMBULO_OK);
+  assert_int_equal(ambulo__strikes(problem, s), 2);
+  assert_int_equal(s[0].foot, 0);
+  assert_close(s[0].time, 0.0, 0.0);
+  assert_int_equal(s[1].foot, 1);
+  assert_close(s[1].time, 0.3, 0.0);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(periodic), cmocka_unit_test(mirrored), cmocka_unit_test(free_ends),
+      cmocka_unit_test(the_earlier_time_stays),
       cmocka_unit_test(what_is_one_event_is_listed_once)};
   return cmocka_run_group_tests_name("report/strikes", tests, NULL, NULL);
 }
