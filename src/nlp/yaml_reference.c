@@ -144,6 +144,9 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
     if (column) to_radians(reader, motion, column);
     if (column) doubt_units(reader, motion, column, node);
     doubt_times(motion, duration, node);
+    if (motion->declared_columns >= 0 && motion->declared_columns != motion->columns + 1)
+      ambulo__yaml_warning(node, NULL, "the reference has %d columns; its header says %d (nColumns)",
+                           motion->columns + 1, motion->declared_columns);
     if (column) reference = resample(reader, motion, column, node, samples, scale);
   }
   ambulo__motion_free(motion);

@@ -20,6 +20,12 @@ void ambulo__doubt(ambulo__doubts *doubts, const char *file, const char *hint, c
   }
 }
 
+void ambulo__doubt_header(ambulo__doubts *doubts, const char *file, const ambulo__motion *table) {
+  if (table->declared_columns < 0 || table->declared_columns == table->columns + 1) return;
+  ambulo__doubt(doubts, file, NULL, "%d columns; the header says %d (nColumns)", table->columns + 1,
+                table->declared_columns);
+}
+
 ambulo_status ambulo__doubts_status(const ambulo__doubts *doubts) {
   return doubts->strict && doubts->count > 0 ? AMBULO_E_SCHEMA : AMBULO_OK;
 }

@@ -180,17 +180,20 @@ int ambulo__force_group_named(const ambulo__force_columns *columns, const char *
   return tags == 1 && length > 0 ? tagged : -1;
 }
 
-/* columns PREFIXx, PREFIXy, PREFIXz; their number */
+/* columns PREFIXx, PREFIXy, PREFIXz, or PREFIX1 .. 3 as OpenSim flattens vectors; their number */
 static int find_components(const ambulo__motion *table, const char *prefix, size_t length,
                            int columns[3]) {
+  static const char *const endings[] = {"xyz", "123"};
   char name[AMBULO__MOTION_MAX_NAME + 2];
   int found = 0;
-  for (int i = 0; i < 3; i++) {
-    columns[i] = -1;
-    if (length == 0 || length >= sizeof name - 2) continue;
-    (void)snprintf(name, sizeof name, "%.*s%c", (int)length, prefix, "xyz"[i]);
-    columns[i] = ambulo__motion_column(table, name);
-    found += columns[i] >= 0;
+  for (int i = 0; i < 3; i++) columns[i] = -1;
+  if (length == 0 || length >= sizeof name - 2) return 0;
+  for (int way = 0; way < 2 && found == 0; way++) {
+    for (int i = 0; i < 3; i++) {
+      (void)snprintf(name, sizeof name, "%.*s%c", (int)length, prefix, endings[way][i]);
+      columns[i] = ambulo__motion_column(table, name);
+      found += columns[i] >= 0;
+    }
   }
   return found;
 }

@@ -332,6 +332,7 @@ ambulo_status ambulo__ground_load_read(const ambulo__load_source *source,
   l.loose = ambulo__alloc(&l.allocator, count, sizeof(double));
   l.is_loose = ambulo__alloc(&l.allocator, (size_t)l.feet, 1);
   if (!l.force || !l.moment || !l.loose || !l.is_loose) status = AMBULO_E_MEMORY;
+  if (read) ambulo__doubt_header(source->doubts, source->file, read);
   if (!status) status = read_columns(source, source->table ? source->table : read, &l);
   ambulo__motion_free(read);
   if (status) {

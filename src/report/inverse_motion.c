@@ -211,6 +211,7 @@ ambulo_status ambulo__inverse_read(ambulo__inverse *v) {
       ambulo__motion_read(v->file, &v->allocator, v->doubts.diagnostics, &v->given);
   if (status) return status;
   v->rows = v->given->rows;
+  ambulo__doubt_header(&v->doubts, v->file, v->given);
   for (int k = 0; k < v->rows; k++) v->given->time[k] *= v->options.time_unit;
   status = allocate(v);
   if (!status) status = take_columns(v);

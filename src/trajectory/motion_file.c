@@ -15,6 +15,7 @@ ambulo_status ambulo__motion_create(int rows, int columns, const char *const *na
   m->allocator = own;
   m->rows = rows;
   m->columns = columns;
+  m->declared_columns = -1;
   m->body_mass = (double)NAN;
   m->time = ambulo__alloc(&own, (size_t)rows, sizeof *m->time);
   m->values = ambulo__alloc(&own, (size_t)rows * (size_t)columns, sizeof *m->values);

@@ -151,11 +151,6 @@ static ambulo_status read_names(table_reader *reader) {
     ambulo_status status = add_name(reader, &cell);
     if (status) return status;
   }
-  if (reader->header.declared_columns >= 0 && reader->header.declared_columns != count) {
-    fault(reader,
-          ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
-                        "%d columns; expected %lld (nColumns)", count, reader->header.declared_columns));
-  }
   return AMBULO_OK;
 }
 
@@ -240,6 +235,7 @@ static ambulo_status read_rows(table_reader *reader) {
   if (status) return status;
   reader->motion->in_degrees = reader->header.in_degrees;
   reader->motion->unit_stated = reader->header.unit_stated;
+  reader->motion->declared_columns = (int)reader->header.declared_columns;
   reader->motion->body_mass = reader->header.body_mass;
   memcpy(reader->motion->gravity, reader->header.gravity, sizeof reader->header.gravity);
   for (int row = 0; next_row(reader); row++) read_row(reader, row);

@@ -19,7 +19,27 @@ static void strictness_decides(void **state) {
   }
 }
 
+static void headers_that_count_wrongly(void **state) {
+  (void)state;
+  static const char *const texts[] = {"t\nnColumns=3\nendheader\ntime\tq\n0\t1\n",
+                                      "t\nnColumns=2\nendheader\ntime\tq\n0\t1\n",
+                                      "t\nendheader\ntime\tq\n0\t1\n"};
+  for (int i = 0; i < 3; i++) {
+    ambulo__motion *motion = NULL;
+    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
+    assert_int_equal(ambulo__motion_read_text(texts[i], strlen(texts[i]), "m.sto",
+                                              AMBULO__MOTION_STO, NULL, NULL, &motion),
+                     AMBULO_OK);
+    ambulo__doubt_header(&doubts, "m.sto", motion);
+    assert_int_equal(doubts.count, i == 0);
+    if (i == 0) assert_message(doubts.diagnostics, 0, "m.sto: warning: 2 columns; the header says 3");
+    ambulo_diagnostics_free(doubts.diagnostics);
+    ambulo__motion_free(motion);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(strictness_decides)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(strictness_decides),
+                                     cmocka_unit_test(headers_that_count_wrongly)};
   return cmocka_run_group_tests_name("report/doubt", tests, NULL, NULL);
 }

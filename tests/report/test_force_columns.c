@@ -165,6 +165,17 @@ static void groups_by_the_beginnings_of_their_columns(void **state) {
                    AMBULO_E_SCHEMA);
   assert_message(list, 0, "no columns 'FP2.Fx', 'FP2.Fy', 'FP2.Fz'");
   assert_int_equal(index, 2);
+  ambulo__force_columns_free(&c);
+  ambulo__motion_free(motion);
+  /* OpenSim's own tables of C3D files number the components */
+  motion = table("f1_1,f1_2,f1_3,p1_1,p1_2,p1_3,m1_1,m1_2,m1_3");
+  assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
+  assert_int_equal(ambulo__force_group_add(&c, "f1_:p1_:m1_", 11, list, &index), AMBULO_OK);
+  for (int i = 0; i < 3; i++) {
+    assert_int_equal(c.groups[0].force[i], i);
+    assert_int_equal(c.groups[0].point[i], 3 + i);
+    assert_int_equal(c.groups[0].torque[i], 6 + i);
+  }
   ambulo_diagnostics_free(list);
   ambulo__force_columns_free(&c);
   ambulo__motion_free(motion);

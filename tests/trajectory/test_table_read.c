@@ -102,8 +102,6 @@ static const struct {
     {"a.sto", "title\nendheader\n", AMBULO_E_PARSE, "no column names"},
     {"a.sto", "t\nnRows=3\nendheader\ntime\tq\n0\t1\n1\t1\n", AMBULO_E_PARSE,
      "2 rows; expected 3 (nRows)"},
-    {"a.sto", "t\nnColumns=3\nendheader\ntime\tq\n0\t1\n", AMBULO_E_PARSE,
-     "2 columns; expected 3 (nColumns)"},
     {"a.sto", "t\nnRows=many\nendheader\ntime\tq\n0\t1\n", AMBULO_E_SCHEMA,
      "a.sto:2:7: error[E_SCHEMA]: not a count (got 'many')"},
     {"a.sto", "t\ninDegrees=\nendheader\ntime\tq\n0\t1\n", AMBULO_E_SCHEMA, "inDegrees is ''"},
@@ -224,6 +222,11 @@ static void headers_are_taken_in(void **state) {
   assert_close(motion->body_mass, 75.0, 0.0);
   assert_close(motion->gravity[1], -9.81, 0.0);
   assert_int_equal(motion->unit_stated, 0);
+  assert_int_equal(motion->declared_columns, -1);
+  ambulo__motion_free(motion);
+  motion = read_ok("t\nnColumns=3\nendheader\ntime\tq\n0\t1\n", "a.sto");
+  assert_int_equal(motion->declared_columns, 3);
+  assert_int_equal(motion->columns, 1);
   ambulo__motion_free(motion);
 }
 
