@@ -32,10 +32,10 @@ typedef struct ambulo_inverse_options {
    * that it leaves out are matched by names. NULL: all by names. */
   const char *force_columns;
 
-  ambulo_angle_unit angles;               /* of the motion; rates and accelerations alike */
-  double length_unit, time_unit;          /* of the motion, in m and s: 0.001 for mm and ms; 1 */
-  double force_length_unit, force_time_unit; /* of the file `forces`: points in this unit, torques
-                                                in N times it; 1 */
+  ambulo_angle_unit angles;      /* of the motion; rates and accelerations alike */
+  double length_unit, time_unit; /* of the motion, in m and s: 0.001 for mm and ms; 1 */
+  double force_length_unit;      /* of the forces' points, torques in N times it; 1 */
+  double force_time_unit;        /* of the file `forces`; 1 */
 
   /* Low-pass filters, Hz; 0: none. Zero-lag Butterworth, forward and backward in time, -3 dB at
    * the cut-off after both (Winter 2009, with the correction for two passes); of the motion's
@@ -44,7 +44,7 @@ typedef struct ambulo_inverse_options {
   double cutoff, force_cutoff;
   int filter_order; /* of the whole filter: 2, 4, 6 or 8; 4 */
 
-  int recompute_rates;  /* 1: rates and accelerations from the values even where the file has them */
+  int recompute_rates; /* 1: rates and accelerations from the values even where the file has them */
   double ground_height; /* of the plane of the zero-moment point, m along up; 0 */
   int strict;           /* 1: what is only doubted, a warning otherwise, is an error (E_SCHEMA) */
   int overwrite;        /* 1: write over an input, and over what ambulo did not write */
@@ -60,7 +60,8 @@ typedef struct ambulo_ground_residual {
   double given_vertical_impulse; /* of the forces, N s (likewise) */
 } ambulo_ground_residual;
 
-/* Inverse dynamics of the file `motion`. Coordinates go by name ("NAME", "q.NAME", ".../NAME/value",
+/* Inverse dynamics of the file `motion`. Coordinates go by name ("NAME", "q.NAME",
+ * ".../NAME/value",
  * ".../NAME"), rates ("qd.NAME", "NAME_u", ".../NAME/speed") and accelerations ("qdd.NAME",
  * ".../NAME/accel") are used where the file has them; those it lacks come from an interpolating
  * spline of degree 5 (3 with fewer than 6 rows; at least 4 rows) through the rates or the values.

@@ -76,8 +76,7 @@ static ambulo_status load(const ambulo__cli_input *input, const char *file,
                           const subject_text *subject, ambulo_diagnostics *diagnostics,
                           ambulo__cli_body *body) {
   ambulo_file_kind kind = AMBULO_FILE_MODEL;
-  const char **overrides =
-      calloc((size_t)input->given_count + SUBJECT_KEYS + 1, sizeof *overrides);
+  const char **overrides = calloc((size_t)input->given_count + SUBJECT_KEYS + 1, sizeof *overrides);
   if (!overrides) return AMBULO_E_MEMORY;
   int count = ambulo__cli_values(input, "set", overrides);
   ambulo_status status = ambulo_file_kind_of(file, NULL, diagnostics, &kind);

@@ -1,4 +1,5 @@
-/* cli/body.h - the body of a motion: a model file or a problem's, under the conditions of options. */
+/* cli/body.h - the body of a motion: a model file or a problem's, under the conditions of options.
+ */
 #ifndef AMBULO_CLI_BODY_H
 #define AMBULO_CLI_BODY_H
 
@@ -11,8 +12,9 @@
       {"mass", 0, "KG", "body mass of the subject"},                                               \
       {"stature", 0, "M", "stature of the subject"},                                               \
       {"sex", 0, "female|male", "sex of the subject"},                                             \
-      {"slope", 0, "DEG", "the ground rises so much along forward"},                               \
-      {"load", 0, "LINK:KG:X,Y,Z", "a mass fixed on a link, at a place in its frame (m)"}
+      {"slope", 0, "DEG", "the ground rises so much along forward"}, {                             \
+    "load", 0, "LINK:KG:X,Y,Z", "a mass fixed on a link, at a place in its frame (m)"              \
+  }
 
 typedef struct ambulo__cli_body {
   ambulo_model *loaded, *adapted;

@@ -65,7 +65,8 @@ static void doubt_times(const ambulo__motion *motion, double duration,
   double step = motion->rows > 1 ? motion->time[1] - motion->time[0] : 0.0;
   if (step <= 1.5 * duration) return;
   ambulo__yaml_warning(node, "times are in seconds",
-                       "the reference has a row every %g s; the problem lasts %g s", step, duration);
+                       "the reference has a row every %g s; the problem lasts %g s", step,
+                       duration);
 }
 
 /* value of a column at `time` of the file */
@@ -145,7 +146,8 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
     if (column) doubt_units(reader, motion, column, node);
     doubt_times(motion, duration, node);
     if (motion->declared_columns >= 0 && motion->declared_columns != motion->columns + 1)
-      ambulo__yaml_warning(node, NULL, "the reference has %d columns; its header says %d (nColumns)",
+      ambulo__yaml_warning(node, NULL,
+                           "the reference has %d columns; its header says %d (nColumns)",
                            motion->columns + 1, motion->declared_columns);
     if (column) reference = resample(reader, motion, column, node, samples, scale);
   }

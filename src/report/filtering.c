@@ -28,10 +28,11 @@ ambulo_status ambulo__filter(const ambulo__filtering *f, double *values, int col
     return ambulo__error(f->diagnostics, AMBULO_E_SCHEMA, place, NULL,
                          "%s needs rows of several times", f->option);
   if (unevenness(f, step, &at) > 0.1)
-    return ambulo__error(f->diagnostics, AMBULO_E_SCHEMA, place, "resample the file first",
-                         "%s needs equally spaced times; with steps of %g s, t = %g s would be %g s",
-                         f->option, f->time_unit * step, f->time_unit * f->time[at],
-                         f->time_unit * (f->time[0] + (double)at * step));
+    return ambulo__error(
+        f->diagnostics, AMBULO_E_SCHEMA, place, "resample the file first",
+        "%s needs equally spaced times; with steps of %g s, t = %g s would be %g s", f->option,
+        f->time_unit * step, f->time_unit * f->time[at],
+        f->time_unit * (f->time[0] + (double)at * step));
   double rate = 1.0 / (f->time_unit * step);
   if (!(f->cutoff < 0.5 * rate))
     return ambulo__error(f->diagnostics, AMBULO_E_SCHEMA, place, NULL,

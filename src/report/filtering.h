@@ -9,8 +9,8 @@ typedef struct ambulo__filtering {
   const double *time; /* [rows], in units of time_unit seconds */
   int rows;
   double time_unit;
-  double cutoff; /* Hz */
-  int order;     /* of the whole filter (trajectory/butterworth.h) */
+  double cutoff;             /* Hz */
+  int order;                 /* of the whole filter (trajectory/butterworth.h) */
   const char *option, *file; /* for messages */
   ambulo_diagnostics *diagnostics;
 } ambulo__filtering;

@@ -11,10 +11,10 @@ typedef enum part { FORCE, POINT, TORQUE, FREE_MOMENT } part;
 /* a column's name, taken apart */
 typedef struct label {
   part part;
-  int axis;                         /* of FORCE, POINT, TORQUE */
-  const char *before, *after;       /* tag: around the words */
+  int axis;                   /* of FORCE, POINT, TORQUE */
+  const char *before, *after; /* tag: around the words */
   size_t before_length, after_length;
-  int own;                          /* grf., cop., free_moment. */
+  int own; /* grf., cop., free_moment. */
 } label;
 
 static int axis_of(char letter) {
@@ -27,7 +27,8 @@ static int read_own(const char *name, label *l) {
   static const char *const prefixes[] = {"grf.", "cop.", "free_moment."};
   static const part parts[] = {FORCE, POINT, FREE_MOMENT};
   for (int i = 0; i < 3; i++) {
-    size_t head = strlen(prefixes[i]), length = strlen(name), tail = parts[i] == FREE_MOMENT ? 0 : 2;
+    size_t head = strlen(prefixes[i]), length = strlen(name),
+           tail = parts[i] == FREE_MOMENT ? 0 : 2;
     if (strncmp(name, prefixes[i], head) != 0 || length <= head + tail) continue;
     if (tail && (name[length - 2] != '.' || axis_of(name[length - 1]) < 0)) continue;
     *l = (label){.part = parts[i], .own = 1, .after = name + head};
@@ -109,8 +110,8 @@ static int *place_of(ambulo__force_group *group, const label *l) {
 }
 
 static ambulo_status grow(ambulo__force_columns *c, const ambulo__force_group *group) {
-  ambulo__force_group *groups = ambulo__realloc(&c->allocator, c->groups, (size_t)c->count + 1,
-                                                sizeof *groups);
+  ambulo__force_group *groups =
+      ambulo__realloc(&c->allocator, c->groups, (size_t)c->count + 1, sizeof *groups);
   if (!groups) return AMBULO_E_MEMORY;
   c->groups = groups;
   groups[c->count++] = *group;
@@ -134,8 +135,8 @@ static ambulo_status take_column(ambulo__force_columns *c, int column,
   if (*place >= 0) {
     ambulo__place where = {.file = c->file};
     return ambulo__error(diagnostics, AMBULO_E_SCHEMA, where, NULL,
-                         "the columns '%s' and '%s' are the same component of '%s'",
-                         names[*place], names[column], c->groups[at].name);
+                         "the columns '%s' and '%s' are the same component of '%s'", names[*place],
+                         names[column], c->groups[at].name);
   }
   *place = column;
   return AMBULO_OK;

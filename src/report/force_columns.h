@@ -46,7 +46,8 @@ void ambulo__force_columns_free(ambulo__force_columns *columns); /* accepts a ze
 int ambulo__force_group_named(const ambulo__force_columns *columns, const char *name,
                               size_t length);
 /* Adds a group whose columns begin with three texts, "F:P:T" as an OpenSim file of external loads
- * names them, and sets *index. P and T may be empty. Errors: E_SCHEMA (no such columns), E_MEMORY. */
+ * names them, and sets *index. P and T may be empty. Errors: E_SCHEMA (no such columns), E_MEMORY.
+ */
 ambulo_status ambulo__force_group_add(ambulo__force_columns *columns, const char *text,
                                       size_t length, ambulo_diagnostics *diagnostics, int *index);
 
@@ -57,9 +58,8 @@ ambulo_status ambulo__force_group_add(ambulo__force_columns *columns, const char
  * of another part of the body. What fits two, or none while there are feet without columns, is an
  * error that lists the names of the file; a foot without columns and a group without foot are
  * doubts. Errors: E_ARGUMENT (map), E_SCHEMA, E_MEMORY. */
-ambulo_status ambulo__force_columns_match(ambulo__force_columns *columns,
-                                          const ambulo_model *model, const char *map,
-                                          ambulo__doubts *doubts);
+ambulo_status ambulo__force_columns_match(ambulo__force_columns *columns, const ambulo_model *model,
+                                          const char *map, ambulo__doubts *doubts);
 /* ---------------------------------------------- completeness (force_complete.c) */
 
 /* Says which components the groups with a foot lack, as far as they matter to the model: all of

@@ -102,7 +102,8 @@ ambulo_status ambulo__force_columns_complete(const ambulo__force_columns *column
   ambulo_status status = ambulo__idle_axis(model, &columns->allocator, &idle);
   int mask = idle < 0 ? 7 : 7 & ~(1 << idle);
   for (int i = 0; i < columns->count && !status; i++) {
-    if (columns->groups[i].foot >= 0) status = check(columns, &columns->groups[i], model, mask, doubts);
+    if (columns->groups[i].foot >= 0)
+      status = check(columns, &columns->groups[i], model, mask, doubts);
   }
   return status;
 }

@@ -14,8 +14,8 @@ static void list_groups(const ambulo__force_columns *c, char text[LIST]) {
   text[0] = '\0';
   for (int i = 0; i < c->count && used + 1 < LIST; i++) {
     int more = i == MOST_NAMED;
-    int length = snprintf(text + used, LIST - used, "%s%s", i ? ", " : "",
-                          more ? "..." : c->groups[i].name);
+    int length =
+        snprintf(text + used, LIST - used, "%s%s", i ? ", " : "", more ? "..." : c->groups[i].name);
     used += length > 0 ? (size_t)length : 0;
     if (more) break;
   }
@@ -80,8 +80,8 @@ static int side_of_foot(const ambulo_model *model, int foot) {
 
 /* a word that may stand for the foot, and not for a hand */
 static int may_be_foot(const words *w, const ambulo_model *model, int foot) {
-  static const char *const common[] = {"foot", "feet", "leg", "limb", "calcn", "calcaneus", "toes",
-                                       "plate", "fp", "grf", "force", "forceplate"};
+  static const char *const common[] = {"foot", "feet",  "leg", "limb", "calcn", "calcaneus",
+                                       "toes", "plate", "fp",  "grf",  "force", "forceplate"};
   for (size_t i = 0; i < sizeof common / sizeof *common; i++) {
     if (word_is(w, common[i])) return 1;
   }
@@ -191,8 +191,8 @@ static ambulo_status refuse_both(const matching *m, const char *what, const char
   ambulo__place place = {.file = m->columns->file};
   char hint[LIST];
   map_hint(m->model, hint);
-  return ambulo__error(m->doubts->diagnostics, AMBULO_E_SCHEMA, place, hint, "%s '%s' and '%s' %s '%s'",
-                       what, a, b, tail, whom);
+  return ambulo__error(m->doubts->diagnostics, AMBULO_E_SCHEMA, place, hint,
+                       "%s '%s' and '%s' %s '%s'", what, a, b, tail, whom);
 }
 
 /* the one group without a foot that fits best; *index -1: none */
@@ -289,9 +289,8 @@ static ambulo_status refuse_empty(const ambulo__force_columns *c, ambulo__doubts
                        list);
 }
 
-ambulo_status ambulo__force_columns_match(ambulo__force_columns *columns,
-                                          const ambulo_model *model, const char *map,
-                                          ambulo__doubts *doubts) {
+ambulo_status ambulo__force_columns_match(ambulo__force_columns *columns, const ambulo_model *model,
+                                          const char *map, ambulo__doubts *doubts) {
   matching m = {.columns = columns, .model = model, .doubts = doubts};
   size_t feet = (size_t)ambulo_model_foot_count(model);
   int forces = 0;

@@ -18,10 +18,10 @@ typedef struct group_load {
   const ambulo__load_source *source;
   const ambulo__motion *table;
   const ambulo__force_group *group;
-  double weight;        /* of the body, N */
-  double *wrench;       /* [table rows][6]: force, moment about the origin; of the whole foot */
-  double *loose;        /* [table rows][3]: force without points; of the whole foot */
-  int *from;            /* [table rows]: nearest row in time that has a point, often itself */
+  double weight;  /* of the body, N */
+  double *wrench; /* [table rows][6]: force, moment about the origin; of the whole foot */
+  double *loose;  /* [table rows][3]: force without points; of the whole foot */
+  int *from;      /* [table rows]: nearest row in time that has a point, often itself */
 } group_load;
 
 static void cross(const double a[3], const double b[3], double c[3]) {
@@ -121,9 +121,8 @@ static ambulo_status refuse_gap(const group_load *g, const char *what, double fo
   double time = g->source->options->force_time_unit * g->table->time[row];
   return ambulo__error(g->source->doubts->diagnostics, AMBULO_E_SCHEMA, place, NULL,
                        "'%s' of foot '%s' has no %s (nan) at t = %g s, where it carries %.1f N",
-                       g->group->name,
-                       ambulo_model_foot(g->source->model, g->group->foot)->name, what, time,
-                       force);
+                       g->group->name, ambulo_model_foot(g->source->model, g->group->foot)->name,
+                       what, time, force);
 }
 
 static ambulo_status take_force(const group_load *g, int row, double force[3]) {
@@ -206,7 +205,8 @@ static void interpolate(const ambulo__motion *table, double unit, const double *
   }
   double start = unit * table->time[low], end = unit * table->time[high];
   double s = fmin(fmax((time - start) / (end - start), 0.0), 1.0);
-  const double *a = values + (size_t)low * (size_t)width, *b = values + (size_t)high * (size_t)width;
+  const double *a = values + (size_t)low * (size_t)width,
+               *b = values + (size_t)high * (size_t)width;
   for (int i = 0; i < width; i++) out[i] = s < 1.0 ? a[i] + s * (b[i] - a[i]) : b[i];
 }
 
@@ -276,7 +276,8 @@ static ambulo_status check_times(const ambulo__load_source *s, const ambulo__mot
     doubt_steps(s, table);
     return AMBULO_OK;
   }
-  int milliseconds = 1e-3 * begin <= first + slack && 1e-3 * end >= last - slack && end > 100.0 * last;
+  int milliseconds =
+      1e-3 * begin <= first + slack && 1e-3 * end >= last - slack && end > 100.0 * last;
   return ambulo__error(s->doubts->diagnostics, AMBULO_E_SCHEMA, place,
                        milliseconds ? "times in milliseconds: --grf-time ms" : NULL,
                        "forces from %g to %g s; expected them from %g to %g s as the motion", begin,
@@ -288,7 +289,8 @@ static ambulo_status load_feet(const ambulo__load_source *s, const ambulo__motio
   const ambulo_allocator *a = &load->allocator;
   size_t rows = (size_t)table->rows;
   const double *g = ambulo_model_gravity(s->model);
-  group_load work = {.source = s, .table = table, .weight = ambulo_model_mass(s->model) * size_of(g)};
+  group_load work = {
+      .source = s, .table = table, .weight = ambulo_model_mass(s->model) * size_of(g)};
   work.wrench = ambulo__alloc(a, 6 * rows, sizeof *work.wrench);
   work.loose = ambulo__alloc(a, 3 * rows, sizeof *work.loose);
   work.from = ambulo__alloc(a, rows, sizeof *work.from);
@@ -322,18 +324,22 @@ ambulo_status ambulo__ground_load_read(const ambulo__load_source *source,
                            .rows = source->rows,
                            .feet = ambulo_model_foot_count(source->model)};
   ambulo__motion *read = NULL;
+  const ambulo__motion *table = source->table;
   size_t count = 3 * (size_t)l.rows * (size_t)l.feet;
   ambulo_status status = AMBULO_OK;
-  if (!source->table)
-    status = ambulo__motion_read_gaps(source->file, &l.allocator, source->doubts->diagnostics, &read);
-  if (status) return status;
+  if (!table) {
+    status =
+        ambulo__motion_read_gaps(source->file, &l.allocator, source->doubts->diagnostics, &read);
+    if (status || !read) return status;
+    ambulo__doubt_header(source->doubts, source->file, read);
+    table = read;
+  }
   l.force = ambulo__alloc(&l.allocator, count, sizeof(double));
   l.moment = ambulo__alloc(&l.allocator, count, sizeof(double));
   l.loose = ambulo__alloc(&l.allocator, count, sizeof(double));
   l.is_loose = ambulo__alloc(&l.allocator, (size_t)l.feet, 1);
   if (!l.force || !l.moment || !l.loose || !l.is_loose) status = AMBULO_E_MEMORY;
-  if (read) ambulo__doubt_header(source->doubts, source->file, read);
-  if (!status) status = read_columns(source, source->table ? source->table : read, &l);
+  if (!status) status = read_columns(source, table, &l);
   ambulo__motion_free(read);
   if (status) {
     ambulo__ground_load_free(&l);

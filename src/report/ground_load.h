@@ -20,9 +20,9 @@
 typedef struct ambulo__ground_load {
   ambulo_allocator allocator;
   int rows, feet;
-  double *force, *moment; /* [rows][feet][3], N, N m about the origin */
-  double *loose;          /* [rows][feet][3], N: the part of `force` that has no points yet and no
-                             part in `moment` but for its free torque */
+  double *force, *moment;  /* [rows][feet][3], N, N m about the origin */
+  double *loose;           /* [rows][feet][3], N: the part of `force` that has no points yet and no
+                              part in `moment` but for its free torque */
   unsigned char *is_loose; /* [feet] */
 } ambulo__ground_load;
 

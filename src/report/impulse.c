@@ -66,8 +66,8 @@ typedef struct samples {
 
 static int allocate(const ambulo_problem *p, const ambulo_allocator *a, samples *s) {
   size_t feet = (size_t)p->channels.feet;
-  size_t most = (size_t)ambulo__basis_intervals(p->basis) +
-                2 * (size_t)ambulo_problem_contact_count(p) + 2;
+  size_t most =
+      (size_t)ambulo__basis_intervals(p->basis) + 2 * (size_t)ambulo_problem_contact_count(p) + 2;
   s->ends = ambulo__alloc(a, most, sizeof(double));
   s->times = ambulo__alloc(a, most * AMBULO__GAUSS_POINTS, sizeof(double));
   s->weights = ambulo__alloc(a, most * AMBULO__GAUSS_POINTS, sizeof(double));

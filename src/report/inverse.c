@@ -44,7 +44,7 @@ static int options_valid(const ambulo_inverse_options *o) {
 
 static void clear(ambulo__inverse *v) {
   const ambulo_allocator *a = &v->allocator;
-  double *arrays[] = {v->q,        v->qd,  v->qdd,         v->tau,          v->power,     v->wrench,
+  double *arrays[] = {v->q,   v->qd,       v->qdd, v->tau,         v->power,        v->wrench,
                       v->zmp, v->residual, v->cop, v->free_moment, v->poses.center, v->poses.foot};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) ambulo__free(a, arrays[i]);
   ambulo__free(a, v->has_value);
@@ -111,11 +111,13 @@ static void tell(const ambulo__inverse *v, const char *forces, const ambulo_grou
     ambulo__note(list, place,
                  "its forces on the feet (grf.*) are taken off the torques; --grf none leaves "
                  "them out");
-  ambulo__note(list, place, "left over at the root: forward %.4f, up %.4f, left %.4f body weights (rms)",
+  ambulo__note(list, place,
+               "left over at the root: forward %.4f, up %.4f, left %.4f body weights (rms)",
                r->force_rms[0], r->force_rms[1], r->force_rms[2]);
   if (isfinite(r->moment_rms))
     ambulo__note(list, place, "moment left over: %.4f body weights m (rms)", r->moment_rms);
-  ambulo__note(list, place, "vertical impulse %.2f N s; the motion needs %.2f N s (sums over the rows)",
+  ambulo__note(list, place,
+               "vertical impulse %.2f N s; the motion needs %.2f N s (sums over the rows)",
                r->given_vertical_impulse, r->vertical_impulse);
 }
 
@@ -148,13 +150,13 @@ static ambulo_status apply_forces(ambulo__inverse *v, const char *forces,
   if (own) v->options.force_time_unit = 1.0; /* its times are in seconds already */
   ambulo_status status = ambulo__ground_load_read(&source, &v->allocator, &v->load);
   if (!status) status = allocate_loads(v);
-  if (!status)
-    status = ambulo__load_poses_fill(v->model, v->q, v->rows, &v->allocator, &v->poses);
+  if (!status) status = ambulo__load_poses_fill(v->model, v->q, v->rows, &v->allocator, &v->poses);
   if (status) return status;
   ambulo__ground_load_place(&v->load, &v->poses, v->zmp);
   status = ambulo__ground_load_apply(&v->load, v->model, v->q, v->tau);
   if (status) return status;
-  ambulo__ground_load_pressure(&v->load, v->model, v->options.ground_height, v->cop, v->free_moment);
+  ambulo__ground_load_pressure(&v->load, v->model, v->options.ground_height, v->cop,
+                               v->free_moment);
   ambulo__ground_load_residual(&v->load, v->model, v->given->time, v->wrench, v->zmp,
                                v->poses.center, v->residual, residual);
   tell(v, forces, residual);

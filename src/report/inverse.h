@@ -20,9 +20,9 @@ typedef struct ambulo__inverse {
   double *q, *qd, *qdd;
   /* [d]: the file has it, and it is used */
   unsigned char *has_value, *has_rate, *has_acceleration;
-  double *tau, *power;   /* [rows][d], N m or N, W */
-  double *wrench, *zmp;  /* [rows][6], [rows][3] */
-  double *residual;      /* [rows][6]; only with forces, like the rest */
+  double *tau, *power;  /* [rows][d], N m or N, W */
+  double *wrench, *zmp; /* [rows][6], [rows][3] */
+  double *residual;     /* [rows][6]; only with forces, like the rest */
   double *cop, *free_moment;
   ambulo__ground_load load;
   ambulo__load_poses poses;

@@ -22,7 +22,8 @@ static int in_degrees(const ambulo__inverse *v) {
   if (wanted == AMBULO_ANGLES_OF_FILE) return v->given->in_degrees;
   int degrees = wanted == AMBULO_ANGLES_DEGREES;
   if (v->given->unit_stated && degrees != v->given->in_degrees)
-    ambulo__note(v->doubts.diagnostics, place, "the file says that its angles are in %s; taken as %s",
+    ambulo__note(v->doubts.diagnostics, place,
+                 "the file says that its angles are in %s; taken as %s",
                  v->given->in_degrees ? "degrees" : "radians", degrees ? "degrees" : "radians");
   return degrees;
 }
@@ -36,8 +37,8 @@ static void copy_column(const ambulo__inverse *v, int column, double factor, int
 static ambulo_status take_column(ambulo__inverse *v, int i, ambulo__motion_order order,
                                  double factor, double *to, unsigned char *has) {
   int column = -1;
-  ambulo_status status = ambulo__motion_find(v->given, v->file, v->model->coordinates[i].name, order,
-                                             v->doubts.diagnostics, &column);
+  ambulo_status status = ambulo__motion_find(v->given, v->file, v->model->coordinates[i].name,
+                                             order, v->doubts.diagnostics, &column);
   has[i] = !status && column >= 0;
   if (has[i]) copy_column(v, column, factor, i, to);
   return status;
@@ -98,8 +99,9 @@ static ambulo_status differentiate(const ambulo__inverse *v, double *values, dou
       ambulo__motion_fit_create(&table, v->rows > 5 ? 5 : 3, 0.0, &v->allocator, &fit);
   if (status == AMBULO_E_NUMERIC) {
     ambulo__place place = {.file = v->file};
-    (void)ambulo__error(v->doubts.diagnostics, status, place, NULL,
-                        "no spline goes through the values: some are too large or too close in time");
+    (void)ambulo__error(
+        v->doubts.diagnostics, status, place, NULL,
+        "no spline goes through the values: some are too large or too close in time");
   }
   if (status) return status;
   ambulo__motion_fit_at(fit, v->given->time, v->rows, NULL, rates, accelerations);
@@ -117,8 +119,8 @@ static void complete(const ambulo__inverse *v, const unsigned char *wanted, cons
 }
 
 /* scratch: rates, accelerations, slopes of the rates [rows][d]; masks [d] */
-static ambulo_status fill_gaps(ambulo__inverse *v, double *const scratch[3], unsigned char *by_value,
-                               unsigned char *by_rate) {
+static ambulo_status fill_gaps(ambulo__inverse *v, double *const scratch[3],
+                               unsigned char *by_value, unsigned char *by_rate) {
   int need_rate = 0, need_slope = 0;
   for (int i = 0; i < v->model->coordinate_count; i++) {
     int lacks_acceleration = v->has_value[i] && !v->has_acceleration[i];

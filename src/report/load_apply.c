@@ -42,7 +42,8 @@ static void find_foot(const ambulo__skeleton *skeleton, const ambulo_model *mode
 }
 
 ambulo_status ambulo__load_poses_fill(const ambulo_model *model, const double *q, int rows,
-                                      const ambulo_allocator *allocator, ambulo__load_poses *poses) {
+                                      const ambulo_allocator *allocator,
+                                      ambulo__load_poses *poses) {
   ambulo__skeleton skeleton = {.model = NULL};
   ambulo_status status = ambulo__skeleton_create(model, allocator, &skeleton);
   if (status) return status;

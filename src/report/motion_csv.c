@@ -32,8 +32,7 @@ static void comment(const ambulo__motion_table *table, ambulo__text_buffer *text
                             "s^2; tau N m or N; zmp m, world axes");
   if (table->feet)
     ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal");
-  if (table->wrench)
-    ambulo__text_append(text, "; wrench N, N m about the origin, world axes");
+  if (table->wrench) ambulo__text_append(text, "; wrench N, N m about the origin, world axes");
   if (table->residual)
     ambulo__text_append(text, "; residual N, N m about the centre of mass, world axes");
   if (table->power) ambulo__text_append(text, "; power W");

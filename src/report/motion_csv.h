@@ -19,8 +19,8 @@ typedef struct ambulo__motion_table {
   const double *power;    /* [samples][coordinates] */
 } ambulo__motion_table;
 
-/* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time: time,
- * q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
+/* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time:
+ * time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
  * cop.<foot>.x|y|z, free_moment.<foot>; of an inverse dynamics wrench.force.x|y|z,
  * wrench.moment.x|y|z, the same of residual, and power.*; a value that does not exist (the ZMP in
  * flight) is "nan". */

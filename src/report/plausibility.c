@@ -204,9 +204,10 @@ static void doubt_residual(ambulo__inverse *v, const char *forces,
                   "(rms); expected less than %g",
                   force, r->moment_rms, large_residual);
   } else {
-    ambulo__doubt(&v->doubts, forces, hint,
-                  "the forces leave over %.3f body weights at the root (rms); expected less than %g",
-                  force, large_residual);
+    ambulo__doubt(
+        &v->doubts, forces, hint,
+        "the forces leave over %.3f body weights at the root (rms); expected less than %g", force,
+        large_residual);
   }
 }
 

@@ -23,8 +23,8 @@ static void objective(ambulo__json *json, const ambulo_problem *problem,
 
 /* per foot: impulse of the ground's force over the stride, N s, along forward, up and left, and
  * the largest normal force in body weights; nothing without ground reaction */
-static void feet(ambulo__json *json, const ambulo_model *model,
-                          const ambulo__stride *stride, const double *impulses) {
+static void feet(ambulo__json *json, const ambulo_model *model, const ambulo__stride *stride,
+                 const double *impulses) {
   const double *axes[3] = {model->forward, model->up, model->left};
   static const char *const keys[3] = {"impulse_forward", "impulse_up", "impulse_left"};
   for (int foot = 0; foot < stride->feet; foot++) {

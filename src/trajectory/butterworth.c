@@ -7,7 +7,7 @@
  *     W = tan(pi cutoff / rate) / C,    C = (sqrt(2) - 1)^(1 / 2n)
  *
  * C = 0.802 for n = 2: Winter, Biomechanics and Motor Control of Human Movement, 4th ed. 2009,
- * section 3.4.4.2. One section, from the poles s^2 + d s + 1 (d = 0.. for a single one s + 1):
+ * chapter 3. One section, from the poles s^2 + d s + 1 (d = 0.. for a single one s + 1):
  *
  *     y_k = b0 x_k + b1 x_k-1 + b2 x_k-2 - a1 y_k-1 - a2 y_k-2
  *
@@ -76,9 +76,9 @@ static void run(const section *s, double *x, int count, int stride) {
   }
 }
 
-/* row k of x[0..last] and its odd reflections: x_k+2last = x_k + 2 (x_last - x_0) */
+/* row k of x[0..last] and its odd reflections: x_k+2last = x_k + 2 (x_last - x_0); last >= 1 */
 static double continued(const double *x, int last, int k) {
-  int period = 2 * last, turns = k >= 0 ? k / period : -((period - 1 - k) / period);
+  int period = last > 0 ? 2 * last : 1, turns = k >= 0 ? k / period : -((period - 1 - k) / period);
   int at = k - turns * period;
   double within = at <= last ? x[at] : 2.0 * x[last] - x[period - at];
   return within + 2.0 * (double)turns * (x[last] - x[0]);

@@ -23,16 +23,16 @@
 
 typedef struct ambulo__motion {
   ambulo_allocator allocator;
-  int rows, columns; /* columns: without time */
-  int in_degrees;    /* 1: angles are in degrees, as in the file; 0: radians */
-  int unit_stated;   /* 1: the file says which */
+  int rows, columns;    /* columns: without time */
+  int in_degrees;       /* 1: angles are in degrees, as in the file; 0: radians */
+  int unit_stated;      /* 1: the file says which */
   int declared_columns; /* as the header says, with time; -1: it does not. Published files are wrong
                            about it; rows of another length than the names are faults */
-  double body_mass;  /* kg, of a table by ambulo; NaN: not stated */
-  double gravity[3]; /* m/s^2, with body_mass */
-  char **names;      /* [columns] */
-  double *time;      /* [rows], s */
-  double *values;    /* [rows][columns] */
+  double body_mass;     /* kg, of a table by ambulo; NaN: not stated */
+  double gravity[3];    /* m/s^2, with body_mass */
+  char **names;         /* [columns] */
+  double *time;         /* [rows], s */
+  double *values;       /* [rows][columns] */
 } ambulo__motion;
 
 typedef enum ambulo__motion_format {

@@ -6,9 +6,9 @@
 #include "trajectory/table_text.h"
 
 typedef struct ambulo__table_header {
-  int in_degrees, unit_stated;              /* unit of angles, and whether the file says so */
+  int in_degrees, unit_stated;               /* unit of angles, and whether the file says so */
   long long declared_rows, declared_columns; /* -1: not stated */
-  double body_mass, gravity[3];             /* kg, m/s^2; mass NaN: not stated */
+  double body_mass, gravity[3];              /* kg, m/s^2; mass NaN: not stated */
 } ambulo__table_header;
 
 ambulo__table_header ambulo__table_header_default(void);

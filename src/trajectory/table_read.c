@@ -140,7 +140,8 @@ static ambulo_status read_names(table_reader *reader) {
   if (!reader->names) return AMBULO_E_MEMORY;
   size_t position = 0;
   ambulo__table_cell cell = {.start = ""};
-  if (!ambulo__table_next_cell(line, cells, &position, &cell) || !ambulo__table_cell_is(&cell, "time")) {
+  if (!ambulo__table_next_cell(line, cells, &position, &cell) ||
+      !ambulo__table_cell_is(&cell, "time")) {
     /* hardly a motion at all: the rows would only be noise */
     return ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, 1),
                          "a motion is a table (CSV, STO or MOT) of times and named columns",

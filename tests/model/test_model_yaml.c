@@ -152,10 +152,13 @@ static void memory_runs_out(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(header),         cmocka_unit_test(broken_headers),
-      cmocka_unit_test(too_many),       cmocka_unit_test(all_faults_at_once),
-      cmocka_unit_test(files),          cmocka_unit_test(truncated),
-      cmocka_unit_test(values_are_replaced), cmocka_unit_test(memory_runs_out)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(header),
+                                     cmocka_unit_test(broken_headers),
+                                     cmocka_unit_test(too_many),
+                                     cmocka_unit_test(all_faults_at_once),
+                                     cmocka_unit_test(files),
+                                     cmocka_unit_test(truncated),
+                                     cmocka_unit_test(values_are_replaced),
+                                     cmocka_unit_test(memory_runs_out)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

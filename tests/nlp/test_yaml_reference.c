@@ -59,18 +59,20 @@ static void degrees_are_turned_into_radians(void **state) {
 static void doubtful_references_are_warned_of(void **state) {
   static const struct {
     const char *table, *message;
-  } cases[] = {{"time,knee_angle_r\n0,5\n0.5,65\n1,5\n", "the reference has 'knee_angle_r' at 65 rad"},
-               {"time,pelvis_tx\n0,0\n0.5,650\n1,1300\n", "'pelvis_tx' at 650 m"},
-               {"time,knee_angle_r\n0,0.1\n10,0.2\n20,0.3\n1000,0\n",
-                "the reference has a row every 10 s; the problem lasts 1 s"},
-               {"time,knee_angle_r\n0,0.1\n1,0.2\n", NULL},
-               {"# inDegrees=yes\ntime,knee_angle_r\n0,5\n0.5,65\n1,5\n", NULL},
-               {"t\nnColumns=3\nendheader\ntime\tknee_angle_r\n0\t0.1\n1\t0.2\n",
-                "the reference has 2 columns; its header says 3 (nColumns)"}};
+  } cases[] = {
+      {"time,knee_angle_r\n0,5\n0.5,65\n1,5\n", "the reference has 'knee_angle_r' at 65 rad"},
+      {"time,pelvis_tx\n0,0\n0.5,650\n1,1300\n", "'pelvis_tx' at 650 m"},
+      {"time,knee_angle_r\n0,0.1\n10,0.2\n20,0.3\n1000,0\n",
+       "the reference has a row every 10 s; the problem lasts 1 s"},
+      {"time,knee_angle_r\n0,0.1\n1,0.2\n", NULL},
+      {"# inDegrees=yes\ntime,knee_angle_r\n0,5\n0.5,65\n1,5\n", NULL},
+      {"t\nnColumns=3\nendheader\ntime\tknee_angle_r\n0\t0.1\n1\t0.2\n",
+       "the reference has 2 columns; its header says 3 (nColumns)"}};
   for (int i = 0; i < 6; i++) {
     ambulo_problem *p = NULL;
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-    assert_int_equal(load(*state, i == 5 ? "odd.sto" : "odd.csv", cases[i].table, list, &p), AMBULO_OK);
+    assert_int_equal(load(*state, i == 5 ? "odd.sto" : "odd.csv", cases[i].table, list, &p),
+                     AMBULO_OK);
     assert_int_equal(ambulo_diagnostics_count(list), cases[i].message != NULL);
     if (cases[i].message) assert_message(list, 0, cases[i].message);
     if (cases[i].message) assert_message(list, 0, "warning");

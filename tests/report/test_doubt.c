@@ -32,7 +32,8 @@ static void headers_that_count_wrongly(void **state) {
                      AMBULO_OK);
     ambulo__doubt_header(&doubts, "m.sto", motion);
     assert_int_equal(doubts.count, i == 0);
-    if (i == 0) assert_message(doubts.diagnostics, 0, "m.sto: warning: 2 columns; the header says 3");
+    if (i == 0)
+      assert_message(doubts.diagnostics, 0, "m.sto: warning: 2 columns; the header says 3");
     ambulo_diagnostics_free(doubts.diagnostics);
     ambulo__motion_free(motion);
   }

@@ -111,8 +111,9 @@ static void one_component_has_one_column(void **state) {
   ambulo__force_columns c;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, list, &c), AMBULO_E_SCHEMA);
-  assert_message(list, 0, "'ground_torque_1_x' and 'ground_moment_1_mx' are the same component of "
-                          "'ground_force_1'");
+  assert_message(list, 0,
+                 "'ground_torque_1_x' and 'ground_moment_1_mx' are the same component of "
+                 "'ground_force_1'");
   ambulo_diagnostics_free(list);
   ambulo__motion_free(motion);
 }
@@ -120,15 +121,22 @@ static void one_component_has_one_column(void **state) {
 /* names and, where they are unique, tags; whatever the letter case */
 static void groups_go_by_name_or_tag(void **state) {
   (void)state;
-  ambulo__motion *motion = table("ground_force_vx,1_ground_force_vx,ground_force_1_vx,R_ground_force_vx");
+  ambulo__motion *motion =
+      table("ground_force_vx,1_ground_force_vx,ground_force_1_vx,R_ground_force_vx");
   ambulo__force_columns c;
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
   assert_int_equal(c.count, 4);
   static const struct {
     const char *name;
     int index;
-  } names[] = {{"ground_force", 0},   {"1_ground_force", 1}, {"ground_force_1", 2}, {"1", -1},
-               {"r_GROUND_force", 3}, {"r", 3},              {"", -1},              {"2", -1}};
+  } names[] = {{"ground_force", 0},
+               {"1_ground_force", 1},
+               {"ground_force_1", 2},
+               {"1", -1},
+               {"r_GROUND_force", 3},
+               {"r", 3},
+               {"", -1},
+               {"2", -1}};
   for (int i = 0; i < 8; i++)
     assert_int_equal(ambulo__force_group_named(&c, names[i].name, strlen(names[i].name)),
                      names[i].index);
@@ -146,7 +154,8 @@ static void groups_by_the_beginnings_of_their_columns(void **state) {
   int index = -1;
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
   assert_int_equal(c.count, 0);
-  static const char full[] = "FP1.F:FP1.COP:T_,next", forces[] = "FP1.F", wrong[] = "FP2.F:FP1.COP:T_";
+  static const char full[] = "FP1.F:FP1.COP:T_,next", forces[] = "FP1.F",
+                    wrong[] = "FP2.F:FP1.COP:T_";
   assert_int_equal(ambulo__force_group_add(&c, full, 16, list, &index), AMBULO_OK);
   assert_int_equal(index, 0);
   assert_int_equal(c.groups[0].force[2], 2);
@@ -218,15 +227,14 @@ static void every_allocation_may_fail(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_convention_is_read),
-      cmocka_unit_test(letter_case_does_not_part_a_group),
-      cmocka_unit_test(own_columns_have_a_free_moment),
-      cmocka_unit_test(what_is_no_force_is_left),
-      cmocka_unit_test(one_component_has_one_column),
-      cmocka_unit_test(groups_go_by_name_or_tag),
-      cmocka_unit_test(groups_by_the_beginnings_of_their_columns),
-      cmocka_unit_test(a_published_file_is_read),
-      cmocka_unit_test(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_convention_is_read),
+                                     cmocka_unit_test(letter_case_does_not_part_a_group),
+                                     cmocka_unit_test(own_columns_have_a_free_moment),
+                                     cmocka_unit_test(what_is_no_force_is_left),
+                                     cmocka_unit_test(one_component_has_one_column),
+                                     cmocka_unit_test(groups_go_by_name_or_tag),
+                                     cmocka_unit_test(groups_by_the_beginnings_of_their_columns),
+                                     cmocka_unit_test(a_published_file_is_read),
+                                     cmocka_unit_test(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("report/force_columns", tests, NULL, NULL);
 }

@@ -48,13 +48,14 @@ static void a_planar_model_feels_its_plane(void **state) {
   assert_int_equal(ambulo__idle_axis(model, NULL, &axis), AMBULO_OK);
   assert_int_equal(axis, 2);
   check(model, F "x," F "y," P "x," P "y," T "z", (const char *[]){NULL});
-  check(model, F "y," P "x," P "y," T "z",
-        (const char *[]){"warning: 'ground_force_r' of foot 'right' lacks the x of its force", NULL});
+  check(
+      model, F "y," P "x," P "y," T "z",
+      (const char *[]){"warning: 'ground_force_r' of foot 'right' lacks the x of its force", NULL});
   check(model, F "x," F "y," P "y," T "z", (const char *[]){"warning: ", NULL});
   check(model, F "x," F "y," P "x," T "z",
         (const char *[]){"note: 'ground_force_r' of foot 'right' has no y of its points", NULL});
-  check(model, F "x," F "y", (const char *[]){"note: 'ground_force_r' of foot 'right' has no torques",
-                                              NULL});
+  check(model, F "x," F "y",
+        (const char *[]){"note: 'ground_force_r' of foot 'right' has no torques", NULL});
   ambulo_diagnostics_free(messages_of(model, F "z," P "x", AMBULO_E_SCHEMA));
   ambulo_model_free(model);
 }
@@ -72,7 +73,8 @@ static void a_spatial_model_feels_all(void **state) {
   check(model, F "x," F "y," F "z," P "x," T "y",
         (const char *[]){"note: 'ground_force_r' of foot 'right' has no y of its points; they are "
                          "taken to be on the ground",
-                         "warning: 'ground_force_r' of foot 'right' lacks the z of its points", NULL});
+                         "warning: 'ground_force_r' of foot 'right' lacks the z of its points",
+                         NULL});
   ambulo_model_free(model);
 }
 
@@ -101,18 +103,19 @@ static int idle_axis_of(const char *links) {
 static void one_joint_out_of_the_plane(void **state) {
   (void)state;
 #define LINK "parent: none, joint: "
-  assert_int_equal(idle_axis_of("  - {name: a, " LINK "revolute, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"),
-                   2);
-  assert_int_equal(idle_axis_of("  - {name: a, " LINK "prismatic, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"),
-                   -1);
-  assert_int_equal(idle_axis_of("  - {name: b, " LINK "fixed, dh: [0, 0, 0, 90]}\n"
-                                "  - {name: a, parent: b, joint: revolute, dh: [0, 0, 1, 0], " MODEL_BODY
-                                "}\n"),
-                   -1);
-  assert_int_equal(idle_axis_of("  - {name: b, " LINK "fixed, dh: [0, 0, 0, 90]}\n"
-                                "  - {name: a, parent: b, joint: prismatic, dh: [0, 0, 1, 0], " MODEL_BODY
-                                "}\n"),
-                   2);
+  assert_int_equal(
+      idle_axis_of("  - {name: a, " LINK "revolute, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"), 2);
+  assert_int_equal(
+      idle_axis_of("  - {name: a, " LINK "prismatic, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"), -1);
+  assert_int_equal(
+      idle_axis_of("  - {name: b, " LINK "fixed, dh: [0, 0, 0, 90]}\n"
+                   "  - {name: a, parent: b, joint: revolute, dh: [0, 0, 1, 0], " MODEL_BODY "}\n"),
+      -1);
+  assert_int_equal(
+      idle_axis_of("  - {name: b, " LINK "fixed, dh: [0, 0, 0, 90]}\n"
+                   "  - {name: a, parent: b, joint: prismatic, dh: [0, 0, 1, 0], " MODEL_BODY
+                   "}\n"),
+      2);
 }
 
 int main(void) {

@@ -105,11 +105,20 @@ static void names_tell_the_foot(void **state) {
       {{"ground_force_calcn_r", "ground_force_calcn_l"}, NULL, {1, 0}, AMBULO_OK, NULL},
       {{"grf.right", "grf.left"}, NULL, {1, 0}, AMBULO_OK, NULL},
       /* the same name goes before the same side */
-      {{"ground_force_r", "grf.right", "grf.left"}, NULL, {-1, 1, 0}, AMBULO_OK,
+      {{"ground_force_r", "grf.right", "grf.left"},
+       NULL,
+       {-1, 1, 0},
+       AMBULO_OK,
        "'ground_force_r' act on no foot and are left out"},
-      {{"ground_force_calcn_r", "ground_force_calcn_l", "ground_force_hand_l"}, NULL, {1, 0, -1},
-       AMBULO_OK, "warning: the forces 'ground_force_hand_l' act on no foot and are left out"},
-      {{"ground_force_r"}, NULL, {1}, AMBULO_OK,
+      {{"ground_force_calcn_r", "ground_force_calcn_l", "ground_force_hand_l"},
+       NULL,
+       {1, 0, -1},
+       AMBULO_OK,
+       "warning: the forces 'ground_force_hand_l' act on no foot and are left out"},
+      {{"ground_force_r"},
+       NULL,
+       {1},
+       AMBULO_OK,
        "warning: no columns of forces on foot 'left'; it is taken to carry nothing"}};
   ambulo_model *model = model_of(two, two_links, 2);
   for (size_t i = 0; i < sizeof attempts / sizeof *attempts; i++) try_one(model, &attempts[i]);
@@ -119,14 +128,23 @@ static void names_tell_the_foot(void **state) {
 static void nothing_is_guessed(void **state) {
   (void)state;
   static const attempt attempts[] = {
-      {{"ground_force", "1_ground_force"}, NULL, {0}, AMBULO_E_SCHEMA,
+      {{"ground_force", "1_ground_force"},
+       NULL,
+       {0},
+       AMBULO_E_SCHEMA,
        "no columns of forces are named after foot 'left'; the file has ground_force, "
        "1_ground_force\n  hint: say which: --force-columns left=NAME,right=NAME (or none)"},
       {{"ground_force_1", "ground_force_2"}, NULL, {0}, AMBULO_E_SCHEMA, "after foot 'left'"},
       {{"ground_force", "l_ground_force"}, NULL, {0}, AMBULO_E_SCHEMA, "after foot 'right'"},
-      {{"ground_force_calcn_r", "ground_force_hand_l"}, NULL, {0}, AMBULO_E_SCHEMA,
+      {{"ground_force_calcn_r", "ground_force_hand_l"},
+       NULL,
+       {0},
+       AMBULO_E_SCHEMA,
        "after foot 'left'"},
-      {{"ground_force_r", "ground_force_right_foot", "ground_force_l"}, NULL, {0}, AMBULO_E_SCHEMA,
+      {{"ground_force_r", "ground_force_right_foot", "ground_force_l"},
+       NULL,
+       {0},
+       AMBULO_E_SCHEMA,
        "the columns 'ground_force_r' and 'ground_force_right_foot' both fit foot 'right'"},
       {{"ground_force_l_r", "ground_force_l"}, NULL, {0}, AMBULO_E_SCHEMA, "after foot 'right'"}};
   ambulo_model *model = model_of(two, two_links, 2);
@@ -151,7 +169,10 @@ static void feet_are_their_names(void **state) {
        {3, 0, 1, 2},
        AMBULO_OK,
        NULL},
-      {{"ground_force_l", "ground_force_r"}, NULL, {0}, AMBULO_E_SCHEMA,
+      {{"ground_force_l", "ground_force_r"},
+       NULL,
+       {0},
+       AMBULO_E_SCHEMA,
        "the feet 'left_front' and 'left_hind' both fit the columns 'ground_force_l'"}};
   ambulo_model *model = model_of(pair, links, 2);
   for (int i = 0; i < 3; i++) try_one(model, &both[i]);
@@ -165,8 +186,7 @@ static void feet_are_their_names(void **state) {
 static void links_tell_the_side(void **state) {
   (void)state;
   static const char *const feet[] = {"hoof", "claw"}, *const links[] = {"shank_l", "shank_right"};
-  static const attempt one = {
-      {"ground_force_r", "ground_force_l"}, NULL, {1, 0}, AMBULO_OK, NULL};
+  static const attempt one = {{"ground_force_r", "ground_force_l"}, NULL, {1, 0}, AMBULO_OK, NULL};
   ambulo_model *model = model_of(feet, links, 2);
   try_one(model, &one);
   ambulo_model_free(model);
@@ -175,24 +195,43 @@ static void links_tell_the_side(void **state) {
 static void maps_say_it(void **state) {
   (void)state;
   static const attempt attempts[] = {
-      {{"ground_force", "1_ground_force"}, "right=ground_force,left=1_ground_force", {1, 0},
-       AMBULO_OK, NULL},
-      {{"ground_force_1", "ground_force_2", "ground_force_3"}, "left=2,right=1+3", {1, 0, 1},
-       AMBULO_OK, NULL},
-      {{"ground_force_r", "ground_force_l"}, "left=ground_force_r,right=ground_force_l", {0, 1},
-       AMBULO_OK, NULL},
+      {{"ground_force", "1_ground_force"},
+       "right=ground_force,left=1_ground_force",
+       {1, 0},
+       AMBULO_OK,
+       NULL},
+      {{"ground_force_1", "ground_force_2", "ground_force_3"},
+       "left=2,right=1+3",
+       {1, 0, 1},
+       AMBULO_OK,
+       NULL},
+      {{"ground_force_r", "ground_force_l"},
+       "left=ground_force_r,right=ground_force_l",
+       {0, 1},
+       AMBULO_OK,
+       NULL},
       {{"ground_force", "l_ground_force"}, "right=ground_force", {1, 0}, AMBULO_OK, NULL},
       {{"ground_force_r"}, "left=none", {1}, AMBULO_OK, NULL},
       {{"ground_force"}, "left=GROUND_FORCE,right=none", {0}, AMBULO_OK, NULL},
-      {{"ground_force", "1_ground_force"}, "right=ground_force", {1, -1}, AMBULO_OK,
+      {{"ground_force", "1_ground_force"},
+       "right=ground_force",
+       {1, -1},
+       AMBULO_OK,
        "no columns of forces on foot 'left'"},
-      {{"ground_force_1"}, "left=ground_force_2", {0}, AMBULO_E_SCHEMA,
+      {{"ground_force_1"},
+       "left=ground_force_2",
+       {0},
+       AMBULO_E_SCHEMA,
        "no columns of forces are called 'ground_force_2'; the file has ground_force_1"},
       {{"ground_force_1"}, "left=a:b:c", {0}, AMBULO_E_SCHEMA, "no columns 'ax', 'ay', 'az'"},
       {{"ground_force_1"}, "left=ground_force_1_v", {0}, AMBULO_E_SCHEMA, "called"},
       {{"ground_force_1"}, "centre=1", {0}, AMBULO_E_ARGUMENT, "'centre' is no foot of the model"},
       {{"ground_force_1"}, "left=1,left=none", {0}, AMBULO_E_ARGUMENT, "'left' is given twice"},
-      {{"ground_force_1"}, "left=1,right=1", {0}, AMBULO_E_ARGUMENT, "'1' belongs to a foot already"},
+      {{"ground_force_1"},
+       "left=1,right=1",
+       {0},
+       AMBULO_E_ARGUMENT,
+       "'1' belongs to a foot already"},
       {{"ground_force_1"}, "left", {0}, AMBULO_E_ARGUMENT, "'left' is not FOOT=NAME"},
       {{"ground_force_1"}, "left=", {0}, AMBULO_E_ARGUMENT, "'left=' is not FOOT=NAME"},
       {{"ground_force_1"}, "left=1+", {0}, AMBULO_E_ARGUMENT, "'left=1+' is not FOOT=NAME"},
@@ -230,7 +269,8 @@ static void a_file_without_forces(void **state) {
     ambulo__force_columns copy = c;
     copy.groups = NULL;
     copy.count = 0;
-    ambulo_status status = ambulo__force_columns_match(&copy, model, "left=FP1.F::,right=none", &doubts);
+    ambulo_status status =
+        ambulo__force_columns_match(&copy, model, "left=FP1.F::,right=none", &doubts);
     ambulo__force_columns_free(&copy);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     assert_int_equal(memory.live, 0);
@@ -246,8 +286,8 @@ static void a_file_without_forces(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(names_tell_the_foot), cmocka_unit_test(nothing_is_guessed),
+      cmocka_unit_test(names_tell_the_foot),  cmocka_unit_test(nothing_is_guessed),
       cmocka_unit_test(feet_are_their_names), cmocka_unit_test(links_tell_the_side),
-      cmocka_unit_test(maps_say_it),         cmocka_unit_test(a_file_without_forces)};
+      cmocka_unit_test(maps_say_it),          cmocka_unit_test(a_file_without_forces)};
   return cmocka_run_group_tests_name("report/force_match", tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Forces on the feet from files: force and moment between rows, gaps, units, and what is missing. */
+/* Forces on the feet from files: force and moment between rows, gaps, units, and what is missing.
+ */
 #include "report/ground_load.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
@@ -308,15 +309,11 @@ static void milliseconds_are_recognized(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {SCRATCH_TEST(rows_are_joined_by_lines),
-                                     SCRATCH_TEST(no_point_is_taken_from_the_air),
-                                     SCRATCH_TEST(light_rows_lend_a_point),
-                                     SCRATCH_TEST(what_is_missing_is_said),
-                                     SCRATCH_TEST(forces_without_points),
-                                     SCRATCH_TEST(units_and_several_plates),
-                                     SCRATCH_TEST(times_must_be_covered),
-                                     SCRATCH_TEST(milliseconds_are_recognized),
-                                     SCRATCH_TEST(forces_are_filtered_as_moments),
-                                     SCRATCH_TEST(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {
+      SCRATCH_TEST(rows_are_joined_by_lines),       SCRATCH_TEST(no_point_is_taken_from_the_air),
+      SCRATCH_TEST(light_rows_lend_a_point),        SCRATCH_TEST(what_is_missing_is_said),
+      SCRATCH_TEST(forces_without_points),          SCRATCH_TEST(units_and_several_plates),
+      SCRATCH_TEST(times_must_be_covered),          SCRATCH_TEST(milliseconds_are_recognized),
+      SCRATCH_TEST(forces_are_filtered_as_moments), SCRATCH_TEST(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("report/ground_load", tests, NULL, NULL);
 }

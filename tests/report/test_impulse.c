@@ -43,7 +43,8 @@ static void a_stride_gains_no_momentum(void **state) {
       sum[k] = impulse[k] + impulse[3 + k] + mass * ambulo_model_gravity(model)[k] * time;
       assert_close(sum[k] / (mass * 9.81 * time), 0.0, 1e-6);
     }
-    if (i == 0) assert_close(along(impulse, model->up) + along(impulse + 3, model->up), 794.61, 1e-5);
+    if (i == 0)
+      assert_close(along(impulse, model->up) + along(impulse + 3, model->up), 794.61, 1e-5);
     release(&s);
   }
 }
@@ -59,7 +60,8 @@ static void each_foot_gets_its_own(void **state) {
     ambulo__stride stride = {.samples = 0};
     double impulse[6];
     assert_int_equal(
-        ambulo__stride_create(s.problem, ambulo_result_x(s.result), FINE, NULL, &stride), AMBULO_OK);
+        ambulo__stride_create(s.problem, ambulo_result_x(s.result), FINE, NULL, &stride),
+        AMBULO_OK);
     assert_int_equal(ambulo__impulses(s.problem, ambulo_result_x(s.result), NULL, impulse), 0);
     for (int i = 0; i < 6; i++) {
       double sum = 0.0, step = stride.duration / (FINE - 1);
@@ -88,7 +90,8 @@ static void nothing_without_ground_reaction(void **state) {
 static void every_allocation_may_fail(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &problem), 0);
+  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
+                   0);
   double *x = calloc((size_t)problem->variables, sizeof *x), impulse[6] = {7.0};
   for (long k = 0; k < 100; k++) {
     fail_alloc memory = fail_alloc_at(k);
@@ -105,9 +108,9 @@ static void every_allocation_may_fail(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_stride_gains_no_momentum), cmocka_unit_test(each_foot_gets_its_own),
-      cmocka_unit_test(nothing_without_ground_reaction),
-      cmocka_unit_test(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_stride_gains_no_momentum),
+                                     cmocka_unit_test(each_foot_gets_its_own),
+                                     cmocka_unit_test(nothing_without_ground_reaction),
+                                     cmocka_unit_test(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("report/impulse", tests, NULL, NULL);
 }

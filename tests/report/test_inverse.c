@@ -134,8 +134,8 @@ static void wrench_power_and_residual(void **state) {
                  table_cell(with, k, "tau.knee_angle_r") * table_cell(with, k, "qd.knee_angle_r"),
                  1e-13);
     /* without forces the root carries all: its forces are the root wrench */
-    assert_close(table_cell(without, k, "tau.pelvis_ty"),
-                 table_cell(without, k, "wrench.force.y"), 1e-9);
+    assert_close(table_cell(without, k, "tau.pelvis_ty"), table_cell(without, k, "wrench.force.y"),
+                 1e-9);
     assert_close(table_cell(with, k, "wrench.force.y"),
                  table_cell(with, k, "grf.left.y") + table_cell(with, k, "grf.right.y"), 1e-9);
     /* M = p x F on level ground: M_z = x F_y, M_x = - z F_y */
@@ -192,7 +192,8 @@ static void files_and_texts_agree(void **state) {
 static void inputs_and_files_of_others_are_kept(void **state) {
   ambulo_model *model = arm_create();
   const char *motion = write_arm(state), *own = scratch_path(state, "own.csv");
-  const char *link_name = scratch_path(state, "link.csv"), *other = scratch_path(state, "thesis.tex");
+  const char *link_name = scratch_path(state, "link.csv"),
+             *other = scratch_path(state, "thesis.tex");
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   char *before = read_text(motion);
   scratch_write(other, "years of work");
@@ -283,12 +284,14 @@ static void bad_arguments(void **state) {
     assert_int_equal(
         ambulo_inverse_dynamics_motion(model, motion, NULL, &bad[i], NULL, NULL, NULL, &text),
         AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_inverse_dynamics_motion(NULL, motion, NULL, NULL, NULL, NULL, NULL, &text),
-                   AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_inverse_dynamics_motion(NULL, motion, NULL, NULL, NULL, NULL, NULL, &text),
+      AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_inverse_dynamics_motion(model, NULL, NULL, NULL, NULL, NULL, NULL, &text),
                    AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_inverse_dynamics_motion(model, motion, NULL, NULL, NULL, NULL, NULL, NULL),
-                   AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_inverse_dynamics_motion(model, motion, NULL, NULL, NULL, NULL, NULL, NULL),
+      AMBULO_E_ARGUMENT);
   assert_int_equal(
       ambulo_inverse_dynamics_loaded(model, motion, NULL, NULL, NULL, NULL, NULL, &text),
       AMBULO_E_ARGUMENT);

@@ -20,7 +20,8 @@ static files make_files(void **state) {
   assert_non_null(file);
   fprintf(file, "time,pelvis_tx,pelvis_ty,pelvis_tilt,lumbar,hip_flexion_r,knee_angle_r,"
                 "ankle_angle_r,hip_flexion_l,knee_angle_l,ankle_angle_l\n");
-  for (int k = 0; k < 10; k++) fprintf(file, "%g,0.3,0.9,0,0,0.6,0,0,-0.6,0,%g\n", 0.01 * k, 0.01 * k);
+  for (int k = 0; k < 10; k++)
+    fprintf(file, "%g,0.3,0.9,0,0,0.6,0,0,-0.6,0,%g\n", 0.01 * k, 0.01 * k);
   fclose(file);
   scratch_write(f.forces, "time,ground_force_r_vx,ground_force_r_vy,ground_force_r_px,"
                           "ground_force_r_py,ground_torque_r_z,ground_force_l_vx,ground_force_l_vy,"
@@ -31,8 +32,8 @@ static files make_files(void **state) {
 }
 
 /* the whole path that the command takes */
-static ambulo_status run(const files *f, const ambulo_allocator *allocator, ambulo_diagnostics *list,
-                         int *loaded) {
+static ambulo_status run(const files *f, const ambulo_allocator *allocator,
+                         ambulo_diagnostics *list, int *loaded) {
   ambulo_model *model = NULL;
   ambulo_inverse_options options = ambulo_inverse_options_default();
   options.forces = f->forces;

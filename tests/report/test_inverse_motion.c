@@ -103,7 +103,12 @@ static void what_the_file_has_is_used(void **state) {
   one(state, &d, NULL, silence, 0.05, 0.0);
   d = (dress){"time,/jointset/s/shoulder/value,/jointset/e/elbow/value,/jointset/s/shoulder/speed,"
               "/jointset/e/elbow/speed,/jointset/s/shoulder/accel,/jointset/e/elbow/accel",
-              1.0, 1.0, 1, 1, 1, 0.05};
+              1.0,
+              1.0,
+              1,
+              1,
+              1,
+              0.05};
   one(state, &d, NULL, silence, 0.05, 0.1);
   d = (dress){"time,shoulder,elbow", 1.0, 1.0, 1, 0, 0, 0.0};
   one(state, &d, NULL, silence, 0.0, 0.0);
@@ -177,8 +182,8 @@ static void lengths_in_millimetres(void **state) {
 
 /* -3 dB at the cut-off, whatever the rates of the file say */
 static void values_are_filtered(void **state) {
-  static const char *const told[] = {"note: rates and accelerations are those of the filtered values",
-                                     NULL};
+  static const char *const told[] = {
+      "note: rates and accelerations are those of the filtered values", NULL};
   ambulo_model *model = arm_create();
   ambulo_inverse_options options = ambulo_inverse_options_default();
   const char *path = scratch_path(state, "m.csv");
@@ -275,10 +280,14 @@ static void missing_columns(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(what_the_file_has_is_used), SCRATCH_TEST(slopes_of_rates), SCRATCH_TEST(accelerations_alone),
-      SCRATCH_TEST(units_of_all_orders),       SCRATCH_TEST(lengths_in_millimetres),
-      SCRATCH_TEST(values_are_filtered),       SCRATCH_TEST(few_rows),
-      SCRATCH_TEST(columns_that_contradict),   SCRATCH_TEST(missing_columns)};
+  const struct CMUnitTest tests[] = {SCRATCH_TEST(what_the_file_has_is_used),
+                                     SCRATCH_TEST(slopes_of_rates),
+                                     SCRATCH_TEST(accelerations_alone),
+                                     SCRATCH_TEST(units_of_all_orders),
+                                     SCRATCH_TEST(lengths_in_millimetres),
+                                     SCRATCH_TEST(values_are_filtered),
+                                     SCRATCH_TEST(few_rows),
+                                     SCRATCH_TEST(columns_that_contradict),
+                                     SCRATCH_TEST(missing_columns)};
   return cmocka_run_group_tests_name("report/inverse_motion", tests, NULL, NULL);
 }

@@ -124,7 +124,8 @@ static void poses_and_places(void **state) {
   ambulo_model *model = walker_create();
   ambulo_mechanics *mechanics = NULL;
   int d = ambulo_model_coordinate_count(model);
-  double q[MOST], zero[MOST] = {0}, wrench[6], center[3], feet[6], points[192], zmp[3] = {NAN, NAN, NAN};
+  double q[MOST], zero[MOST] = {0}, wrench[6], center[3], feet[6], points[192],
+                  zmp[3] = {NAN, NAN, NAN};
   double weight = 9.81 * ambulo_model_mass(model);
   ambulo__load_poses poses = {center, feet};
   one_row r;
@@ -171,9 +172,8 @@ static void pressure_comes_back(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(virtual_work),
-                                     cmocka_unit_test(the_forces_that_are_needed_leave_nothing),
-                                     cmocka_unit_test(poses_and_places),
-                                     cmocka_unit_test(pressure_comes_back)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(virtual_work), cmocka_unit_test(the_forces_that_are_needed_leave_nothing),
+      cmocka_unit_test(poses_and_places), cmocka_unit_test(pressure_comes_back)};
   return cmocka_run_group_tests_name("report/load_apply", tests, NULL, NULL);
 }

@@ -7,14 +7,15 @@ static const double pi = 3.14159265358979323846;
 
 /* the first warning contains `message` and `hint`, strictness makes an error of it, and `mended`
  * (NULL: none) leaves no warning; message NULL: no warning at all */
-static void doubted(const ambulo_model *model, const char *path, const ambulo_inverse_options *given,
-                    const ambulo_inverse_options *mended, const char *message, const char *hint) {
+static void doubted(const ambulo_model *model, const char *path,
+                    const ambulo_inverse_options *given, const ambulo_inverse_options *mended,
+                    const char *message, const char *hint) {
   ambulo_inverse_options options = given ? *given : ambulo_inverse_options_default();
   for (int strict = 0; strict < 2; strict++) {
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     options.strict = strict;
-    ambulo__motion_free(inverse_of(model, path, &options, list,
-                                   strict && message ? AMBULO_E_SCHEMA : AMBULO_OK));
+    ambulo__motion_free(
+        inverse_of(model, path, &options, list, strict && message ? AMBULO_E_SCHEMA : AMBULO_OK));
     size_t first = 0, count = ambulo_diagnostics_count(list);
     while (first < count && ambulo_diagnostics_get(list, first)->severity == AMBULO_NOTE) first++;
     if (!message && first < count) assert_message(list, first, "(no message)");
@@ -56,12 +57,11 @@ static void units_are_doubted(void **state) {
   ambulo_inverse_options mended = ambulo_inverse_options_default();
   doubted(model, write_walk(state, 1.0, 1.0, 1.0), NULL, NULL, NULL, NULL);
   mended.angles = AMBULO_ANGLES_DEGREES;
-  doubted(model, write_walk(state, 180.0 / pi, 1.0, 1.0), NULL, &mended, "rad at t = ",
-          "--angles degrees");
+  doubted(model, write_walk(state, 180.0 / pi, 1.0, 1.0), NULL, &mended,
+          "rad at t = ", "--angles degrees");
   mended = ambulo_inverse_options_default();
   mended.length_unit = 0.001;
-  doubted(model, write_walk(state, 1.0, 1000.0, 1.0), NULL, &mended, " m",
-          "--lengths mm");
+  doubted(model, write_walk(state, 1.0, 1000.0, 1.0), NULL, &mended, " m", "--lengths mm");
   mended = ambulo_inverse_options_default();
   mended.time_unit = 0.001;
   doubted(model, write_walk(state, 1.0, 1.0, 1000.0), NULL, &mended, "the rows are 10 s apart",
@@ -122,8 +122,8 @@ static void rates_that_contradict_are_doubted(void **state) {
     if (own) {
       doubted(model, path, NULL, NULL, NULL, NULL);
     } else {
-      doubted(model, path, NULL, &mended, "the rate of 'elbow' differs from the slope of its values",
-              "--derivatives spline");
+      doubted(model, path, NULL, &mended,
+              "the rate of 'elbow' differs from the slope of its values", "--derivatives spline");
     }
   }
   ambulo_model_free(model);
@@ -135,13 +135,15 @@ static void another_body_is_doubted(void **state) {
   const char *path = scratch_path(state, "arm.csv");
   static const char rows[] = "time,shoulder,elbow\n0,0,0\n0.1,0,0\n0.2,0,0\n0.3,0,0\n";
   char text[256];
-  snprintf(text, sizeof text, "# ambulo motion: mass 3.5 kg, gravity 0 -9.81 0 m/s^2; SI\n%s", rows);
+  snprintf(text, sizeof text, "# ambulo motion: mass 3.5 kg, gravity 0 -9.81 0 m/s^2; SI\n%s",
+           rows);
   scratch_write(path, text);
   doubted(model, path, NULL, NULL, NULL, NULL);
   conditions.load_link = 1;
   conditions.load_mass = 0.5;
   assert_int_equal(ambulo_model_adapt(model, &conditions, NULL, NULL, &heavy), AMBULO_OK);
-  doubted(heavy, path, NULL, NULL, "it is the motion of a body of 3.5 kg; 'arm' has 4 kg", "--mass");
+  doubted(heavy, path, NULL, NULL, "it is the motion of a body of 3.5 kg; 'arm' has 4 kg",
+          "--mass");
   ambulo_model_free(heavy);
   snprintf(text, sizeof text, "# ambulo motion: mass 3.5 kg, gravity 0.8 -9.77 0 m/s^2; SI\n%s",
            rows);
@@ -214,7 +216,8 @@ static void places_and_residuals_are_doubted(void **state) {
   doubted(s.model, s.motion, &options, &mended, "the forces on foot 'right' act ",
           "--grf-lengths mm");
   write_forces(&s, 0.5, right + 3.0, 0.5, left + 3.0, 1.0, 1.0);
-  doubted(s.model, s.motion, &options, NULL, "the forces on foot 'right' act 2.", "same axes and origin");
+  doubted(s.model, s.motion, &options, NULL, "the forces on foot 'right' act 2.",
+          "same axes and origin");
   write_forces(&s, 0.6, right, 0.6, left, 1.0, 1.0);
   doubted(s.model, s.motion, &options, NULL, "the forces leave over 0.200 body weights and 0.0",
           "--mass");
@@ -233,11 +236,9 @@ static void places_and_residuals_are_doubted(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {SCRATCH_TEST(units_are_doubted),
-                                     SCRATCH_TEST(lengths_at_rest_are_doubted),
-                                     SCRATCH_TEST(speeds_are_doubted),
-                                     SCRATCH_TEST(rates_that_contradict_are_doubted),
-                                     SCRATCH_TEST(another_body_is_doubted),
-                                     SCRATCH_TEST(places_and_residuals_are_doubted)};
+  const struct CMUnitTest tests[] = {
+      SCRATCH_TEST(units_are_doubted),       SCRATCH_TEST(lengths_at_rest_are_doubted),
+      SCRATCH_TEST(speeds_are_doubted),      SCRATCH_TEST(rates_that_contradict_are_doubted),
+      SCRATCH_TEST(another_body_is_doubted), SCRATCH_TEST(places_and_residuals_are_doubted)};
   return cmocka_run_group_tests_name("report/plausibility", tests, NULL, NULL);
 }

@@ -101,7 +101,6 @@ static void the_earlier_time_stays(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(periodic), cmocka_unit_test(mirrored), cmocka_unit_test(free_ends),
-      cmocka_unit_test(the_earlier_time_stays),
-      cmocka_unit_test(what_is_one_event_is_listed_once)};
+      cmocka_unit_test(the_earlier_time_stays), cmocka_unit_test(what_is_one_event_is_listed_once)};
   return cmocka_run_group_tests_name("report/strikes", tests, NULL, NULL);
 }

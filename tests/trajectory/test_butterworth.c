@@ -73,8 +73,7 @@ static void edges_are_as_good_as_the_inside(void **state) {
   double x[ROWS], worst = 0.0;
   for (int k = 0; k < ROWS; k++) x[k] = sin(2.0 * pi * 0.6 * k / 100.0);
   assert_int_equal(ambulo__butterworth(x, ROWS, 1, 100.0, 6.0, 4, NULL), AMBULO_OK);
-  for (int k = 0; k < ROWS; k++)
-    worst = fmax(worst, fabs(x[k] - sin(2.0 * pi * 0.6 * k / 100.0)));
+  for (int k = 0; k < ROWS; k++) worst = fmax(worst, fabs(x[k] - sin(2.0 * pi * 0.6 * k / 100.0)));
   if (worst > 2.5e-3) print_error("off by %g\n", worst);
   assert_true(worst < 2.5e-3);
 }

@@ -38,8 +38,9 @@ static void every_spelling_is_known(void **state) {
 
 static void what_only_resembles_is_left(void **state) {
   (void)state;
-  ambulo__motion *motion = table("time,/forceset/th,/forceset/th/value,tau.th,xth,q.xth,/a/xth/value,"
-                                 "th/value/more,q.th.x,qd.thx\n0,1,2,3,4,5,6,7,8,9\n");
+  ambulo__motion *motion =
+      table("time,/forceset/th,/forceset/th/value,tau.th,xth,q.xth,/a/xth/value,"
+            "th/value/more,q.th.x,qd.thx\n0,1,2,3,4,5,6,7,8,9\n");
   for (int order = 0; order < 3; order++)
     assert_int_equal(find(motion, "th", (ambulo__motion_order)order), -1);
   ambulo__motion_free(motion);

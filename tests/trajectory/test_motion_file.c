@@ -93,8 +93,9 @@ static void a_published_opensim_motion_is_read(void **state) {
   assert_true(motion->values[height] == 0.88365423);
   assert_true(motion->time[1] == 0.00959366);
   int knee = -1;
-  assert_int_equal(ambulo__motion_find(motion, path, "knee_angle_r", AMBULO__ORDER_VALUE, list, &knee),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo__motion_find(motion, path, "knee_angle_r", AMBULO__ORDER_VALUE, list, &knee),
+      AMBULO_OK);
   assert_int_equal(knee, 6);
   ambulo__motion_free(motion);
   ambulo_diagnostics_free(list);

@@ -218,7 +218,8 @@ static void headers_are_taken_in(void **state) {
   assert_int_equal(motion->unit_stated, 1);
   assert_true(isnan(motion->body_mass));
   ambulo__motion_free(motion);
-  motion = read_ok("# ambulo motion: mass 75 kg, gravity 0 -9.81 0 m/s^2; x\ntime,q\n0,1\n", "a.csv");
+  motion =
+      read_ok("# ambulo motion: mass 75 kg, gravity 0 -9.81 0 m/s^2; x\ntime,q\n0,1\n", "a.csv");
   assert_close(motion->body_mass, 75.0, 0.0);
   assert_close(motion->gravity[1], -9.81, 0.0);
   assert_int_equal(motion->unit_stated, 0);
