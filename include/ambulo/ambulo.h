@@ -6,6 +6,7 @@
  *     solve.h      the solver, the verdict and the audit
  *     ground.h     parts of a problem: the ground's force, feet in the air
  *     report.h     results on disk, comparison with people
+ *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
  *     status.h     status codes, messages, allocator
  *
@@ -25,6 +26,7 @@
 
 #include "ambulo/batch.h"
 #include "ambulo/ground.h"
+#include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
 #include "ambulo/problem.h"

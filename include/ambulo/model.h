@@ -144,6 +144,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load(const char *path,
                                                             const ambulo_allocator *allocator,
                                                             ambulo_diagnostics *diagnostics,
                                                             ambulo_model **model);
+/* ambulo_model_load with values of the file replaced before it is read: overrides[i] is
+ * "path=value" ("links[shank_r].body.mass=4.1"; as in a problem's overrides the path may begin with
+ * "model."). Errors: also E_ARGUMENT (an override that is none). */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_model_load_with(const char *path, const char *const *overrides, int override_count,
+                       const ambulo_subject *subject, const ambulo_allocator *allocator,
+                       ambulo_diagnostics *diagnostics, ambulo_model **model);
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_load_text(
     const char *text, size_t length, const char *name, const ambulo_subject *subject,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_model **model);

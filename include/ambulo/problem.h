@@ -280,6 +280,7 @@ AMBULO_API int
 ambulo_problem_variable_count(const ambulo_problem *problem); /* control points * d */
 AMBULO_API int ambulo_problem_row_count(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_equality_count(const ambulo_problem *problem);
+AMBULO_API double ambulo_problem_ground_height(const ambulo_problem *problem); /* m along up */
 AMBULO_API ambulo_ends ambulo_problem_ends(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);

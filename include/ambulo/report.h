@@ -5,7 +5,7 @@
 #ifndef AMBULO_REPORT_H
 #define AMBULO_REPORT_H
 
-#include "ambulo/mechanics.h"
+#include "ambulo/inverse.h"
 #include "ambulo/solve.h"
 
 #ifdef __cplusplus
@@ -57,33 +57,6 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_start(const char *path
                                                                 const ambulo_allocator *allocator,
                                                                 ambulo_diagnostics *diagnostics,
                                                                 double *x);
-
-/* Inverse dynamics of a motion file (CSV, STO or MOT, columns named after the
- * model's coordinates, with or without the prefix "q."; missing coordinates are zero
- * with a warning; derivatives from an interpolating spline). Writes a CSV with
- * time, q.*, qd.*, qdd.*, tau.*, zmp.* to `output` (atomically), or returns the text
- * in *text when output is NULL. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_file(
-    const ambulo_model *model, const char *motion, const char *output,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, char **text);
-
-/* What measured forces leave over at the root; force axes: forward, up, left. */
-typedef struct ambulo_ground_residual {
-  double force_rms[3];           /* body weights */
-  double moment_rms;             /* about horizontal axes through the zero-moment point, body
-                                    weights m; NaN: the file has neither points nor torques */
-  double vertical_impulse;       /* that the motion needs, N s */
-  double given_vertical_impulse; /* of the forces, N s */
-} ambulo_ground_residual;
-
-/* The same with forces on the feet from another file (docs/results.md lists the columns): they
- * are taken off the torques, so that tau.* of the root is what they leave over. A file without
- * points and torques has its forces applied at the zero-moment point, with a warning. `residual`
- * may be NULL; it is also summed up in a note. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_inverse_dynamics_loaded(
-    const ambulo_model *model, const char *motion, const char *forces, const char *output,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-    ambulo_ground_residual *residual, char **text);
 
 /* ------------------------------------------------ comparison with people */
 

@@ -21,11 +21,19 @@ ambulo_status ambulo__write_file(const char *path, const char *data, size_t leng
 /* A folder in the making. */
 typedef struct ambulo__folder ambulo__folder;
 
+/* How a folder is known to be an earlier result, and nothing but that. */
+typedef struct ambulo__folder_mark {
+  const char *file;         /* a regular file in it ... */
+  const char *text;         /* ... whose first 256 bytes contain this */
+  const char *const *names; /* [count]: what a result may hold */
+  int count;
+} ambulo__folder_mark;
+
 /* Creates the temporary sibling of `path`. An existing folder at `path` is refused unless
- * it is empty, or unless `marker` is given and the folder holds a file of that name: the
- * sign that it is an earlier result, which ambulo__folder_commit then replaces (NULL: never
- * replace). Errors: E_IO, E_MEMORY. */
-ambulo_status ambulo__folder_begin(const char *path, const char *marker,
+ * it is empty, or unless `mark` is given and fits: ambulo__folder_commit then replaces it
+ * (NULL: never replace). A folder that holds anything besides, which would be lost, is refused
+ * by its name. `mark` must outlive the folder. Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *mark,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo__folder **folder);
 /* Path of the temporary folder, for writers that need one. */

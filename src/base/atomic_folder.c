@@ -5,6 +5,7 @@
  * rename fails the old one is put back. */
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
+#include "base/output_check.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -20,7 +21,8 @@
 
 struct ambulo__folder {
   ambulo_allocator allocator;
-  char *path, *parent, *temporary, *marker; /* marker may be NULL */
+  char *path, *parent, *temporary;
+  const ambulo__folder_mark *mark; /* may be NULL */
   int created;
 };
 
@@ -56,6 +58,43 @@ static int folder_is_empty(const char *path) {
   return empty;
 }
 
+static ambulo_status expect_mark(const ambulo__folder *folder, ambulo_diagnostics *diagnostics) {
+  const ambulo__folder_mark *mark = folder->mark;
+  ambulo__place place = {.file = folder->path};
+  struct stat info;
+  char *path = ambulo__join_path(&folder->allocator, folder->path, mark->file);
+  if (!path) return ambulo__io_memory_error(diagnostics, folder->path);
+  int found = lstat(path, &info) == 0 && S_ISREG(info.st_mode);
+  int ours = found && ambulo__file_says(path, mark->text, 256);
+  ambulo__free(&folder->allocator, path);
+  if (ours) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                       "the folder is not empty and holds no '%s'%s: it is not an earlier result "
+                       "and is not replaced",
+                       mark->file, found ? " of ambulo's" : "");
+}
+
+static ambulo_status expect_nothing_else(const ambulo__folder *folder,
+                                         ambulo_diagnostics *diagnostics) {
+  const ambulo__folder_mark *mark = folder->mark;
+  ambulo__place place = {.file = folder->path};
+  ambulo_status status = AMBULO_OK;
+  DIR *stream = opendir(folder->path);
+  if (!stream) return ambulo__io_error(diagnostics, folder->path, "read the folder");
+  for (struct dirent *entry = readdir(stream); entry && !status; entry = readdir(stream)) {
+    int known = is_dot(entry->d_name);
+    for (int i = 0; i < mark->count && !known; i++)
+      known = strcmp(entry->d_name, mark->names[i]) == 0;
+    if (known) continue;
+    status = ambulo__error(diagnostics, AMBULO_E_IO, place, "move it elsewhere first",
+                           "the folder also holds '%s', which ambulo did not write and which would "
+                           "be lost; it is not replaced",
+                           entry->d_name);
+  }
+  closedir(stream);
+  return status;
+}
+
 /* *occupied: a folder that must step aside stands at the target */
 static ambulo_status inspect_target(const ambulo__folder *folder, ambulo_diagnostics *diagnostics,
                                     int *occupied) {
@@ -72,21 +111,14 @@ static ambulo_status inspect_target(const ambulo__folder *folder, ambulo_diagnos
   int empty = folder_is_empty(folder->path);
   if (empty < 0) return ambulo__io_error(diagnostics, folder->path, "read the folder");
   if (empty) return AMBULO_OK;
-  if (!folder->marker) {
+  if (!folder->mark) {
     return ambulo__error(diagnostics, AMBULO_E_IO, place,
                          "--force (in C: overwrite) replaces an earlier result",
                          "the folder exists and is not empty; expected a new or empty folder");
   }
-  char *marker = ambulo__join_path(&folder->allocator, folder->path, folder->marker);
-  if (!marker) return ambulo__io_memory_error(diagnostics, folder->path);
-  int found = lstat(marker, &info) == 0 && S_ISREG(info.st_mode);
-  ambulo__free(&folder->allocator, marker);
-  if (!found) {
-    return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
-                         "the folder is not empty and holds no '%s': it is not an earlier result "
-                         "and is not replaced",
-                         folder->marker);
-  }
+  ambulo_status status = expect_mark(folder, diagnostics);
+  if (!status) status = expect_nothing_else(folder, diagnostics);
+  if (status) return status;
   *occupied = 1;
   return AMBULO_OK;
 }
@@ -96,7 +128,6 @@ static void folder_free(ambulo__folder *folder) {
   ambulo__free(&allocator, folder->path);
   ambulo__free(&allocator, folder->parent);
   ambulo__free(&allocator, folder->temporary);
-  ambulo__free(&allocator, folder->marker);
   ambulo__free(&allocator, folder);
 }
 
@@ -120,7 +151,7 @@ static ambulo_status create_temporary(ambulo__folder *folder, ambulo_diagnostics
   return ambulo__io_error(diagnostics, folder->path, "create");
 }
 
-ambulo_status ambulo__folder_begin(const char *path, const char *marker,
+ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *mark,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo__folder **folder) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
@@ -128,8 +159,8 @@ ambulo_status ambulo__folder_begin(const char *path, const char *marker,
   if (!f) return ambulo__io_memory_error(diagnostics, path);
   f->allocator = own;
   f->path = ambulo__strdup(&own, path);
-  f->marker = marker ? ambulo__strdup(&own, marker) : NULL;
-  if (!f->path || (marker && !f->marker)) {
+  f->mark = mark;
+  if (!f->path) {
     ambulo__folder_abort(f);
     return ambulo__io_memory_error(diagnostics, path);
   }

@@ -46,7 +46,8 @@ int ambulo__write_all(int file, const char *data, size_t length) {
   while (length > 0) {
     ssize_t count = write(file, data, length);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return -1;
+    if (count == 0) errno = EIO; /* nothing taken, no reason given: not to be tried for ever */
+    if (count <= 0) return -1;
     data += count;
     length -= (size_t)count;
   }

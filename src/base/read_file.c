@@ -50,6 +50,12 @@ static ambulo_status read_open_file(int file, const char *path, size_t limit,
     ambulo__free(allocator, data);
     return status;
   }
+  if ((size_t)count < size) {
+    ambulo__free(allocator, data);
+    return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                         "ended after %zd of %zu bytes: it was cut short while it was read", count,
+                         size);
+  }
   data[count] = '\0';
   *text = data;
   *length = (size_t)count;

@@ -3,6 +3,7 @@
 #include "ambulo/report.h"
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
+#include "base/output_check.h"
 #include "base/read_file.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
@@ -185,18 +186,53 @@ static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
 
 /* ----------------------------------------------------------------- the folder */
 
-/* 1: holds nothing but what a batch writes first */
-static int is_fresh(const char *directory) {
-  static const char *const ours[] = {".", "..", "lock", "cases", "batch.json", "results"};
+static int is_dot(const char *name) {
+  return strcmp(name, ".") == 0 || strcmp(name, "..") == 0;
+}
+
+static int begins_with(const char *name, const char *start) {
+  return strncmp(name, start, strlen(start)) == 0;
+}
+
+/* names that only a batch gives to what it writes */
+static int is_evidence(const char *name) {
+  return strcmp(name, "lock") == 0 || begins_with(name, "lock.") ||
+         begins_with(name, "cases.tsv.tmp-") || begins_with(name, "batch.json.tmp-");
+}
+
+/* names that a batch shares with others */
+static int is_known(const char *name) {
+  static const char *const names[] = {"cases", "cases.tsv", "batch.json", "results.csv",
+                                      "results.jsonl"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (strcmp(name, names[i]) == 0) return 1;
+  return begins_with(name, "results_") || begins_with(name, "results.csv.tmp-") ||
+         begins_with(name, "results.jsonl.tmp-");
+}
+
+/* a file of the folder that begins as a batch writes it */
+static int says(const char *directory, const char *name, const char *text,
+                const ambulo_allocator *a) {
+  char *path = ambulo__join_paths(a, directory, name, NULL);
+  int found = path && ambulo__file_says(path, text, 64);
+  ambulo__free(a, path);
+  return found;
+}
+
+/* 1: empty but for a folder `cases`, or what a batch leaves that was stopped before it had
+ * written its description, or whose description is damaged */
+static int is_unfinished(const char *directory, const ambulo_allocator *a) {
   DIR *stream = opendir(directory);
-  int fresh = stream != NULL;
-  for (struct dirent *e = stream ? readdir(stream) : NULL; e && fresh; e = readdir(stream)) {
-    fresh = 0;
-    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
-      fresh |= strncmp(e->d_name, ours[i], strlen(ours[i])) == 0;
+  int evidence = says(directory, "cases.tsv", "id\tkey\tname", a), known = stream != NULL;
+  int others = 0;
+  for (struct dirent *e = stream ? readdir(stream) : NULL; e && known; e = readdir(stream)) {
+    if (is_dot(e->d_name)) continue;
+    evidence |= is_evidence(e->d_name);
+    known = is_evidence(e->d_name) || is_known(e->d_name);
+    others |= strcmp(e->d_name, "cases") != 0;
   }
   if (stream) closedir(stream);
-  return fresh;
+  return known && (evidence || !others);
 }
 
 static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnostics) {
@@ -209,15 +245,12 @@ static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnosti
 ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *a,
                                          ambulo_diagnostics *diagnostics) {
   ambulo_status status = make_folder(directory, diagnostics);
-  if (!status && !is_fresh(directory)) {
+  if (!status && !says(directory, "batch.json", "\"ambulo-batch/", a) &&
+      !is_unfinished(directory, a)) {
     ambulo__place place = {directory, 0, 0, NULL};
-    char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
-    struct stat entry;
-    if (!mark || stat(mark, &entry) != 0)
-      status = ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
-                             "the folder holds other files; expected a new, an empty or a batch "
-                             "folder");
-    ambulo__free(a, mark);
+    status = ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                           "the folder holds other files; expected a new, an empty or a batch "
+                           "folder");
   }
   char *cases = ambulo__join_paths(a, directory, "cases", NULL);
   if (!status) status = cases ? make_folder(cases, diagnostics) : AMBULO_E_MEMORY;

@@ -1,48 +1,145 @@
-/* cli/cmd_inverse.c - ambulo inverse: torques and zero-moment point of a given motion. */
+/* cli/cmd_inverse.c - ambulo inverse: torques, root wrench and powers of a given motion. */
 #include <stdio.h>
+#include <string.h>
 
+#include "cli/body.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 
-static int run(const ambulo__cli_input *input) {
-  const char *output = ambulo__cli_value(input, "output");
+/* one of `count` words behind an option: its index, `fallback` without the option, or -1 after a
+ * message */
+static int choose(const ambulo__cli_input *input, const char *option, const char *const *words,
+                  int count, int fallback) {
+  const char *text = ambulo__cli_value(input, option);
+  if (!text) return fallback;
+  for (int i = 0; i < count; i++) {
+    if (strcmp(text, words[i]) == 0) return i;
+  }
+  char list[128] = "";
+  for (int i = 0; i < count; i++) {
+    size_t used = strlen(list);
+    ambulo__cli_format(list + used, sizeof list - used, "%s%s", i ? " or " : "", words[i]);
+  }
+  ambulo__cli_usage_error(input->command->name, NULL, "--%s is '%s'; expected %s", option, text,
+                          list);
+  return -1;
+}
+
+static int read_units(const ambulo__cli_input *input, ambulo_inverse_options *o) {
+  static const char *const angles[] = {"degrees", "radians"};
+  static const char *const lengths[] = {"m", "cm", "mm"}, *const times[] = {"s", "ms"};
+  static const double metres[] = {1.0, 0.01, 0.001}, seconds[] = {1.0, 0.001};
+  int angle = choose(input, "angles", angles, 2, 2);
+  int length = choose(input, "lengths", lengths, 3, 0), time = choose(input, "time", times, 2, 0);
+  int force_length = choose(input, "grf-lengths", lengths, 3, 0);
+  int force_time = choose(input, "grf-time", times, 2, 0);
+  if (angle < 0 || length < 0 || time < 0 || force_length < 0 || force_time < 0) return 0;
+  static const ambulo_angle_unit units[] = {AMBULO_ANGLES_DEGREES, AMBULO_ANGLES_RADIANS,
+                                            AMBULO_ANGLES_OF_FILE};
+  o->angles = units[angle];
+  o->length_unit = metres[length];
+  o->time_unit = seconds[time];
+  o->force_length_unit = metres[force_length];
+  o->force_time_unit = seconds[force_time];
+  return 1;
+}
+
+static int read_options(const ambulo__cli_input *input, ambulo_inverse_options *o) {
+  static const char *const sources[] = {"file", "spline"};
   const char *forces = ambulo__cli_value(input, "grf");
+  o->without_forces = forces && strcmp(forces, "none") == 0;
+  o->forces = o->without_forces ? NULL : forces;
+  o->force_columns = ambulo__cli_value(input, "force-columns");
+  o->strict = ambulo__cli_flag(input, "strict");
+  o->overwrite = ambulo__cli_flag(input, "force");
+  int source = choose(input, "derivatives", sources, 2, 0);
+  o->recompute_rates = source == 1;
+  if (source < 0 || !read_units(input, o)) return 0;
+  if (!ambulo__cli_number(input, "filter", 1e-6, 1e6, &o->cutoff) ||
+      !ambulo__cli_number(input, "grf-filter", 1e-6, 1e6, &o->force_cutoff) ||
+      !ambulo__cli_integer(input, "filter-order", 2, 8, &o->filter_order))
+    return 0;
+  if (o->filter_order % 2 == 0) return 1;
+  ambulo__cli_usage_error("inverse", NULL, "--filter-order is %d; expected 2, 4, 6 or 8",
+                          o->filter_order);
+  return 0;
+}
+
+/* warnings about the model count too: an option that changes nothing, for one */
+static ambulo_status be_strict(const ambulo_inverse_options *o, const ambulo_diagnostics *list) {
+  for (size_t i = 0; o->strict && i < ambulo_diagnostics_count(list); i++) {
+    if (ambulo_diagnostics_get(list, i)->severity == AMBULO_WARNING) return AMBULO_E_SCHEMA;
+  }
+  return AMBULO_OK;
+}
+
+static int run(const ambulo__cli_input *input) {
+  const char *output = ambulo__cli_value(input, "output"), *motion = input->arguments[1];
+  ambulo_inverse_options options = ambulo_inverse_options_default();
   if (output && !output[0])
     return ambulo__cli_usage_error("inverse", NULL, "--output is empty; expected a file name");
+  if (!read_options(input, &options)) return 2;
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  ambulo_model *model = NULL;
+  ambulo__cli_body body = {.model = NULL};
+  ambulo_status status = AMBULO_OK;
   char *text = NULL;
-  ambulo_status status = ambulo_model_load(input->arguments[0], NULL, NULL, diagnostics, &model);
-  if (!status)
-    status = forces ? ambulo_inverse_dynamics_loaded(model, input->arguments[1], forces, output,
-                                                     NULL, diagnostics, NULL, output ? NULL : &text)
-                    : ambulo_inverse_dynamics_file(model, input->arguments[1], output, NULL,
-                                                   diagnostics, output ? NULL : &text);
-  int code = ambulo__cli_diagnostics(diagnostics, status,
-                                     model ? input->arguments[1] : input->arguments[0]);
+  int code = ambulo__cli_body_load(input, input->arguments[0], diagnostics, &body, &status);
+  if (!code) {
+    if (!status) status = be_strict(&options, diagnostics);
+    options.ground_height = body.ground_height;
+    const char *subject = status ? input->arguments[0] : motion;
+    if (!status)
+      status = ambulo_inverse_dynamics_motion(body.model, motion, output, &options, NULL,
+                                              diagnostics, NULL, output ? NULL : &text);
+    code = ambulo__cli_diagnostics(diagnostics, status, subject);
+  }
   if (text) fputs(text, stdout);
   ambulo_text_free(text, NULL);
-  ambulo_model_free(model);
+  ambulo__cli_body_free(&body);
   ambulo_diagnostics_free(diagnostics);
   return code;
 }
 
-static const ambulo__cli_option options[] = {
+static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "write the CSV there (default: standard output)"},
-    {"grf", 0, "FILE", "forces on the feet (CSV, STO or MOT), taken off the torques"},
+    {"force", 0, NULL, "write over an input, or a file that ambulo did not write"},
+    {"strict", 0, NULL, "warnings are errors: exit code 3, nothing is written"},
+    {"grf", 0, "FILE|none",
+     "forces on the feet (CSV, STO or MOT), taken off the torques\n"
+     "(default: the columns grf.* of the motion, if it has some)"},
+    {"force-columns", 0, "MAP",
+     "columns of forces of each foot, when their names do not tell:\n"
+     "left=ground_force_1,right=ground_force_2+ground_force_3 or right=none"},
+    {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
+    {"lengths", 0, "m|cm|mm", "unit of the motion's lengths (default: m)"},
+    {"time", 0, "s|ms", "unit of the motion's times (default: s)"},
+    {"grf-lengths", 0, "m|cm|mm", "of the forces' points, and of their torques in N times it"},
+    {"grf-time", 0, "s|ms", "unit of the forces' times (default: s)"},
+    {"derivatives", 0, "file|spline",
+     "use the rates and accelerations that the file has (default), or\n"
+     "compute all from its values"},
+    {"filter", 0, "HZ", "zero-lag Butterworth low-pass of the motion's values"},
+    {"grf-filter", 0, "HZ", "the same for the forces and their moments"},
+    {"filter-order", 0, "N", "of the whole filter: 2, 4, 6 or 8 (default: 4)"},
+    AMBULO__CLI_BODY_OPTIONS,
 };
 
 const ambulo__cli_command ambulo__cli_inverse = {
     .name = "inverse",
-    .arguments = "MODEL.yaml MOTION",
+    .arguments = "MODEL.yaml|PROBLEM.yaml MOTION",
     .summary = "inverse dynamics of a given motion (CSV, STO or MOT)",
     .description =
-        "Columns are named after the model's coordinates; rates and accelerations come from an\n"
-        "interpolating spline. Writes a CSV with time, q.*, qd.*, qdd.*, tau.*, zmp.* in SI units\n"
-        "and radians. With --grf, tau.* of the root is what the measured forces leave over.",
-    .example = "ambulo inverse models/yardstick_body.yaml walk/motion.csv -o torques.csv",
-    .options = options,
-    .option_count = sizeof options / sizeof options[0],
+        "Columns are named after the model's coordinates; rates and accelerations are those of\n"
+        "the file, or of an interpolating spline where it has none. Writes a CSV with time, q.*,\n"
+        "qd.*, qdd.*, tau.*, zmp.*, the root wrench and the joint powers in SI units and radians.\n"
+        "Forces on the feet are taken off the torques: tau.* of the root is what they leave over.\n"
+        "A problem in place of the model stands for its body, subject, slope and load. What is\n"
+        "doubtful is said, with the option that mends it. See docs/guide-inverse.md.",
+    .example = "ambulo inverse models/walk_normal.yaml walk/motion.csv -o torques.csv\n"
+               "ambulo inverse model.yaml ik.mot --grf grf.mot --filter 6 --grf-filter 6 \\\n"
+               "  --force-columns right=ground_force,left=1_ground_force -o torques.csv",
+    .options = options_table,
+    .option_count = sizeof options_table / sizeof options_table[0],
     .minimum = 2,
     .maximum = 2,
     .run = run,

@@ -1,5 +1,6 @@
 /* model/model_yaml.c - a model file, from text to model (docs/model-format.md). */
 #include <math.h>
+#include <string.h>
 
 #include "model/reader.h"
 
@@ -177,6 +178,44 @@ ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
                                 ambulo_model **model) {
   if (!path || !model) return AMBULO_E_ARGUMENT;
   return ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
+}
+
+/* "path=value" put into the document */
+static ambulo_status apply_override(ambulo__yaml *document, const char *override,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics) {
+  static const char prefix[] = "model.";
+  ambulo__place nowhere = {0};
+  const char *equals = override ? strchr(override, '=') : NULL;
+  if (!equals || equals == override)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                         "override '%s'; expected path=value, such as links[shank_r].body.mass=4",
+                         override ? override : "");
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  char *path = ambulo__alloc(&own, (size_t)(equals - override) + 1, 1);
+  if (!path) return ambulo__error(diagnostics, AMBULO_E_MEMORY, nowhere, NULL, "out of memory");
+  memcpy(path, override, (size_t)(equals - override));
+  int below = strncmp(path, prefix, sizeof prefix - 1) == 0;
+  ambulo_status status = ambulo__yaml_set_below(
+      document, below ? prefix : "", below ? path + sizeof prefix - 1 : path, equals + 1);
+  ambulo__free(&own, path);
+  return status;
+}
+
+ambulo_status ambulo_model_load_with(const char *path, const char *const *overrides,
+                                     int override_count, const ambulo_subject *subject,
+                                     const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, ambulo_model **model) {
+  if (!path || !model || override_count < 0 || (override_count > 0 && !overrides))
+    return AMBULO_E_ARGUMENT;
+  ambulo__yaml *document = NULL;
+  ambulo_status status = check_subject(subject, diagnostics);
+  if (!status) status = ambulo__yaml_load(path, allocator, diagnostics, &document);
+  for (int i = 0; i < override_count && !status; i++)
+    status = apply_override(document, overrides[i], allocator, diagnostics);
+  if (!status) status = build(document, subject, allocator, diagnostics, model);
+  ambulo__yaml_free(document);
+  return status;
 }
 
 ambulo_status ambulo_model_load_text(const char *text, size_t length, const char *name,

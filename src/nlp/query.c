@@ -31,6 +31,9 @@ int ambulo_problem_row_count(const ambulo_problem *p) {
 int ambulo_problem_equality_count(const ambulo_problem *p) {
   return p->equalities;
 }
+double ambulo_problem_ground_height(const ambulo_problem *p) {
+  return p->definition.ground_height;
+}
 ambulo_ends ambulo_problem_ends(const ambulo_problem *p) {
   return p->definition.ends;
 }

@@ -6,17 +6,67 @@
  */
 #include "nlp/problem_yaml.h"
 
-#include "trajectory/motion_file.h"
+#include "trajectory/motion_columns.h"
+#include "trajectory/motion_units.h"
 
-static void to_radians(ambulo__problem_reader *reader, ambulo__motion *motion) {
+#include <math.h>
+
+/* column of each coordinate, or -1; NULL after a failure */
+static int *find_columns(ambulo__problem_reader *reader, const ambulo__motion *motion,
+                         const char *path, const ambulo__yaml_node *node) {
+  int count = ambulo_model_coordinate_count(reader->model);
+  int *column = ambulo__reader_alloc(reader, (size_t)count, sizeof *column);
+  for (int i = 0; column && i < count; i++) {
+    ambulo_status status =
+        ambulo__motion_find(motion, path, ambulo_model_coordinate(reader->model, i)->name,
+                            AMBULO__ORDER_VALUE, reader->diagnostics, &column[i]);
+    if (!status) continue;
+    reader->failure = status;
+    (void)ambulo__yaml_error(node, status, NULL, "the reference '%s' could not be read", path);
+    return NULL;
+  }
+  return column;
+}
+
+static void to_radians(ambulo__problem_reader *reader, ambulo__motion *motion, const int *column) {
   unsigned char *is_angle = ambulo__reader_alloc(reader, (size_t)motion->columns, 1);
   if (!is_angle) return;
   for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
-    const ambulo_coordinate *c = ambulo_model_coordinate(reader->model, i);
-    int column = ambulo__motion_coordinate(motion, c->name);
-    if (column >= 0 && c->type == AMBULO_REVOLUTE) is_angle[column] = 1;
+    if (column[i] >= 0 && ambulo_model_coordinate(reader->model, i)->type == AMBULO_REVOLUTE)
+      is_angle[column[i]] = 1;
   }
   ambulo__motion_to_radians(motion, is_angle);
+}
+
+/* degrees that nobody declared would be followed as radians, without a word */
+static void doubt_units(const ambulo__problem_reader *reader, const ambulo__motion *motion,
+                        const int *column, const ambulo__yaml_node *node) {
+  for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(reader->model, i);
+    double bound = ambulo__largest_plausible(c);
+    for (int k = 0; column[i] >= 0 && k < motion->rows; k++) {
+      double value = motion->values[(size_t)k * (size_t)motion->columns + (size_t)column[i]];
+      if (fabs(value) <= bound) continue;
+      int angle = c->type == AMBULO_REVOLUTE;
+      ambulo__yaml_warning(node,
+                           angle ? "a file in degrees says so: '# inDegrees=yes' in a CSV, "
+                                   "'inDegrees=yes' in the header of an STO or MOT"
+                                 : "lengths are in metres",
+                           "the reference has '%s' at %g %s, range %g to %g %s", c->name, value,
+                           angle ? "rad" : "m", c->range[0], c->range[1], angle ? "rad" : "m");
+      return;
+    }
+  }
+}
+
+/* milliseconds pass for seconds where the whole problem lies within the first row's step */
+static void doubt_times(const ambulo__motion *motion, double duration,
+                        const ambulo__yaml_node *node) {
+  double step = motion->rows > 1 ? motion->time[1] - motion->time[0] : 0.0;
+  if (step <= 1.5 * duration) return;
+  ambulo__yaml_warning(node, "times are in seconds",
+                       "the reference has a row every %g s; the problem lasts %g s", step,
+                       duration);
 }
 
 /* value of a column at `time` of the file */
@@ -40,22 +90,22 @@ static double sample(const ambulo__motion *motion, int column, double time) {
 }
 
 static const double *resample(ambulo__problem_reader *reader, const ambulo__motion *motion,
-                              const ambulo__yaml_node *node, int samples, double *scale) {
+                              const int *column, const ambulo__yaml_node *node, int samples,
+                              double *scale) {
   const ambulo_problem_definition *d = &reader->definition;
   int coordinates = ambulo_model_coordinate_count(reader->model), found = 0;
   double *reference =
       ambulo__reader_alloc(reader, (size_t)samples * (size_t)coordinates, sizeof *reference);
   if (!reference) return NULL;
   for (int i = 0; i < coordinates; i++) {
-    int column = ambulo__motion_coordinate(motion, ambulo_model_coordinate(reader->model, i)->name);
-    if (column < 0) {
+    if (column[i] < 0) {
       scale[i] = 0.0;
       continue;
     }
     found++;
     for (int k = 0; k < samples; k++) {
       double time = motion->time[0] + (double)k * d->duration / (double)(samples - 1);
-      reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column, time);
+      reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column[i], time);
     }
   }
   if (found > 0) return reference;
@@ -91,8 +141,15 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                              "the reference lasts %.6g s; expected at least the duration, %.6g s",
                              lasts, duration);
   } else {
-    to_radians(reader, motion);
-    reference = resample(reader, motion, node, samples, scale);
+    const int *column = find_columns(reader, motion, path, node);
+    if (column) to_radians(reader, motion, column);
+    if (column) doubt_units(reader, motion, column, node);
+    doubt_times(motion, duration, node);
+    if (motion->declared_columns >= 0 && motion->declared_columns != motion->columns + 1)
+      ambulo__yaml_warning(node, NULL,
+                           "the reference has %d columns; its header says %d (nColumns)",
+                           motion->columns + 1, motion->declared_columns);
+    if (column) reference = resample(reader, motion, column, node, samples, scale);
   }
   ambulo__motion_free(motion);
   return reference;

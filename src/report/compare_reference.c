@@ -117,13 +117,16 @@ static void free_curve(const ambulo_allocator *a, ambulo__reference_curve *c) {
 static ambulo_status read_curve(curve_reader *r, const ambulo__map_entry *entry,
                                 ambulo__reference_curve *curve) {
   ambulo__reference_curve c = {.entry = entry};
+  *curve = c;
   if (r->layout == AMBULO__LAYOUT_WIDE) {
     char deviation[AMBULO__CURVE_NAME + 4];
     snprintf(deviation, sizeof deviation, "%s sd", entry->reference);
-    r->mean = ambulo__sheet_find(r->sheet, r->header, entry->reference);
-    r->sd = ambulo__sheet_find(r->sheet, r->header, deviation);
+    ambulo_status status =
+        ambulo__sheet_find_one(r->sheet, r->header, entry->reference, r->diagnostics, &r->mean);
+    if (!status)
+      status = ambulo__sheet_find_one(r->sheet, r->header, deviation, r->diagnostics, &r->sd);
+    if (status) return status;
   }
-  *curve = c;
   if (r->mean < 0) return AMBULO_OK;
   int lines = 0;
   for (int line = first_line(r); line < r->sheet->line_count; line++) {

@@ -34,12 +34,13 @@ static int expand(const char *from, size_t length, ambulo__cycle_side side, char
 /* values += factor * column (or *= when product); 0 in *found if there is no such column */
 static ambulo_status take_column(ambulo__cycle *c, const char *name, double factor, int product,
                                  double *values, int *found) {
-  int column = ambulo__sheet_find(&c->sheet, 0, name);
+  int column = -1;
+  ambulo_status status = ambulo__sheet_find_one(&c->sheet, 0, name, c->diagnostics, &column);
+  if (status) return status;
   *found = column >= 0;
   for (int k = 0; *found && k < c->rows; k++) {
     double value;
-    ambulo_status status =
-        ambulo__sheet_number(&c->sheet, k + 1, column, name, c->diagnostics, &value);
+    status = ambulo__sheet_number(&c->sheet, k + 1, column, name, c->diagnostics, &value);
     if (status) return status;
     values[k] = product ? values[k] * value : values[k] + factor * value;
   }

@@ -12,8 +12,13 @@
 
 enum { OPTIONS_COOKIE = 0x616d6272 };
 
-/* only a folder that holds this file is taken for an earlier result and replaced */
-static const char marker[] = "summary.json";
+static const char summary_name[] = "summary.json";
+
+/* only a folder of these files is taken for an earlier result and replaced */
+static const char *const file_names[] = {"summary.json", "motion.csv", "motion.sto",
+                                         "solution.yaml", "gait.svg"};
+static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
+                                         sizeof file_names / sizeof *file_names};
 
 ambulo_report_options ambulo_report_options_default(void) {
   ambulo_report_options options = {.cookie = OPTIONS_COOKIE};
@@ -29,7 +34,7 @@ static int options_of(const ambulo_report_options *given, ambulo_report_options 
 static ambulo_status begin(const char *directory, const ambulo_report_options *options,
                            const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                            ambulo__folder **folder) {
-  return ambulo__folder_begin(directory, options->overwrite ? marker : NULL, allocator, diagnostics,
+  return ambulo__folder_begin(directory, options->overwrite ? &mark : NULL, allocator, diagnostics,
                               folder);
 }
 
@@ -89,7 +94,7 @@ static ambulo_status write_all(const ambulo_problem *problem, const ambulo_resul
                                int samples, ambulo__folder *folder, ambulo__text_buffer *text,
                                ambulo_diagnostics *diagnostics) {
   ambulo__summary_json(problem, result, text);
-  ambulo_status status = write_text(folder, marker, text, diagnostics);
+  ambulo_status status = write_text(folder, summary_name, text, diagnostics);
   if (status) return status;
   ambulo__solution_yaml(problem, result, text);
   status = write_text(folder, "solution.yaml", text, diagnostics);

@@ -97,6 +97,18 @@ int ambulo__sheet_find(const ambulo__sheet *sheet, int line, const char *text) {
   return -1;
 }
 
+ambulo_status ambulo__sheet_find_one(const ambulo__sheet *sheet, int line, const char *text,
+                                     ambulo_diagnostics *diagnostics, int *cell) {
+  int first = ambulo__sheet_find(sheet, line, text);
+  for (int i = first + 1; first >= 0 && i < sheet->lines[line].cell_count; i++) {
+    if (ambulo__cell_is(ambulo__sheet_cell(sheet, line, i), text))
+      return ambulo__error(diagnostics, AMBULO_E_SCHEMA, ambulo__sheet_place(sheet, line, i), NULL,
+                           "duplicate column '%s' (also column %d)", text, first + 1);
+  }
+  *cell = first;
+  return AMBULO_OK;
+}
+
 ambulo__place ambulo__sheet_place(const ambulo__sheet *sheet, int line, int cell) {
   const ambulo__table_cell *at = ambulo__sheet_cell(sheet, line, cell);
   ambulo__place place = {.file = sheet->file};

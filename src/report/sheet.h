@@ -32,6 +32,9 @@ void ambulo__sheet_free(ambulo__sheet *sheet); /* accepts a zero-filled one */
 const ambulo__table_cell *ambulo__sheet_cell(const ambulo__sheet *sheet, int line, int cell);
 /* Cell with exactly this text in a line, or -1. */
 int ambulo__sheet_find(const ambulo__sheet *sheet, int line, const char *text);
+/* The same where the text must not stand twice: *cell, or E_SCHEMA at the second one. */
+ambulo_status ambulo__sheet_find_one(const ambulo__sheet *sheet, int line, const char *text,
+                                     ambulo_diagnostics *diagnostics, int *cell);
 int ambulo__cell_is(const ambulo__table_cell *cell, const char *text);
 /* A finite number, or an E_SCHEMA with file, line and column (`what` names the quantity). */
 ambulo_status ambulo__sheet_number(const ambulo__sheet *sheet, int line, int cell, const char *what,

@@ -43,8 +43,6 @@ int ambulo__stride_contact(const ambulo__stride *stride, int foot, double t,
 ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
 void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);
 
-/* Integral of the force on a foot over the stride, N s, world axes (trapezoidal rule). */
-void ambulo__stride_impulse(const ambulo__stride *stride, int foot, double impulse[3]);
 /* Force on a foot along `direction` at sample k, in body weights; its largest along the normal. */
 double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
                             const double direction[3]);

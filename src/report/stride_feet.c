@@ -52,17 +52,6 @@ void ambulo__stride_feet_mirror(ambulo__stride *s, int k) {
   }
 }
 
-void ambulo__stride_impulse(const ambulo__stride *s, int foot, double impulse[3]) {
-  for (int axis = 0; axis < 3; axis++) impulse[axis] = 0.0;
-  for (int k = 0; s->feet && k + 1 < s->samples; k++) {
-    double half = 0.5 * (s->times[k + 1] - s->times[k]);
-    for (int end = 0; end < 2; end++) {
-      size_t at = ((size_t)(k + end) * (size_t)s->feet + (size_t)foot) * 3;
-      for (int axis = 0; axis < 3; axis++) impulse[axis] += half * s->grf[at + (size_t)axis];
-    }
-  }
-}
-
 double ambulo__stride_force(const ambulo__stride *s, int k, int foot, const double direction[3]) {
   const double *g = s->model->gravity;
   double weight = s->model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);

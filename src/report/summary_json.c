@@ -4,6 +4,7 @@
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
 #include "report/summary_json.h"
 
+#include "report/impulse.h"
 #include "report/json_text.h"
 #include "report/stride.h"
 #include "report/strikes.h"
@@ -21,32 +22,40 @@ static void objective(ambulo__json *json, const ambulo_problem *problem,
 }
 
 /* per foot: impulse of the ground's force over the stride, N s, along forward, up and left, and
- * the largest normal force in body weights; nothing without ground reaction or memory */
-static void ground_reaction(ambulo__json *json, const ambulo_problem *problem,
-                            const ambulo_result *result) {
-  ambulo__stride stride = {.samples = 0};
-  const ambulo_model *model = ambulo_problem_model(problem);
-  if (!problem->channels.feet ||
-      ambulo__stride_create(problem, ambulo_result_x(result), 0, NULL, &stride))
-    return;
-  ambulo__json_open(json, "ground_reaction", '{');
-  for (int foot = 0; foot < stride.feet; foot++) {
-    double impulse[3], along[3] = {0.0, 0.0, 0.0};
-    ambulo__stride_impulse(&stride, foot, impulse);
-    for (int i = 0; i < 3; i++) {
-      along[0] += impulse[i] * model->forward[i];
-      along[1] += impulse[i] * model->up[i];
-      along[2] += impulse[i] * model->left[i];
-    }
+ * the largest normal force in body weights; nothing without ground reaction */
+static void feet(ambulo__json *json, const ambulo_model *model, const ambulo__stride *stride,
+                 const double *impulses) {
+  const double *axes[3] = {model->forward, model->up, model->left};
+  static const char *const keys[3] = {"impulse_forward", "impulse_up", "impulse_left"};
+  for (int foot = 0; foot < stride->feet; foot++) {
     ambulo__json_open(json, model->feet[foot].name, '{');
-    ambulo__json_number(json, "impulse_forward", along[0]);
-    ambulo__json_number(json, "impulse_up", along[1]);
-    ambulo__json_number(json, "impulse_left", along[2]);
-    ambulo__json_number(json, "peak", ambulo__stride_peak(&stride, foot));
+    for (int axis = 0; axis < 3; axis++) {
+      double along = 0.0;
+      for (int i = 0; i < 3; i++) along += impulses[3 * foot + i] * axes[axis][i];
+      ambulo__json_number(json, keys[axis], along);
+    }
+    ambulo__json_number(json, "peak", ambulo__stride_peak(stride, foot));
     ambulo__json_close(json, '}');
   }
-  ambulo__json_close(json, '}');
-  ambulo__stride_free(&stride);
+}
+
+static ambulo_status ground_reaction(ambulo__json *json, const ambulo_problem *problem,
+                                     const ambulo_result *result) {
+  ambulo__stride stride = {.samples = 0};
+  const ambulo_allocator *a = &json->text->allocator;
+  if (!problem->channels.feet) return AMBULO_OK;
+  double *impulses = ambulo__alloc(a, 3 * (size_t)problem->channels.feet, sizeof *impulses);
+  ambulo_status status = impulses ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) status = ambulo__impulses(problem, ambulo_result_x(result), a, impulses);
+  if (!status) status = ambulo__stride_create(problem, ambulo_result_x(result), 0, a, &stride);
+  if (!status) {
+    ambulo__json_open(json, "ground_reaction", '{');
+    feet(json, ambulo_problem_model(problem), &stride, impulses);
+    ambulo__json_close(json, '}');
+    ambulo__stride_free(&stride);
+  }
+  ambulo__free(a, impulses);
+  return status;
 }
 
 static void violation(ambulo__json *json, const char *key, const ambulo_violation *v) {
@@ -165,12 +174,14 @@ static void body(ambulo__json *json, const ambulo_model *model) {
   ambulo__json_close(json, '}');
 }
 
-static void foot_strikes(ambulo__json *json, const ambulo_problem *problem) {
-  enum { MOST = 64 };
-  ambulo__strike strikes[MOST];
-  int count = ambulo__strikes(problem, strikes, MOST);
+static ambulo_status foot_strikes(ambulo__json *json, const ambulo_problem *problem) {
+  const ambulo_allocator *a = &json->text->allocator;
+  ambulo__strike *strikes =
+      ambulo__alloc(a, (size_t)ambulo__most_strikes(problem), sizeof *strikes);
+  if (!strikes) return AMBULO_E_MEMORY;
+  int count = ambulo__strikes(problem, strikes);
   ambulo__json_open(json, "strikes", '[');
-  for (int i = 0; i < count && i < MOST; i++) {
+  for (int i = 0; i < count; i++) {
     const ambulo_foot *foot = ambulo_model_foot(ambulo_problem_model(problem), strikes[i].foot);
     ambulo__json_open(json, NULL, '{');
     ambulo__json_text(json, "foot", foot->name);
@@ -178,6 +189,8 @@ static void foot_strikes(ambulo__json *json, const ambulo_problem *problem) {
     ambulo__json_close(json, '}');
   }
   ambulo__json_close(json, ']');
+  ambulo__free(a, strikes);
+  return AMBULO_OK;
 }
 
 static void effort(ambulo__json *json, const ambulo_result *result) {
@@ -222,9 +235,9 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json_text(json, "ending", ambulo_result_ending(result));
   ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
   body(json, ambulo_problem_model(problem));
-  foot_strikes(json, problem);
+  ambulo_status status = foot_strikes(json, problem);
   objective(json, problem, result);
-  ground_reaction(json, problem, result);
+  if (!status) status = ground_reaction(json, problem, result);
   audit(json, result);
   explanation(json, result);
   sizes(json, problem);
@@ -232,4 +245,5 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   versions(json);
   ambulo__json_text(json, "input_hash", hash);
   ambulo__json_close(json, '}');
+  if (status) text->failed = 1; /* want of memory is all that can go wrong */
 }

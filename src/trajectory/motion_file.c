@@ -2,6 +2,7 @@
 #include "trajectory/motion_file.h"
 #include "base/read_file.h"
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -14,6 +15,8 @@ ambulo_status ambulo__motion_create(int rows, int columns, const char *const *na
   m->allocator = own;
   m->rows = rows;
   m->columns = columns;
+  m->declared_columns = -1;
+  m->body_mass = (double)NAN;
   m->time = ambulo__alloc(&own, (size_t)rows, sizeof *m->time);
   m->values = ambulo__alloc(&own, (size_t)rows * (size_t)columns, sizeof *m->values);
   m->names = ambulo__alloc(&own, (size_t)columns, sizeof *m->names);
@@ -42,18 +45,35 @@ void ambulo__motion_free(ambulo__motion *motion) {
   ambulo__free(&allocator, motion);
 }
 
-ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+static ambulo_status read_file(const char *path, int gaps, const ambulo_allocator *allocator,
+                               ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   char *text = NULL;
   size_t length = 0;
   ambulo_status status =
       ambulo__read_file(path, AMBULO__MOTION_MAX_BYTES, &own, diagnostics, &text, &length);
   if (status) return status;
-  status = ambulo__motion_read_text(text, length, path, ambulo__motion_format_of(path), &own,
-                                    diagnostics, motion);
+  status = ambulo__table_read(text, length, path, ambulo__motion_format_of(path), gaps, &own,
+                              diagnostics, motion);
   ambulo__free(&own, text);
   return status;
+}
+
+ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return read_file(path, 0, allocator, diagnostics, motion);
+}
+
+ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return read_file(path, 1, allocator, diagnostics, motion);
+}
+
+ambulo_status ambulo__motion_read_text(const char *text, size_t length, const char *name,
+                                       ambulo__motion_format format,
+                                       const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return ambulo__table_read(text, length, name, format, 0, allocator, diagnostics, motion);
 }
 
 ambulo__motion_format ambulo__motion_format_of(const char *name) {
@@ -69,28 +89,6 @@ int ambulo__motion_column(const ambulo__motion *motion, const char *name) {
     if (strcmp(motion->names[c], name) == 0) return c;
   }
   return -1;
-}
-
-/* ".../NAME/value" or ".../NAME" */
-static int path_names(const char *column, const char *name) {
-  const char *suffix = "/value";
-  size_t length = strlen(column), name_length = strlen(name), cut = strlen(suffix);
-  if (length > cut && strcmp(column + length - cut, suffix) == 0) length -= cut;
-  if (length < name_length) return 0;
-  size_t start = length - name_length;
-  return memcmp(column + start, name, name_length) == 0 && (start == 0 || column[start - 1] == '/');
-}
-
-int ambulo__motion_coordinate(const ambulo__motion *motion, const char *name) {
-  int column = ambulo__motion_column(motion, name);
-  for (int c = 0; column < 0 && c < motion->columns; c++) {
-    const char *candidate = motion->names[c];
-    if (strncmp(candidate, "q.", 2) == 0 && strcmp(candidate + 2, name) == 0) column = c;
-  }
-  for (int c = 0; column < 0 && c < motion->columns; c++) {
-    if (path_names(motion->names[c], name)) column = c;
-  }
-  return column;
 }
 
 void ambulo__motion_to_radians(ambulo__motion *motion, const unsigned char *is_angle) {

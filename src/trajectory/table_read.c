@@ -3,13 +3,11 @@
  * Three steps: the lines before the column names (STO keys, CSV comments), the names, the
  * rows. Every fault is reported with line and column, and reading goes on after it. */
 #include "trajectory/motion_file.h"
-#include "trajectory/table_text.h"
+#include "trajectory/table_header.h"
 #include "base/numtext.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 /* characters of a bad cell that are repeated in a message */
 #define QUOTE_LENGTH 40
@@ -24,9 +22,9 @@ typedef struct table_reader {
   ambulo_status status;      /* of the first fault */
   ambulo__table_line line;   /* the line being read */
   ambulo__table_cells cells; /* of data rows */
-  int in_degrees;
-  long long declared_rows, declared_columns; /* -1: not stated */
-  char **names;                              /* [name_count], without time */
+  int gaps;                  /* 1: any cell may be "nan" */
+  ambulo__table_header header;
+  char **names; /* [name_count], without time */
   int name_count;
   ambulo__motion *motion;
   int has_previous_time;
@@ -56,68 +54,26 @@ static int next_row(table_reader *reader) {
   return 0;
 }
 
-/* ----------------------------------------------------------- key=value lines */
+/* ---------------------------------------------- lines above the column names */
 
-static int cell_is(const ambulo__table_cell *cell, const char *word) {
-  return cell->length == strlen(word) && strncasecmp(cell->start, word, cell->length) == 0;
-}
-
-static void read_count(table_reader *reader, const ambulo__table_cell *value, long long *count) {
-  if (ambulo__parse_integer(value->start, value->length, 0, INT_MAX, count)) return;
-  fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, value->column),
-                              NULL, "not a count (got '%.*s'); expected a whole number",
-                              quoted_length(value), value->start));
-}
-
-static void read_degrees(table_reader *reader, const ambulo__table_cell *value) {
-  if (cell_is(value, "yes")) {
-    reader->in_degrees = 1;
-  } else if (cell_is(value, "no")) {
-    reader->in_degrees = 0;
-  } else {
-    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, value->column),
-                                NULL, "inDegrees is '%.*s'; expected yes or no",
-                                quoted_length(value), value->start));
-  }
-}
-
-/* line[from..): "key = value"; anything else is a title or a remark */
-static void read_key(table_reader *reader, size_t from) {
-  const ambulo__table_line *line = &reader->line;
-  const char *equals = memchr(line->start + from, '=', line->length - from);
-  if (!equals) return;
-  size_t split = (size_t)(equals - line->start), position = 0;
-  ambulo__table_line left = {.start = line->start + from, .length = split - from};
-  ambulo__table_line right = {.start = equals + 1, .length = line->length - split - 1};
-  ambulo__table_cell key, value;
-  if (!ambulo__table_next_cell(&left, AMBULO__CELLS_BLANK, &position, &key)) return;
-  position = 0;
-  if (!ambulo__table_next_cell(&right, AMBULO__CELLS_BLANK, &position, &value)) {
-    value = (ambulo__table_cell){.start = "", .column = 1};
-  }
-  value.column += (int)split + 1;
-  if (cell_is(&key, "inDegrees")) read_degrees(reader, &value);
-  if (!reader->is_sto) return;
-  if (cell_is(&key, "nRows") || cell_is(&key, "datarows")) {
-    read_count(reader, &value, &reader->declared_rows);
-  }
-  if (cell_is(&key, "nColumns") || cell_is(&key, "datacolumns")) {
-    read_count(reader, &value, &reader->declared_columns);
-  }
+static void take_header_line(table_reader *reader) {
+  ambulo_status status = ambulo__table_header_take(&reader->line, reader->is_sto, reader->file,
+                                                   reader->diagnostics, &reader->header);
+  if (status) fault(reader, status);
 }
 
 static int is_end_of_header(const ambulo__table_line *line) {
   size_t position = 0;
   ambulo__table_cell word, more;
   return ambulo__table_next_cell(line, AMBULO__CELLS_BLANK, &position, &word) &&
-         cell_is(&word, "endheader") &&
+         ambulo__table_cell_is(&word, "endheader") &&
          !ambulo__table_next_cell(line, AMBULO__CELLS_BLANK, &position, &more);
 }
 
 static ambulo_status read_sto_header(table_reader *reader) {
   while (ambulo__table_next_line(reader->text, reader->length, &reader->line)) {
     if (is_end_of_header(&reader->line)) return reader->status;
-    read_key(reader, 0);
+    take_header_line(reader);
   }
   fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
                               "no 'endheader' line; expected an OpenSim header"));
@@ -127,9 +83,8 @@ static ambulo_status read_sto_header(table_reader *reader) {
 /* comments anywhere may state the unit; they are looked at once, before the rows */
 static void read_csv_comments(table_reader *reader) {
   ambulo__table_line start = reader->line;
-  while (ambulo__table_next_line(reader->text, reader->length, &reader->line)) {
-    if (reader->line.length > 0 && reader->line.start[0] == '#') read_key(reader, 1);
-  }
+  while (ambulo__table_next_line(reader->text, reader->length, &reader->line))
+    take_header_line(reader);
   reader->line = start;
 }
 
@@ -185,7 +140,8 @@ static ambulo_status read_names(table_reader *reader) {
   if (!reader->names) return AMBULO_E_MEMORY;
   size_t position = 0;
   ambulo__table_cell cell = {.start = ""};
-  if (!ambulo__table_next_cell(line, cells, &position, &cell) || !cell_is(&cell, "time")) {
+  if (!ambulo__table_next_cell(line, cells, &position, &cell) ||
+      !ambulo__table_cell_is(&cell, "time")) {
     /* hardly a motion at all: the rows would only be noise */
     return ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, 1),
                          "a motion is a table (CSV, STO or MOT) of times and named columns",
@@ -196,20 +152,17 @@ static ambulo_status read_names(table_reader *reader) {
     ambulo_status status = add_name(reader, &cell);
     if (status) return status;
   }
-  if (reader->declared_columns >= 0 && reader->declared_columns != count) {
-    fault(reader,
-          ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
-                        "%d columns; expected %lld (nColumns)", count, reader->declared_columns));
-  }
   return AMBULO_OK;
 }
 
 /* ---------------------------------------------------------------------- rows */
 
-/* "nan" in a column of points that need not exist: no load on the foot, no weight on the ground */
+/* "nan" where there may be gaps, or in a column of points that need not exist: no load on the foot,
+ * no weight on the ground */
 static int is_missing_point(const table_reader *reader, const ambulo__table_cell *cell,
                             int column) {
-  if (column < 0 || !cell_is(cell, "nan")) return 0;
+  if (column < 0 || !ambulo__table_cell_is(cell, "nan")) return 0;
+  if (reader->gaps) return 1;
   const char *name = reader->names[column];
   return strncmp(name, "cop.", 4) == 0 || strncmp(name, "zmp.", 4) == 0;
 }
@@ -281,12 +234,16 @@ static ambulo_status read_rows(table_reader *reader) {
       ambulo__motion_create(rows, reader->name_count, (const char *const *)reader->names,
                             reader->allocator, &reader->motion);
   if (status) return status;
-  reader->motion->in_degrees = reader->in_degrees;
+  reader->motion->in_degrees = reader->header.in_degrees;
+  reader->motion->unit_stated = reader->header.unit_stated;
+  reader->motion->declared_columns = (int)reader->header.declared_columns;
+  reader->motion->body_mass = reader->header.body_mass;
+  memcpy(reader->motion->gravity, reader->header.gravity, sizeof reader->header.gravity);
   for (int row = 0; next_row(reader); row++) read_row(reader, row);
-  if (reader->declared_rows >= 0 && reader->declared_rows != rows) {
+  if (reader->header.declared_rows >= 0 && reader->header.declared_rows != rows) {
     fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, start, NULL,
                                 "%d rows; expected %lld (nRows): the file may be cut off", rows,
-                                reader->declared_rows));
+                                reader->header.declared_rows));
   }
   return AMBULO_OK;
 }
@@ -332,18 +289,18 @@ static ambulo_status read_table(table_reader *reader, ambulo__motion_format form
   return status ? status : reader->status;
 }
 
-ambulo_status ambulo__motion_read_text(const char *text, size_t length, const char *name,
-                                       ambulo__motion_format format,
-                                       const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
+                                 ambulo__motion_format format, int gaps,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo__motion **motion) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   table_reader reader = {.text = text,
                          .length = length,
                          .file = name,
                          .allocator = &own,
                          .diagnostics = diagnostics,
-                         .declared_rows = -1,
-                         .declared_columns = -1};
+                         .gaps = gaps,
+                         .header = ambulo__table_header_default()};
   ambulo_status status = read_table(&reader, format);
   for (int c = 0; c < reader.name_count; c++) ambulo__free(&own, reader.names[c]);
   ambulo__free(&own, reader.names);

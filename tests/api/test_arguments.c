@@ -56,6 +56,10 @@ static void objects_are_not_made_of_nothing(void **state) {
   ambulo_result *result = o->result;
   REFUSED(ambulo_model_load(NULL, NULL, NULL, NULL, &model));
   REFUSED(ambulo_model_load("x", NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_model_load_with(NULL, NULL, 0, NULL, NULL, NULL, &model));
+  REFUSED(ambulo_model_load_with("x", NULL, 0, NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_model_load_with("x", NULL, 1, NULL, NULL, NULL, &model));
+  REFUSED(ambulo_model_load_with("x", NULL, -1, NULL, NULL, NULL, &model));
   REFUSED(ambulo_model_load_text(NULL, 0, "x", NULL, NULL, NULL, &model));
   REFUSED(ambulo_model_create(NULL, NULL, NULL, &model));
   REFUSED(ambulo_problem_load(NULL, NULL, 0, NULL, NULL, &problem));
@@ -200,6 +204,9 @@ static void files_need_names(void **state) {
   REFUSED(ambulo_inverse_dynamics_file(o->model, NULL, NULL, NULL, NULL, &text));
   REFUSED(ambulo_inverse_dynamics_file(NULL, "x", NULL, NULL, NULL, &text));
   REFUSED(ambulo_inverse_dynamics_file(o->model, "x", NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_inverse_dynamics_motion(NULL, "x", "y", NULL, NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_inverse_dynamics_motion(o->model, NULL, "y", NULL, NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_inverse_dynamics_motion(o->model, "x", NULL, NULL, NULL, NULL, NULL, NULL));
   REFUSED(ambulo_compare(NULL, "x", NULL, NULL, NULL, &comparison));
   REFUSED(ambulo_compare("x", NULL, NULL, NULL, NULL, &comparison));
   REFUSED(ambulo_file_kind_of(NULL, NULL, NULL, &kind));

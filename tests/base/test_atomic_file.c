@@ -1,5 +1,7 @@
 /* Files appear whole or not at all; nothing temporary is left. */
+#define _GNU_SOURCE
 #include "base/atomic_file.h"
+#include "support/fail_io.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 
@@ -89,6 +91,41 @@ static void stale_temporaries_do_not_block(void **state) {
   assert_file_equal(path, "new");
 }
 
+/* whichever step fails: a message, the old file or the whole new one, and nothing besides */
+static void every_step_may_fail(void **state) {
+  const char *path = scratch_path(state, "f");
+  int faults = 0;
+  for (int at = 0; at < 2 * FAIL_IO_STEPS; at++) {
+    int step = at / 2, replace = at % 2;
+    for (long k = 0;; k++) {
+      assert_in_range(k, 0, 20);
+      unlink(path);
+      if (replace) scratch_write(path, "old");
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      fail_io_arm(step, k);
+      ambulo_status status = ambulo__write_file(path, "new", 3, replace, NULL, list);
+      int failed = fail_io_disarm(), there = access(path, F_OK) == 0;
+      faults += failed;
+      /* closing the folder, when all is flushed, changes nothing any more */
+      int told = failed && !(step == FAIL_IO_CLOSE && k == 1);
+      assert_int_equal(status, told ? AMBULO_E_IO : AMBULO_OK);
+      assert_int_equal(ambulo_diagnostics_error_count(list), told);
+      if (told) assert_message(list, 0, "Input/output error");
+      char text[8] = "";
+      FILE *file = there ? fopen(path, "r") : NULL;
+      if (file) text[fread(text, 1, 7, file)] = '\0';
+      if (file) fclose(file);
+      assert_true(failed || there);
+      assert_true(!there || !strcmp(text, "new") || (failed && replace && !strcmp(text, "old")));
+      assert_true(there || !replace);
+      assert_int_equal(entries_in(*state), there);
+      ambulo_diagnostics_free(list);
+      if (!failed) break;
+    }
+  }
+  assert_in_range(faults, 12, 30);
+}
+
 #define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, scratch_open, scratch_close)
 
 int main(void) {
@@ -99,6 +136,7 @@ int main(void) {
       WITH_SCRATCH(impossible_places_are_reported),
       WITH_SCRATCH(a_full_device_is_reported),
       WITH_SCRATCH(a_failed_write_keeps_the_old_file_and_leaves_nothing),
+      WITH_SCRATCH(every_step_may_fail),
       WITH_SCRATCH(stale_temporaries_do_not_block),
   };
   return cmocka_run_group_tests_name("base/atomic_file", tests, NULL, NULL);

@@ -4,9 +4,12 @@
 #include "support/messages.h"
 #include "support/scratch.h"
 
-static ambulo__folder *begin(const char *path, const char *marker) {
+static const char *const result_names[] = {"summary.json", "motion.csv"};
+static const ambulo__folder_mark mark = {"summary.json", "{", result_names, 2};
+
+static ambulo__folder *begin(const char *path, const ambulo__folder_mark *known) {
   ambulo__folder *folder = NULL;
-  assert_int_equal(ambulo__folder_begin(path, marker, NULL, NULL, &folder), AMBULO_OK);
+  assert_int_equal(ambulo__folder_begin(path, known, NULL, NULL, &folder), AMBULO_OK);
   return folder;
 }
 
@@ -51,8 +54,7 @@ static void an_empty_folder_is_taken(void **state) {
 static void earlier_results_are_replaced_only_when_asked(void **state) {
   const char *path = scratch_path(state, "out");
   ambulo__folder *folder = begin(path, NULL);
-  fill(folder, "old");
-  assert_int_equal(ambulo__folder_write(folder, "extra", "x", 1, NULL), AMBULO_OK);
+  fill(folder, "{old}");
   assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
 
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
@@ -62,11 +64,11 @@ static void earlier_results_are_replaced_only_when_asked(void **state) {
   assert_message(list, 0, "exists and is not empty");
   ambulo_diagnostics_free(list);
 
-  folder = begin(path, "summary.json");
-  fill(folder, "new");
-  assert_file_equal(scratch_path(state, "out/summary.json"), "old");
+  folder = begin(path, &mark);
+  fill(folder, "{new}");
+  assert_file_equal(scratch_path(state, "out/summary.json"), "{old}");
   assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
-  assert_file_equal(scratch_path(state, "out/summary.json"), "new");
+  assert_file_equal(scratch_path(state, "out/summary.json"), "{new}");
   assert_int_equal(entries_in(path), 2);
   assert_int_equal(entries_in(*state), 1);
 }
@@ -77,10 +79,22 @@ static void folders_that_are_no_results_are_never_replaced(void **state) {
   scratch_write(scratch_path(state, "home/thesis.tex"), "years of work");
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo__folder *folder = NULL;
-  assert_int_equal(ambulo__folder_begin(path, "summary.json", NULL, list, &folder), AMBULO_E_IO);
+  assert_int_equal(ambulo__folder_begin(path, &mark, NULL, list, &folder), AMBULO_E_IO);
   assert_message(list, 0, "holds no 'summary.json'");
-  ambulo_diagnostics_free(list);
   assert_file_equal(scratch_path(state, "home/thesis.tex"), "years of work");
+  scratch_write(scratch_path(state, "home/summary.json"), "[\"of another program\"]");
+  assert_int_equal(ambulo__folder_begin(path, &mark, NULL, list, &folder), AMBULO_E_IO);
+  assert_message(list, 1, "holds no 'summary.json' of ambulo's");
+  scratch_write(scratch_path(state, "home/summary.json"), "{}");
+  assert_int_equal(ambulo__folder_begin(path, &mark, NULL, list, &folder), AMBULO_E_IO);
+  assert_message(list, 2, "also holds 'thesis.tex'");
+  assert_int_equal(unlink(scratch_path(state, "home/thesis.tex")), 0);
+  assert_int_equal(mkdir(scratch_path(state, "home/photos"), 0700), 0);
+  assert_int_equal(ambulo__folder_begin(path, &mark, NULL, list, &folder), AMBULO_E_IO);
+  assert_message(list, 3, "also holds 'photos'");
+  assert_null(folder);
+  assert_int_equal(entries_in(*state), 1);
+  ambulo_diagnostics_free(list);
 }
 
 static void what_appears_in_the_meantime_is_kept(void **state) {
@@ -115,15 +129,16 @@ static void impossible_places_and_names_are_refused(void **state) {
 static void links_in_an_old_result_are_removed_not_followed(void **state) {
   const char *path = scratch_path(state, "out");
   ambulo__folder *folder = begin(path, NULL);
-  fill(folder, "old");
+  fill(folder, "{old}");
   assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
-  assert_int_equal(mkdir(scratch_path(state, "precious"), 0700), 0);
-  scratch_write(scratch_path(state, "precious/data"), "kept");
-  assert_int_equal(symlink(scratch_path(state, "precious"), scratch_path(state, "out/link")), 0);
-  folder = begin(path, "summary.json");
-  fill(folder, "new");
+  scratch_write(scratch_path(state, "precious"), "kept");
+  const char *link = scratch_path(state, "out/motion.csv");
+  assert_int_equal(unlink(link), 0);
+  assert_int_equal(symlink(scratch_path(state, "precious"), link), 0);
+  folder = begin(path, &mark);
+  fill(folder, "{new}");
   assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
-  assert_file_equal(scratch_path(state, "precious/data"), "kept");
+  assert_file_equal(scratch_path(state, "precious"), "kept");
   assert_int_equal(entries_in(*state), 2);
 }
 
@@ -133,15 +148,15 @@ static void links_in_an_old_result_are_removed_not_followed(void **state) {
 static void every_failed_allocation_is_survived(void **state) {
   const char *path = scratch_path(state, "out");
   ambulo__folder *folder = begin(path, NULL);
-  fill(folder, "old");
+  fill(folder, "{old}");
   assert_int_equal(ambulo__folder_commit(folder, NULL), AMBULO_OK);
   for (long k = 0;; k++) {
     assert_in_range(k, 0, 100);
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator hook = fail_alloc_hook(&memory);
     folder = NULL;
-    ambulo_status status = ambulo__folder_begin(path, "summary.json", &hook, NULL, &folder);
-    if (!status) status = ambulo__folder_write(folder, "summary.json", "new", 3, NULL);
+    ambulo_status status = ambulo__folder_begin(path, &mark, &hook, NULL, &folder);
+    if (!status) status = ambulo__folder_write(folder, "summary.json", "{new}", 5, NULL);
     if (status) {
       ambulo__folder_abort(folder);
     } else {
@@ -153,9 +168,9 @@ static void every_failed_allocation_is_survived(void **state) {
       assert_int_equal(status, AMBULO_OK);
       break;
     }
-    if (status) assert_file_equal(scratch_path(state, "out/summary.json"), "old");
+    if (status) assert_file_equal(scratch_path(state, "out/summary.json"), "{old}");
   }
-  assert_file_equal(scratch_path(state, "out/summary.json"), "new");
+  assert_file_equal(scratch_path(state, "out/summary.json"), "{new}");
 }
 
 int main(void) {

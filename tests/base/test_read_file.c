@@ -1,5 +1,7 @@
 /* Reading whole files: what is given, and what is refused without blocking. */
+#define _GNU_SOURCE
 #include "base/read_file.h"
+#include "support/fail_io.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 
@@ -56,8 +58,28 @@ static void files_beyond_the_limit_are_refused(void **state) {
   refuse(path, 10, AMBULO_E_LIMIT, "got 11 bytes); expected at most 10");
 }
 
+/* no part of a file is taken for the whole */
+static void what_cannot_be_read_to_its_end_is_refused(void **state) {
+  const char *path = scratch_path(state, "file");
+  static const struct {
+    int step;
+    const char *message;
+  } faults[] = {{FAIL_IO_OPEN, "cannot open"},
+                {FAIL_IO_FSTAT, "cannot inspect"},
+                {FAIL_IO_READ, "cannot read"},
+                {FAIL_IO_SHORT_READ, "ended after 0 of 5 bytes"}};
+  scratch_write(path, "12345");
+  for (int i = 0; i < 4; i++) {
+    fail_io_arm(faults[i].step, 0);
+    refuse(path, 10, AMBULO_E_IO, faults[i].message);
+    assert_true(fail_io_disarm());
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(what_cannot_be_read_to_its_end_is_refused, scratch_open,
+                                      scratch_close),
       cmocka_unit_test_setup_teardown(bytes_come_back_with_a_terminator, scratch_open,
                                       scratch_close),
       cmocka_unit_test_setup_teardown(an_empty_file_is_an_empty_text, scratch_open, scratch_close),

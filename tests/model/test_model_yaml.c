@@ -104,8 +104,32 @@ static void truncated(void **state) {
   }
 }
 
+static void values_are_replaced(void **state) {
+  (void)state;
+  static const char file[] = AMBULO_SOURCE_DIR "/models/walker_2d.yaml";
+  static const char *const good[] = {"gravity=[0, -1.62, 0]", "model.name=lunar"};
+  static const char *const bad[] = {"gravity", "=1", "gravty=[0, 0, 0]", "gravity=[0, 0]",
+                                    "links[nowhere].body.mass=4"};
+  ambulo_model *model = NULL;
+  ambulo_subject subject = {.mass = 60.0};
+  assert_int_equal(ambulo_model_load_with(file, good, 2, &subject, NULL, NULL, &model), AMBULO_OK);
+  assert_close(ambulo_model_gravity(model)[1], -1.62, 0.0);
+  assert_string_equal(ambulo_model_name(model), "lunar");
+  ambulo_model_free(model);
+  for (int i = 0; i < 5; i++) {
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    model = NULL;
+    assert_int_equal(ambulo_model_load_with(file, &bad[i], 1, NULL, NULL, list, &model),
+                     i < 2 ? AMBULO_E_ARGUMENT : AMBULO_E_SCHEMA);
+    assert_null(model);
+    assert_message(list, 0, i < 2 ? "expected path=value" : i == 2 ? "'gravty'" : "--set ");
+    ambulo_diagnostics_free(list);
+  }
+}
+
 static void memory_runs_out(void **state) {
   (void)state;
+  static const char *const overrides[] = {"model.name=other"};
   for (int once = 0; once < 2; once++) {
     long k = 0;
     for (;; k++) {
@@ -114,8 +138,8 @@ static void memory_runs_out(void **state) {
       ambulo_allocator allocator = fail_alloc_hook(&memory);
       ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
       ambulo_model *model = NULL;
-      ambulo_status status = ambulo_model_load(AMBULO_SOURCE_DIR "/models/walker_2d.yaml", NULL,
-                                               &allocator, list, &model);
+      ambulo_status status = ambulo_model_load_with(AMBULO_SOURCE_DIR "/models/walker_2d.yaml",
+                                                    overrides, 1, NULL, &allocator, list, &model);
       ambulo_diagnostics_free(list);
       if (status != AMBULO_OK) assert_int_equal(status, AMBULO_E_MEMORY);
       assert_int_equal(model != NULL, status == AMBULO_OK);
@@ -128,10 +152,13 @@ static void memory_runs_out(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(header),         cmocka_unit_test(broken_headers),
-      cmocka_unit_test(too_many),       cmocka_unit_test(all_faults_at_once),
-      cmocka_unit_test(files),          cmocka_unit_test(truncated),
-      cmocka_unit_test(memory_runs_out)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(header),
+                                     cmocka_unit_test(broken_headers),
+                                     cmocka_unit_test(too_many),
+                                     cmocka_unit_test(all_faults_at_once),
+                                     cmocka_unit_test(files),
+                                     cmocka_unit_test(truncated),
+                                     cmocka_unit_test(values_are_replaced),
+                                     cmocka_unit_test(memory_runs_out)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,6 +55,32 @@ static void degrees_are_turned_into_radians(void **state) {
   ambulo_problem_free(p);
 }
 
+/* units that nobody declared: accepted, with a word */
+static void doubtful_references_are_warned_of(void **state) {
+  static const struct {
+    const char *table, *message;
+  } cases[] = {
+      {"time,knee_angle_r\n0,5\n0.5,65\n1,5\n", "the reference has 'knee_angle_r' at 65 rad"},
+      {"time,pelvis_tx\n0,0\n0.5,650\n1,1300\n", "'pelvis_tx' at 650 m"},
+      {"time,knee_angle_r\n0,0.1\n10,0.2\n20,0.3\n1000,0\n",
+       "the reference has a row every 10 s; the problem lasts 1 s"},
+      {"time,knee_angle_r\n0,0.1\n1,0.2\n", NULL},
+      {"# inDegrees=yes\ntime,knee_angle_r\n0,5\n0.5,65\n1,5\n", NULL},
+      {"t\nnColumns=3\nendheader\ntime\tknee_angle_r\n0\t0.1\n1\t0.2\n",
+       "the reference has 2 columns; its header says 3 (nColumns)"}};
+  for (int i = 0; i < 6; i++) {
+    ambulo_problem *p = NULL;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    assert_int_equal(load(*state, i == 5 ? "odd.sto" : "odd.csv", cases[i].table, list, &p),
+                     AMBULO_OK);
+    assert_int_equal(ambulo_diagnostics_count(list), cases[i].message != NULL);
+    if (cases[i].message) assert_message(list, 0, cases[i].message);
+    if (cases[i].message) assert_message(list, 0, "warning");
+    ambulo_diagnostics_free(list);
+    ambulo_problem_free(p);
+  }
+}
+
 static void useless_references_are_refused(void **state) {
   static const struct {
     const char *table, *message;
@@ -62,8 +88,10 @@ static void useless_references_are_refused(void **state) {
   } cases[] = {{"time,knee_angle_r\n0,1\n0.5,1\n",
                 "the reference lasts 0.5 s; expected at least the duration, 1 s", AMBULO_E_PROBLEM},
                {"time,nothing\n0,1\n1,1\n", "no column named after a coordinate", AMBULO_E_PROBLEM},
-               {"time,knee_angle_r\n0,1\n1,x\n", "bad.csv:3:", AMBULO_E_SCHEMA}};
-  for (int i = 0; i < 3; i++) {
+               {"time,knee_angle_r\n0,1\n1,x\n", "bad.csv:3:", AMBULO_E_SCHEMA},
+               {"time,knee_angle_r,q.knee_angle_r\n0,1,1\n1,1,2\n",
+                "'knee_angle_r' and 'q.knee_angle_r' both stand for", AMBULO_E_SCHEMA}};
+  for (int i = 0; i < 4; i++) {
     ambulo_problem *p = NULL;
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     assert_int_equal(load(*state, "bad.csv", cases[i].table, list, &p), cases[i].status);
@@ -81,6 +109,8 @@ int main(void) {
       cmocka_unit_test_setup_teardown(motions_are_sampled_at_the_nodes, scratch_open,
                                       scratch_close),
       cmocka_unit_test_setup_teardown(degrees_are_turned_into_radians, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(doubtful_references_are_warned_of, scratch_open,
+                                      scratch_close),
       cmocka_unit_test_setup_teardown(useless_references_are_refused, scratch_open, scratch_close)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

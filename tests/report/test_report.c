@@ -70,6 +70,30 @@ static void test_a_folder_of_others_is_kept(void **state) {
   assert_file_equal(inside(folder, "thesis.tex"), "years of work\n");
 }
 
+/* a result in which somebody keeps notes is not thrown away with them */
+static void test_what_others_add_is_kept(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  const char *folder = scratch_path(state, "result");
+  ambulo_report_options options = ambulo_report_options_default();
+  options.overwrite = 1;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL), 0);
+  scratch_write(inside(folder, "notes.txt"), "remember\n");
+  assert_int_equal(ambulo_report_check(folder, &options, list), AMBULO_E_IO);
+  assert_message(list, 0, "also holds 'notes.txt'");
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL),
+                   AMBULO_E_IO);
+  assert_file_equal(inside(folder, "notes.txt"), "remember\n");
+  assert_int_equal(unlink(inside(folder, "notes.txt")), 0);
+  assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL), 0);
+  scratch_write(inside(folder, "summary.json"), "{\"of\": \"another program\"}\n");
+  assert_int_equal(ambulo_report_check(folder, &options, list), AMBULO_E_IO);
+  assert_message(list, 1, "holds no 'summary.json' of ambulo's");
+  ambulo_diagnostics_free(list);
+  walk_close(&w);
+}
+
 static void test_bad_places(void **state) {
   ambulo_report_options options = ambulo_report_options_default();
   assert_int_equal(ambulo_report_check(scratch_path(state, "no/such/parent"), &options, NULL),
@@ -144,6 +168,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(test_complete),
                                      SCRATCH_TEST(test_replaced_only_on_request),
                                      SCRATCH_TEST(test_a_folder_of_others_is_kept),
+                                     SCRATCH_TEST(test_what_others_add_is_kept),
                                      SCRATCH_TEST(test_bad_places),
                                      SCRATCH_TEST(test_full_disk),
                                      SCRATCH_TEST(test_out_of_memory)};

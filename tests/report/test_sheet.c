@@ -21,6 +21,24 @@ static void lines_and_cells(void **state) {
   ambulo__sheet_free(&sheet);
 }
 
+static void a_name_stands_once(void **state) {
+  const char *path = scratch_path(state, "twice.csv");
+  ambulo__sheet sheet;
+  int cell = 7;
+  scratch_write(path, "a,b,a,,\n1,2,3,,\n");
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo__sheet_read(path, NULL, NULL, &sheet), AMBULO_OK);
+  assert_int_equal(ambulo__sheet_find_one(&sheet, 0, "b", list, &cell), AMBULO_OK);
+  assert_int_equal(cell, 1);
+  assert_int_equal(ambulo__sheet_find_one(&sheet, 0, "c", list, &cell), AMBULO_OK);
+  assert_int_equal(cell, -1);
+  assert_int_equal(ambulo__sheet_find_one(&sheet, 0, "a", list, &cell), AMBULO_E_SCHEMA);
+  assert_int_equal(cell, -1);
+  assert_message(list, 0, "twice.csv:1:5: error[E_SCHEMA]: duplicate column 'a' (also column 1)");
+  ambulo_diagnostics_free(list);
+  ambulo__sheet_free(&sheet);
+}
+
 static void bad_numbers_have_a_place(void **state) {
   const char *path = scratch_path(state, "t.csv");
   ambulo__sheet sheet;
@@ -52,6 +70,7 @@ static void no_table(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(a_name_stands_once, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(lines_and_cells, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(bad_numbers_have_a_place, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(no_table, scratch_open, scratch_close)};

@@ -1,5 +1,6 @@
 /* summary.json: well-formed, complete, and the same through both doors. */
 #include "report/summary_json.h"
+#include "support/fail_alloc.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"
 
@@ -53,8 +54,42 @@ static void test_not_finite(void **state) {
   walk_close(&w);
 }
 
+/* a whole stride of walk_normal: 75 kg for 1.08 s, and each foot comes down once */
+static void test_stride(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  char *text = NULL;
+  double sum = 0.0;
+  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo_report_summary(problem, result, NULL, &text), AMBULO_OK);
+  assert_int_equal(occurrences(text, "\"foot\": \"left\""), 1);
+  assert_int_equal(occurrences(text, "\"foot\": \"right\""), 1);
+  static const char key[] = "\"impulse_up\": ";
+  for (const char *at = strstr(text, key); at; at = strstr(at + 1, key))
+    sum += strtod(at + strlen(key), NULL);
+  assert_close(sum, 794.61, 1e-5);
+  ambulo_text_free(text, NULL);
+  for (long k = 0; k < 1000; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    memory.only_once = 1;
+    text = NULL;
+    ambulo_status status = ambulo_report_summary(problem, result, &hook, &text);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    ambulo_text_free(text, &hook);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_content),
-                                     cmocka_unit_test(test_not_finite)};
+                                     cmocka_unit_test(test_not_finite),
+                                     cmocka_unit_test(test_stride)};
   return cmocka_run_group_tests_name("report/summary_json", tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* Motion tables from files: names, units, a published motion. */
 #include "support/messages.h"
 #include "support/scratch.h"
-#include "trajectory/motion_file.h"
+#include "trajectory/motion_columns.h"
 
 static void columns_are_found_by_name(void **state) {
   (void)state;
@@ -11,11 +11,6 @@ static void columns_are_found_by_name(void **state) {
   assert_int_equal(ambulo__motion_create(1, 4, names, NULL, &motion), AMBULO_OK);
   assert_int_equal(ambulo__motion_column(motion, "hip_flexion_l"), 3);
   assert_int_equal(ambulo__motion_column(motion, "hip_flexion_r"), -1);
-  assert_int_equal(ambulo__motion_coordinate(motion, "hip_flexion_l"), 3);
-  assert_int_equal(ambulo__motion_coordinate(motion, "hip_flexion_r"), 0);
-  assert_int_equal(ambulo__motion_coordinate(motion, "knee_angle_r"), 1);
-  assert_int_equal(ambulo__motion_coordinate(motion, "angle_r"), -1);
-  assert_int_equal(ambulo__motion_coordinate(motion, ""), -1);
   ambulo__motion_free(motion);
   ambulo__motion_free(NULL);
 }
@@ -93,11 +88,15 @@ static void a_published_opensim_motion_is_read(void **state) {
   assert_int_equal(motion->rows, 50);
   assert_int_equal(motion->columns, 10);
   assert_int_equal(motion->in_degrees, 0);
-  int height = ambulo__motion_coordinate(motion, "pelvis_ty");
+  int height = ambulo__motion_column(motion, "/jointset/groundPelvis/pelvis_ty/value");
   assert_int_equal(height, 2);
   assert_true(motion->values[height] == 0.88365423);
   assert_true(motion->time[1] == 0.00959366);
-  assert_int_equal(ambulo__motion_coordinate(motion, "knee_angle_r"), 6);
+  int knee = -1;
+  assert_int_equal(
+      ambulo__motion_find(motion, path, "knee_angle_r", AMBULO__ORDER_VALUE, list, &knee),
+      AMBULO_OK);
+  assert_int_equal(knee, 6);
   ambulo__motion_free(motion);
   ambulo_diagnostics_free(list);
 }

@@ -1,0 +1,21 @@
+/* trajectory/motion_columns.h - the columns of a motion that belong to a coordinate. */
+#ifndef AMBULO_TRAJECTORY_MOTION_COLUMNS_H
+#define AMBULO_TRAJECTORY_MOTION_COLUMNS_H
+
+#include "trajectory/motion_file.h"
+
+typedef enum ambulo__motion_order {
+  AMBULO__ORDER_VALUE,       /* NAME, q.NAME, .../NAME, .../NAME/value */
+  AMBULO__ORDER_RATE,        /* qd.NAME, NAME_u, .../NAME/speed */
+  AMBULO__ORDER_ACCELERATION /* qdd.NAME, .../NAME/accel, .../NAME/acceleration */
+} ambulo__motion_order;
+
+/* Sets *column to the column of a coordinate under one of the names that result files and OpenSim
+ * give it, or to -1. Paths below /forceset/ are actuators, never coordinates. Columns that agree in
+ * every row are one; two that do not are an E_SCHEMA that names both and where they part (`file`
+ * for the message). */
+ambulo_status ambulo__motion_find(const ambulo__motion *motion, const char *file,
+                                  const char *coordinate, ambulo__motion_order order,
+                                  ambulo_diagnostics *diagnostics, int *column);
+
+#endif
