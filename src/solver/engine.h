@@ -116,10 +116,10 @@ double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradie
  * tolerance; 1 on success, else x stays. engine->best must belong to x. */
 int ambulo__polish(ambulo__engine *engine, double *x);
 
-/* inner.c: NLopt from engine->w: at most `evaluations` of ambulo__augmented. */
+/* inner.c: NLopt from engine->w: at most `evaluations` of ambulo__augmented. E_MEMORY. */
 typedef enum ambulo__inner_kind { AMBULO__INNER_AUGLAG, AMBULO__INNER_LBFGS } ambulo__inner_kind;
-int ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,
-                           int evaluations);
+ambulo_status ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,
+                                     int evaluations);
 
 /* pipeline.c: the whole method from x (in and out); run->ending says why it ended. The last
  * multipliers stay in engine->lambda and engine->equality_multiplier. */

@@ -19,6 +19,7 @@
  * NLopt's verdicts are not used: the best point is kept by augmented.c.
  */
 #include "solver/engine.h"
+#include "solver/nlopt_memory.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -82,7 +83,7 @@ static nlopt_opt create_lbfgs(unsigned n, int evaluations) {
 static nlopt_opt create_auglag(unsigned n, nlopt_opt local, inner *s, int evaluations) {
   nlopt_opt opt = nlopt_create(NLOPT_AUGLAG, n);
   if (!opt) return NULL;
-  int failed = nlopt_set_local_optimizer(opt, local) < 0 ||
+  int failed = !ambulo__nlopt_can_copy(n) || nlopt_set_local_optimizer(opt, local) < 0 ||
                nlopt_add_inequality_constraint(opt, constraint, s, 0.0) < 0 ||
                nlopt_set_maxeval(opt, 4 * evaluations + 16) < 0 ||
                nlopt_set_ftol_rel(opt, value_tolerance) < 0 || nlopt_set_xtol_rel(opt, 1e-14) < 0;
@@ -91,7 +92,8 @@ static nlopt_opt create_auglag(unsigned n, nlopt_opt local, inner *s, int evalua
   return NULL;
 }
 
-int ambulo__inner_minimize(ambulo__engine *e, ambulo__inner_kind kind, double *w, int evaluations) {
+ambulo_status ambulo__inner_minimize(ambulo__engine *e, ambulo__inner_kind kind, double *w,
+                                     int evaluations) {
   inner s = {.engine = e, .auglag = kind == AMBULO__INNER_AUGLAG && e->inequalities > 0};
   unsigned n = (unsigned)e->n;
   double begin = ambulo__seconds_now(), least;
@@ -108,5 +110,5 @@ int ambulo__inner_minimize(ambulo__engine *e, ambulo__inner_kind kind, double *w
   if (outer != local) nlopt_destroy(outer);
   nlopt_destroy(local);
   e->run->seconds_nlopt += ambulo__seconds_now() - begin - s.seconds;
-  return result;
+  return result == NLOPT_OUT_OF_MEMORY ? AMBULO_E_MEMORY : AMBULO_OK;
 }

@@ -8,6 +8,7 @@
  */
 #include "solver/nlopt_direct.h"
 #include "base/worst.h"
+#include "solver/nlopt_memory.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -168,7 +169,7 @@ static nlopt_opt create_optimizer(unsigned n, ambulo_algorithm algorithm, int ev
     nlopt_opt local = nlopt_create(NLOPT_LD_LBFGS, n);
     failed = !local || nlopt_set_maxeval(local, evaluations / 10 + 50) < 0 ||
              nlopt_set_ftol_rel(local, 1e-9) < 0 || nlopt_set_xtol_rel(local, 1e-9) < 0 ||
-             nlopt_set_vector_storage(local, STORED_VECTORS) < 0 ||
+             nlopt_set_vector_storage(local, STORED_VECTORS) < 0 || !ambulo__nlopt_can_copy(n) ||
              nlopt_set_local_optimizer(opt, local) < 0;
     nlopt_destroy(local);
   }

@@ -169,17 +169,21 @@ static ambulo_ending finished(ambulo__engine *e, progress *p, double *x) {
   return AMBULO_ENDING_NONE;
 }
 
-/* one refresh; why there is nothing more to do, or none */
-static ambulo_ending refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, double *w,
-                             double *x) {
+/* one refresh; *ending: why there is nothing more to do, or none. E_MEMORY. */
+static ambulo_status refresh(ambulo__engine *e, ambulo__inner_kind kind, progress *p, double *w,
+                             double *x, ambulo_ending *ending) {
   descent d;
   memcpy(e->center, x, (size_t)e->n * sizeof *x);
-  ambulo_ending failed = model(e, &d.predicted);
-  if (failed) return failed;
+  *ending = model(e, &d.predicted);
+  if (*ending) return AMBULO_OK;
   e->best.value = HUGE_VAL;
   line_search(e, &d, w);
-  ambulo__inner_minimize(e, kind, w, INNER_EVALUATIONS);
-  if (!(e->best.value < HUGE_VAL)) return AMBULO_ENDING_NO_DESCENT;
+  ambulo_status status = ambulo__inner_minimize(e, kind, w, INNER_EVALUATIONS);
+  if (status) return status;
+  if (!(e->best.value < HUGE_VAL)) {
+    *ending = AMBULO_ENDING_NO_DESCENT;
+    return AMBULO_OK;
+  }
   ambulo__run_forgive(e->run);
   memcpy(x, e->best.x, (size_t)e->n * sizeof *x);
   update_damping(e, p, &d);
@@ -187,8 +191,9 @@ static ambulo_ending refresh(ambulo__engine *e, ambulo__inner_kind kind, progres
   e->run->iterations++;
   int stop =
       ambulo__run_progress(e->run, e->best.objective / e->objective_scale, e->best.violation);
-  ambulo_ending ending = finished(e, p, x);
-  return !ending && stop ? AMBULO_ENDING_CALLER : ending;
+  *ending = finished(e, p, x);
+  if (!*ending && stop) *ending = AMBULO_ENDING_CALLER;
+  return AMBULO_OK;
 }
 
 /* restores, then refreshes until something ends it */
@@ -200,14 +205,14 @@ static ambulo_status iterate(ambulo__engine *e, ambulo__inner_kind kind, progres
     *ending = status == AMBULO_E_NUMERIC ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_NOT_RESTORED;
     return status;
   }
-  for (int k = 0; !*ending && !ambulo__run_over(e->run); k++) {
+  for (int k = 0; !status && !*ending && !ambulo__run_over(e->run); k++) {
     if (k == e->run->options->maximum_iterations) {
       *ending = AMBULO_ENDING_ITERATIONS;
     } else {
-      *ending = refresh(e, kind, p, e->iterate, x);
+      status = refresh(e, kind, p, e->iterate, x, ending);
     }
   }
-  return AMBULO_OK;
+  return status;
 }
 
 ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__inner_kind kind, ambulo__stage stage,

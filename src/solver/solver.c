@@ -355,6 +355,10 @@ static ambulo_status begin(solve *s, const ambulo_options *options, const double
 
 /* frees what a failed call leaves, hands over the result of a good one */
 static ambulo_status end(solve *s, ambulo_status status, ambulo_result **result) {
+  if (status == AMBULO_E_MEMORY)
+    (void)ambulo__error(s->diagnostics, status, nowhere, NULL,
+                        "cannot allocate memory to solve the problem; it takes about %.3g MB",
+                        1e-6 * ambulo_problem_memory(s->problem).solve);
   ambulo__engine_free(s->engine);
   if (status) {
     ambulo_result_free(s->result);
