@@ -27,7 +27,11 @@
 #if OWN_MALLOC
 #include <malloc.h>
 
+/* for the shared libraries too */
+#define EVERYWHERE __attribute__((visibility("default")))
+
 extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t count, size_t size);
 extern void *__libc_realloc(void *pointer, size_t size);
 extern void __libc_free(void *pointer);
 
@@ -40,21 +44,22 @@ static int allowed(size_t size) {
   return 0;
 }
 
-void *malloc(size_t size) {
+EVERYWHERE void *malloc(size_t size) {
   if (!allowed(size)) return NULL;
   void *block = __libc_malloc(size);
   if (armed && block) in_use += (long long)malloc_usable_size(block);
   return block;
 }
 
-void *calloc(size_t count, size_t size) {
+EVERYWHERE void *calloc(size_t count, size_t size) {
   if (size && count > SIZE_MAX / size) return NULL;
-  void *block = malloc(count * size);
-  if (block) memset(block, 0, count * size);
+  if (!allowed(count * size)) return NULL;
+  void *block = __libc_calloc(count, size);
+  if (armed && block) in_use += (long long)malloc_usable_size(block);
   return block;
 }
 
-void *realloc(void *pointer, size_t size) {
+EVERYWHERE void *realloc(void *pointer, size_t size) {
   long long before = pointer ? (long long)malloc_usable_size(pointer) : 0;
   if ((long long)size > before && !allowed(size)) return NULL;
   void *block = __libc_realloc(pointer, size);
@@ -63,7 +68,7 @@ void *realloc(void *pointer, size_t size) {
   return block;
 }
 
-void free(void *pointer) {
+EVERYWHERE void free(void *pointer) {
   if (armed && pointer) in_use -= (long long)malloc_usable_size(pointer);
   __libc_free(pointer);
 }
