@@ -87,13 +87,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *s
                                                            ambulo_diagnostics *diagnostics,
                                                            ambulo_batch_progress *progress);
 
-/* What stands in a folder, from its records alone. Errors: E_IO, E_PARSE, E_MEMORY. */
+/* What stands in a folder, from its records alone. Errors: E_IO (cannot be read, or the list of
+ * cases is damaged), E_PROBLEM (filled by a version without checksums), E_MEMORY. */
 typedef struct ambulo_batch_census {
   int cases;
   int done, failed; /* with a record; failed: those of them without a valid solution */
   int missing;      /* not computed yet */
   int stale;        /* computed from other inputs */
-  int corrupt;      /* record or summary damaged */
+  int corrupt;      /* finished, but damaged since: not what was written, or cannot be read.
+                       ambulo_batch_status sees this of records only */
   double seconds;   /* all cases with a record took together */
   char holder[96];  /* host:pid of the run that holds the folder; "": none */
 } ambulo_batch_census;
@@ -102,9 +104,27 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_status(const char *direct
                                                               ambulo_diagnostics *diagnostics,
                                                               ambulo_batch_census *census);
 
+/* One file of a finished case that is not what was written. Strings live during the call. */
+typedef struct ambulo_batch_damage {
+  const char *id, *name; /* of the case */
+  const char *file;      /* path */
+  const char *what;      /* "is not what was written", "cannot open: No such file or directory" */
+} ambulo_batch_damage;
+
+/* The same as ambulo_batch_status by reading every file of every finished case and comparing it
+ * with the checksum (SHA-256) in the case's record. damaged (may be NULL) is called for the first
+ * damaged file of each corrupt case; census may be NULL. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_verify(
+    const char *directory, void (*damaged)(void *user, const ambulo_batch_damage *damage),
+    void *user, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+    ambulo_batch_census *census);
+
 /* Writes results.csv and results.jsonl into `directory`: one line per case, sorted by id, the
  * axes and the outputs the sweep file asks for. Idempotent; the same bytes whatever the order
- * in which cases were solved. */
+ * in which cases were solved. Every file is compared with its checksum; a case of which one is
+ * damaged or cannot be read has the state "corrupt", no outputs, a warning that names the file,
+ * and is counted in the census. Errors, which leave the tables as they were: as
+ * ambulo_batch_status; and a table that cannot be written. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *directory,
                                                                const ambulo_allocator *allocator,
                                                                ambulo_diagnostics *diagnostics,

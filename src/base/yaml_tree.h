@@ -56,8 +56,8 @@ struct ambulo__yaml {
   const char *file;
   ambulo__yaml_node *root;
   int node_count;
-  ambulo_status status;                 /* of the getters */
-  const ambulo__yaml_node *not_mapping; /* reported last: once is enough */
+  ambulo_status status;                /* of the getters */
+  const ambulo__yaml_node *wrong_kind; /* reported last: once is enough */
 };
 
 /* Zero-filled, aligned for any member above; NULL when memory runs out. */

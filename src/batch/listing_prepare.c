@@ -4,6 +4,7 @@
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
 #include "base/read_file.h"
+#include "base/seal.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
 #include "batch/paths.h"
@@ -43,7 +44,7 @@ static void list_text(const ambulo_sweep *s, ambulo__text_buffer *text) {
   }
 }
 
-static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
+static void describe(const ambulo_sweep *s, const char *digest, ambulo__text_buffer *text) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   ambulo__json json = {text, 0, 1};
@@ -51,7 +52,7 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   (void)snprintf(hash, sizeof hash, "%016llx", s->problem_hash);
   (void)snprintf(version, sizeof version, "ambulo %s, NLopt %s", versions.ambulo, versions.nlopt);
   ambulo__json_open(&json, NULL, '{');
-  ambulo__json_text(&json, "schema", "ambulo-batch/1");
+  ambulo__json_text(&json, "schema", AMBULO__LISTING_SCHEMA);
   ambulo__json_text(&json, "name", s->name);
   ambulo__json_text(&json, "version", version);
   ambulo__json_text(&json, "sweep", s->path);
@@ -60,6 +61,7 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   (void)snprintf(hash, sizeof hash, "%016llx", s->text_hash);
   ambulo__json_text(&json, "text_hash", hash);
   ambulo__json_integer(&json, "cases", s->case_count);
+  ambulo__json_text(&json, "cases_sha256", digest);
   ambulo__json_open(&json, "outputs", '[');
   for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output[i]);
   ambulo__json_close(&json, ']');
@@ -73,10 +75,11 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   for (int i = 0; i < s->axes; i++)
     ambulo__json_text(&json, NULL, ambulo__unit_of_key(s->axis[i].key));
   ambulo__json_close(&json, ']');
-  ambulo__json_close(&json, '}');
+  ambulo__seal(text);
 }
 
-/* the file holds this already, as it does whenever a shard or a resumed run begins */
+/* The file holds this already, as it does whenever a shard or a resumed run begins. One that cannot
+ * be read is written again. */
 static int is_written(const char *path, const ambulo__text_buffer *text,
                       const ambulo_allocator *a) {
   char *old = NULL;
@@ -101,11 +104,13 @@ static ambulo_status write_text(const char *directory, const char *name,
 static ambulo_status write_listing(const ambulo_sweep *s, const char *directory,
                                    const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
   ambulo__text_buffer text;
+  char digest[AMBULO__SHA256_TEXT];
   ambulo__text_init(&text, a);
   list_text(s, &text);
+  ambulo__sha256_of(ambulo__text_data(&text), text.length, digest);
   ambulo_status status = write_text(directory, "cases.tsv", &text, a, diagnostics);
   ambulo__text_clear(&text);
-  describe(s, &text);
+  describe(s, digest, &text);
   if (!status) status = write_text(directory, "batch.json", &text, a, diagnostics);
   ambulo__text_free(&text);
   return status;
@@ -131,9 +136,8 @@ static changes compare(const ambulo_sweep *s, const ambulo__listing *old) {
     } else {
       order = strcmp(s->cases[i].id, ambulo__listing_cell(old, j, AMBULO__LISTING_ID));
     }
-    unsigned long long key = 0;
     if (order == 0) {
-      int same = ambulo__listing_key(old, j, &key) && key == s->cases[i].key;
+      int same = ambulo__listing_key(old, j) == s->cases[i].key;
       c.same += same;
       c.changed += !same;
     }
@@ -185,18 +189,42 @@ static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
 
 /* ----------------------------------------------------------------- the folder */
 
-/* 1: holds nothing but what a batch writes first */
-static int is_fresh(const char *directory) {
+static int is_ours(const char *name) {
   static const char *const ours[] = {".", "..", "lock", "cases", "batch.json", "results"};
+  for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+    if (strncmp(name, ours[i], strlen(ours[i])) == 0) return 1;
+  return 0;
+}
+
+/* *fresh = 1: holds nothing but what a batch writes first */
+static ambulo_status look_into(const char *directory, ambulo_diagnostics *diagnostics, int *fresh) {
   DIR *stream = opendir(directory);
-  int fresh = stream != NULL;
-  for (struct dirent *e = stream ? readdir(stream) : NULL; e && fresh; e = readdir(stream)) {
-    fresh = 0;
-    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
-      fresh |= strncmp(e->d_name, ours[i], strlen(ours[i])) == 0;
-  }
-  if (stream) closedir(stream);
-  return fresh;
+  if (!stream) return ambulo__io_error(diagnostics, directory, "read the folder");
+  const struct dirent *e;
+  *fresh = 1;
+  do {
+    errno = 0;
+    e = readdir(stream);
+    if (e) *fresh = is_ours(e->d_name);
+  } while (e && *fresh);
+  int fault = errno;
+  closedir(stream);
+  errno = fault;
+  return e || !fault ? AMBULO_OK : ambulo__io_error(diagnostics, directory, "read the folder");
+}
+
+/* *there: whether the folder has a batch.json */
+static ambulo_status find_mark(const char *directory, const ambulo_allocator *a,
+                               ambulo_diagnostics *diagnostics, int *there) {
+  struct stat entry;
+  char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
+  if (!mark) return AMBULO_E_MEMORY;
+  *there = stat(mark, &entry) == 0;
+  ambulo_status status = *there || errno == ENOENT
+                             ? AMBULO_OK
+                             : ambulo__io_error(diagnostics, mark, "inspect");
+  ambulo__free(a, mark);
+  return status;
 }
 
 static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnostics) {
@@ -208,16 +236,15 @@ static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnosti
 
 ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *a,
                                          ambulo_diagnostics *diagnostics) {
+  int fresh = 1, there = 1;
   ambulo_status status = make_folder(directory, diagnostics);
-  if (!status && !is_fresh(directory)) {
+  if (!status) status = look_into(directory, diagnostics, &fresh);
+  if (!status && !fresh) status = find_mark(directory, a, diagnostics, &there);
+  if (!status && !there) {
     ambulo__place place = {directory, 0, 0, NULL};
-    char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
-    struct stat entry;
-    if (!mark || stat(mark, &entry) != 0)
-      status = ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
-                             "the folder holds other files; expected a new, an empty or a batch "
-                             "folder");
-    ambulo__free(a, mark);
+    status = ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
+                           "the folder holds other files; expected a new, an empty or a batch "
+                           "folder");
   }
   char *cases = ambulo__join_paths(a, directory, "cases", NULL);
   if (!status) status = cases ? make_folder(cases, diagnostics) : AMBULO_E_MEMORY;
@@ -225,21 +252,42 @@ ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_all
   return status;
 }
 
-ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
+/* what the folder says it was filled from, against this sweep */
+static ambulo_status compare_with_old(const ambulo_sweep *sweep, const char *directory, int force,
                                       const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
   ambulo__listing old;
-  struct stat entry;
-  char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
-  if (!mark) return AMBULO_E_MEMORY;
-  int there = stat(mark, &entry) == 0;
-  ambulo__free(a, mark);
-  ambulo_status status = AMBULO_OK;
-  /* a description that cannot be read is rewritten: the records carry the keys themselves */
-  if (there && ambulo__listing_load(directory, a, NULL, &old) == AMBULO_OK) {
+  ambulo__place place = {directory, 0, 0, NULL};
+  int damaged = 0;
+  ambulo_diagnostics *reasons = ambulo_diagnostics_create(a);
+  if (!reasons) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__listing_try(directory, a, reasons, &old, &damaged);
+  if (!status) {
     changes c = compare(sweep, &old);
     if (c.changed + c.added + c.gone > 0 && !force)
       status = refuse(sweep, directory, &old, c, diagnostics);
     ambulo__listing_free(&old);
+  } else if (damaged) {
+    ambulo__warning(diagnostics, place, NULL,
+                    "damaged: the list of cases is not what was written; it is written anew from "
+                    "the sweep, and cases of other inputs are computed again");
+    status = AMBULO_OK;
+  } else if (status == AMBULO_E_PROBLEM && force) {
+    status = AMBULO_OK;
+  } else {
+    const ambulo_diagnostic *reason = ambulo_diagnostics_get(reasons, 0);
+    if (reason) {
+      place.file = reason->file;
+      (void)ambulo__error(diagnostics, status, place, reason->hint, "%s", reason->message);
+    }
   }
+  ambulo_diagnostics_free(reasons);
+  return status;
+}
+
+ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
+                                      const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  int there = 0;
+  ambulo_status status = find_mark(directory, a, diagnostics, &there);
+  if (!status && there) status = compare_with_old(sweep, directory, force, a, diagnostics);
   return status ? status : write_listing(sweep, directory, a, diagnostics);
 }

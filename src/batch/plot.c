@@ -106,7 +106,7 @@ static ambulo_status collect_points(ambulo__plot *p, const char *directory, cons
   ambulo_status status = p->point ? AMBULO_OK : AMBULO_E_MEMORY;
   for (int i = 0; i < 2 && !status && p->axis[i].column >= 0; i++)
     status = ambulo__plot_axis_make(l, p->axis[i].column, &p->axis[i]);
-  if (!status) status = ambulo__gather(directory, l, 1, add_point, p, NULL);
+  if (!status) status = ambulo__gather(directory, l, AMBULO__GATHER_OUTPUTS, add_point, p, NULL);
   if (!status && p->values == 0)
     return no_such(diagnostics, l, directory, "number for the output of", plot);
   if (!status) scale(p);

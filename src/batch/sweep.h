@@ -16,6 +16,7 @@ enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEX
 /* Where something stands in the sweep file, or in its table. */
 typedef struct ambulo__spot {
   int line, column;
+  int in_table;
 } ambulo__spot;
 
 /* A value of an axis. */
@@ -28,7 +29,6 @@ typedef struct ambulo__axis_value {
 typedef struct ambulo__axis {
   char *name, *key;
   ambulo__spot spot; /* of the key */
-  int in_table;      /* 1: spots are in the table's file */
   ambulo__axis_value *value;
   int count, capacity;
 } ambulo__axis;
@@ -80,16 +80,22 @@ ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml
 ambulo_status ambulo__sweep_read_values(ambulo_sweep *sweep, ambulo__axis *axis,
                                         const ambulo__yaml_node *node);
 
-/* A fresh axis, or NULL (too many, no memory). Names default to the key. */
-ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key,
-                                     ambulo__spot spot);
+/* A fresh axis; a name of "" defaults to the key. Errors: E_SCHEMA (no key that can be set),
+ * E_LIMIT (too many), E_MEMORY. */
+ambulo_status ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key,
+                                     ambulo__spot spot, ambulo__axis **axis);
+/* Errors: E_IO (a file that the value names cannot be read), E_LIMIT (too many), E_MEMORY. */
 ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
                                     size_t length, ambulo__spot spot);
+ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,
+                                    const ambulo__yaml_node *node);
 ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value,
                                       ambulo__spot spot);
 const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
 ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
+/* Its place in the sweep file or the table. */
+ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
 
 /* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one
  * name or key. Filters: neither side names an axis. Case name: {word} names none. Cases: two of

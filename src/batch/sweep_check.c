@@ -9,11 +9,6 @@
 
 enum { MOST_PROBES = 200, HINT = 200 };
 
-static ambulo__place place_in(const ambulo_sweep *s, const ambulo__axis *axis, ambulo__spot spot) {
-  const char *file = axis && axis->in_table ? s->table : s->path;
-  return (ambulo__place){file, spot.line, spot.column, NULL};
-}
-
 /* "did you mean 'speed'?", or the names there are */
 static void hint_axis(const ambulo_sweep *s, const char *word, char hint[HINT]) {
   const char *name[AMBULO__SWEEP_AXES];
@@ -35,7 +30,7 @@ static void hint_axis(const ambulo_sweep *s, const char *word, char hint[HINT]) 
 
 static ambulo_status repeated(ambulo_sweep *s, const ambulo__axis *axis, const char *what,
                               const char *text, const ambulo__axis *first) {
-  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place_in(s, axis, axis->spot), NULL,
+  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, axis->spot), NULL,
                        "the %s '%s' is that of another axis (line %d); expected another one", what,
                        text, first->spot.line);
 }
@@ -99,7 +94,7 @@ ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *s) {
     if (ambulo__sweep_find_axis(s, word) >= 0) continue;
     hint_axis(s, word, hint);
     return ambulo__error(
-        s->diagnostics, AMBULO_E_SCHEMA, place_in(s, NULL, s->case_name_spot), hint,
+        s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot), hint,
         "unknown axis in case_name (got '{%s}'); expected the name of an axis", word);
   }
   return AMBULO_OK;
@@ -117,7 +112,7 @@ static ambulo_status names_differ(ambulo_sweep *s) {
     size_t at = (size_t)ambulo__hash_text(AMBULO__HASH_START, name) & (slots - 1);
     while (slot[at] >= 0 && strcmp(s->cases[slot[at]].name, name) != 0) at = (at + 1) & (slots - 1);
     if (slot[at] >= 0)
-      status = ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place_in(s, NULL, s->case_name_spot),
+      status = ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot),
                              "name every axis that varies in case_name, or leave it out",
                              "two cases are named '%s' (%s and %s); expected different names", name,
                              s->cases[slot[at]].id, s->cases[k].id);
@@ -151,13 +146,13 @@ static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
   int value = i < 0 ? -1 : s->value[(size_t)index * (size_t)s->stride + (size_t)i];
   if (value < 0) {
     message = ambulo_diagnostics_get(list, 0);
-    return ambulo__error(s->diagnostics, status, place_in(s, NULL, (ambulo__spot){0, 0}),
+    return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, (ambulo__spot){0, 0, 0}),
                          message ? message->hint : NULL, "case '%s': %s", s->cases[index].name,
                          message ? message->message : ambulo_status_text(status));
   }
   const ambulo__axis *axis = &s->axis[i];
   ambulo__spot spot = message->line > 0 ? axis->value[value].spot : axis->spot;
-  return ambulo__error(s->diagnostics, status, place_in(s, axis, spot), message->hint, "%s: %s",
+  return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, spot), message->hint, "%s: %s",
                        axis->key, message->message);
 }
 
@@ -167,10 +162,12 @@ static ambulo_status probe(ambulo_sweep *s, int index) {
   const ambulo__sweep_case *one = &s->cases[index];
   ambulo_problem *problem = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(&s->allocator);
+  if (!list) return AMBULO_E_MEMORY;
   ambulo_status status =
       ambulo_problem_load(s->base, one->override, one->overrides, &s->allocator, list, &problem);
   ambulo_problem_free(problem);
-  if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO)
+  if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO ||
+      status == AMBULO_E_ARGUMENT)
     status = tell(s, index, status, list);
   else if (status != AMBULO_E_MEMORY)
     status = AMBULO_OK;

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -67,14 +68,30 @@ static void print_cases(const ambulo_sweep *sweep) {
   }
 }
 
+static int has_batch(const char *directory) {
+  char path[4200];
+  struct stat entry;
+  if (!directory) return 0;
+  ambulo__cli_format(path, sizeof path, "%.4096s/batch.json", directory);
+  return stat(path, &entry) == 0;
+}
+
 int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int workers) {
   double seconds = 0.0, bytes = 0.0;
   ambulo_batch_census census;
+  memset(&census, 0, sizeof census);
   int cases = ambulo_sweep_case_count(sweep), left = cases;
   const char *source = "the first case";
   print_cases(sweep);
   int timed = time_first_case(sweep, &seconds, &bytes);
-  if (directory && !ambulo_batch_status(directory, NULL, NULL, &census) && census.done > 0) {
+  if (has_batch(directory)) {
+    ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+    ambulo_status status = ambulo_batch_status(directory, NULL, diagnostics, &census);
+    int code = ambulo__cli_diagnostics(diagnostics, status, directory);
+    ambulo_diagnostics_free(diagnostics);
+    if (code) return code;
+  }
+  if (census.done > 0) {
     seconds = census.seconds / census.done;
     left = cases > census.done ? cases - census.done : 0;
     source = "the finished cases";

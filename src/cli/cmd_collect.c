@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 
+/* returns the exit code */
 static int print_census(const char *directory, const ambulo_batch_census *c) {
   printf("%d cases: %d done (%d without a valid solution), %d missing, %d stale, %d corrupt\n",
          c->cases, c->done, c->failed, c->missing, c->stale, c->corrupt);
@@ -16,6 +17,7 @@ static int print_census(const char *directory, const ambulo_batch_census *c) {
   } else if (incomplete) {
     printf("run 'ambulo batch' with -o %s again to complete it\n", directory);
   }
+  if (c->corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
   return incomplete ? 1 : 0;
 }
 
@@ -66,8 +68,9 @@ const ambulo__cli_command ambulo__cli_collect = {
     .description =
         "Writes DIR/results.csv and DIR/results.jsonl: one line per case, sorted by id, with the\n"
         "axes and the outputs the sweep file asks for. The same results give the same bytes,\n"
-        "however they were computed. Exit code 0: every case has a record; 1: some are missing,\n"
-        "stale (of other inputs) or corrupt; the table is written all the same and says which.",
+        "however they were computed. Every file is compared with its checksum. Exit code 0: every\n"
+        "case is finished; 1: some are missing, or stale (of other inputs); 4: some are corrupt\n"
+        "(damaged since, or cannot be read). The table is written all the same and says which.",
     .example = "ambulo collect walks --plot speed:objective",
     .options = options,
     .option_count = sizeof options / sizeof options[0],

@@ -38,7 +38,7 @@ static void values_are_replaced_and_added(void **state) {
   const ambulo__yaml_node *solver = at(c.root, "solver");
   assert_string_equal(ambulo__yaml_text(at(solver, "algorithm")), "slsqp");
   assert_string_equal(ambulo__yaml_text(at(solver, "presolve")), "on");
-  assert_int_equal(ambulo__yaml_count(solver), 2);
+  assert_int_equal(ambulo__yaml_pairs(solver), 2);
   assert_string_equal(ambulo__yaml_place(at(solver, "presolve")).path, "solver.presolve");
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[1]", "[0, 0]"), AMBULO_OK);
   assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(at(c.root, "matrix"), 1)).path,
@@ -140,7 +140,7 @@ static void out_of_memory_anywhere(void **state) {
     ambulo_status status = ambulo__yaml_set(document, "time.list", value);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     const ambulo__yaml_node *time = ambulo__yaml_value(ambulo__yaml_root(document), 0);
-    assert_int_equal(ambulo__yaml_count(time), memory.failed ? 2 : 3);
+    assert_int_equal(ambulo__yaml_pairs(time), memory.failed ? 2 : 3);
     ambulo__yaml_free(document);
     assert_int_equal(memory.live, 0);
     if (!memory.failed) break;

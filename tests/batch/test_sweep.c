@@ -193,7 +193,7 @@ static void names_are_used_once(void **state) {
   refused(state, TWO_AXES "case_name: \"{n}\"\n", "two cases are named '8'");
   refused(state, TWO_AXES "case_name: \"{n}-{t}\"\n", "unknown axis in case_name (got '{t}')");
   refused(state, TWO_AXES "filters: [\"speed != 3\"]\n", "unknown axis in filter");
-  refused(state, TWO_AXES "filters: \"n > 8\"\n", "not a list");
+  refused(state, TWO_AXES "filters: \"n > 8\"\n", "expected a list");
 }
 
 static void table_refused(void **state, const char *table, const char *message) {
