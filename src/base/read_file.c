@@ -88,9 +88,9 @@ ambulo_status ambulo__digest_file(const char *path, ambulo_diagnostics *diagnost
   int file = open_to_read(path);
   if (file < 0) return ambulo__io_error(diagnostics, path, "open");
   ambulo_status status = inspect(file, path, diagnostics, &info);
-  ssize_t count = 1;
+  ssize_t count = PIECE;
   ambulo__sha256_begin(&hash);
-  while (!status && count > 0) {
+  while (!status && count == PIECE) {
     count = read_all(file, piece, sizeof piece);
     if (count < 0) status = ambulo__io_error(diagnostics, path, "read");
     if (count > 0) ambulo__sha256_add(&hash, piece, (size_t)count);

@@ -220,10 +220,20 @@ ambulo_status ambulo__yaml_error(const ambulo__yaml_node *node, ambulo_status st
   (void)vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
   ambulo__yaml *document = node->document;
-  if (document->status == AMBULO_OK || document->status == AMBULO_E_SCHEMA)
+  if (document->status == AMBULO_E_MEMORY) return status;
+  if (document->status == AMBULO_OK || document->status == AMBULO_E_SCHEMA ||
+      status == AMBULO_E_MEMORY)
     document->status = status;
   return ambulo__error(document->diagnostics, status, ambulo__yaml_place(node), hint, "%s",
                        message);
+}
+
+void ambulo__yaml_out_of_memory(ambulo__yaml *document) {
+  ambulo__place place = {document->file, 0, 0, NULL};
+  if (document->status == AMBULO_E_MEMORY) return;
+  document->status = AMBULO_E_MEMORY;
+  (void)ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL, "%s",
+                      ambulo_status_text(AMBULO_E_MEMORY));
 }
 
 void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const char *format,

@@ -78,6 +78,9 @@ ambulo__place ambulo__yaml_place(const ambulo__yaml_node *node);
 ambulo_status ambulo__yaml_error(const ambulo__yaml_node *node, ambulo_status status,
                                  const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* Records that a reader of the document found no memory; faults that are found afterwards may come
+ * of it and are not recorded. */
+void ambulo__yaml_out_of_memory(ambulo__yaml *document);
 /* Records a warning at a node. */
 void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

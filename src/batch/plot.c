@@ -142,14 +142,15 @@ ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 char **file) {
   if (!directory || !plot || !file) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__listing listing;
   ambulo_status status = ambulo__listing_load(directory, allocator, diagnostics, &listing);
-  if (status) return status;
+  if (status) return ambulo__conclude(diagnostics, errors, status, directory);
   ambulo__plot p;
   memset(&p, 0, sizeof p);
   p.listing = &listing;
   status = parse(&p, directory, plot, diagnostics);
   if (!status) status = draw(&p, directory, plot, diagnostics, file);
   ambulo__listing_free(&listing);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, directory);
 }

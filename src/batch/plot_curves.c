@@ -126,7 +126,7 @@ static void draw_legend(const curves *c, ambulo__text_buffer *svg) {
   if (c->colour.column >= 0) {
     const char *unit = l->axis_unit[c->colour.column - AMBULO__LISTING_AXES];
     ambulo__text_buffer text;
-    ambulo__text_init(&text, &l->allocator);
+    ambulo__text_init_part(&text, svg);
     ambulo__text_append_format(&text, "%s%s%s", ambulo__listing_title(l, c->colour.column),
                                unit[0] ? " in " : "", unit);
     ambulo__svg_label(svg, "panel", x, y, ambulo__text_data(&text));

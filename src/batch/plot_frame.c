@@ -63,7 +63,7 @@ static void append_axis(const ambulo__plot *p, int column, ambulo__text_buffer *
 
 void ambulo__plot_begin(const ambulo__plot *p, ambulo__text_buffer *svg, const char *remark) {
   ambulo__text_buffer text;
-  ambulo__text_init(&text, &p->listing->allocator);
+  ambulo__text_init_part(&text, svg);
   print_output(p, &text);
   ambulo__svg_begin(svg, full_width, full_height, ambulo__text_data(&text));
   ambulo__svg_label(svg, "title", ambulo__plot_left, 36.0, ambulo__text_data(&text));
@@ -89,7 +89,7 @@ void ambulo__plot_begin(const ambulo__plot *p, ambulo__text_buffer *svg, const c
 void ambulo__plot_number(ambulo__text_buffer *svg, const char *style, double x, double y,
                          double value, int decimals) {
   ambulo__text_buffer label;
-  ambulo__text_init(&label, &svg->allocator);
+  ambulo__text_init_part(&label, svg);
   ambulo__label_number(&label, value, decimals);
   ambulo__svg_label(svg, style, x, y, ambulo__text_data(&label));
   ambulo__text_free(&label);
@@ -134,7 +134,7 @@ static void label_values(const ambulo__plot_axis *axis, ambulo__text_buffer *svg
     (void)ambulo__nice_step(last - first, 2 * axis->count, &decimals);
   }
   ambulo__text_buffer label;
-  ambulo__text_init(&label, &svg->allocator);
+  ambulo__text_init_part(&label, svg);
   for (int i = 0; i < axis->count; i++) {
     ambulo__text_clear(&label);
     if (rounded && ambulo__parse_double(axis->text[i], strlen(axis->text[i]), &number)) {
@@ -154,7 +154,7 @@ static void label_range(const ambulo__plot_axis *axis, ambulo__text_buffer *svg,
   int decimals = 0;
   double step = ambulo__nice_step(span, 6, &decimals), first = ceil(low / step - 1e-9) * step;
   ambulo__text_buffer label;
-  ambulo__text_init(&label, &svg->allocator);
+  ambulo__text_init_part(&label, svg);
   for (int i = 0; i < 16 && first + i * step <= low + span * (1.0 + 1e-9); i++) {
     double share = inset + (1.0 - 2.0 * inset) * (first + i * step - low) / span;
     ambulo__text_clear(&label);
@@ -214,6 +214,7 @@ void ambulo__plot_case_begin(const ambulo__plot *p, ambulo__text_buffer *svg,
   const char *id = ambulo__listing_cell(l, point->index, AMBULO__LISTING_ID);
   char *path = ambulo__case_path(&l->allocator, ".", id, point->has_value ? "/gait.svg" : ".json");
   ambulo__text_append(svg, "<a href=\"");
+  if (!path) svg->failed = 1;
   escaped(svg, path ? path : "");
   ambulo__text_append(svg, "\"><title>");
   escaped(svg, ambulo__listing_cell(l, point->index, AMBULO__LISTING_NAME));

@@ -32,6 +32,11 @@ static ambulo_status read_texts(ambulo_sweep *s, const ambulo__yaml_node *node, 
   return status;
 }
 
+ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status) {
+  if (status != AMBULO_E_MEMORY) ambulo__yaml_close(section);
+  return status;
+}
+
 static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
   const char *name = ambulo__yaml_text(ambulo__yaml_get(node, "name"));
@@ -40,8 +45,7 @@ static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   ambulo_status status =
       ambulo__sweep_add_axis(s, name, ambulo__yaml_text(key), ambulo__spot_of(key), &axis);
   if (!status) status = ambulo__sweep_read_values(s, axis, node);
-  ambulo__yaml_close(node);
-  return status;
+  return ambulo__sweep_close(node, status);
 }
 
 /* one group an axis, or one for all */
@@ -173,7 +177,7 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   if (!status) status = read_texts(s, ambulo__yaml_get(root, "outputs"), &s->output, &s->outputs);
   if (!status) status = read_limits(s, root);
   if (!status) status = read_chain(s, root);
-  ambulo__yaml_close(root);
+  status = ambulo__sweep_close(root, status);
   if (!status) status = ambulo__yaml_finish(document);
   if (!status) status = read_base(s, ambulo__yaml_get(root, "base"));
   if (!status) status = ambulo__sweep_build_cases(s, ambulo__yaml_get(root, "cases"));

@@ -97,6 +97,10 @@ ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
 /* Its place in the sweep file or the table. */
 ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
 
+/* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what was
+ * not read any more is no stranger. Returns `status`. */
+ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status);
+
 /* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one
  * name or key. Filters: neither side names an axis. Case name: {word} names none. Cases: two of
  * one name; and each value of each axis is read once together with the base problem, so that a

@@ -195,7 +195,7 @@ static ambulo_status explicit_case(builder *b, const ambulo__yaml_node *node) {
     ambulo__yaml_expect(set, key);
     status = set_value(b, key, ambulo__yaml_value(set, i));
   }
-  ambulo__yaml_close(node);
+  status = ambulo__sweep_close(node, status);
   if (!status) status = add_case(b, name ? ambulo__yaml_text(name) : b->sweep->case_name);
   b->place++;
   return status;

@@ -229,8 +229,7 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
     status = ambulo__axis_add_number(sweep, axis, value, ambulo__spot_of(key));
   }
   ambulo__free(&sweep->allocator, order);
-  ambulo__yaml_close(node);
-  return status;
+  return ambulo__sweep_close(node, status);
 }
 
 ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml_node *node,
@@ -249,6 +248,5 @@ ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml
   if (!status && axes && group->axes == 0)
     status = ambulo__yaml_error(axes, AMBULO_E_SCHEMA, NULL, "no axis; expected at least one");
   if (group->axes > 0) sweep->groups++;
-  ambulo__yaml_close(node);
-  return status;
+  return ambulo__sweep_close(node, status);
 }

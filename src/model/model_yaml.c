@@ -171,7 +171,10 @@ ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 ambulo_model **model) {
   if (!path || !model) return AMBULO_E_ARGUMENT;
-  return ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status =
+      ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
+  return ambulo__conclude(diagnostics, errors, status, path);
 }
 
 ambulo_status ambulo_model_load_text(const char *text, size_t length, const char *name,
@@ -179,6 +182,7 @@ ambulo_status ambulo_model_load_text(const char *text, size_t length, const char
                                      const ambulo_allocator *allocator,
                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
   ambulo__yaml *document = NULL;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!text || !model) return AMBULO_E_ARGUMENT;
   ambulo_status status = check_subject(subject, diagnostics);
   if (status == AMBULO_OK) {
@@ -186,5 +190,5 @@ ambulo_status ambulo_model_load_text(const char *text, size_t length, const char
   }
   if (status == AMBULO_OK) status = build(document, subject, allocator, diagnostics, model);
   ambulo__yaml_free(document);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, name);
 }

@@ -261,9 +261,11 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   if (!path || !problem || override_count < 0 || (override_count > 0 && !overrides)) {
     return AMBULO_E_ARGUMENT;
   }
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
   ambulo__yaml *document = NULL;
   ambulo_status status = ambulo__yaml_load(path, &reader.allocator, diagnostics, &document);
+  reader.document = document;
   if (!status) {
     reader.directory = directory_of(&reader, path);
     status = reader.directory ? read_document(&reader, document, overrides, override_count, problem)
@@ -271,7 +273,7 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   }
   ambulo__yaml_free(document);
   ambulo__reader_clear(&reader);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, path);
 }
 
 ambulo_status ambulo_problem_load_text(const char *text, size_t length, const char *name,
@@ -281,13 +283,15 @@ ambulo_status ambulo_problem_load_text(const char *text, size_t length, const ch
   if (!text || !problem || override_count < 0 || (override_count > 0 && !overrides)) {
     return AMBULO_E_ARGUMENT;
   }
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
   if (directory) reader.directory = directory;
   ambulo__yaml *document = NULL;
   ambulo_status status = ambulo__yaml_load_text(text, length, name ? name : "problem",
                                                 &reader.allocator, diagnostics, &document);
+  reader.document = document;
   if (!status) status = read_document(&reader, document, overrides, override_count, problem);
   ambulo__yaml_free(document);
   ambulo__reader_clear(&reader);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, name);
 }

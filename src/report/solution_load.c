@@ -154,6 +154,7 @@ static ambulo_status load(const char *path, const ambulo_problem *problem, int s
   if (!path || !problem || !x) return AMBULO_E_ARGUMENT;
   reader r = {
       .problem = problem, .stretch = stretch, .allocator = ambulo__allocator_or_default(allocator)};
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = ambulo__yaml_load(path, &r.allocator, diagnostics, &r.document);
   if (status) return status;
   status = read_document(&r, x);
@@ -161,7 +162,7 @@ static ambulo_status load(const char *path, const ambulo_problem *problem, int s
   ambulo__free(&r.allocator, r.column);
   ambulo__basis_free(r.basis);
   ambulo__yaml_free(r.document);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, path);
 }
 
 ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *problem,
