@@ -75,44 +75,47 @@ static void free_texts(const ambulo_allocator *a, char **texts, int count) {
   ambulo__free(a, texts);
 }
 
-/* the list of texts under a key; NULL: no memory */
-static char **copy_texts(const ambulo__listing *l, const ambulo__yaml_node *root, const char *key,
-                         int *count) {
+/* *texts of the list under a key, which has `count` of them; *right = 0: another number */
+static ambulo_status copy_texts(const ambulo__listing *l, const ambulo__yaml_node *root,
+                                const char *key, int count, char ***texts, int *right) {
   const ambulo__yaml_node *node = ambulo__yaml_require(root, key);
-  int items = ambulo__yaml_items(node), copied = 0;
-  char **texts = ambulo__alloc(&l->allocator, (size_t)items, sizeof *texts);
-  for (int i = 0; texts && i < items; i++) {
-    texts[i] = ambulo__strdup(&l->allocator, ambulo__yaml_text(ambulo__yaml_item(node, i)));
-    copied += texts[i] != NULL;
+  *right &= ambulo__yaml_items(node) == count;
+  *texts = ambulo__alloc(&l->allocator, (size_t)count, sizeof **texts);
+  for (int i = 0; *texts && i < count; i++) {
+    (*texts)[i] = ambulo__strdup(&l->allocator, ambulo__yaml_text(ambulo__yaml_item(node, i)));
+    if (!(*texts)[i]) return AMBULO_E_MEMORY;
   }
-  if (texts && copied < items) {
-    free_texts(&l->allocator, texts, items);
-    return NULL;
-  }
-  *count = items;
-  return texts;
+  return *texts ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
 /* E_MEMORY, or AMBULO_OK, and then the document knows what was wrong, or *cases is -1 */
 static ambulo_status read_fields(ambulo__listing *l, const ambulo__yaml_node *root, int *cases) {
-  int output_units = 0;
+  int right = 1;
   l->name = copy_text(l, root, "name");
   l->version = copy_text(l, root, "version");
   l->problem_hash = copy_text(l, root, "problem_hash");
   l->text_hash = copy_text(l, root, "text_hash");
   l->digest = copy_text(l, root, "cases_sha256");
+  if (!l->name || !l->version || !l->problem_hash || !l->text_hash || !l->digest)
+    return AMBULO_E_MEMORY;
   *cases = ambulo__yaml_integer(ambulo__yaml_require(root, "cases"), 0, INT_MAX, 0);
-  l->output = copy_texts(l, root, "outputs", &l->outputs);
-  l->output_unit = copy_texts(l, root, "output_units", &output_units);
-  l->axis_unit = copy_texts(l, root, "axis_units", &l->axes);
-  int complete = l->name && l->version && l->problem_hash && l->text_hash && l->digest &&
-                 l->output && l->output_unit && l->axis_unit;
-  if (output_units != l->outputs) {
-    *cases = -1;
-    free_texts(&l->allocator, l->output_unit, output_units);
-    l->output_unit = NULL;
-  }
-  return complete ? AMBULO_OK : AMBULO_E_MEMORY;
+  l->outputs = ambulo__yaml_items(ambulo__yaml_require(root, "outputs"));
+  l->axes = ambulo__yaml_items(ambulo__yaml_require(root, "axes"));
+  l->zipped = ambulo__yaml_integer(ambulo__yaml_require(root, "zipped_axes"), 0, l->axes, 0);
+  const struct {
+    const char *key;
+    int count;
+    char ***texts;
+  } lists[] = {{"outputs", l->outputs, &l->output},
+               {"output_labels", l->outputs, &l->output_label},
+               {"output_units", l->outputs, &l->output_unit},
+               {"axis_labels", l->axes, &l->axis_label},
+               {"axis_units", l->axes, &l->axis_unit}};
+  ambulo_status status = AMBULO_OK;
+  for (size_t i = 0; i < sizeof lists / sizeof *lists && !status; i++)
+    status = copy_texts(l, root, lists[i].key, lists[i].count, lists[i].texts, &right);
+  if (!right) *cases = -1;
+  return status;
 }
 
 static ambulo_status other_version(ambulo_diagnostics *diagnostics, const char *path,
@@ -208,7 +211,9 @@ ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator
 void ambulo__listing_free(ambulo__listing *l) {
   const ambulo_allocator *a = &l->allocator;
   free_texts(a, l->output, l->outputs);
+  free_texts(a, l->output_label, l->outputs);
   free_texts(a, l->output_unit, l->outputs);
+  free_texts(a, l->axis_label, l->axes);
   free_texts(a, l->axis_unit, l->axes);
   ambulo__free(a, l->digest);
   ambulo__free(a, l->name);

@@ -28,9 +28,10 @@ typedef struct ambulo__listing {
   char *text;
   const char **cell; /* [cases + 1][columns]; row 0: titles */
   int cases, columns;
-  char **output, **output_unit; /* [outputs] */
-  char **axis_unit;             /* [columns - AMBULO__LISTING_AXES] */
-  int outputs, axes;
+  char **output, **output_label, **output_unit; /* [outputs] */
+  char **axis_label, **axis_unit;               /* [axes] */
+  int outputs, axes;                            /* axes: columns - AMBULO__LISTING_AXES */
+  int zipped;                                   /* the first so many axes advance together */
   char *name, *version, *problem_hash, *text_hash;
   char *digest; /* SHA-256 of cases.tsv, as batch.json says */
 } ambulo__listing;

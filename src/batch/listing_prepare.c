@@ -44,6 +44,49 @@ static void list_text(const ambulo_sweep *s, ambulo__text_buffer *text) {
   }
 }
 
+static void open_list(ambulo__json *json, const char *key) {
+  ambulo__json_open(json, key, '[');
+}
+
+static void close_list(ambulo__json *json) {
+  ambulo__json_close(json, ']');
+}
+
+/* what stands in the columns of the table, and how drawings call it */
+static void describe_columns(const ambulo_sweep *s, ambulo__json *json) {
+  open_list(json, "outputs");
+  for (int i = 0; i < s->outputs; i++) ambulo__json_text(json, NULL, s->output[i].path);
+  close_list(json);
+  open_list(json, "output_labels");
+  for (int i = 0; i < s->outputs; i++) {
+    const ambulo__sweep_output *o = &s->output[i];
+    ambulo__json_text(json, NULL, o->label ? o->label : o->path);
+  }
+  close_list(json);
+  open_list(json, "output_units");
+  for (int i = 0; i < s->outputs; i++) {
+    const ambulo__sweep_output *o = &s->output[i];
+    ambulo__json_text(json, NULL, o->unit ? o->unit : o->known_unit);
+  }
+  close_list(json);
+  open_list(json, "axes");
+  for (int i = 0; i < s->axes; i++) ambulo__json_text(json, NULL, s->axis[i].key);
+  close_list(json);
+  ambulo__json_integer(json, "zipped_axes", s->zipped);
+  open_list(json, "axis_labels");
+  for (int i = 0; i < s->axes; i++) {
+    const ambulo__axis *axis = &s->axis[i];
+    ambulo__json_text(json, NULL, axis->label ? axis->label : axis->name);
+  }
+  close_list(json);
+  open_list(json, "axis_units");
+  for (int i = 0; i < s->axes; i++) {
+    const ambulo__axis *axis = &s->axis[i];
+    ambulo__json_text(json, NULL, axis->unit ? axis->unit : ambulo__unit_of_key(axis->key));
+  }
+  close_list(json);
+}
+
 static void describe(const ambulo_sweep *s, const char *digest, ambulo__text_buffer *text) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
@@ -62,19 +105,7 @@ static void describe(const ambulo_sweep *s, const char *digest, ambulo__text_buf
   ambulo__json_text(&json, "text_hash", hash);
   ambulo__json_integer(&json, "cases", s->case_count);
   ambulo__json_text(&json, "cases_sha256", digest);
-  ambulo__json_open(&json, "outputs", '[');
-  for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output[i]);
-  ambulo__json_close(&json, ']');
-  ambulo__json_open(&json, "output_units", '[');
-  for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output_unit[i]);
-  ambulo__json_close(&json, ']');
-  ambulo__json_open(&json, "axes", '[');
-  for (int i = 0; i < s->axes; i++) ambulo__json_text(&json, NULL, s->axis[i].key);
-  ambulo__json_close(&json, ']');
-  ambulo__json_open(&json, "axis_units", '[');
-  for (int i = 0; i < s->axes; i++)
-    ambulo__json_text(&json, NULL, ambulo__unit_of_key(s->axis[i].key));
-  ambulo__json_close(&json, ']');
+  describe_columns(s, &json);
   ambulo__seal(text);
 }
 

@@ -10,24 +10,17 @@
 
 enum { MOST_BASE_BYTES = 16 << 20 };
 
-static ambulo_status copy_text(ambulo_sweep *s, const ambulo__yaml_node *node, char **copy) {
-  *copy = ambulo__strdup(&s->allocator, ambulo__yaml_text(node));
-  return *copy ? AMBULO_OK : AMBULO_E_MEMORY;
-}
-
-static ambulo_status read_texts(ambulo_sweep *s, const ambulo__yaml_node *node, char ***texts,
-                                int *count) {
+static ambulo_status read_filters(ambulo_sweep *s, const ambulo__yaml_node *node) {
   int items = ambulo__yaml_items(node);
   ambulo_status status = AMBULO_OK;
-  if (items == 0) return AMBULO_OK;
-  *texts = ambulo__alloc(&s->allocator, (size_t)items, sizeof **texts);
-  if (!*texts) return AMBULO_E_MEMORY;
+  s->filter = ambulo__alloc(&s->allocator, (size_t)items, sizeof *s->filter);
+  if (!s->filter) return AMBULO_E_MEMORY;
   for (int i = 0; i < items && !status; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(node, i);
-    status = copy_text(s, item, &(*texts)[i]);
-    *count += !status;
-    if (!status && !(*texts)[i][0])
-      status = ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "no text; expected one");
+    status = ambulo__sweep_copy(s, item, &s->filter[i]);
+    s->filters += !status;
+    if (!status && !s->filter[i][0])
+      status = ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "no filter; expected one");
   }
   return status;
 }
@@ -44,6 +37,7 @@ static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   if (!key) return AMBULO_E_SCHEMA;
   ambulo_status status =
       ambulo__sweep_add_axis(s, name, ambulo__yaml_text(key), ambulo__spot_of(key), &axis);
+  if (!status) status = ambulo__sweep_read_label(s, axis, node);
   if (!status) status = ambulo__sweep_read_values(s, axis, node);
   return ambulo__sweep_close(node, status);
 }
@@ -64,6 +58,7 @@ static ambulo_status group_axes(ambulo_sweep *s, const ambulo__yaml_node *node, 
     ambulo__axis_group group = {i, 1, s->axis[i].count};
     s->group[s->groups++] = group;
   }
+  s->zipped = zip ? s->axes : 0;
   return AMBULO_OK;
 }
 
@@ -129,10 +124,10 @@ static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   s->problem_hash = ambulo_problem_hash(problem);
-  s->output_unit = ambulo__alloc(&s->allocator, (size_t)s->outputs, sizeof *s->output_unit);
-  for (int i = 0; s->output_unit && i < s->outputs; i++)
-    s->output_unit[i] = ambulo__unit_of_output(s->output[i], ambulo_problem_model(problem));
-  status = s->output_unit ? hash_file(s, s->base, &s->text_hash) : AMBULO_E_MEMORY;
+  for (int i = 0; i < s->outputs; i++)
+    s->output[i].known_unit =
+        ambulo__unit_of_output(s->output[i].path, ambulo_problem_model(problem));
+  status = hash_file(s, s->base, &s->text_hash);
   /* not the instruction set: the nodes of a cluster may differ in it */
   unsigned long long hash = ambulo__hash_word(AMBULO__HASH_START, s->problem_hash);
   hash = ambulo__hash_text(hash, versions.ambulo);
@@ -153,10 +148,11 @@ static void expect_all(const ambulo__yaml_node *root) {
 static ambulo_status read_head(ambulo_sweep *s, const ambulo__yaml *document,
                                const ambulo__yaml_node *root) {
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
-  ambulo_status status = copy_text(s, ambulo__yaml_require(root, "name"), &s->name);
+  const ambulo__yaml_node *name = ambulo__yaml_require(root, "name");
+  ambulo_status status = ambulo__sweep_copy(s, name, &s->name);
   const char *base = ambulo__yaml_text(ambulo__yaml_require(root, "base"));
   const ambulo__yaml_node *pattern = ambulo__yaml_get(root, "case_name");
-  if (!status && pattern) status = copy_text(s, pattern, &s->case_name);
+  if (!status) status = ambulo__sweep_copy(s, pattern, &s->case_name);
   s->case_name_spot = ambulo__spot_of(pattern);
   s->base = ambulo__sibling_path(&s->allocator, s->path, base);
   if (!s->base) status = AMBULO_E_MEMORY;
@@ -172,9 +168,9 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   if (!status) status = read_axes(s, root);
   const ambulo__yaml_node *filters = ambulo__yaml_get(root, "filters");
   if (!status) status = ambulo__sweep_check_axes(s);
-  if (!status) status = read_texts(s, filters, &s->filter, &s->filters);
+  if (!status) status = read_filters(s, filters);
   if (!status) status = ambulo__sweep_check_filters(s, filters);
-  if (!status) status = read_texts(s, ambulo__yaml_get(root, "outputs"), &s->output, &s->outputs);
+  if (!status) status = ambulo__sweep_read_outputs(s, ambulo__yaml_get(root, "outputs"));
   if (!status) status = read_limits(s, root);
   if (!status) status = read_chain(s, root);
   status = ambulo__sweep_close(root, status);
@@ -222,6 +218,8 @@ void ambulo_sweep_free(ambulo_sweep *s) {
     ambulo__free(&a, s->axis[i].value);
     ambulo__free(&a, s->axis[i].name);
     ambulo__free(&a, s->axis[i].key);
+    ambulo__free(&a, s->axis[i].label);
+    ambulo__free(&a, s->axis[i].unit);
   }
   for (int i = 0; i < s->case_count; i++) {
     ambulo__free(&a, (void *)s->cases[i].override);
@@ -229,8 +227,12 @@ void ambulo_sweep_free(ambulo_sweep *s) {
     ambulo__free(&a, s->cases[i].name);
   }
   free_texts(&a, s->filter, s->filters);
-  free_texts(&a, s->output, s->outputs);
-  ambulo__free(&a, (void *)s->output_unit);
+  for (int i = 0; s->output && i < s->outputs; i++) {
+    ambulo__free(&a, s->output[i].path);
+    ambulo__free(&a, s->output[i].label);
+    ambulo__free(&a, s->output[i].unit);
+  }
+  ambulo__free(&a, s->output);
   ambulo__free(&a, s->cases);
   ambulo__free(&a, s->value);
   ambulo__free(&a, s->name);

@@ -28,7 +28,8 @@ typedef struct ambulo__axis_value {
 
 typedef struct ambulo__axis {
   char *name, *key;
-  ambulo__spot spot; /* of the key */
+  char *label, *unit; /* in drawings; NULL: the name, what is known of the key */
+  ambulo__spot spot;  /* of the key */
   ambulo__axis_value *value;
   int count, capacity;
 } ambulo__axis;
@@ -46,6 +47,13 @@ typedef struct ambulo__sweep_case {
   unsigned long long key;
 } ambulo__sweep_case;
 
+/* A column of the table. */
+typedef struct ambulo__sweep_output {
+  char *path;         /* "objective", "max(tau.knee_angle_r)" */
+  char *label, *unit; /* in drawings; NULL: the path, what is known of it */
+  const char *known_unit;
+} ambulo__sweep_output;
+
 struct ambulo_sweep {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;              /* while loading */
@@ -55,8 +63,9 @@ struct ambulo_sweep {
   int axes;
   ambulo__axis_group group[AMBULO__SWEEP_AXES];
   int groups;
-  char **filter, **output;  /* [filters], [outputs] */
-  const char **output_unit; /* [outputs] */
+  int zipped; /* the first so many axes advance together; 0: none */
+  char **filter; /* [filters] */
+  ambulo__sweep_output *output; /* [outputs] */
   int filters, outputs;
   int chain_axis;      /* neighbours along it start from each other; -1: none */
   double case_seconds; /* 0: no limit */
@@ -77,6 +86,12 @@ ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_n
 /* Fills axes of a sampled group: samples values each, uniform in the axis's range. */
 ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml_node *node,
                                          int latin);
+/* sweep_outputs.c: `outputs`, and the names and units that drawings use. */
+ambulo_status ambulo__sweep_read_outputs(ambulo_sweep *sweep, const ambulo__yaml_node *node);
+ambulo_status ambulo__sweep_read_label(ambulo_sweep *sweep, ambulo__axis *axis,
+                                       const ambulo__yaml_node *node);
+/* *copy of the text at a node, where there is one. */
+ambulo_status ambulo__sweep_copy(ambulo_sweep *sweep, const ambulo__yaml_node *node, char **copy);
 ambulo_status ambulo__sweep_read_values(ambulo_sweep *sweep, ambulo__axis *axis,
                                         const ambulo__yaml_node *node);
 
@@ -102,12 +117,13 @@ ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
 ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status);
 
 /* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one
- * name or key. Filters: neither side names an axis. Case name: {word} names none. Cases: two of
+ * name or key. Filters: neither side names an axis. Name: a {word} in
+ * it is no axis, or a brace has no other half. Cases: two of
  * one name; and each value of each axis is read once together with the base problem, so that a
  * key that does not exist or a value of the wrong kind is told now and not by every case. */
 ambulo_status ambulo__sweep_check_axes(ambulo_sweep *sweep);
 ambulo_status ambulo__sweep_check_filters(ambulo_sweep *sweep, const ambulo__yaml_node *filters);
-ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *sweep);
+ambulo_status ambulo__sweep_check_name(ambulo_sweep *sweep, const char *pattern, ambulo__spot spot);
 ambulo_status ambulo__sweep_check_cases(ambulo_sweep *sweep);
 
 /* sweep_chains.c: sets `previous` of every case, and lets keys depend on it. */

@@ -196,7 +196,9 @@ static ambulo_status explicit_case(builder *b, const ambulo__yaml_node *node) {
     status = set_value(b, key, ambulo__yaml_value(set, i));
   }
   status = ambulo__sweep_close(node, status);
-  if (!status) status = add_case(b, name ? ambulo__yaml_text(name) : b->sweep->case_name);
+  const char *pattern = name ? ambulo__yaml_text(name) : b->sweep->case_name;
+  if (!status && name) status = ambulo__sweep_check_name(b->sweep, pattern, ambulo__spot_of(name));
+  if (!status) status = add_case(b, pattern);
   b->place++;
   return status;
 }
@@ -206,7 +208,8 @@ ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
   builder b = {.sweep = sweep};
   ambulo_status status = add_explicit_axes(sweep, explicit_cases);
   sweep->stride = sweep->axes > 0 ? sweep->axes : 1;
-  if (!status) status = ambulo__sweep_check_case_name(sweep);
+  if (!status && sweep->case_name)
+    status = ambulo__sweep_check_name(sweep, sweep->case_name, sweep->case_name_spot);
   if (!status) status = product(&b, ambulo__yaml_items(explicit_cases));
   for (int i = 0; i < ambulo__yaml_items(explicit_cases) && !status; i++)
     status = explicit_case(&b, ambulo__yaml_item(explicit_cases, i));

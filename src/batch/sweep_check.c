@@ -84,18 +84,31 @@ ambulo_status ambulo__sweep_check_filters(ambulo_sweep *s, const ambulo__yaml_no
 
 /* --------------------------------------------------------------- case names */
 
-ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *s) {
-  for (const char *c = s->case_name ? strchr(s->case_name, '{') : NULL; c; c = strchr(c + 1, '{')) {
+static ambulo_status stray_brace(ambulo_sweep *s, ambulo__spot spot, const char *at) {
+  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, spot),
+                       "an axis stands in braces: \"walk_{speed}\"",
+                       "a brace without its other half in the name of a case (got '%.40s'); "
+                       "expected {AXIS}",
+                       at);
+}
+
+ambulo_status ambulo__sweep_check_name(ambulo_sweep *s, const char *pattern, ambulo__spot spot) {
+  for (const char *c = pattern; *c; c++) {
     char word[AMBULO__SWEEP_TEXT], hint[HINT];
-    size_t length = strcspn(c + 1, "}");
-    if (length >= sizeof word || c[1 + length] != '}') break;
+    if (*c == '}') return stray_brace(s, spot, c);
+    if (*c != '{') continue;
+    size_t length = strcspn(c + 1, "{}");
+    if (c[1 + length] != '}' || length >= sizeof word) return stray_brace(s, spot, c);
     memcpy(word, c + 1, length);
     word[length] = '\0';
-    if (ambulo__sweep_find_axis(s, word) >= 0) continue;
-    hint_axis(s, word, hint);
-    return ambulo__error(
-        s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot), hint,
-        "unknown axis in case_name (got '{%s}'); expected the name of an axis", word);
+    if (ambulo__sweep_find_axis(s, word) < 0) {
+      hint_axis(s, word, hint);
+      return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, spot), hint,
+                           "unknown axis in the name of a case (got '{%s}'); expected the name of "
+                           "an axis",
+                           word);
+    }
+    c += length + 1;
   }
   return AMBULO_OK;
 }

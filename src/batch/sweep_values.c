@@ -214,6 +214,7 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
   ambulo_status status =
       ambulo__sweep_add_axis(sweep, name, ambulo__yaml_text(key), ambulo__spot_of(key), &axis);
   if (status) return status;
+  status = ambulo__sweep_read_label(sweep, axis, node);
   int *order = ambulo__alloc(&sweep->allocator, (size_t)samples, sizeof *order);
   if (!order) return AMBULO_E_MEMORY;
   for (int i = 0; i < samples; i++) order[i] = i;
