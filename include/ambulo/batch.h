@@ -130,10 +130,20 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
                                                                ambulo_diagnostics *diagnostics,
                                                                ambulo_batch_census *census);
 
+typedef struct ambulo_plot_options {
+  int cookie;               /* set by ambulo_plot_options_default() */
+  const char *const *where; /* [where_count] conditions such as "speed < 1.5": cases are drawn for
+                               which all hold. Names: axes, outputs, id, name, state */
+  int where_count;
+} ambulo_plot_options;
+AMBULO_API ambulo_plot_options ambulo_plot_options_default(void);
+
 /* Draws a collected output over one axis (curves) or two (a heat map) as SVG into `directory`;
- * plot is "X:OUTPUT" or "X,Y:OUTPUT". *file: path of the drawing, free with ambulo_text_free.
- * Errors: E_ARGUMENT (no such axis or output, or no numbers in it), E_IO, E_MEMORY. */
+ * plot is "X:OUTPUT" or "X,Y:OUTPUT"; options may be NULL. *file: path of the drawing, free with
+ * ambulo_text_free. Errors: E_ARGUMENT (no such axis, output or column, no numbers in it, a
+ * condition that is no comparison), E_IO, E_PROBLEM (as ambulo_batch_status), E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
+                                                            const ambulo_plot_options *options,
                                                             const ambulo_allocator *allocator,
                                                             ambulo_diagnostics *diagnostics,
                                                             char **file);

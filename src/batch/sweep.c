@@ -34,9 +34,9 @@ static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
   const char *name = ambulo__yaml_text(ambulo__yaml_get(node, "name"));
   ambulo__axis *axis = NULL;
-  if (!key) return AMBULO_E_SCHEMA;
-  ambulo_status status =
-      ambulo__sweep_add_axis(s, name, ambulo__yaml_text(key), ambulo__spot_of(key), &axis);
+  const char *path = ambulo__yaml_text(key);
+  if (!ambulo__yaml_is(key, AMBULO__YAML_SCALAR)) return AMBULO_E_SCHEMA;
+  ambulo_status status = ambulo__sweep_add_axis(s, name, path, ambulo__spot_of(key), &axis);
   if (!status) status = ambulo__sweep_read_label(s, axis, node);
   if (!status) status = ambulo__sweep_read_values(s, axis, node);
   return ambulo__sweep_close(node, status);

@@ -209,10 +209,11 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
   int whole = ambulo__yaml_boolean(ambulo__yaml_get(node, "whole"), 0);
   double range[2];
   ambulo__axis *axis = NULL;
-  if (!key || !ambulo__yaml_numbers(ambulo__yaml_require(node, "range"), 2, range))
+  const char *path = ambulo__yaml_text(key);
+  if (!ambulo__yaml_numbers(ambulo__yaml_require(node, "range"), 2, range) ||
+      !ambulo__yaml_is(key, AMBULO__YAML_SCALAR))
     return AMBULO_E_SCHEMA;
-  ambulo_status status =
-      ambulo__sweep_add_axis(sweep, name, ambulo__yaml_text(key), ambulo__spot_of(key), &axis);
+  ambulo_status status = ambulo__sweep_add_axis(sweep, name, path, ambulo__spot_of(key), &axis);
   if (status) return status;
   status = ambulo__sweep_read_label(sweep, axis, node);
   int *order = ambulo__alloc(&sweep->allocator, (size_t)samples, sizeof *order);

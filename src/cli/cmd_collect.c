@@ -7,6 +7,8 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 
+enum { MOST_CONDITIONS = 64 };
+
 /* returns the exit code */
 static int print_census(const char *directory, const ambulo_batch_census *c) {
   printf("%d cases: %d done (%d without a valid solution), %d missing, %d stale, %d corrupt\n",
@@ -32,6 +34,13 @@ static int is_no_batch(const char *directory) {
 
 static int run(const ambulo__cli_input *input) {
   const char *directory = input->arguments[0], *plot = ambulo__cli_value(input, "plot");
+  const char *where[MOST_CONDITIONS];
+  if (input->given_count > MOST_CONDITIONS)
+    return ambulo__cli_usage_error("collect", NULL, "more than %d options", MOST_CONDITIONS);
+  int conditions = ambulo__cli_values(input, "where", where);
+  if (conditions > 0 && !plot)
+    return ambulo__cli_usage_error("collect", "a table is always whole",
+                                   "--where without --plot; expected X[,Y]:OUTPUT");
   if (is_no_batch(directory)) {
     ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' fills one",
                       "%s: no batch folder (it has no batch.json)", directory);
@@ -47,7 +56,11 @@ static int run(const ambulo__cli_input *input) {
     code = print_census(directory, &census);
   }
   char *file = NULL;
-  if (!status && plot) status = ambulo_batch_plot(directory, plot, NULL, diagnostics, &file);
+  ambulo_plot_options drawing = ambulo_plot_options_default();
+  drawing.where = where;
+  drawing.where_count = conditions;
+  if (!status && plot)
+    status = ambulo_batch_plot(directory, plot, &drawing, NULL, diagnostics, &file);
   if (file) printf("drawn to %s\n", file);
   ambulo_text_free(file, NULL);
   int failed = ambulo__cli_diagnostics(diagnostics, status, directory);
@@ -59,6 +72,9 @@ static const ambulo__cli_option options[] = {
     {"plot", 0, "X[,Y]:OUTPUT",
      "draw an output over one axis (curves) or two (a heat map), as SVG;\n"
      "every point names its case and leads to its gait.svg"},
+    {"where", 0, "NAME<VALUE",
+     "draw only the cases for which this holds (< <= > >= == !=; NAME is an\n"
+     "axis, an output, name or state); may be repeated"},
 };
 
 const ambulo__cli_command ambulo__cli_collect = {

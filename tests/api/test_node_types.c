@@ -48,7 +48,7 @@ static int is_plain_number(const ambulo__yaml_node *node) {
 /* Whether an accepted value may be of this type: of the one that stood there, or at one of the few
  * places where several are legal. */
 static int is_legal(const mutation *m) {
-  static const char *const either[] = {"source", "gait.step_time", "scale"};
+  static const char *const either[] = {"source", "gait.step_time", "scale", "outputs["};
   const char *path = ambulo__yaml_place(m->target).path, *value = m->replacement;
   int is_list = value[0] == '[', is_mapping = value[0] == '{', is_word = !is_list && !is_mapping;
   int is_number = value == mutation_values[0] || value == mutation_values[1];
@@ -228,11 +228,11 @@ static const char swing[] = "ambulo: 1\nkind: problem\nname: swing\nmodel: pendu
 static const char *const sweeps[] = {
     "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\ncombine: grid\n"
     "axes:\n"
-    "  - {key: time.duration, name: T, range: [0.8, 1.2, 0.2]}\n"
+    "  - {key: time.duration, name: T, label: time, unit: s, range: [0.8, 1.2, 0.2]}\n"
     "  - {key: 'objective[0].weight', values: [1, 2]}\n"
     "  - {key: time.intervals, name: n, linspace: [4, 8, 2]}\n"
     "filters: ['T < 1.1', 'n != 6']\ncase_name: 'a{T}_{n}_{objective[0].weight}'\n"
-    "outputs: [objective, max(tau.swing)]\nstart_from: neighbour\nalong: T\n"
+    "outputs: [objective, {output: max(tau.swing), label: torque, unit: N m}]\nstart_from: neighbour\nalong: T\n"
     "limits: {seconds: 5, megabytes: 500}\n",
     "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\ntable: t.csv\ncombine: zip\n"
     "axes:\n"
@@ -243,7 +243,7 @@ static const char *const sweeps[] = {
     "  - {name: two, set: {time.duration: 1.5}}\n",
     "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\n"
     "latin_hypercube:\n  samples: 3\n  seed: 1\n  axes:\n"
-    "    - {key: time.duration, name: T, range: [0.8, 1.2], whole: false}\n"
+    "    - {key: time.duration, name: T, label: l, unit: s, range: [0.8, 1.2], whole: false}\n"
     "    - {key: time.intervals, range: [4, 8], whole: true}\n"
     "random:\n  samples: 2\n  seed: 4\n  axes:\n"
     "    - {key: 'objective[0].weight', name: w, range: [1, 2]}\n"};

@@ -1,14 +1,13 @@
 /* Every step of a batch, its table and its drawing fails once: the k-th file operation of each
  * kind, the k-th request for memory. Whatever happens, no table says what is not so, no case counts
- * that is not whole, every failure has a message, and the next run makes all good.
- *
- * Workers are a script that writes a result of three lines, which differs from case to case. */
+ * that is not whole, every failure has a message, and the next run makes all good. */
 #define _DEFAULT_SOURCE /* syscall */
 #include "ambulo/report.h"
 #include "support/fail_alloc.h"
+#include "support/fake_batch.h"
 #include "support/faulty_files.h"
 #include "support/messages.h"
-#include "support/sweep_files.h"
+
 
 enum { CASES = 3 };
 
@@ -18,17 +17,8 @@ static const char study[] = "axes:\n  - {key: time.duration, name: T, values: [1
                             "start_from: neighbour\nalong: T\n"
                             "outputs: [objective, max(tau.pin)]\n";
 
-static const char worker[] =
-    "#!/bin/sh\n"
-    "n=${5##*/}; n=${n%%-*}; mkdir \"$5\" || exit 4; cd \"$5\" || exit 4\n"
-    "echo '{\"verdict\": \"optimal\", \"objective\": {\"total\": 1'$n'}, \"audit\": {\"violation\":"
-    " {\"worst\": 1e-9}}}' >summary.json\n"
-    "printf 'time,tau.pin\\n0,1\\n1,7%s\\n' $n >motion.csv\n"
-    "echo 'ambulo: 1' >solution.yaml\n";
-
 typedef struct world {
-  void **state;
-  ambulo_sweep *sweep;
+  fake_batch batch;
   const char *folder;
   char *table, *lines, *drawing; /* of an undisturbed run */
 } world;
@@ -36,36 +26,25 @@ typedef struct world {
 static world w;
 
 static ambulo_status run(const ambulo_allocator *allocator, ambulo_diagnostics *list) {
-  ambulo_batch_options options = ambulo_batch_options_default();
-  options.program = scratch_path(w.state, "worker");
-  options.workers = 1;
-  options.grace = 0.0;
-  return ambulo_batch_run(w.sweep, w.folder, &options, allocator, list, NULL);
+  return fake_batch_run(&w.batch, allocator, list);
 }
 
 static const char *in_folder(const char *name) {
-  char path[64];
-  (void)snprintf(path, sizeof path, "b/%s", name);
-  return scratch_path(w.state, path);
+  return fake_batch_path(&w.batch, name);
 }
 
 static ambulo_status draw(const ambulo_allocator *allocator, ambulo_diagnostics *list) {
   char *file = NULL;
   ambulo_status status =
-      ambulo_batch_plot(w.folder, "T:objective", allocator, list, &file);
+      ambulo_batch_plot(w.folder, "T:objective", NULL, allocator, list, &file);
   ambulo_text_free(file, allocator);
   return status;
 }
 
 static int open_world(void **state) {
-  static char folder[SCRATCH_PATH + 8];
-  if (scratch_open(state)) return -1;
-  (void)snprintf(folder, sizeof folder, "%s/b", (const char *)*state);
-  w = (world){.state = state, .folder = folder};
-  scratch_write(scratch_path(state, "worker"), worker);
-  if (chmod(scratch_path(state, "worker"), 0700)) return -1;
-  if (sweep_load(state, study, NULL, &w.sweep) || run(NULL, NULL)) return -1;
-  if (ambulo_batch_collect(folder, NULL, NULL, NULL) || draw(NULL, NULL)) return -1;
+  if (scratch_open(state) || fake_batch_open(&w.batch, state, study)) return -1;
+  w.folder = w.batch.folder;
+  if (ambulo_batch_collect(w.folder, NULL, NULL, NULL) || draw(NULL, NULL)) return -1;
   w.table = read_whole(in_folder("results.csv"));
   w.lines = read_whole(in_folder("results.jsonl"));
   w.drawing = read_whole(in_folder("results_T_objective.svg"));
@@ -76,7 +55,7 @@ static int close_world(void **state) {
   free(w.table);
   free(w.lines);
   free(w.drawing);
-  ambulo_sweep_free(w.sweep);
+  fake_batch_close(&w.batch);
   return scratch_close(state);
 }
 
@@ -379,7 +358,7 @@ static void files_fail_while_the_sweep_is_read(void **state) {
       ambulo_case one, same;
       for (int i = 0; sweep && i < CASES; i++) {
         assert_int_equal(ambulo_sweep_case(sweep, i, &one), AMBULO_OK);
-        assert_int_equal(ambulo_sweep_case(w.sweep, i, &same), AMBULO_OK);
+        assert_int_equal(ambulo_sweep_case(w.batch.sweep, i, &same), AMBULO_OK);
         assert_true(one.key == same.key);
       }
       ambulo_sweep_free(sweep);
