@@ -10,7 +10,7 @@
 typedef struct ambulo__text_buffer {
   ambulo_allocator allocator;
   struct ambulo__text_buffer *whole; /* that this one makes a part of; NULL: none */
-  char *data; /* NULL until the first append: use ambulo__text_data() */
+  char *data;                        /* NULL until the first append: use ambulo__text_data() */
   size_t length, capacity;
   int failed;
 } ambulo__text_buffer;

@@ -70,9 +70,9 @@ static void json_word(ambulo__json *json, const char *key, const char *text) {
 /* the row is written all the same, without outputs */
 static void tell_damage(const table *t, const ambulo__gathered *one) {
   const ambulo__listing *l = t->listing;
-  char *path =
-      ambulo__case_path(&l->allocator, t->directory,
-                        ambulo__listing_cell(l, one->index, AMBULO__LISTING_ID), one->damage->ending);
+  char *path = ambulo__case_path(&l->allocator, t->directory,
+                                 ambulo__listing_cell(l, one->index, AMBULO__LISTING_ID),
+                                 one->damage->ending);
   ambulo__place place = {path ? path : t->directory, 0, 0, NULL};
   ambulo__warning(t->diagnostics, place, NULL, "damaged: %s; case '%s' is left out",
                   one->damage->what, ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME));
@@ -144,8 +144,7 @@ static ambulo_status write_tables(const table *t) {
 static ambulo_status collect(const char *directory, const ambulo__listing *listing,
                              ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
   const ambulo_allocator *a = &listing->allocator;
-  table t = {
-      .directory = directory, .listing = listing, .diagnostics = diagnostics, .solved = -1};
+  table t = {.directory = directory, .listing = listing, .diagnostics = diagnostics, .solved = -1};
   t.found = ambulo__alloc(a, (size_t)listing->outputs, sizeof *t.found);
   ambulo__text_init(&t.csv, a);
   ambulo__text_init(&t.lines, a);

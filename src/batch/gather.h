@@ -15,10 +15,10 @@ typedef enum ambulo__gather_depth {
 
 typedef struct ambulo__gathered {
   int index;
-  const char *state;             /* of the record, or missing, stale, corrupt */
-  int valid;                     /* it has a valid solution */
-  const ambulo__output *value;   /* [outputs]: NONE where there are none */
-  const ambulo__damage *damage;  /* of a corrupt case, else NULL */
+  const char *state;            /* of the record, or missing, stale, corrupt */
+  int valid;                    /* it has a valid solution */
+  const ambulo__output *value;  /* [outputs]: NONE where there are none */
+  const ambulo__damage *damage; /* of a corrupt case, else NULL */
 } ambulo__gathered;
 
 /* Calls `take` for each case in order. Stops at the first failure of `take`, or where memory runs

@@ -251,9 +251,8 @@ static ambulo_status find_mark(const char *directory, const ambulo_allocator *a,
   char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
   if (!mark) return AMBULO_E_MEMORY;
   *there = stat(mark, &entry) == 0;
-  ambulo_status status = *there || errno == ENOENT
-                             ? AMBULO_OK
-                             : ambulo__io_error(diagnostics, mark, "inspect");
+  ambulo_status status =
+      *there || errno == ENOENT ? AMBULO_OK : ambulo__io_error(diagnostics, mark, "inspect");
   ambulo__free(a, mark);
   return status;
 }

@@ -103,8 +103,7 @@ static ambulo_status refuse_if_held(const char *path, ambulo_diagnostics *diagno
   char holder[AMBULO__HOLDER_TEXT];
   int file = open(path, O_RDONLY | O_CLOEXEC);
   if (file < 0) return ambulo__io_error(diagnostics, path, "open the lock");
-  ambulo_status status =
-      find_holder(file, holder) ? held(diagnostics, path, holder) : AMBULO_OK;
+  ambulo_status status = find_holder(file, holder) ? held(diagnostics, path, holder) : AMBULO_OK;
   close(file);
   return status;
 }

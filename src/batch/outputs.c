@@ -142,8 +142,8 @@ static ambulo_status load_summary(source *s) {
 
 static ambulo_status load_motion(source *s) {
   if (s->text) return AMBULO_OK;
-  ambulo_status status = ambulo__read_file(s->file, MOST_MOTION_BYTES, s->allocator,
-                                           s->diagnostics, &s->text, &s->motion.length);
+  ambulo_status status = ambulo__read_file(s->file, MOST_MOTION_BYTES, s->allocator, s->diagnostics,
+                                           &s->text, &s->motion.length);
   if (status) return status;
   s->motion.text = s->text;
   ambulo__place place = {s->file, 0, 0, NULL};

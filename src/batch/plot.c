@@ -38,8 +38,7 @@ static ambulo_status parse(ambulo__plot *p, const char *text) {
   const ambulo__listing *l = p->listing;
   char axes[WORD], *second;
   const char *colon = strchr(text, ':');
-  if (!colon || (size_t)(colon - text) >= sizeof axes)
-    return no_such(p, "plot", text);
+  if (!colon || (size_t)(colon - text) >= sizeof axes) return no_such(p, "plot", text);
   memcpy(axes, text, (size_t)(colon - text));
   axes[colon - text] = '\0';
   second = strchr(axes, ',');
@@ -117,10 +116,8 @@ static ambulo_status collect_points(ambulo__plot *p, const char *plot) {
   const ambulo__listing *l = p->listing;
   p->point = ambulo__alloc(&l->allocator, (size_t)l->cases, sizeof *p->point);
   ambulo_status status = p->point ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status)
-    status = ambulo__gather(p->directory, l, AMBULO__GATHER_OUTPUTS, add_point, p, NULL);
-  if (!status && p->values == 0)
-    return no_such(p, "number for the output of", plot);
+  if (!status) status = ambulo__gather(p->directory, l, AMBULO__GATHER_OUTPUTS, add_point, p, NULL);
+  if (!status && p->values == 0) return no_such(p, "number for the output of", plot);
   for (int i = 0; i < 2 && !status && p->axis[i].column >= 0; i++) {
     status = ambulo__plot_axis_make(l, p->point, p->points, p->axis[i].column, &p->axis[i]);
     for (int k = 0; k < p->points && !status; k++)

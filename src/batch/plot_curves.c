@@ -14,8 +14,8 @@
 
 static const double inset_words = 0.08, inset_numbers = 0.05, value_inset = 0.04;
 static const double most_room = 26.0; /* px that a mark may stand aside */
-enum { MANY_MARKS = 20000 };
-static const double largest_mark = 4.0, least_mark = 1.8;
+static const double least_mark = 1.6;
+enum { MANY_MARKS = 20000, MARK_SIZES = 6 };
 
 /* for words; numbers take shades */
 static const char *const palette[AMBULO__PLOT_COLOURS] = {
@@ -165,8 +165,7 @@ static void draw_legend(const curves *c, ambulo__text_buffer *svg) {
 
 static double x_of(const curves *c, int place) {
   const ambulo__plot *p = c->plot;
-  return p->layout.left +
-         p->layout.width * ambulo__plot_axis_share(&p->axis[0], place, c->inset);
+  return p->layout.left + p->layout.width * ambulo__plot_axis_share(&p->axis[0], place, c->inset);
 }
 
 /* cases without a value stand at the foot of the panel */
@@ -194,7 +193,8 @@ static ambulo_status place_marks(curves *c) {
   double *room = ambulo__alloc(a, (size_t)p->axis[0].count, sizeof *room);
   int ready = spot && room, hidden = 1, many = p->points > MANY_MARKS;
   for (int i = 0; ready && i < p->axis[0].count; i++) room[i] = room_at(c, i);
-  for (c->radius = many ? least_mark : largest_mark; ready && hidden && c->radius >= least_mark; c->radius -= 0.4) {
+  for (int size = many ? 0 : MARK_SIZES; ready && hidden && size >= 0; size--) {
+    c->radius = least_mark + 0.4 * size;
     for (int i = 0; i < p->points; i++) {
       const ambulo__plot_point *point = c->order[i].point;
       int place = point->place[0];
@@ -203,7 +203,6 @@ static ambulo_status place_marks(curves *c) {
     }
     hidden = many ? 0 : ambulo__plot_spread(spot, p->points, c->radius + 0.4, room);
   }
-  c->radius += 0.4;
   ambulo__free(a, (void *)spot);
   ambulo__free(a, room);
   return ready ? AMBULO_OK : AMBULO_E_MEMORY;
@@ -249,8 +248,7 @@ static ambulo_status prepare(curves *c, ambulo__text_buffer *svg) {
   sort_curves(c);
   ambulo_status status = choose_colour(c);
   if (status) return status;
-  double legend =
-      c->colour.column >= 0 ? ambulo__plot_legend_width(p, &c->colour, svg) : 0.0;
+  double legend = c->colour.column >= 0 ? ambulo__plot_legend_width(p, &c->colour, svg) : 0.0;
   ambulo__plot_arrange(p, 0, legend, "", svg);
   return place_marks(c);
 }

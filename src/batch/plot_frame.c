@@ -40,8 +40,7 @@ void ambulo__plot_begin(const ambulo__plot *p, ambulo__text_buffer *svg, const c
   ambulo__svg_label(svg, "subtitle", y->left, 56.0, ambulo__text_data(&text));
   ambulo__text_clear(&text);
   ambulo__plot_append_where(p, &text);
-  if (text.length > 0)
-    ambulo__svg_label(svg, "subtitle", y->left, 74.0, ambulo__text_data(&text));
+  if (text.length > 0) ambulo__svg_label(svg, "subtitle", y->left, 74.0, ambulo__text_data(&text));
   ambulo__text_free(&text);
   axis_names(p, svg);
 }
@@ -107,7 +106,8 @@ static void label_values(const ambulo__plot *p, ambulo__text_buffer *svg, int wh
     } else {
       ambulo__plot_append_cut(&label, axis->text[i], MOST_LABEL);
     }
-    label_at(p, svg, which, ambulo__plot_axis_share(axis, i, inset), ambulo__text_data(&label), &end);
+    label_at(p, svg, which, ambulo__plot_axis_share(axis, i, inset), ambulo__text_data(&label),
+             &end);
   }
   ambulo__text_free(&label);
 }

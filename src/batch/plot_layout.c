@@ -102,8 +102,8 @@ static double widest(const ambulo__plot_axis *axis, double *sum) {
   double most = 0.0;
   *sum = 0.0;
   for (int i = 0; i < axis->count; i++) {
-    double width = fmin(ambulo__plot_text_width(axis->text[i], small, 0),
-                        (MOST_LABEL + 1) * small * 0.62);
+    double width =
+        fmin(ambulo__plot_text_width(axis->text[i], small, 0), (MOST_LABEL + 1) * small * 0.62);
     *sum += width + 10.0;
     most = fmax(most, width);
   }

@@ -12,7 +12,7 @@
 #include <string.h>
 
 static const double cloud_inset = 0.02, dot = 3.2, least_dot = 1.6, scale_height = 200.0;
-enum { SCALE_STEPS = 24 };
+enum { SCALE_STEPS = 24, DOT_SIZES = 4 };
 
 static int by_cell(const void *left, const void *right) {
   const ambulo__plot_point *a = *(ambulo__plot_point *const *)left,
@@ -77,7 +77,8 @@ typedef struct dots {
 
 static int fit_dots(const cell *c, dots *d) {
   double width = c->width - 8.0, height = 0.5 * c->height - 8.0;
-  for (d->radius = dot; d->radius >= least_dot; d->radius -= 0.4) {
+  for (int size = DOT_SIZES; size >= 0; size--) {
+    d->radius = least_dot + 0.4 * size;
     d->gap = 2.0 * d->radius + 2.5;
     if (width < d->gap || height < d->gap) continue;
     d->columns = (int)(width / d->gap);
@@ -94,7 +95,8 @@ static void draw_dots(const ambulo__plot *p, ambulo__text_buffer *svg, const cel
   double top = c->y + c->height - 6.0 - d->gap * (d->rows - 0.5);
   for (int i = 0; i < c->cases; i++) {
     const ambulo__plot_point *point = c->point[i];
-    double x = left + d->gap * (i % columns), y = top + d->gap * (i / columns);
+    int row = i / columns;
+    double x = left + d->gap * (i % columns), y = top + d->gap * row;
     char colour[8];
     ambulo__plot_shade(ambulo__plot_share(p, point->value), colour);
     ambulo__plot_case_begin(p, svg, point);
@@ -207,8 +209,8 @@ static void draw_cloud(ambulo__plot *p, ambulo__text_buffer *svg) {
   ambulo__svg_rectangle(svg, "soil", l->left, l->top, l->width, l->height);
   for (int i = 0; i < p->points; i++) {
     const ambulo__plot_point *point = &p->point[i];
-    double x = l->left + l->width * ambulo__plot_axis_share(&p->axis[0], point->place[0],
-                                                            cloud_inset);
+    double x =
+        l->left + l->width * ambulo__plot_axis_share(&p->axis[0], point->place[0], cloud_inset);
     double y = l->top + l->height * (1.0 - ambulo__plot_axis_share(&p->axis[1], point->place[1],
                                                                    cloud_inset));
     char colour[8];

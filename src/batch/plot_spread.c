@@ -32,8 +32,11 @@ int ambulo__plot_spread(ambulo__plot_spot **spot, int count, double radius, cons
   for (int i = 0; i < count; i++) {
     double own = spot[i]->x, most = room[spot[i]->place];
     int found = 0;
-    for (int step = 0; 0.5 * size * ((step + 1) / 2) <= most && !found; step++) {
-      double aside = 0.5 * size * ((step + 1) / 2) * (step % 2 ? 1.0 : -1.0);
+    for (int step = 0; !found; step++) {
+      int halves = (step + 1) / 2; /* 0, 1, -1, 2, -2 ... */
+      double aside = 0.5 * size * halves;
+      if (aside > most) break;
+      if (step % 2 == 0) aside = -aside;
       found = is_free(spot, i, own + aside, size);
       if (found) spot[i]->x = own + aside;
     }

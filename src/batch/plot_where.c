@@ -50,9 +50,9 @@ ambulo_status ambulo__plot_check_where(const ambulo__plot *p) {
     const char *condition = p->options.where[i] ? p->options.where[i] : "";
     char left[AMBULO__SWEEP_TEXT], right[AMBULO__SWEEP_TEXT];
     if (!ambulo__filter_sides(condition, left, right))
-      return ambulo__error(p->diagnostics, AMBULO_E_ARGUMENT, place, NULL,
-                           "'%.200s' is no comparison; expected NAME < VALUE with < <= > >= == !=",
-                           condition);
+      return ambulo__error(
+          p->diagnostics, AMBULO_E_ARGUMENT, place, NULL,
+          "'%.200s' is no comparison; expected NAME < VALUE with < <= > >= == !=", condition);
     if (!is_column(p->listing, left) && !is_column(p->listing, right))
       return no_column(p, condition, left);
   }

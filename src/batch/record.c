@@ -167,8 +167,7 @@ ambulo_status ambulo__record_find(const char *directory, const char *id, unsigne
   ambulo__record read;
   int intact = 1;
   char *path = ambulo__case_path(a, directory, id, record_file);
-  ambulo_status status =
-      path ? read_record(path, id, a, &found, &read, damage) : AMBULO_E_MEMORY;
+  ambulo_status status = path ? read_record(path, id, a, &found, &read, damage) : AMBULO_E_MEMORY;
   ambulo__free(a, path);
   if (!status && found == AMBULO__FOUND_INTACT && read.key != key) found = AMBULO__FOUND_STALE;
   if (!status && found == AMBULO__FOUND_INTACT && files)

@@ -106,8 +106,8 @@ static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) 
 static ambulo_status hash_file(ambulo_sweep *s, const char *path, unsigned long long *hash) {
   char *text = NULL;
   size_t length = 0;
-  ambulo_status status = ambulo__read_file(path, MOST_BASE_BYTES, &s->allocator, s->diagnostics,
-                                           &text, &length);
+  ambulo_status status =
+      ambulo__read_file(path, MOST_BASE_BYTES, &s->allocator, s->diagnostics, &text, &length);
   if (!status) *hash = ambulo__hash_text(AMBULO__HASH_START, text);
   ambulo__free(&s->allocator, text);
   return status;

@@ -63,8 +63,8 @@ struct ambulo_sweep {
   int axes;
   ambulo__axis_group group[AMBULO__SWEEP_AXES];
   int groups;
-  int zipped; /* the first so many axes advance together; 0: none */
-  char **filter; /* [filters] */
+  int zipped;                   /* the first so many axes advance together; 0: none */
+  char **filter;                /* [filters] */
   ambulo__sweep_output *output; /* [outputs] */
   int filters, outputs;
   int chain_axis;      /* neighbours along it start from each other; -1: none */
@@ -112,8 +112,8 @@ ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
 /* Its place in the sweep file or the table. */
 ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
 
-/* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what was
- * not read any more is no stranger. Returns `status`. */
+/* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
+ * was not read any more is no stranger. Returns `status`. */
 ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status);
 
 /* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one

@@ -169,8 +169,8 @@ static ambulo_status add_explicit_axes(ambulo_sweep *s, const ambulo__yaml_node 
       const char *key = ambulo__yaml_key(set, j);
       ambulo__axis *axis;
       if (axis_of_key(s, key) < 0)
-        status = ambulo__sweep_add_axis(s, "", key, ambulo__spot_of(ambulo__yaml_value(set, j)),
-                                        &axis);
+        status =
+            ambulo__sweep_add_axis(s, "", key, ambulo__spot_of(ambulo__yaml_value(set, j)), &axis);
     }
   }
   return status;

@@ -125,10 +125,11 @@ static ambulo_status names_differ(ambulo_sweep *s) {
     size_t at = (size_t)ambulo__hash_text(AMBULO__HASH_START, name) & (slots - 1);
     while (slot[at] >= 0 && strcmp(s->cases[slot[at]].name, name) != 0) at = (at + 1) & (slots - 1);
     if (slot[at] >= 0)
-      status = ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot),
-                             "name every axis that varies in case_name, or leave it out",
-                             "two cases are named '%s' (%s and %s); expected different names", name,
-                             s->cases[slot[at]].id, s->cases[k].id);
+      status =
+          ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot),
+                        "name every axis that varies in case_name, or leave it out",
+                        "two cases are named '%s' (%s and %s); expected different names", name,
+                        s->cases[slot[at]].id, s->cases[k].id);
     slot[at] = k;
   }
   ambulo__free(&s->allocator, slot);

@@ -126,8 +126,8 @@ ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,
                               axis->name);
   const char *text = ambulo__yaml_text(node);
   return text[0] ? ambulo__axis_add_text(sweep, axis, text, strlen(text), ambulo__spot_of(node))
-                 : ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                                      "no value of '%s'; expected one", axis->name);
+                 : ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "no value of '%s'; expected one",
+                                      axis->name);
 }
 
 /* [first, last, step], both ends included where a step lands on them */
@@ -214,7 +214,7 @@ static ambulo_status sample_axis(ambulo_sweep *sweep, const ambulo__yaml_node *n
       !ambulo__yaml_is(key, AMBULO__YAML_SCALAR))
     return AMBULO_E_SCHEMA;
   ambulo_status status = ambulo__sweep_add_axis(sweep, name, path, ambulo__spot_of(key), &axis);
-  if (status) return status;
+  if (status || !axis) return status;
   status = ambulo__sweep_read_label(sweep, axis, node);
   int *order = ambulo__alloc(&sweep->allocator, (size_t)samples, sizeof *order);
   if (!order) return AMBULO_E_MEMORY;

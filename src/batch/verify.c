@@ -19,8 +19,8 @@ static ambulo_status look(void *user, const ambulo__gathered *one) {
   const char *id = ambulo__listing_cell(l, one->index, AMBULO__LISTING_ID);
   char *path = ambulo__case_path(&l->allocator, v->directory, id, one->damage->ending);
   if (!path) return AMBULO_E_MEMORY;
-  ambulo_batch_damage damage = {
-      id, ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME), path, one->damage->what};
+  ambulo_batch_damage damage = {id, ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME), path,
+                                one->damage->what};
   v->damaged(v->user, &damage);
   ambulo__free(&l->allocator, path);
   return AMBULO_OK;
@@ -38,8 +38,7 @@ static ambulo_status inspect(const char *directory, ambulo__gather_depth depth, 
     v->listing = &listing;
     status = ambulo__gather(directory, &listing, depth, look, v, &counted);
     if (!status)
-      status =
-          ambulo__lock_holder(directory, &listing.allocator, diagnostics, counted.holder);
+      status = ambulo__lock_holder(directory, &listing.allocator, diagnostics, counted.holder);
     ambulo__listing_free(&listing);
   }
   if (!status && census) *census = counted;

@@ -56,7 +56,12 @@ static void try_at(const char *name, call function, long k, int only_once, int *
   }
   assert_true(right);
   assert_int_equal(memory.live, 0);
-  if (told && ambulo_diagnostics_get(list, 0)->status != AMBULO_E_MEMORY) { char text[512]; ambulo_diagnostics_format(list, 0, text, sizeof text); print_error("%s request %ld once %d: %s\n", name, k, only_once, text); fail(); }
+  if (told && ambulo_diagnostics_get(list, 0)->status != AMBULO_E_MEMORY) {
+    char text[512];
+    ambulo_diagnostics_format(list, 0, text, sizeof text);
+    print_error("%s request %ld once %d: %s\n", name, k, only_once, text);
+    fail();
+  }
   ambulo_diagnostics_free(list);
   *failed = memory.failed;
 }
@@ -81,10 +86,9 @@ static ambulo_status load_model(const ambulo_allocator *a, ambulo_diagnostics *l
 }
 
 static ambulo_status load_model_text(const ambulo_allocator *a, ambulo_diagnostics *list) {
-  static const char text[] =
-      "ambulo: 1\nname: t\nunits: {angle: degrees}\nlinks:\n"
-      "  - {name: rod, parent: none, joint: revolute, dh: [0, 0, 1, 0],\n"
-      "     body: {mass: 2, com: [0, 0, 0], gyration: [0.1, 0.1, 0.1]}}\n";
+  static const char text[] = "ambulo: 1\nname: t\nunits: {angle: degrees}\nlinks:\n"
+                             "  - {name: rod, parent: none, joint: revolute, dh: [0, 0, 1, 0],\n"
+                             "     body: {mass: 2, com: [0, 0, 0], gyration: [0.1, 0.1, 0.1]}}\n";
   ambulo_model *model = NULL;
   ambulo_status status =
       ambulo_model_load_text(text, sizeof text - 1, "t.yaml", NULL, a, list, &model);
@@ -113,7 +117,8 @@ static ambulo_status load_problem(const ambulo_allocator *a, ambulo_diagnostics 
 /* a reference motion, a table of its own */
 static ambulo_status load_tracking(const ambulo_allocator *a, ambulo_diagnostics *list) {
   ambulo_problem *problem = NULL;
-  ambulo_status status = ambulo_problem_load(MODEL "walk_tracking.yaml", NULL, 0, a, list, &problem);
+  ambulo_status status =
+      ambulo_problem_load(MODEL "walk_tracking.yaml", NULL, 0, a, list, &problem);
   ambulo_problem_free(problem);
   return status;
 }
@@ -123,8 +128,8 @@ static ambulo_status load_problem_text(const ambulo_allocator *a, ambulo_diagnos
       "ambulo: 1\nkind: problem\nmodel: pendulum.yaml\ntime: {duration: 1, intervals: 4}\n"
       "objective:\n  - {term: torque_squared, weight: 1, scale: {swing: 2}}\n";
   ambulo_problem *problem = NULL;
-  ambulo_status status = ambulo_problem_load_text(text, sizeof text - 1, "p", MODEL, NULL, 0, a,
-                                                  list, &problem);
+  ambulo_status status =
+      ambulo_problem_load_text(text, sizeof text - 1, "p", MODEL, NULL, 0, a, list, &problem);
   ambulo_problem_free(problem);
   return status;
 }
@@ -170,9 +175,8 @@ static ambulo_status write_report(const ambulo_allocator *a, ambulo_diagnostics 
 
 static ambulo_status compare_folder(const ambulo_allocator *a, ambulo_diagnostics *list) {
   ambulo_comparison *comparison = NULL;
-  ambulo_status status = ambulo_compare(scratch_path(w.state, "gait"),
-                                        scratch_path(w.state, "band.csv"), NULL, a, list,
-                                        &comparison);
+  ambulo_status status = ambulo_compare(
+      scratch_path(w.state, "gait"), scratch_path(w.state, "band.csv"), NULL, a, list, &comparison);
   ambulo_comparison_free(comparison);
   return status;
 }

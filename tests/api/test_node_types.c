@@ -142,9 +142,8 @@ static void models(void **state) {
 
 static ambulo_status read_problem(reading *r, const mutation *m, ambulo_diagnostics *list) {
   ambulo_problem *problem = NULL;
-  ambulo_status status =
-      ambulo_problem_load_text(m->text, m->length, r->name, AMBULO_SOURCE_DIR "/models/", NULL, 0,
-                               NULL, list, &problem);
+  ambulo_status status = ambulo_problem_load_text(
+      m->text, m->length, r->name, AMBULO_SOURCE_DIR "/models/", NULL, 0, NULL, list, &problem);
   assert_true((problem != NULL) == (status == AMBULO_OK));
   ambulo_problem_free(problem);
   return status;
@@ -232,7 +231,8 @@ static const char *const sweeps[] = {
     "  - {key: 'objective[0].weight', values: [1, 2]}\n"
     "  - {key: time.intervals, name: n, linspace: [4, 8, 2]}\n"
     "filters: ['T < 1.1', 'n != 6']\ncase_name: 'a{T}_{n}_{objective[0].weight}'\n"
-    "outputs: [objective, {output: max(tau.swing), label: torque, unit: N m}]\nstart_from: neighbour\nalong: T\n"
+    "outputs: [objective, {output: max(tau.swing), label: torque, unit: N m}]\nstart_from: "
+    "neighbour\nalong: T\n"
     "limits: {seconds: 5, megabytes: 500}\n",
     "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\ntable: t.csv\ncombine: zip\n"
     "axes:\n"
@@ -302,9 +302,8 @@ static ambulo_status read_solution(reading *r, const mutation *m, ambulo_diagnos
 
 static void solutions(void **state) {
   ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load_text(swing, strlen(swing), "p",
-                                            AMBULO_SOURCE_DIR "/models/", NULL, 0, NULL, NULL,
-                                            &problem),
+  assert_int_equal(ambulo_problem_load_text(swing, strlen(swing), "p", AMBULO_SOURCE_DIR "/models/",
+                                            NULL, 0, NULL, NULL, &problem),
                    AMBULO_OK);
   reading r = {.name = scratch_path(state, "m.yaml"), .read = read_solution, .user = problem};
   r.path = r.name;
@@ -358,8 +357,11 @@ static void summaries(void **state) {
 
 int main(void) {
 #define SCRATCH(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(models), cmocka_unit_test(problems),
-      SCRATCH(keys_that_no_shipped_problem_has), SCRATCH(all_sweeps), SCRATCH(solutions), SCRATCH(summaries)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(models),
+                                     cmocka_unit_test(problems),
+                                     SCRATCH(keys_that_no_shipped_problem_has),
+                                     SCRATCH(all_sweeps),
+                                     SCRATCH(solutions),
+                                     SCRATCH(summaries)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

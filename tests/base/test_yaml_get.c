@@ -6,7 +6,8 @@ static void expect_value_error(const char *value, char kind, const char *want) {
   static const char *const words[] = {"slsqp", "auglag", "auto"};
   char text[256], message[512];
   (void)snprintf(text, sizeof text, "v:%s%s\n", value[0] ? " " : "", value);
-  (void)snprintf(message, sizeof message, "t.yaml:1:%d: error[E_SCHEMA]: %s", value[0] ? 4 : 3, want);
+  (void)snprintf(message, sizeof message, "t.yaml:1:%d: error[E_SCHEMA]: %s", value[0] ? 4 : 3,
+                 want);
   yaml_case c = yaml_open(text);
   assert_int_equal(c.status, AMBULO_OK);
   const ambulo__yaml_node *node = ambulo__yaml_get(c.root, "v");
@@ -250,7 +251,8 @@ static void missing_and_unknown_keys(void **state) {
 static void every_getter_takes_every_node(void **state) {
   (void)state;
   static const char *const words[] = {"a"};
-  yaml_case c = yaml_open("n: 1\nw: word\ne:\nq: ''\nl: []\nL: [[1], {a: 1}]\nm: {}\nM: {a: [1]}\n");
+  yaml_case c =
+      yaml_open("n: 1\nw: word\ne:\nq: ''\nl: []\nL: [[1], {a: 1}]\nm: {}\nM: {a: [1]}\n");
   for (int i = -1; i <= ambulo__yaml_pairs(c.root); i++) {
     const ambulo__yaml_node *node = ambulo__yaml_value(c.root, i);
     double pair[2];

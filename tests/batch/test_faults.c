@@ -8,7 +8,6 @@
 #include "support/faulty_files.h"
 #include "support/messages.h"
 
-
 enum { CASES = 3 };
 
 /* two cases in a chain, and one by itself */
@@ -35,8 +34,7 @@ static const char *in_folder(const char *name) {
 
 static ambulo_status draw(const ambulo_allocator *allocator, ambulo_diagnostics *list) {
   char *file = NULL;
-  ambulo_status status =
-      ambulo_batch_plot(w.folder, "T:objective", NULL, allocator, list, &file);
+  ambulo_status status = ambulo_batch_plot(w.folder, "T:objective", NULL, allocator, list, &file);
   ambulo_text_free(file, allocator);
   return status;
 }
@@ -88,7 +86,8 @@ static void expect_good_in_the_end(void) {
   assert_int_equal(run(NULL, NULL), AMBULO_OK);
   assert_int_equal(ambulo_batch_collect(w.folder, NULL, NULL, &census), AMBULO_OK);
   assert_int_equal(census.done, CASES);
-  char *table = read_whole(in_folder("results.csv")), *lines = read_whole(in_folder("results.jsonl"));
+  char *table = read_whole(in_folder("results.csv")),
+       *lines = read_whole(in_folder("results.jsonl"));
   assert_string_equal(table, w.table);
   assert_string_equal(lines, w.lines);
   free(table);
@@ -255,9 +254,9 @@ static void files_fail_while_it_is_verified(void **state) {
         ambulo_batch_census census;
         ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
         fault_arm((fault_kind)kind, k);
-        ambulo_status status =
-            verify ? ambulo_batch_verify(w.folder, NULL, NULL, NULL, list, &census)
-                   : ambulo_batch_status(w.folder, NULL, list, &census);
+        ambulo_status status = verify
+                                   ? ambulo_batch_verify(w.folder, NULL, NULL, NULL, list, &census)
+                                   : ambulo_batch_status(w.folder, NULL, list, &census);
         int hit = fault_disarm();
         expect_told(status, list);
         if (!status) assert_int_equal(census.done + census.corrupt, CASES);
@@ -277,9 +276,9 @@ static void memory_fails_while_it_is_verified(void **state) {
       ambulo_allocator hook = fail_alloc_hook(&memory);
       ambulo_batch_census census;
       ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-      ambulo_status status =
-          verify ? ambulo_batch_verify(w.folder, NULL, NULL, &hook, list, &census)
-                 : ambulo_batch_status(w.folder, &hook, list, &census);
+      ambulo_status status = verify
+                                 ? ambulo_batch_verify(w.folder, NULL, NULL, &hook, list, &census)
+                                 : ambulo_batch_status(w.folder, &hook, list, &census);
       expect_told(status, list);
       assert_int_equal(memory.live, 0);
       assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
@@ -351,8 +350,7 @@ static void files_fail_while_the_sweep_is_read(void **state) {
       ambulo_sweep *sweep = NULL;
       ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
       fault_arm((fault_kind)kind, k);
-      ambulo_status status =
-          ambulo_sweep_load(scratch_path(state, "s.yaml"), NULL, list, &sweep);
+      ambulo_status status = ambulo_sweep_load(scratch_path(state, "s.yaml"), NULL, list, &sweep);
       int hit = fault_disarm();
       expect_told(status, list);
       ambulo_case one, same;
@@ -392,12 +390,16 @@ static void memory_fails_while_the_sweep_is_read(void **state) {
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
-  const struct CMUnitTest tests[] = {
-      TEST(files_fail_while_it_runs),          TEST(files_fail_while_it_resumes),
-      TEST(memory_fails_while_it_runs),        TEST(files_fail_while_it_collects),
-      TEST(memory_fails_while_it_collects),    TEST(files_fail_while_it_is_verified),
-      TEST(memory_fails_while_it_is_verified), TEST(files_fail_while_it_is_drawn),
-      TEST(memory_fails_while_it_is_drawn),    TEST(files_fail_while_the_sweep_is_read),
-      TEST(memory_fails_while_the_sweep_is_read)};
+  const struct CMUnitTest tests[] = {TEST(files_fail_while_it_runs),
+                                     TEST(files_fail_while_it_resumes),
+                                     TEST(memory_fails_while_it_runs),
+                                     TEST(files_fail_while_it_collects),
+                                     TEST(memory_fails_while_it_collects),
+                                     TEST(files_fail_while_it_is_verified),
+                                     TEST(memory_fails_while_it_is_verified),
+                                     TEST(files_fail_while_it_is_drawn),
+                                     TEST(memory_fails_while_it_is_drawn),
+                                     TEST(files_fail_while_the_sweep_is_read),
+                                     TEST(memory_fails_while_the_sweep_is_read)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

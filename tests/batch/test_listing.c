@@ -167,7 +167,8 @@ static void no_folder_no_listing(void **state) {
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
-  const struct CMUnitTest tests[] = {TEST(it_is_read_back), TEST(damage_is_told),
+  const struct CMUnitTest tests[] = {TEST(it_is_read_back),
+                                     TEST(damage_is_told),
                                      TEST(fields_of_another_type_are_damage),
                                      TEST(nonsense_is_told_with_its_line),
                                      TEST(folders_of_other_versions_are_named),

@@ -68,7 +68,7 @@ static void what_cannot_be_read_is_told(void **state) {
       {"summary.json", "{\"verdict\": \"opt", "verdict", AMBULO_E_PARSE, "summary.json:"},
       {"motion.csv", "# units\n", "max(q.pin)", AMBULO_E_PARSE, "motion.csv: error[E_PARSE]"}};
   for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
-    char path[128], *output[] = {(char *)(uintptr_t)"objective.terms.a", NULL};
+    char path[128], *output[] = {(char *)(uintptr_t) "objective.terms.a", NULL};
     ambulo__output value[2] = {{.number = 17.0}, {.number = 17.0}};
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     output[1] = (char *)(uintptr_t)faults[i].output;
@@ -92,7 +92,7 @@ static void what_cannot_be_read_is_told(void **state) {
 
 /* the k-th request for memory fails: E_MEMORY, never a value that is missing */
 static void without_memory_no_value_is_missing(void **state) {
-  char *output[] = {(char *)(uintptr_t)"objective", (char *)(uintptr_t)"max(q.pin)"};
+  char *output[] = {(char *)(uintptr_t) "objective", (char *)(uintptr_t) "max(q.pin)"};
   make_result(state);
   for (long k = 0;; k++) {
     fail_alloc memory = fail_alloc_at(k);

@@ -1,4 +1,5 @@
-/* Drawings of a study: what is joined, what is left out, and that nothing hides or leaves the page. */
+/* Drawings of a study: what is joined, what is left out, and that nothing hides or leaves the page.
+ */
 #include "ambulo/report.h"
 #include "batch/plot.h"
 #include "support/fake_batch.h"
@@ -63,7 +64,8 @@ static void only_cases_of_one_device_are_joined(void **state) {
   char *text = draw("time.duration:objective", NULL, 0);
   assert_int_equal(count(text, "<circle"), 4 + 2);
   assert_int_equal(count(text, "class=\"thin\""), 2);
-  for (const char *c = text; (c = strstr(c, "class=\"thin\"")); c++) /* stiff to stiff, soft to soft */
+  for (const char *c = text; (c = strstr(c, "class=\"thin\""));
+       c++) /* stiff to stiff, soft to soft */
     assert_close(attribute(c, "x2") - attribute(c, "x1"), 531.0 * 2.0 / 3.0, 1e-3);
   free(text);
   fake_batch_close(&b);
@@ -106,7 +108,9 @@ static void conditions_take_cases_away(void **state) {
   assert_int_equal(count(text, "<a href"), 4);
   free(text);
   assert_int_equal(access(fake_batch_path(&b, "results_T_objective_where_device____brace_and_T___3"
-                                              ".svg"), F_OK), 0);
+                                              ".svg"),
+                          F_OK),
+                   0);
   fake_batch_close(&b);
 }
 
@@ -162,7 +166,7 @@ static void expect_marks_apart(const char *text, int most) {
 
 #define LONG_NAME "the_second_of_two_subjects_with_an_ankle_prosthesis_and_a_cane"
 #define LONG                                                                                       \
-  "axes:\n  - {key: time.duration, name: T, label: a long way to say how long it lasts,\n"        \
+  "axes:\n  - {key: time.duration, name: T, label: a long way to say how long it lasts,\n"         \
   "     unit: seconds of the wall clock, values: [1, 2]}\n"                                        \
   "  - {key: name, name: device, label: 'device, as its maker calls it in the brochure',\n"        \
   "     values: [none, " LONG_NAME "]}\n"                                                          \
@@ -231,13 +235,10 @@ static void dots_of_a_cell_stand_apart(void **state) {
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
-  const struct CMUnitTest tests[] = {TEST(only_cases_of_one_device_are_joined),
-                                     TEST(axes_that_are_zipped_count_as_one),
-                                     TEST(conditions_take_cases_away),
-                                     TEST(conditions_that_mean_nothing_are_refused),
-                                     TEST(long_texts_stay_on_the_page),
-                                     TEST(axes_have_names_and_units),
-                                     TEST(equal_cases_do_not_hide_each_other),
-                                     TEST(dots_of_a_cell_stand_apart)};
+  const struct CMUnitTest tests[] = {
+      TEST(only_cases_of_one_device_are_joined), TEST(axes_that_are_zipped_count_as_one),
+      TEST(conditions_take_cases_away),          TEST(conditions_that_mean_nothing_are_refused),
+      TEST(long_texts_stay_on_the_page),         TEST(axes_have_names_and_units),
+      TEST(equal_cases_do_not_hide_each_other),  TEST(dots_of_a_cell_stand_apart)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

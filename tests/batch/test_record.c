@@ -54,8 +54,8 @@ static ambulo__record finish(void **state) {
 static ambulo__finding find(void **state, int files, ambulo__record *record,
                             ambulo__damage *damage) {
   ambulo__finding finding = AMBULO__FOUND_NOTHING;
-  assert_int_equal(
-      ambulo__record_find(*state, id, KEY, files, &plain, &finding, record, damage), AMBULO_OK);
+  assert_int_equal(ambulo__record_find(*state, id, KEY, files, &plain, &finding, record, damage),
+                   AMBULO_OK);
   return finding;
 }
 
@@ -95,8 +95,8 @@ static void other_inputs_and_earlier_versions_are_stale(void **state) {
   ambulo__damage damage;
   ambulo__finding finding;
   (void)finish(state);
-  assert_int_equal(
-      ambulo__record_find(*state, id, KEY + 1, 1, &plain, &finding, &back, &damage), AMBULO_OK);
+  assert_int_equal(ambulo__record_find(*state, id, KEY + 1, 1, &plain, &finding, &back, &damage),
+                   AMBULO_OK);
   assert_int_equal(finding, AMBULO__FOUND_STALE);
   scratch_write(scratch_path(state, record_path),
                 "{\"schema\": \"ambulo-case/1\", \"id\": \"000000001-0000abcd\"}\n");
@@ -129,10 +129,9 @@ static void damage_of_the_record_is_seen(void **state) {
 }
 
 static void damage_of_any_file_is_seen(void **state) {
-  static const char *const files[] = {"cases/cd/000000001-0000abcd.log",
-                                      "cases/cd/000000001-0000abcd/motion.csv",
-                                      "cases/cd/000000001-0000abcd/solution.yaml",
-                                      "cases/cd/000000001-0000abcd/summary.json"};
+  static const char *const files[] = {
+      "cases/cd/000000001-0000abcd.log", "cases/cd/000000001-0000abcd/motion.csv",
+      "cases/cd/000000001-0000abcd/solution.yaml", "cases/cd/000000001-0000abcd/summary.json"};
   ambulo__record back;
   ambulo__damage damage;
   (void)finish(state);

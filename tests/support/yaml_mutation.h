@@ -10,8 +10,8 @@
 #include "support/test.h"
 
 static const char *const mutation_values[] = {
-    "7", "-0.25", "nonsense", "", "\"quoted\"", "[]", "[7]", "[[1, 2], [3]]",
-    "{}", "{a: 1}", "{a: {b: [1]}}"};
+    "7",   "-0.25",         "nonsense", "",       "\"quoted\"",   "[]",
+    "[7]", "[[1, 2], [3]]", "{}",       "{a: 1}", "{a: {b: [1]}}"};
 enum { MUTATION_VALUES = sizeof mutation_values / sizeof *mutation_values };
 
 typedef struct mutation {
