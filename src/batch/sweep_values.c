@@ -5,11 +5,13 @@
  * MMIX), its upper 53 bits as a fraction. Latin hypercube: every axis is cut into as many equal
  * strata as there are samples, each used once, in an order shuffled by axis (McKay, Beckman &
  * Conover, Technometrics 21, 1979). */
+#include "base/file_steps.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
 #include "batch/paths.h"
 #include "batch/sweep.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -51,10 +53,17 @@ int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name) {
   return -1;
 }
 
-/* a value is a word, a number, a name of a file, or whatever else: only the latter is read */
-static int is_file(const char *path) {
+/* A value is a word, a number, a name of a file, or whatever else. *yes: a file of this name is
+ * there. That nobody can tell is an error: another key would be computed. */
+static ambulo_status is_file(const ambulo_sweep *sweep, const char *path, int *yes) {
   struct stat entry;
-  return stat(path, &entry) == 0 && S_ISREG(entry.st_mode) && entry.st_size <= MOST_FILE_BYTES;
+  *yes = 0;
+  if (stat(path, &entry) == 0) {
+    *yes = S_ISREG(entry.st_mode) && entry.st_size <= MOST_FILE_BYTES;
+    return AMBULO_OK;
+  }
+  int none = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG || errno == ELOOP;
+  return none ? AMBULO_OK : ambulo__io_error(sweep->diagnostics, path, "inspect");
 }
 
 /* *hash of the regular file that a value names, seen from the base problem; 0: no such file */
@@ -66,8 +75,9 @@ static ambulo_status hash_named_file(const ambulo_sweep *sweep, const char *name
   const char *base = sweep->base ? sweep->base : sweep->path;
   char *path = ambulo__sibling_path(&sweep->allocator, base, name), *text = NULL;
   size_t length = 0;
-  ambulo_status status = path ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (path && is_file(path)) {
+  int yes = 0;
+  ambulo_status status = path ? is_file(sweep, path, &yes) : AMBULO_E_MEMORY;
+  if (yes) {
     status = ambulo__read_file(path, MOST_FILE_BYTES, &sweep->allocator, sweep->diagnostics, &text,
                                &length);
     if (!status) *hash = ambulo__hash_text(AMBULO__HASH_START, text);

@@ -87,7 +87,7 @@ const ambulo__cli_command ambulo__cli_collect = {
         "however they were computed. Every file is compared with its checksum. Exit code 0: every\n"
         "case is finished; 1: some are missing, or stale (of other inputs); 4: some are corrupt\n"
         "(damaged since, or cannot be read). The table is written all the same and says which.",
-    .example = "ambulo collect walks --plot speed:objective",
+    .example = "ambulo collect walks --plot gait.speed:objective --where 'sex == male'",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
