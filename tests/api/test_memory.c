@@ -56,10 +56,11 @@ static void try_at(const char *name, call function, long k, int only_once, int *
   }
   assert_true(right);
   assert_int_equal(memory.live, 0);
-  if (told && ambulo_diagnostics_get(list, 0)->status != AMBULO_E_MEMORY) {
-    char text[512];
-    ambulo_diagnostics_format(list, 0, text, sizeof text);
-    print_error("%s request %ld once %d: %s\n", name, k, only_once, text);
+  /* and nothing that may only come of it is told beside */
+  for (size_t i = 0; i < ambulo_diagnostics_count(list); i++) {
+    const ambulo_diagnostic *one = ambulo_diagnostics_get(list, i);
+    if (one->severity != AMBULO_ERROR || one->status == AMBULO_E_MEMORY) continue;
+    print_error("%s, request %ld: %s\n", name, k, one->message);
     fail();
   }
   ambulo_diagnostics_free(list);

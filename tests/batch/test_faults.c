@@ -77,6 +77,32 @@ static void shards_do_not_run_unguarded(void **state) {
   }
 }
 
+/* nor is it overlooked that the folder belongs to another sweep */
+static void other_inputs_are_refused_whatever_fails(void **state) {
+  static const fault_kind kinds[] = {FAULT_OPEN, FAULT_READ, FAULT_STAT, FAULT_OPENDIR};
+  fake_batch other = {.state = state};
+  memcpy(other.folder, w.folder, strlen(w.folder) + 1);
+  assert_int_equal(sweep_load(state, "axes:\n  - {key: time.duration, name: T, values: [3, 4]}\n",
+                              NULL, &other.sweep),
+                   AMBULO_OK);
+  char *mark = read_whole(in_folder("batch.json"));
+  for (size_t i = 0; i <= sizeof kinds / sizeof *kinds; i++) {
+    for (long k = 0;; k++) {
+      int by_memory = i == sizeof kinds / sizeof *kinds;
+      fail_alloc memory = fail_alloc_at(by_memory ? k : -1);
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      if (!by_memory) fault_arm(kinds[i], k);
+      ambulo_status status = fake_batch_run(&other, &hook, NULL);
+      int hit = fault_disarm() || memory.failed;
+      assert_true(status == AMBULO_E_PROBLEM || (hit && status != AMBULO_OK));
+      assert_file_equal(in_folder("batch.json"), mark);
+      if (!hit) break;
+    }
+  }
+  free(mark);
+  fake_batch_close(&other);
+}
+
 /* finished results that cannot be read are computed again, never taken or left out in silence */
 static void files_fail_while_it_resumes(void **state) {
   (void)state;
@@ -164,9 +190,12 @@ static void memory_fails_while_the_sweep_is_read(void **state) {
 
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
-  const struct CMUnitTest tests[] = {
-      TEST(files_fail_while_it_runs),           TEST(shards_do_not_run_unguarded),
-      TEST(files_fail_while_it_resumes),        TEST(memory_fails_while_it_runs),
-      TEST(files_fail_while_the_sweep_is_read), TEST(memory_fails_while_the_sweep_is_read)};
+  const struct CMUnitTest tests[] = {TEST(files_fail_while_it_runs),
+                                     TEST(shards_do_not_run_unguarded),
+                                     TEST(other_inputs_are_refused_whatever_fails),
+                                     TEST(files_fail_while_it_resumes),
+                                     TEST(memory_fails_while_it_runs),
+                                     TEST(files_fail_while_the_sweep_is_read),
+                                     TEST(memory_fails_while_the_sweep_is_read)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
