@@ -7,7 +7,7 @@ enum { MOST = 4000, COLUMNS = AMBULO__LISTING_AXES + 2 };
 
 /* a drawing of x values by y values, each with `cases` cases; *side: of a cell, px */
 static char *draw(int x, int y, int cases, double cell[2]) {
-  static char number[100][8], *label = (char *)(uintptr_t) "", *output = (char *)(uintptr_t) "o";
+  static char number[100][16], *label = (char *)(uintptr_t) "", *output = (char *)(uintptr_t) "o";
   static const char *text[(MOST + 1) * COLUMNS];
   static ambulo__plot_point point[MOST];
   char *labels[] = {label, label};
