@@ -145,7 +145,8 @@ ambulo_status ambulo__error(ambulo_diagnostics *list, ambulo_status status, ambu
 ambulo_status ambulo__conclude(ambulo_diagnostics *list, size_t errors_before, ambulo_status status,
                                const char *file) {
   ambulo__place place = {.file = file};
-  if (status == AMBULO_OK || ambulo_diagnostics_error_count(list) > errors_before) return status;
+  if (status == AMBULO_OK || status == AMBULO_E_ARGUMENT) return status;
+  if (ambulo_diagnostics_error_count(list) > errors_before) return status;
   return ambulo__error(list, status, place, NULL, "%s", ambulo_status_text(status));
 }
 

@@ -19,7 +19,8 @@ ambulo_status ambulo__error(ambulo_diagnostics *list, ambulo_status status, ambu
                             const char *hint, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 /* What a public function returns that takes a list: a failure that left no error in it since there
- * were `errors_before` is given one, about `file` (may be NULL), so that none is without. */
+ * were `errors_before` is given one, about `file` (may be NULL), so that none is without; but for
+ * E_ARGUMENT, a fault of the caller's program. */
 ambulo_status ambulo__conclude(ambulo_diagnostics *list, size_t errors_before, ambulo_status status,
                                const char *file);
 void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *hint,

@@ -12,6 +12,12 @@ static int is_none(const ambulo__yaml_node *node) {
 /* The value for the other sex is read by nobody, and must be of the same shape all the same: a
  * fault in it would show only for another subject. */
 static void check_other(const ambulo__yaml_node *chosen, const ambulo__yaml_node *other) {
+  if (ambulo__yaml_is(other, AMBULO__YAML_MAPPING)) { /* by sex once more, as an item may be */
+    check_other(chosen, ambulo__yaml_require(other, "female"));
+    check_other(chosen, ambulo__yaml_require(other, "male"));
+    ambulo__yaml_close(other);
+    return;
+  }
   if (!ambulo__yaml_is(chosen, AMBULO__YAML_SEQUENCE)) {
     if (!is_none(other)) (void)ambulo__yaml_number(other, 0.0);
     return;

@@ -137,6 +137,8 @@ static void no_failure_is_concluded_without_an_error(void **state) {
   assert_int_equal(ambulo_diagnostics_count(list), 1);
   assert_int_equal(ambulo__conclude(list, 1, AMBULO_E_IO, NULL), AMBULO_E_IO);
   expect_text(list, 1, "ambulo: error[E_IO]: a file could not be read or written");
+  assert_int_equal(ambulo__conclude(list, 2, AMBULO_E_ARGUMENT, "f"), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_diagnostics_count(list), 2);
   assert_int_equal(ambulo__conclude(NULL, 0, AMBULO_E_IO, "f"), AMBULO_E_IO);
   ambulo_diagnostics_free(list);
 }
