@@ -76,10 +76,12 @@ typedef struct ambulo_batch_options {
 } ambulo_batch_options;
 AMBULO_API ambulo_batch_options ambulo_batch_options_default(void);
 
-/* Solves every case of the shard that has no valid record in `directory` yet. AMBULO_OK when
- * every case has one at the end or the caller stopped; *progress (may be NULL) is the final
- * state. Errors: E_IO (folder not writable, locked by another run: named), E_PROBLEM (the
- * inputs changed since the folder was filled and force is 0: what changed), E_MEMORY. */
+/* Solves every case of the shard that is not finished in `directory` yet: that has no record, one
+ * of other inputs, or files that are not what was written (computed again, with a warning).
+ * AMBULO_OK when every case has a record at the end or the caller stopped; *progress (may be NULL)
+ * is the final state. Errors: E_IO (folder not readable or not writable, locked by another run:
+ * named), E_PROBLEM (the inputs changed since the folder was filled, or a version without
+ * checksums filled it, and force is 0: what changed), E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *sweep,
                                                            const char *directory,
                                                            const ambulo_batch_options *options,
