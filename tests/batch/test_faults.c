@@ -8,7 +8,11 @@
 static void expect_no_half_cases(void) {
   ambulo_batch_census census;
   if (access(in_folder("batch.json"), F_OK) || access(in_folder("cases.tsv"), F_OK)) return;
-  assert_int_equal(ambulo_batch_verify(w.folder, NULL, NULL, NULL, NULL, &census), AMBULO_OK);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_batch_verify(w.folder, NULL, NULL, NULL, list, &census);
+  if (status) print_error("%s\n", ambulo_diagnostics_get(list, 0)->message);
+  ambulo_diagnostics_free(list);
+  assert_int_equal(status, AMBULO_OK);
   assert_int_equal(census.corrupt, 0);
   assert_int_equal(census.stale, 0);
   assert_int_equal(census.failed, 0);

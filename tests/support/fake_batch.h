@@ -6,9 +6,10 @@
 
 #include "support/sweep_files.h"
 
+/* -p: a mkdir outlives a worker that is killed */
 static const char fake_worker[] =
     "#!/bin/sh\n"
-    "n=${5##*/}; n=${n%%-*}; n=${n#000000}; mkdir \"$5\" || exit 4; cd \"$5\" || exit 4\n"
+    "n=${5##*/}; n=${n%%-*}; n=${n#000000}; mkdir -p \"$5\" || exit 4; cd \"$5\" || exit 4\n"
     "echo '{\"verdict\": \"optimal\", \"objective\": {\"total\": 1.'${FAKE_VALUE:-$n}'},"
     " \"audit\": {\"violation\": {\"worst\": 1e-9}}}' >summary.json\n"
     "printf 'time,tau.pin\\n0,1\\n1,7\\n' >motion.csv\n"
