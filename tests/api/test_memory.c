@@ -29,7 +29,7 @@ static int open_world(void **state) {
   ambulo_report_options options = ambulo_report_options_default();
   const char *folder = scratch_path(state, "result");
   if (ambulo_report_write(w.walk.problem, w.walk.result, folder, &options, NULL, NULL)) return -1;
-  return ambulo_model_load(MODEL "pendulum.yaml", NULL, NULL, NULL, &w.model);
+  return ambulo_model_load(MODEL "pendulum.yaml", NULL, NULL, NULL, &w.model) ? -1 : 0;
 }
 
 static int close_world(void **state) {
