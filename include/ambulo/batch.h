@@ -76,10 +76,12 @@ typedef struct ambulo_batch_options {
 } ambulo_batch_options;
 AMBULO_API ambulo_batch_options ambulo_batch_options_default(void);
 
-/* Solves every case of the shard that has no valid record in `directory` yet. AMBULO_OK when
- * every case has one at the end or the caller stopped; *progress (may be NULL) is the final
- * state. Errors: E_IO (folder not writable, locked by another run: named), E_PROBLEM (the
- * inputs changed since the folder was filled and force is 0: what changed), E_MEMORY. */
+/* Solves every case of the shard that is not finished in `directory` yet: that has no record, one
+ * of other inputs, or files that are not what was written (computed again, with a warning).
+ * AMBULO_OK when every case has a record at the end or the caller stopped; *progress (may be NULL)
+ * is the final state. Errors: E_IO (folder not readable or not writable, locked by another run:
+ * named), E_PROBLEM (the inputs changed since the folder was filled, or a version without
+ * checksums filled it, and force is 0: what changed), E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *sweep,
                                                            const char *directory,
                                                            const ambulo_batch_options *options,
@@ -87,13 +89,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *s
                                                            ambulo_diagnostics *diagnostics,
                                                            ambulo_batch_progress *progress);
 
-/* What stands in a folder, from its records alone. Errors: E_IO, E_PARSE, E_MEMORY. */
+/* What stands in a folder, from its records alone. Errors: E_IO (cannot be read, or the list of
+ * cases is damaged), E_PROBLEM (filled by a version without checksums), E_MEMORY. */
 typedef struct ambulo_batch_census {
   int cases;
   int done, failed; /* with a record; failed: those of them without a valid solution */
   int missing;      /* not computed yet */
   int stale;        /* computed from other inputs */
-  int corrupt;      /* record or summary damaged */
+  int corrupt;      /* finished, but damaged since: not what was written, or cannot be read.
+                       ambulo_batch_status sees this of records only */
   double seconds;   /* all cases with a record took together */
   char holder[96];  /* host:pid of the run that holds the folder; "": none */
 } ambulo_batch_census;
@@ -102,18 +106,46 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_status(const char *direct
                                                               ambulo_diagnostics *diagnostics,
                                                               ambulo_batch_census *census);
 
+/* One file of a finished case that is not what was written. Strings live during the call. */
+typedef struct ambulo_batch_damage {
+  const char *id, *name; /* of the case */
+  const char *file;      /* path */
+  const char *what;      /* "is not what was written", "cannot open: No such file or directory" */
+} ambulo_batch_damage;
+
+/* The same as ambulo_batch_status by reading every file of every finished case and comparing it
+ * with the checksum (SHA-256) in the case's record. damaged (may be NULL) is called for the first
+ * damaged file of each corrupt case; census may be NULL. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_verify(
+    const char *directory, void (*damaged)(void *user, const ambulo_batch_damage *damage),
+    void *user, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+    ambulo_batch_census *census);
+
 /* Writes results.csv and results.jsonl into `directory`: one line per case, sorted by id, the
  * axes and the outputs the sweep file asks for. Idempotent; the same bytes whatever the order
- * in which cases were solved. */
+ * in which cases were solved. Every file is compared with its checksum; a case of which one is
+ * damaged or cannot be read has the state "corrupt", no outputs, a warning that names the file,
+ * and is counted in the census. Errors, which leave the tables as they were: as
+ * ambulo_batch_status; and a table that cannot be written. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *directory,
                                                                const ambulo_allocator *allocator,
                                                                ambulo_diagnostics *diagnostics,
                                                                ambulo_batch_census *census);
 
+typedef struct ambulo_plot_options {
+  int cookie;               /* set by ambulo_plot_options_default() */
+  const char *const *where; /* [where_count] conditions such as "speed < 1.5": cases are drawn for
+                               which all hold. Names: axes, outputs, id, name, state */
+  int where_count;
+} ambulo_plot_options;
+AMBULO_API ambulo_plot_options ambulo_plot_options_default(void);
+
 /* Draws a collected output over one axis (curves) or two (a heat map) as SVG into `directory`;
- * plot is "X:OUTPUT" or "X,Y:OUTPUT". *file: path of the drawing, free with ambulo_text_free.
- * Errors: E_ARGUMENT (no such axis or output, or no numbers in it), E_IO, E_MEMORY. */
+ * plot is "X:OUTPUT" or "X,Y:OUTPUT"; options may be NULL. *file: path of the drawing, free with
+ * ambulo_text_free. Errors: E_ARGUMENT (no such axis, output or column, no numbers in it, a
+ * condition that is no comparison), E_IO, E_PROBLEM (as ambulo_batch_status), E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
+                                                            const ambulo_plot_options *options,
                                                             const ambulo_allocator *allocator,
                                                             ambulo_diagnostics *diagnostics,
                                                             char **file);

@@ -7,12 +7,22 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_ERRORS = 20, MAX_MESSAGES = 64, MAX_TEXT = 1024, MAX_WORD = 64 };
+enum { MAX_ERRORS = 20, MAX_MESSAGES = 64, MAX_TEXT = 1024, MAX_WORD = 64, MAX_FILE = 512 };
+
+/* Room for an error that finds no memory. There is one for the error that says so, which is often
+ * the first to be short of it, and one for an error that is about something else. */
+typedef struct reserve {
+  int used;
+  char file[MAX_FILE], message[MAX_TEXT];
+} reserve;
+
+enum { FOR_MEMORY, FOR_OTHERS, RESERVES };
 
 struct ambulo_diagnostics {
   ambulo_allocator allocator;
   ambulo_diagnostic items[MAX_MESSAGES];
   size_t count, kept_errors, error_count;
+  reserve reserves[RESERVES];
 };
 
 ambulo_diagnostics *ambulo_diagnostics_create(const ambulo_allocator *allocator) {
@@ -31,17 +41,23 @@ static void release(const ambulo_allocator *a, const char *text) {
   ambulo__free(a, view.owned);
 }
 
-static void clear_item(const ambulo_allocator *a, ambulo_diagnostic *item) {
-  release(a, item->file);
+static void clear_item(ambulo_diagnostics *list, ambulo_diagnostic *item) {
+  const ambulo_allocator *a = &list->allocator;
+  int reserved = 0;
+  for (int i = 0; i < RESERVES; i++) reserved |= item->message == list->reserves[i].message;
+  if (!reserved) {
+    release(a, item->file);
+    release(a, item->message);
+  }
   release(a, item->path);
-  release(a, item->message);
   release(a, item->hint);
   memset(item, 0, sizeof *item);
 }
 
 void ambulo_diagnostics_clear(ambulo_diagnostics *list) {
   if (!list) return;
-  for (size_t i = 0; i < list->count; i++) clear_item(&list->allocator, &list->items[i]);
+  for (size_t i = 0; i < list->count; i++) clear_item(list, &list->items[i]);
+  for (int i = 0; i < RESERVES; i++) list->reserves[i].used = 0;
   list->count = list->kept_errors = list->error_count = 0;
 }
 
@@ -77,6 +93,21 @@ static int has_room(const ambulo_diagnostics *list, ambulo_severity severity) {
   return list->count + MAX_ERRORS - list->kept_errors < MAX_MESSAGES;
 }
 
+/* file and message of an item where copies of them found no memory; 0: no room left */
+static int use_reserve(ambulo_diagnostics *list, ambulo_diagnostic *item, const char *file,
+                       const char *text) {
+  reserve *r = &list->reserves[item->status == AMBULO_E_MEMORY ? FOR_MEMORY : FOR_OTHERS];
+  if (item->severity != AMBULO_ERROR || r->used) return 0;
+  r->used = 1;
+  (void)snprintf(r->message, sizeof r->message, "%s", text);
+  if (file) (void)snprintf(r->file, sizeof r->file, "%s", file);
+  release(&list->allocator, item->file);
+  release(&list->allocator, item->message);
+  item->file = file ? r->file : NULL;
+  item->message = r->message;
+  return 1;
+}
+
 static void add(ambulo_diagnostics *list, ambulo_severity severity, ambulo_status status,
                 ambulo__place place, const char *hint, const char *format, va_list arguments) {
   if (!list) return;
@@ -93,8 +124,9 @@ static void add(ambulo_diagnostics *list, ambulo_severity severity, ambulo_statu
                             copy_or_null(a, place.path),
                             copy_or_null(a, text),
                             copy_or_null(a, hint)};
-  if (!item.message) {
-    clear_item(a, &item);
+  int complete = item.message && (item.file || !place.file);
+  if (!complete && !use_reserve(list, &item, place.file, text) && !item.message) {
+    clear_item(list, &item);
     return;
   }
   list->items[list->count++] = item;
@@ -108,6 +140,14 @@ ambulo_status ambulo__error(ambulo_diagnostics *list, ambulo_status status, ambu
   add(list, AMBULO_ERROR, status, place, hint, format, arguments);
   va_end(arguments);
   return status;
+}
+
+ambulo_status ambulo__conclude(ambulo_diagnostics *list, size_t errors_before, ambulo_status status,
+                               const char *file) {
+  ambulo__place place = {.file = file};
+  if (status == AMBULO_OK || status == AMBULO_E_ARGUMENT) return status;
+  if (ambulo_diagnostics_error_count(list) > errors_before) return status;
+  return ambulo__error(list, status, place, NULL, "%s", ambulo_status_text(status));
 }
 
 void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *hint,

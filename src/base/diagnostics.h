@@ -12,11 +12,17 @@ typedef struct ambulo__place {
 } ambulo__place;
 
 /* Adds an error and returns `status`, so that a caller can `return` it. A NULL
- * list or a failed allocation drops the message, never the status. `hint` may be
- * NULL. The text is printf-formatted. */
+ * list drops the message, never the status. `hint` may be NULL. The text is
+ * printf-formatted. Without memory the first error of E_MEMORY and the first of
+ * another status are kept all the same, without path and hint. */
 ambulo_status ambulo__error(ambulo_diagnostics *list, ambulo_status status, ambulo__place place,
                             const char *hint, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+/* What a public function returns that takes a list: a failure that left no error in it since there
+ * were `errors_before` is given one, about `file` (may be NULL), so that none is without; but for
+ * E_ARGUMENT, a fault of the caller's program. */
+ambulo_status ambulo__conclude(ambulo_diagnostics *list, size_t errors_before, ambulo_status status,
+                               const char *file);
 void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *hint,
                      const char *format, ...) __attribute__((format(printf, 4, 5)));
 void ambulo__note(ambulo_diagnostics *list, ambulo__place place, const char *format, ...)

@@ -10,8 +10,9 @@
 ambulo_status ambulo__io_error(ambulo_diagnostics *diagnostics, const char *path,
                                const char *action) {
   ambulo__place place = {.file = path};
-  return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL, "cannot %s: %s", action,
-                       strerror(errno));
+  int reason = errno;
+  return ambulo__error(diagnostics, reason == ENOMEM ? AMBULO_E_MEMORY : AMBULO_E_IO, place, NULL,
+                       "cannot %s: %s", action, strerror(reason));
 }
 
 ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const char *path) {

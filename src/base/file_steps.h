@@ -5,7 +5,8 @@
 #include "base/alloc.h"
 #include "base/diagnostics.h"
 
-/* Reports "cannot <action>: <strerror(errno)>" about a file. */
+/* Reports "cannot <action>: <strerror(errno)>" about a file: E_IO, or E_MEMORY when the system had
+ * none. */
 ambulo_status ambulo__io_error(ambulo_diagnostics *diagnostics, const char *path,
                                const char *action);
 /* E_MEMORY with a message about a file. */

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { PIECE = 65536 };
+
 /* reads to the end or to `limit` + 1 bytes; -1 with errno on failure */
 static ssize_t read_all(int file, char *buffer, size_t capacity) {
   size_t length = 0;
@@ -20,19 +22,26 @@ static ssize_t read_all(int file, char *buffer, size_t capacity) {
   return (ssize_t)length;
 }
 
+/* *info of an open file that is a regular one */
+static ambulo_status inspect(int file, const char *path, ambulo_diagnostics *diagnostics,
+                             struct stat *info) {
+  ambulo__place place = {.file = path};
+  if (fstat(file, info) != 0) return ambulo__io_error(diagnostics, path, "inspect");
+  if (S_ISREG(info->st_mode)) return AMBULO_OK;
+  int folder = S_ISDIR(info->st_mode);
+  int result = folder && fstatat(file, "solution.yaml", info, 0) == 0;
+  return ambulo__error(diagnostics, AMBULO_E_IO, place,
+                       result ? "a result folder: name its solution.yaml or motion.csv" : NULL,
+                       "not a regular file%s", folder ? " (it is a folder)" : "");
+}
+
 static ambulo_status read_open_file(int file, const char *path, size_t limit,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, char **text, size_t *length) {
   ambulo__place place = {.file = path};
   struct stat info;
-  if (fstat(file, &info) != 0) return ambulo__io_error(diagnostics, path, "inspect");
-  if (!S_ISREG(info.st_mode)) {
-    int folder = S_ISDIR(info.st_mode);
-    int result = folder && fstatat(file, "solution.yaml", &info, 0) == 0;
-    return ambulo__error(diagnostics, AMBULO_E_IO, place,
-                         result ? "a result folder: name its solution.yaml or motion.csv" : NULL,
-                         "not a regular file%s", folder ? " (it is a folder)" : "");
-  }
+  ambulo_status status = inspect(file, path, diagnostics, &info);
+  if (status) return status;
   if ((unsigned long long)info.st_size > (unsigned long long)limit) {
     return ambulo__error(diagnostics, AMBULO_E_LIMIT, place, NULL,
                          "file too large (got %lld bytes); expected at most %zu",
@@ -46,7 +55,7 @@ static ambulo_status read_open_file(int file, const char *path, size_t limit,
   }
   ssize_t count = read_all(file, data, size);
   if (count < 0) {
-    ambulo_status status = ambulo__io_error(diagnostics, path, "read");
+    status = ambulo__io_error(diagnostics, path, "read");
     ambulo__free(allocator, data);
     return status;
   }
@@ -62,13 +71,37 @@ static ambulo_status read_open_file(int file, const char *path, size_t limit,
   return AMBULO_OK;
 }
 
+/* O_NONBLOCK: opening a FIFO without a writer would wait for one */
+static int open_to_read(const char *path) {
+  return open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+}
+
 ambulo_status ambulo__read_file(const char *path, size_t limit, const ambulo_allocator *allocator,
                                 ambulo_diagnostics *diagnostics, char **text, size_t *length) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  /* O_NONBLOCK: opening a FIFO without a writer would wait for one */
-  int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  int file = open_to_read(path);
   if (file < 0) return ambulo__io_error(diagnostics, path, "open");
   ambulo_status status = read_open_file(file, path, limit, &own, diagnostics, text, length);
   close(file);
+  return status;
+}
+
+ambulo_status ambulo__digest_file(const char *path, ambulo_diagnostics *diagnostics,
+                                  char text[AMBULO__SHA256_TEXT]) {
+  char piece[PIECE];
+  struct stat info;
+  ambulo__sha256 hash;
+  int file = open_to_read(path);
+  if (file < 0) return ambulo__io_error(diagnostics, path, "open");
+  ambulo_status status = inspect(file, path, diagnostics, &info);
+  ssize_t count = PIECE;
+  ambulo__sha256_begin(&hash);
+  while (!status && count == PIECE) {
+    count = read_all(file, piece, sizeof piece);
+    if (count < 0) status = ambulo__io_error(diagnostics, path, "read");
+    if (count > 0) ambulo__sha256_add(&hash, piece, (size_t)count);
+  }
+  close(file);
+  if (!status) ambulo__sha256_end(&hash, text);
   return status;
 }

@@ -14,13 +14,24 @@ void ambulo__text_init(ambulo__text_buffer *buffer, const ambulo_allocator *allo
   buffer->allocator = ambulo__allocator_or_default(allocator);
 }
 
+void ambulo__text_init_part(ambulo__text_buffer *part, ambulo__text_buffer *whole) {
+  ambulo__text_init(part, &whole->allocator);
+  part->whole = whole;
+}
+
+static void pass_on_failure(const ambulo__text_buffer *part) {
+  if (part->failed && part->whole) part->whole->failed = 1;
+}
+
 void ambulo__text_free(ambulo__text_buffer *buffer) {
   ambulo_allocator allocator = buffer->allocator;
+  pass_on_failure(buffer);
   ambulo__free(&allocator, buffer->data);
   ambulo__text_init(buffer, &allocator);
 }
 
 void ambulo__text_clear(ambulo__text_buffer *buffer) {
+  pass_on_failure(buffer);
   buffer->length = 0;
   buffer->failed = 0;
   if (buffer->data) buffer->data[0] = '\0';

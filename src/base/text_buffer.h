@@ -9,12 +9,16 @@
 
 typedef struct ambulo__text_buffer {
   ambulo_allocator allocator;
-  char *data; /* NULL until the first append: use ambulo__text_data() */
+  struct ambulo__text_buffer *whole; /* that this one makes a part of; NULL: none */
+  char *data;                        /* NULL until the first append: use ambulo__text_data() */
   size_t length, capacity;
   int failed;
 } ambulo__text_buffer;
 
 void ambulo__text_init(ambulo__text_buffer *buffer, const ambulo_allocator *allocator);
+/* A buffer for a part of another text, such as a label of a picture: when it is cleared or freed,
+ * its failure becomes one of the whole, which lacks that part. */
+void ambulo__text_init_part(ambulo__text_buffer *part, ambulo__text_buffer *whole);
 void ambulo__text_free(ambulo__text_buffer *buffer); /* accepts a zero-filled buffer */
 /* Empties the buffer and keeps its memory; clears the failure. */
 void ambulo__text_clear(ambulo__text_buffer *buffer);

@@ -30,16 +30,21 @@ static void mismatch(const ambulo__yaml_node *node, const char *hint, const char
   ambulo__yaml_error(node, AMBULO_E_SCHEMA, hint, "got %s; expected %s", got(node, text), expected);
 }
 
-static int is_mapping(const ambulo__yaml_node *node) {
-  return node && node->kind == AMBULO__YAML_MAPPING;
+/* 0 when it is of another kind, with an error, once for a node; 0 for NULL, silently */
+static int expect_kind(const ambulo__yaml_node *node, ambulo__yaml_kind kind) {
+  if (!node || node->kind == kind) return node != NULL;
+  if (node->document->wrong_kind != node)
+    mismatch(node, NULL, kind == AMBULO__YAML_MAPPING ? "a mapping" : "a list");
+  node->document->wrong_kind = node;
+  return 0;
 }
 
-/* 0 with an error, once for a node, when it is no mapping */
-static int expect_mapping(const ambulo__yaml_node *node) {
-  if (is_mapping(node)) return 1;
-  if (node->document->not_mapping != node) mismatch(node, NULL, "a mapping");
-  node->document->not_mapping = node;
-  return 0;
+int ambulo__yaml_items(const ambulo__yaml_node *sequence) {
+  return expect_kind(sequence, AMBULO__YAML_SEQUENCE) ? sequence->count : 0;
+}
+
+int ambulo__yaml_pairs(const ambulo__yaml_node *mapping) {
+  return expect_kind(mapping, AMBULO__YAML_MAPPING) ? mapping->count : 0;
 }
 
 /* ------------------------------------------------------------------------ keys */
@@ -62,7 +67,7 @@ static void mark(const ambulo__yaml_node *mapping, const char *key) {
 }
 
 const ambulo__yaml_node *ambulo__yaml_get(const ambulo__yaml_node *mapping, const char *key) {
-  if (!is_mapping(mapping)) return NULL;
+  if (!expect_kind(mapping, AMBULO__YAML_MAPPING)) return NULL;
   mark(mapping, key);
   ambulo__yaml_node *value = ambulo__yaml_find(mapping, key);
   if (value) value->key->known = 1;
@@ -98,7 +103,7 @@ static const char *describe(const ambulo__yaml_node *mapping, char *buffer, size
 
 const ambulo__yaml_node *ambulo__yaml_require(const ambulo__yaml_node *mapping, const char *key) {
   const ambulo__yaml_node *value = ambulo__yaml_get(mapping, key);
-  if (!value && mapping && expect_mapping(mapping)) {
+  if (!value && expect_kind(mapping, AMBULO__YAML_MAPPING)) {
     char where[MAX_LIST];
     ambulo__yaml_error(mapping, AMBULO_E_SCHEMA, NULL, "missing required key '%s' %s", key,
                        describe(mapping, where, sizeof where));
@@ -141,7 +146,7 @@ static const char *suggest(const char *word, const char *const *words, size_t co
 }
 
 void ambulo__yaml_close(const ambulo__yaml_node *mapping) {
-  if (!mapping || !expect_mapping(mapping)) return;
+  if (!expect_kind(mapping, AMBULO__YAML_MAPPING)) return;
   for (int i = 0; i < mapping->count; i++) {
     const ambulo__yaml_node *value = mapping->items[i];
     if (value->key->known) continue;
@@ -159,10 +164,10 @@ void ambulo__yaml_close(const ambulo__yaml_node *mapping) {
 /* ---------------------------------------------------------------------- values */
 
 const char *ambulo__yaml_text(const ambulo__yaml_node *node) {
-  if (!node) return NULL;
-  if (node->kind == AMBULO__YAML_SCALAR) return node->text;
+  if (!node) return "";
+  if (node->kind == AMBULO__YAML_SCALAR && (node->quoted || node->text[0])) return node->text;
   mismatch(node, NULL, "a text");
-  return NULL;
+  return "";
 }
 
 static int is_plain(const ambulo__yaml_node *node) {
@@ -274,13 +279,13 @@ int ambulo__yaml_choice(const ambulo__yaml_node *node, const char *const *words,
 
 const char *ambulo__yaml_name(const ambulo__yaml_node *node) {
   static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  if (!node) return NULL;
+  if (!node) return "";
   if (node->kind == AMBULO__YAML_SCALAR) {
     size_t length = strlen(node->text);
     if (length >= 1 && length <= 64 && strspn(node->text, letters) == length) return node->text;
   }
   mismatch(node, NULL, "a name of 1 to 64 letters, digits, '_', '-' or '.'");
-  return NULL;
+  return "";
 }
 
 int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values) {

@@ -139,12 +139,8 @@ ambulo_status ambulo__yaml_finish(const ambulo__yaml *document) {
   return document->status;
 }
 
-ambulo__yaml_kind ambulo__yaml_kind_of(const ambulo__yaml_node *node) {
-  return node->kind;
-}
-
-int ambulo__yaml_count(const ambulo__yaml_node *node) {
-  return node ? node->count : 0;
+int ambulo__yaml_is(const ambulo__yaml_node *node, ambulo__yaml_kind kind) {
+  return node && node->kind == kind;
 }
 
 static const ambulo__yaml_node *child(const ambulo__yaml_node *node, ambulo__yaml_kind kind,
@@ -159,7 +155,7 @@ const ambulo__yaml_node *ambulo__yaml_item(const ambulo__yaml_node *sequence, in
 
 const char *ambulo__yaml_key(const ambulo__yaml_node *mapping, int index) {
   const ambulo__yaml_node *value = child(mapping, AMBULO__YAML_MAPPING, index);
-  return value ? value->key->text : NULL;
+  return value ? value->key->text : "";
 }
 
 const ambulo__yaml_node *ambulo__yaml_value(const ambulo__yaml_node *mapping, int index) {
@@ -208,6 +204,7 @@ static const char *write_path(const ambulo__yaml_node *node, char buffer[MAX_PAT
 
 ambulo__place ambulo__yaml_place(const ambulo__yaml_node *node) {
   char buffer[MAX_PATH];
+  if (!node) return (ambulo__place){NULL, 0, 0, NULL};
   const char *path = write_path(node, buffer);
   ambulo__place place = {node->file, node->line, node->column, NULL};
   if (path[0] != '\0') place.path = ambulo__yaml_copy(node->document, path, strlen(path));
@@ -218,20 +215,32 @@ ambulo_status ambulo__yaml_error(const ambulo__yaml_node *node, ambulo_status st
                                  const char *hint, const char *format, ...) {
   char message[MAX_MESSAGE];
   va_list arguments;
+  if (!node) return status;
   va_start(arguments, format);
   (void)vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
   ambulo__yaml *document = node->document;
-  if (document->status == AMBULO_OK || document->status == AMBULO_E_SCHEMA)
+  if (document->status == AMBULO_E_MEMORY) return status;
+  if (document->status == AMBULO_OK || document->status == AMBULO_E_SCHEMA ||
+      status == AMBULO_E_MEMORY)
     document->status = status;
   return ambulo__error(document->diagnostics, status, ambulo__yaml_place(node), hint, "%s",
                        message);
+}
+
+void ambulo__yaml_out_of_memory(ambulo__yaml *document) {
+  ambulo__place place = {document->file, 0, 0, NULL};
+  if (document->status == AMBULO_E_MEMORY) return;
+  document->status = AMBULO_E_MEMORY;
+  (void)ambulo__error(document->diagnostics, AMBULO_E_MEMORY, place, NULL, "%s",
+                      ambulo_status_text(AMBULO_E_MEMORY));
 }
 
 void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const char *format,
                           ...) {
   char message[MAX_MESSAGE];
   va_list arguments;
+  if (!node) return;
   va_start(arguments, format);
   (void)vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);

@@ -209,6 +209,18 @@ static ambulo_status take_event(builder *b, const yaml_event_t *event) {
   }
 }
 
+/* what was probably meant; NULL: no idea */
+static const char *parser_hint(const builder *b, const yaml_parser_t *parser) {
+  int line = (int)parser->problem_mark.line + 1, column = (int)parser->problem_mark.column + 1;
+  if (ambulo__yaml_tab_indent(b->text, b->length, line))
+    return "indent with spaces; YAML does not allow tabs there";
+  char at = ambulo__yaml_byte_at(b->text, b->length, line, column);
+  if ((at == '[' || at == '{') && parser->context && strstr(parser->context, "flow"))
+    return "between brackets a text that holds brackets stands in quotes: "
+           "{key: \"objective[0].weight\"}";
+  return NULL;
+}
+
 /* libyaml's message, where it noticed, and where the construct began that it was in */
 static ambulo_status parser_error(const builder *b, const yaml_parser_t *parser) {
   if (parser->error == YAML_MEMORY_ERROR) return out_of_memory(b);
@@ -219,10 +231,8 @@ static ambulo_status parser_error(const builder *b, const yaml_parser_t *parser)
                    parser->context, (int)parser->context_mark.line + 1,
                    (int)parser->context_mark.column + 1);
   }
-  int tab = ambulo__yaml_tab_indent(b->text, b->length, (int)parser->problem_mark.line + 1);
   return ambulo__error(b->document->diagnostics, AMBULO_E_PARSE, place_at(b, parser->problem_mark),
-                       tab ? "indent with spaces; YAML does not allow tabs there" : NULL, "%s%s",
-                       problem, context);
+                       parser_hint(b, parser), "%s%s", problem, context);
 }
 
 static ambulo_status parse_events(builder *b, yaml_parser_t *parser) {

@@ -68,10 +68,25 @@ ambulo_status ambulo__yaml_scan(ambulo_diagnostics *diagnostics, const char *tex
   return AMBULO_OK;
 }
 
-int ambulo__yaml_tab_indent(const char *text, size_t length, int line) {
+/* offset of a line */
+static size_t start_of_line(const char *text, size_t length, int line) {
   size_t at = 0;
   for (; line > 1 && at < length; at++)
     if (text[at] == '\n') line--;
+  return at;
+}
+
+char ambulo__yaml_byte_at(const char *text, size_t length, int line, int column) {
+  size_t at = start_of_line(text, length, line);
+  for (; at < length && text[at] != '\n'; at++) {
+    int is_first = ((unsigned char)text[at] & 0xc0) != 0x80; /* of a character */
+    if (is_first && column-- == 1) return text[at];
+  }
+  return '\0';
+}
+
+int ambulo__yaml_tab_indent(const char *text, size_t length, int line) {
+  size_t at = start_of_line(text, length, line);
   for (; at < length && (text[at] == ' ' || text[at] == '\t'); at++)
     if (text[at] == '\t') return 1;
   return 0;

@@ -56,8 +56,8 @@ struct ambulo__yaml {
   const char *file;
   ambulo__yaml_node *root;
   int node_count;
-  ambulo_status status;                 /* of the getters */
-  const ambulo__yaml_node *not_mapping; /* reported last: once is enough */
+  ambulo_status status;                /* of the getters */
+  const ambulo__yaml_node *wrong_kind; /* reported last: once is enough */
 };
 
 /* Zero-filled, aligned for any member above; NULL when memory runs out. */
@@ -80,5 +80,7 @@ ambulo_status ambulo__yaml_scan(ambulo_diagnostics *diagnostics, const char *tex
                                 const char *file);
 /* Whether a line (1-based) is indented with a tab. */
 int ambulo__yaml_tab_indent(const char *text, size_t length, int line);
+/* Byte at a line and a column, which counts characters (both 1-based); '\0' beyond the text. */
+char ambulo__yaml_byte_at(const char *text, size_t length, int line, int column);
 
 #endif

@@ -34,10 +34,13 @@ void ambulo__clean_case(const char *directory, const char *id, long process,
   }
 }
 
-void ambulo__clean_result(const char *directory, const char *id, const ambulo_allocator *a) {
+ambulo_status ambulo__clean_result(const char *directory, const char *id,
+                                   const ambulo_allocator *a) {
   char *path = ambulo__case_path(a, directory, id, "");
-  if (path) remove_flat(AT_FDCWD, path);
+  if (!path) return AMBULO_E_MEMORY;
+  remove_flat(AT_FDCWD, path);
   ambulo__free(a, path);
+  return AMBULO_OK;
 }
 
 static void clean_fan(const char *path) {

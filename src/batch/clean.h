@@ -10,8 +10,9 @@
 /* What worker `process` left of a case. */
 void ambulo__clean_case(const char *directory, const char *id, long process,
                         const ambulo_allocator *allocator);
-/* The result folder of a case without a valid record, damaged or of other inputs. */
-void ambulo__clean_result(const char *directory, const char *id, const ambulo_allocator *allocator);
+/* The result folder of a case without a valid record, damaged or of other inputs. E_MEMORY. */
+ambulo_status ambulo__clean_result(const char *directory, const char *id,
+                                   const ambulo_allocator *allocator);
 /* All of it; only where no other run writes into the folder. */
 void ambulo__clean_all(const char *directory, const ambulo_allocator *allocator);
 

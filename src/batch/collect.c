@@ -1,89 +1,21 @@
-/* batch/collect.c - the state of a batch folder, and its table. */
+/* batch/collect.c - the table of a batch folder. */
 #include "base/atomic_file.h"
 #include "base/numtext.h"
 #include "base/text_buffer.h"
 #include "batch/gather.h"
 #include "batch/lock.h"
 #include "batch/paths.h"
-#include "batch/record.h"
 #include "report/json_text.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* ------------------------------------------------------------------- gather */
-
-static const char *classify(const char *directory, const ambulo__listing *l, int k,
-                            ambulo__record *record, ambulo_batch_census *census) {
-  const char *id = ambulo__listing_cell(l, k, AMBULO__LISTING_ID);
-  unsigned long long key = 0;
-  ambulo__record_found found = ambulo__record_read(directory, id, &l->allocator, record);
-  if (found == AMBULO__RECORD_ABSENT) {
-    census->missing++;
-    return "missing";
-  }
-  if (found == AMBULO__RECORD_READ && ambulo__listing_key(l, k, &key) && key != record->key) {
-    census->stale++;
-    return "stale";
-  }
-  if (found == AMBULO__RECORD_CORRUPT ||
-      !ambulo__record_summary_intact(directory, id, record, &l->allocator)) {
-    census->corrupt++;
-    return "corrupt";
-  }
-  census->done++;
-  census->failed += !record->valid;
-  census->seconds += record->seconds;
-  return record->state;
-}
-
-static int has_result(const char *state, const ambulo__record *record) {
-  return state == record->state && record->summary != 0;
-}
-
-ambulo_status ambulo__gather(const char *directory, const ambulo__listing *l, int outputs,
-                             ambulo_status (*take)(void *user, const ambulo__gathered *gathered),
-                             void *user, ambulo_batch_census *census) {
-  ambulo_batch_census counted;
-  memset(&counted, 0, sizeof counted);
-  counted.cases = l->cases;
-  size_t room = (size_t)(outputs ? l->outputs : 0);
-  ambulo__output *value = ambulo__alloc(&l->allocator, room, sizeof *value);
-  ambulo_status status = value ? AMBULO_OK : AMBULO_E_MEMORY;
-  for (int k = 0; k < l->cases && !status; k++) {
-    ambulo__record record;
-    memset(&record, 0, sizeof record);
-    ambulo__gathered one = {k, classify(directory, l, k, &record, &counted), 0, value};
-    one.valid = one.state == record.state && record.valid;
-    if (room > 0) memset(value, 0, room * sizeof *value);
-    if (room > 0 && has_result(one.state, &record))
-      ambulo__outputs_of(directory, ambulo__listing_cell(l, k, AMBULO__LISTING_ID), l->output,
-                         l->outputs, &l->allocator, value);
-    if (take) status = take(user, &one);
-  }
-  ambulo__free(&l->allocator, value);
-  if (census) *census = counted;
-  return status;
-}
-
-ambulo_status ambulo_batch_status(const char *directory, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
-  if (!directory || !census) return AMBULO_E_ARGUMENT;
-  ambulo__listing listing;
-  ambulo_batch_census counted;
-  ambulo_status status = ambulo__listing_load(directory, allocator, diagnostics, &listing);
-  if (status) return status;
-  status = ambulo__gather(directory, &listing, 0, NULL, NULL, &counted);
-  ambulo__lock_holder(directory, &listing.allocator, counted.holder);
-  ambulo__listing_free(&listing);
-  if (!status) *census = counted;
-  return status;
-}
-
 /* -------------------------------------------------------------------- table */
 
 typedef struct table {
+  const char *directory;
   const ambulo__listing *listing;
+  ambulo_diagnostics *diagnostics;
   int *found; /* [outputs] cases that have a value */
   int solved; /* a case with a valid solution; -1: none */
   ambulo__text_buffer csv, lines;
@@ -135,9 +67,22 @@ static void json_word(ambulo__json *json, const char *key, const char *text) {
   ambulo__json_text(&inner, key, text);
 }
 
+/* the row is written all the same, without outputs */
+static void tell_damage(const table *t, const ambulo__gathered *one) {
+  const ambulo__listing *l = t->listing;
+  char *path = ambulo__case_path(&l->allocator, t->directory,
+                                 ambulo__listing_cell(l, one->index, AMBULO__LISTING_ID),
+                                 one->damage->ending);
+  ambulo__place place = {path ? path : t->directory, 0, 0, NULL};
+  ambulo__warning(t->diagnostics, place, NULL, "damaged: %s; case '%s' is left out",
+                  one->damage->what, ambulo__listing_cell(l, one->index, AMBULO__LISTING_NAME));
+  ambulo__free(&l->allocator, path);
+}
+
 static ambulo_status add_row(void *user, const ambulo__gathered *one) {
   table *t = user;
   const ambulo__listing *l = t->listing;
+  if (one->damage) tell_damage(t, one);
   ambulo__json json = {&t->lines, 0, 1};
   ambulo__text_append(&t->lines, "{");
   ambulo__json_text(&json, "id", ambulo__listing_cell(l, one->index, AMBULO__LISTING_ID));
@@ -161,21 +106,20 @@ static ambulo_status add_row(void *user, const ambulo__gathered *one) {
   }
   ambulo__text_append_char(&t->csv, '\n');
   ambulo__text_append(&t->lines, "}\n");
-  return ambulo__text_status(&t->csv);
+  return t->csv.failed || t->lines.failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
 /* an output that no case has is most likely misspelt */
-static void warn_of_strangers(const char *directory, const table *t,
-                              ambulo_diagnostics *diagnostics) {
+static void warn_of_strangers(const table *t) {
   const ambulo__listing *l = t->listing;
   for (int i = 0; i < l->outputs && t->solved >= 0; i++) {
     if (t->found[i] > 0) continue;
     char near[128], hint[160] = "outputs are keys of summary.json or columns of motion.csv";
     const char *id = ambulo__listing_cell(l, t->solved, AMBULO__LISTING_ID);
-    if (ambulo__output_nearest(directory, id, l->output[i], &l->allocator, near, sizeof near))
+    if (ambulo__output_nearest(t->directory, id, l->output[i], &l->allocator, near, sizeof near))
       (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near);
-    ambulo__place place = {directory, 0, 0, NULL};
-    ambulo__warning(diagnostics, place, hint, "no case has the output '%s'", l->output[i]);
+    ambulo__place place = {t->directory, 0, 0, NULL};
+    ambulo__warning(t->diagnostics, place, hint, "no case has the output '%s'", l->output[i]);
   }
 }
 
@@ -190,29 +134,44 @@ static ambulo_status write_table(const char *directory, const char *name,
   return status;
 }
 
-ambulo_status ambulo_batch_collect(const char *directory, const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
-  if (!directory) return AMBULO_E_ARGUMENT;
-  ambulo__listing listing;
-  ambulo_batch_census counted;
-  ambulo_status status = ambulo__listing_load(directory, allocator, diagnostics, &listing);
-  if (status) return status;
-  const ambulo_allocator *a = &listing.allocator;
-  table t = {.listing = &listing, .solved = -1};
-  t.found = ambulo__alloc(a, (size_t)listing.outputs, sizeof *t.found);
+static ambulo_status write_tables(const table *t) {
+  const ambulo_allocator *a = &t->listing->allocator;
+  ambulo_status status = write_table(t->directory, "results.csv", &t->csv, a, t->diagnostics);
+  if (!status) status = write_table(t->directory, "results.jsonl", &t->lines, a, t->diagnostics);
+  return status;
+}
+
+static ambulo_status collect(const char *directory, const ambulo__listing *listing,
+                             ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
+  const ambulo_allocator *a = &listing->allocator;
+  table t = {.directory = directory, .listing = listing, .diagnostics = diagnostics, .solved = -1};
+  t.found = ambulo__alloc(a, (size_t)listing->outputs, sizeof *t.found);
   ambulo__text_init(&t.csv, a);
   ambulo__text_init(&t.lines, a);
   csv_titles(&t);
-  status =
-      t.found ? ambulo__gather(directory, &listing, 1, add_row, &t, &counted) : AMBULO_E_MEMORY;
-  if (!status) status = write_table(directory, "results.csv", &t.csv, a, diagnostics);
-  if (!status) status = write_table(directory, "results.jsonl", &t.lines, a, diagnostics);
-  ambulo__lock_holder(directory, a, counted.holder);
-  if (!status) warn_of_strangers(directory, &t, diagnostics);
+  ambulo_status status = t.found ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo__gather(directory, listing, AMBULO__GATHER_OUTPUTS, add_row, &t, census);
+  if (!status) status = ambulo__lock_holder(directory, a, diagnostics, census->holder);
+  if (!status) status = write_tables(&t);
+  if (!status) warn_of_strangers(&t);
   ambulo__free(a, t.found);
   ambulo__text_free(&t.csv);
   ambulo__text_free(&t.lines);
-  ambulo__listing_free(&listing);
-  if (!status && census) *census = counted;
   return status;
+}
+
+ambulo_status ambulo_batch_collect(const char *directory, const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
+  if (!directory) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo__listing listing;
+  ambulo_batch_census counted;
+  ambulo_status status = ambulo__listing_load(directory, allocator, diagnostics, &listing);
+  if (!status) {
+    status = collect(directory, &listing, diagnostics, &counted);
+    ambulo__listing_free(&listing);
+  }
+  if (!status && census) *census = counted;
+  return ambulo__conclude(diagnostics, errors, status, directory);
 }

@@ -1,19 +1,30 @@
 /* batch/listing.c - reading a batch folder's own description (listing.h). */
 #include "batch/listing.h"
 #include "base/read_file.h"
+#include "base/seal.h"
 #include "base/yaml_node.h"
 #include "batch/paths.h"
 
+#include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define MOST_LIST_BYTES ((size_t)2 << 30)
+#define MOST_DESCRIPTION_BYTES ((size_t)16 << 20)
+
+/* ----------------------------------------------------------------- cases.tsv */
+
+/* inside this file; a caller gets E_IO */
+static const ambulo_status DAMAGED = AMBULO_E_PARSE;
 
 static ambulo_status corrupt(ambulo_diagnostics *diagnostics, const char *path, int line) {
   ambulo__place place = {path, line, 0, NULL};
-  return ambulo__error(diagnostics, AMBULO_E_PARSE, place, "run the batch again to rewrite it",
-                       "the list of cases is damaged; expected one line of cells a case");
+  (void)ambulo__error(diagnostics, AMBULO_E_IO, place, "run the batch again to rewrite it",
+                      "damaged: the list of cases is not what was written");
+  return DAMAGED;
 }
 
 /* cuts the text into cells; every line has as many as the first */
@@ -40,9 +51,23 @@ static ambulo_status cut(ambulo__listing *l, size_t length, const char *path,
   return AMBULO_OK;
 }
 
-static char *copy_text(const ambulo__listing *l, const ambulo__yaml_node *node) {
-  const char *text = node ? ambulo__yaml_text(node) : NULL;
-  return text ? ambulo__strdup(&l->allocator, text) : NULL;
+/* 16 hexadecimal digits */
+static int is_key(const char *text) {
+  return strlen(text) == 16 && strspn(text, "0123456789abcdef") == 16;
+}
+
+static ambulo_status check_keys(const ambulo__listing *l, const char *path,
+                                ambulo_diagnostics *diagnostics) {
+  for (int k = 0; k < l->cases; k++)
+    if (!is_key(ambulo__listing_cell(l, k, AMBULO__LISTING_KEY)))
+      return corrupt(diagnostics, path, k + 2);
+  return AMBULO_OK;
+}
+
+/* ---------------------------------------------------------------- batch.json */
+
+static char *copy_text(const ambulo__listing *l, const ambulo__yaml_node *root, const char *key) {
+  return ambulo__strdup(&l->allocator, ambulo__yaml_text(ambulo__yaml_require(root, key)));
 }
 
 static void free_texts(const ambulo_allocator *a, char **texts, int count) {
@@ -50,73 +75,147 @@ static void free_texts(const ambulo_allocator *a, char **texts, int count) {
   ambulo__free(a, texts);
 }
 
-/* a list of `count` texts under a key; NULL: another list, or no memory */
-static char **copy_texts(const ambulo__listing *l, const ambulo__yaml_node *root, const char *key,
-                         int count) {
+/* *texts of the list under a key, which has `count` of them; *right = 0: another number */
+static ambulo_status copy_texts(const ambulo__listing *l, const ambulo__yaml_node *root,
+                                const char *key, int count, char ***texts, int *right) {
   const ambulo__yaml_node *node = ambulo__yaml_require(root, key);
-  char **texts = ambulo__alloc(&l->allocator, (size_t)count, sizeof *texts);
-  int copied = 0;
-  for (int i = 0; texts && node && i < count && i < ambulo__yaml_count(node); i++) {
-    texts[i] = copy_text(l, ambulo__yaml_item(node, i));
-    copied += texts[i] != NULL;
+  *right &= ambulo__yaml_items(node) == count;
+  *texts = ambulo__alloc(&l->allocator, (size_t)count, sizeof **texts);
+  for (int i = 0; *texts && i < count; i++) {
+    (*texts)[i] = ambulo__strdup(&l->allocator, ambulo__yaml_text(ambulo__yaml_item(node, i)));
+    if (!(*texts)[i]) return AMBULO_E_MEMORY;
   }
-  if (copied == count) return texts;
-  free_texts(&l->allocator, texts, count);
-  return NULL;
+  return *texts ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
-static ambulo_status read_description(ambulo__listing *l, const char *path,
-                                      ambulo_diagnostics *diagnostics) {
-  ambulo__yaml *document = NULL;
-  ambulo_status status = ambulo__yaml_load(path, &l->allocator, diagnostics, &document);
-  if (status) return status;
-  const ambulo__yaml_node *root = ambulo__yaml_root(document);
-  l->name = copy_text(l, ambulo__yaml_require(root, "name"));
-  l->version = copy_text(l, ambulo__yaml_require(root, "version"));
-  l->problem_hash = copy_text(l, ambulo__yaml_require(root, "problem_hash"));
-  l->text_hash = copy_text(l, ambulo__yaml_require(root, "text_hash"));
-  l->outputs = ambulo__yaml_count(ambulo__yaml_get(root, "outputs"));
-  l->axes = ambulo__yaml_count(ambulo__yaml_get(root, "axis_units"));
-  l->output = copy_texts(l, root, "outputs", l->outputs);
-  l->output_unit = copy_texts(l, root, "output_units", l->outputs);
-  l->axis_unit = copy_texts(l, root, "axis_units", l->axes);
-  status = ambulo__yaml_finish(document);
-  if (!status && (!l->output || !l->output_unit || !l->axis_unit || !l->name || !l->version ||
-                  !l->problem_hash || !l->text_hash))
-    status = AMBULO_E_MEMORY;
-  ambulo__yaml_free(document);
+/* E_MEMORY, or AMBULO_OK, and then the document knows what was wrong, or *cases is -1 */
+static ambulo_status read_fields(ambulo__listing *l, const ambulo__yaml_node *root, int *cases) {
+  int right = 1;
+  l->name = copy_text(l, root, "name");
+  l->version = copy_text(l, root, "version");
+  l->problem_hash = copy_text(l, root, "problem_hash");
+  l->text_hash = copy_text(l, root, "text_hash");
+  l->digest = copy_text(l, root, "cases_sha256");
+  if (!l->name || !l->version || !l->problem_hash || !l->text_hash || !l->digest)
+    return AMBULO_E_MEMORY;
+  *cases = ambulo__yaml_integer(ambulo__yaml_require(root, "cases"), 0, INT_MAX, 0);
+  l->outputs = ambulo__yaml_items(ambulo__yaml_require(root, "outputs"));
+  l->axes = ambulo__yaml_items(ambulo__yaml_require(root, "axes"));
+  l->zipped = ambulo__yaml_integer(ambulo__yaml_require(root, "zipped_axes"), 0, l->axes, 0);
+  const struct {
+    const char *key;
+    int count;
+    char ***texts;
+  } lists[] = {{"outputs", l->outputs, &l->output},
+               {"output_labels", l->outputs, &l->output_label},
+               {"output_units", l->outputs, &l->output_unit},
+               {"axis_labels", l->axes, &l->axis_label},
+               {"axis_units", l->axes, &l->axis_unit}};
+  ambulo_status status = AMBULO_OK;
+  for (size_t i = 0; i < sizeof lists / sizeof *lists && !status; i++)
+    status = copy_texts(l, root, lists[i].key, lists[i].count, lists[i].texts, &right);
+  if (!right) *cases = -1;
   return status;
 }
 
-ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator *allocator,
-                                   ambulo_diagnostics *diagnostics, ambulo__listing *listing) {
+static ambulo_status other_version(ambulo_diagnostics *diagnostics, const char *path,
+                                   const char *own) {
+  int earlier = strcmp(own, AMBULO__LISTING_WITHOUT_CHECKSUMS) == 0;
+  ambulo__place place = {path, 0, 0, NULL};
+  return ambulo__error(
+      diagnostics, AMBULO_E_PROBLEM, place,
+      "'ambulo batch' with --force computes its cases again; or give another folder",
+      "the folder was filled by %s version of ambulo (%.40s%s); expected %s",
+      earlier ? "an earlier" : "another", own, earlier ? ", without checksums" : "",
+      AMBULO__LISTING_SCHEMA);
+}
+
+/* *cases: as many as batch.json says */
+static ambulo_status read_description(ambulo__listing *l, const char *path,
+                                      ambulo_diagnostics *diagnostics, int *cases) {
+  char *text = NULL;
+  size_t length = 0;
+  ambulo__yaml *document = NULL;
+  ambulo_status status =
+      ambulo__read_file(path, MOST_DESCRIPTION_BYTES, &l->allocator, diagnostics, &text, &length);
+  if (status) return status;
+  status = ambulo__yaml_load_text(text, length, path, &l->allocator, NULL, &document);
+  if (!status) {
+    const ambulo__yaml_node *root = ambulo__yaml_root(document);
+    const char *own = ambulo__yaml_text(ambulo__yaml_require(root, "schema"));
+    int sealed = ambulo__seal_holds(text, length);
+    if (strcmp(own, AMBULO__LISTING_WITHOUT_CHECKSUMS) == 0 ||
+        (sealed && strcmp(own, AMBULO__LISTING_SCHEMA) != 0)) {
+      status = other_version(diagnostics, path, own);
+    } else if (!sealed) {
+      status = corrupt(diagnostics, path, 0);
+    } else {
+      status = read_fields(l, root, cases);
+      if (!status && (*cases < 0 || ambulo__yaml_finish(document)))
+        status = corrupt(diagnostics, path, 0);
+    }
+  } else if (status != AMBULO_E_MEMORY) {
+    status = corrupt(diagnostics, path, 0);
+  }
+  ambulo__yaml_free(document);
+  ambulo__free(&l->allocator, text);
+  return status;
+}
+
+static ambulo_status read_cases(ambulo__listing *l, const char *path, int cases,
+                                ambulo_diagnostics *diagnostics) {
+  char digest[AMBULO__SHA256_TEXT];
+  size_t length = 0;
+  struct stat entry;
+  if (stat(path, &entry) != 0 && errno == ENOENT) return corrupt(diagnostics, path, 0);
+  ambulo_status status =
+      ambulo__read_file(path, MOST_LIST_BYTES, &l->allocator, diagnostics, &l->text, &length);
+  if (status) return status;
+  ambulo__sha256_of(l->text, length, digest);
+  if (strcmp(digest, l->digest) != 0 || length == 0) return corrupt(diagnostics, path, 0);
+  status = cut(l, length, path, diagnostics);
+  if (!status && (l->columns != AMBULO__LISTING_AXES + l->axes || l->cases != cases))
+    status = corrupt(diagnostics, path, 1);
+  return status ? status : check_keys(l, path, diagnostics);
+}
+
+ambulo_status ambulo__listing_try(const char *directory, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__listing *listing,
+                                  int *damaged) {
   ambulo__listing l;
+  int cases = 0;
   memset(&l, 0, sizeof l);
   l.allocator = ambulo__allocator_or_default(allocator);
-  size_t length = 0;
   char *list = ambulo__join_paths(&l.allocator, directory, "cases.tsv", NULL);
   char *description = ambulo__join_paths(&l.allocator, directory, "batch.json", NULL);
   ambulo_status status = list && description ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status) status = read_description(&l, description, diagnostics);
-  if (!status)
-    status = ambulo__read_file(list, MOST_LIST_BYTES, &l.allocator, diagnostics, &l.text, &length);
-  if (!status) status = length ? cut(&l, length, list, diagnostics) : corrupt(diagnostics, list, 1);
-  if (!status && l.columns != AMBULO__LISTING_AXES + l.axes) status = corrupt(diagnostics, list, 1);
+  if (!status) status = read_description(&l, description, diagnostics, &cases);
+  if (!status) status = read_cases(&l, list, cases, diagnostics);
   ambulo__free(&l.allocator, list);
   ambulo__free(&l.allocator, description);
+  *damaged = status == DAMAGED;
   if (status) {
     ambulo__listing_free(&l);
   } else {
     *listing = l;
   }
-  return status;
+  return *damaged ? AMBULO_E_IO : status;
+}
+
+ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo__listing *listing) {
+  int damaged;
+  return ambulo__listing_try(directory, allocator, diagnostics, listing, &damaged);
 }
 
 void ambulo__listing_free(ambulo__listing *l) {
   const ambulo_allocator *a = &l->allocator;
   free_texts(a, l->output, l->outputs);
+  free_texts(a, l->output_label, l->outputs);
   free_texts(a, l->output_unit, l->outputs);
+  free_texts(a, l->axis_label, l->axes);
   free_texts(a, l->axis_unit, l->axes);
+  ambulo__free(a, l->digest);
   ambulo__free(a, l->name);
   ambulo__free(a, l->version);
   ambulo__free(a, l->problem_hash);
@@ -137,9 +236,6 @@ const char *ambulo__listing_title(const ambulo__listing *l, int column) {
   return l->cell[column];
 }
 
-int ambulo__listing_key(const ambulo__listing *l, int index, unsigned long long *key) {
-  const char *text = ambulo__listing_cell(l, index, AMBULO__LISTING_KEY);
-  char *end = NULL;
-  *key = strtoull(text, &end, 16);
-  return end != text && *end == '\0';
+unsigned long long ambulo__listing_key(const ambulo__listing *l, int index) {
+  return strtoull(ambulo__listing_cell(l, index, AMBULO__LISTING_KEY), NULL, 16);
 }

@@ -1,7 +1,8 @@
 /* batch/listing.h - what a batch folder says about itself.
  *
  * DIR/cases.tsv: one line a case: id, key (16 hexadecimal digits), name, one column an axis.
- * DIR/batch.json: name, version, base problem and its hash, hash of the list, axes, outputs.
+ * DIR/batch.json: name, version, base problem and its hash, checksum of the list, axes, outputs;
+ * sealed (base/seal.h).
  * Both are written when a run begins; everything that only reads the folder starts here. */
 #ifndef AMBULO_BATCH_LISTING_H
 #define AMBULO_BATCH_LISTING_H
@@ -17,6 +18,9 @@ enum {
   AMBULO__LISTING_AXES /* first axis */
 };
 
+#define AMBULO__LISTING_SCHEMA "ambulo-batch/2"
+#define AMBULO__LISTING_WITHOUT_CHECKSUMS "ambulo-batch/1"
+
 enum { AMBULO__LISTING_NAMES = 256 }; /* looked through for the nearest name */
 
 typedef struct ambulo__listing {
@@ -24,28 +28,35 @@ typedef struct ambulo__listing {
   char *text;
   const char **cell; /* [cases + 1][columns]; row 0: titles */
   int cases, columns;
-  char **output, **output_unit; /* [outputs] */
-  char **axis_unit;             /* [columns - AMBULO__LISTING_AXES] */
-  int outputs, axes;
+  char **output, **output_label, **output_unit; /* [outputs] */
+  char **axis_label, **axis_unit;               /* [axes] */
+  int outputs, axes;                            /* axes: columns - AMBULO__LISTING_AXES */
+  int zipped;                                   /* the first so many axes advance together */
   char *name, *version, *problem_hash, *text_hash;
+  char *digest; /* SHA-256 of cases.tsv, as batch.json says */
 } ambulo__listing;
 
-/* Errors: E_IO (no such folder, no batch in it), E_PARSE, E_SCHEMA, E_MEMORY. */
+/* Errors: E_IO (no such folder, no batch in it, either file damaged), E_PROBLEM (of a version that
+ * wrote no checksums, or of a later one), E_MEMORY. */
 ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo__listing *listing);
+/* The same, and *damaged = 1 where a file is there, and is not what was written. */
+ambulo_status ambulo__listing_try(const char *directory, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__listing *listing,
+                                  int *damaged);
 void ambulo__listing_free(ambulo__listing *listing);
 /* Cell of case `index` (0-based). */
 const char *ambulo__listing_cell(const ambulo__listing *listing, int index, int column);
 const char *ambulo__listing_title(const ambulo__listing *listing, int column);
-int ambulo__listing_key(const ambulo__listing *listing, int index, unsigned long long *key);
+unsigned long long ambulo__listing_key(const ambulo__listing *listing, int index);
 
 /* Creates DIR and DIR/cases; a folder that holds other things is refused. Errors: E_IO. */
 ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics);
 
 /* Makes the folder a batch folder of this sweep. One that holds another list is refused, with
- * what changed, unless force = 1. Errors: E_IO,
- * E_PROBLEM (changed), E_MEMORY. */
+ * what changed, unless force = 1; so is one without checksums. A damaged list is written anew, with
+ * a warning: the records carry the keys themselves. Errors: E_IO, E_PROBLEM (changed), E_MEMORY. */
 ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
                                       const ambulo_allocator *allocator,
                                       ambulo_diagnostics *diagnostics);

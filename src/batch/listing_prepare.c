@@ -5,6 +5,7 @@
 #include "base/file_steps.h"
 #include "base/output_check.h"
 #include "base/read_file.h"
+#include "base/seal.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
 #include "batch/paths.h"
@@ -44,7 +45,50 @@ static void list_text(const ambulo_sweep *s, ambulo__text_buffer *text) {
   }
 }
 
-static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
+static void open_list(ambulo__json *json, const char *key) {
+  ambulo__json_open(json, key, '[');
+}
+
+static void close_list(ambulo__json *json) {
+  ambulo__json_close(json, ']');
+}
+
+/* what stands in the columns of the table, and how drawings call it */
+static void describe_columns(const ambulo_sweep *s, ambulo__json *json) {
+  open_list(json, "outputs");
+  for (int i = 0; i < s->outputs; i++) ambulo__json_text(json, NULL, s->output[i].path);
+  close_list(json);
+  open_list(json, "output_labels");
+  for (int i = 0; i < s->outputs; i++) {
+    const ambulo__sweep_output *o = &s->output[i];
+    ambulo__json_text(json, NULL, o->label ? o->label : o->path);
+  }
+  close_list(json);
+  open_list(json, "output_units");
+  for (int i = 0; i < s->outputs; i++) {
+    const ambulo__sweep_output *o = &s->output[i];
+    ambulo__json_text(json, NULL, o->unit ? o->unit : o->known_unit);
+  }
+  close_list(json);
+  open_list(json, "axes");
+  for (int i = 0; i < s->axes; i++) ambulo__json_text(json, NULL, s->axis[i].key);
+  close_list(json);
+  ambulo__json_integer(json, "zipped_axes", s->zipped);
+  open_list(json, "axis_labels");
+  for (int i = 0; i < s->axes; i++) {
+    const ambulo__axis *axis = &s->axis[i];
+    ambulo__json_text(json, NULL, axis->label ? axis->label : axis->name);
+  }
+  close_list(json);
+  open_list(json, "axis_units");
+  for (int i = 0; i < s->axes; i++) {
+    const ambulo__axis *axis = &s->axis[i];
+    ambulo__json_text(json, NULL, axis->unit ? axis->unit : ambulo__unit_of_key(axis->key));
+  }
+  close_list(json);
+}
+
+static void describe(const ambulo_sweep *s, const char *digest, ambulo__text_buffer *text) {
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   ambulo__json json = {text, 0, 1};
@@ -52,7 +96,7 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   (void)snprintf(hash, sizeof hash, "%016llx", s->problem_hash);
   (void)snprintf(version, sizeof version, "ambulo %s, NLopt %s", versions.ambulo, versions.nlopt);
   ambulo__json_open(&json, NULL, '{');
-  ambulo__json_text(&json, "schema", "ambulo-batch/1");
+  ambulo__json_text(&json, "schema", AMBULO__LISTING_SCHEMA);
   ambulo__json_text(&json, "name", s->name);
   ambulo__json_text(&json, "version", version);
   ambulo__json_text(&json, "sweep", s->path);
@@ -61,23 +105,13 @@ static void describe(const ambulo_sweep *s, ambulo__text_buffer *text) {
   (void)snprintf(hash, sizeof hash, "%016llx", s->text_hash);
   ambulo__json_text(&json, "text_hash", hash);
   ambulo__json_integer(&json, "cases", s->case_count);
-  ambulo__json_open(&json, "outputs", '[');
-  for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output[i]);
-  ambulo__json_close(&json, ']');
-  ambulo__json_open(&json, "output_units", '[');
-  for (int i = 0; i < s->outputs; i++) ambulo__json_text(&json, NULL, s->output_unit[i]);
-  ambulo__json_close(&json, ']');
-  ambulo__json_open(&json, "axes", '[');
-  for (int i = 0; i < s->axes; i++) ambulo__json_text(&json, NULL, s->axis[i].key);
-  ambulo__json_close(&json, ']');
-  ambulo__json_open(&json, "axis_units", '[');
-  for (int i = 0; i < s->axes; i++)
-    ambulo__json_text(&json, NULL, ambulo__unit_of_key(s->axis[i].key));
-  ambulo__json_close(&json, ']');
-  ambulo__json_close(&json, '}');
+  ambulo__json_text(&json, "cases_sha256", digest);
+  describe_columns(s, &json);
+  ambulo__seal(text);
 }
 
-/* the file holds this already, as it does whenever a shard or a resumed run begins */
+/* The file holds this already, as it does whenever a shard or a resumed run begins. One that cannot
+ * be read is written again. */
 static int is_written(const char *path, const ambulo__text_buffer *text,
                       const ambulo_allocator *a) {
   char *old = NULL;
@@ -102,11 +136,13 @@ static ambulo_status write_text(const char *directory, const char *name,
 static ambulo_status write_listing(const ambulo_sweep *s, const char *directory,
                                    const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
   ambulo__text_buffer text;
+  char digest[AMBULO__SHA256_TEXT];
   ambulo__text_init(&text, a);
   list_text(s, &text);
+  ambulo__sha256_of(ambulo__text_data(&text), text.length, digest);
   ambulo_status status = write_text(directory, "cases.tsv", &text, a, diagnostics);
   ambulo__text_clear(&text);
-  describe(s, &text);
+  describe(s, digest, &text);
   if (!status) status = write_text(directory, "batch.json", &text, a, diagnostics);
   ambulo__text_free(&text);
   return status;
@@ -132,9 +168,8 @@ static changes compare(const ambulo_sweep *s, const ambulo__listing *old) {
     } else {
       order = strcmp(s->cases[i].id, ambulo__listing_cell(old, j, AMBULO__LISTING_ID));
     }
-    unsigned long long key = 0;
     if (order == 0) {
-      int same = ambulo__listing_key(old, j, &key) && key == s->cases[i].key;
+      int same = ambulo__listing_key(old, j) == s->cases[i].key;
       c.same += same;
       c.changed += !same;
     }
@@ -186,10 +221,6 @@ static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
 
 /* ----------------------------------------------------------------- the folder */
 
-static int is_dot(const char *name) {
-  return strcmp(name, ".") == 0 || strcmp(name, "..") == 0;
-}
-
 static int begins_with(const char *name, const char *start) {
   return strncmp(name, start, strlen(start)) == 0;
 }
@@ -202,8 +233,8 @@ static int is_evidence(const char *name) {
 
 /* names that a batch shares with others */
 static int is_known(const char *name) {
-  static const char *const names[] = {"cases", "cases.tsv", "batch.json", "results.csv",
-                                      "results.jsonl"};
+  static const char *const names[] = {".",          "..",          "cases",        "cases.tsv",
+                                      "batch.json", "results.csv", "results.jsonl"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++)
     if (strcmp(name, names[i]) == 0) return 1;
   return begins_with(name, "results_") || begins_with(name, "results.csv.tmp-") ||
@@ -219,20 +250,43 @@ static int says(const char *directory, const char *name, const char *text,
   return found;
 }
 
-/* 1: empty but for a folder `cases`, or what a batch leaves that was stopped before it had
- * written its description, or whose description is damaged */
-static int is_unfinished(const char *directory, const ambulo_allocator *a) {
+/* what the names in a folder say */
+typedef struct contents {
+  int strange;  /* a name that no batch gives */
+  int evidence; /* a name that only a batch gives */
+  int others;   /* any name but `cases` */
+} contents;
+
+static ambulo_status look_into(const char *directory, ambulo_diagnostics *diagnostics,
+                               contents *c) {
   DIR *stream = opendir(directory);
-  int evidence = says(directory, "cases.tsv", "id\tkey\tname", a), known = stream != NULL;
-  int others = 0;
-  for (struct dirent *e = stream ? readdir(stream) : NULL; e && known; e = readdir(stream)) {
-    if (is_dot(e->d_name)) continue;
-    evidence |= is_evidence(e->d_name);
-    known = is_evidence(e->d_name) || is_known(e->d_name);
-    others |= strcmp(e->d_name, "cases") != 0;
-  }
-  if (stream) closedir(stream);
-  return known && (evidence || !others);
+  if (!stream) return ambulo__io_error(diagnostics, directory, "read the folder");
+  const struct dirent *e;
+  do {
+    errno = 0;
+    e = readdir(stream);
+    const char *name = e ? e->d_name : "cases";
+    c->evidence |= is_evidence(name);
+    c->strange |= !is_evidence(name) && !is_known(name);
+    c->others |= strcmp(name, "cases") != 0 && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
+  } while (e);
+  int fault = errno;
+  closedir(stream);
+  errno = fault;
+  return fault ? ambulo__io_error(diagnostics, directory, "read the folder") : AMBULO_OK;
+}
+
+/* *may = 1: a batch's folder; or empty but for a folder `cases`; or what a batch leaves that was
+ * stopped before it had written its description, or whose description is damaged */
+static ambulo_status may_fill(const char *directory, const ambulo_allocator *a,
+                              ambulo_diagnostics *diagnostics, int *may) {
+  contents c = {0};
+  *may = says(directory, "batch.json", "\"ambulo-batch/", a);
+  if (*may) return AMBULO_OK;
+  ambulo_status status = look_into(directory, diagnostics, &c);
+  int evidence = c.evidence || says(directory, "cases.tsv", "id\tkey\tname", a);
+  *may = !c.strange && (evidence || !c.others);
+  return status;
 }
 
 static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnostics) {
@@ -244,9 +298,10 @@ static ambulo_status make_folder(const char *path, ambulo_diagnostics *diagnosti
 
 ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *a,
                                          ambulo_diagnostics *diagnostics) {
+  int may = 0;
   ambulo_status status = make_folder(directory, diagnostics);
-  if (!status && !says(directory, "batch.json", "\"ambulo-batch/", a) &&
-      !is_unfinished(directory, a)) {
+  if (!status) status = may_fill(directory, a, diagnostics, &may);
+  if (!status && !may) {
     ambulo__place place = {directory, 0, 0, NULL};
     status = ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,
                            "the folder holds other files; expected a new, an empty or a batch "
@@ -258,21 +313,55 @@ ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_all
   return status;
 }
 
-ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
-                                      const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
-  ambulo__listing old;
+/* *there: whether the folder has a batch.json */
+static ambulo_status find_mark(const char *directory, const ambulo_allocator *a,
+                               ambulo_diagnostics *diagnostics, int *there) {
   struct stat entry;
   char *mark = ambulo__join_paths(a, directory, "batch.json", NULL);
   if (!mark) return AMBULO_E_MEMORY;
-  int there = stat(mark, &entry) == 0;
+  *there = stat(mark, &entry) == 0;
+  ambulo_status status =
+      *there || errno == ENOENT ? AMBULO_OK : ambulo__io_error(diagnostics, mark, "inspect");
   ambulo__free(a, mark);
-  ambulo_status status = AMBULO_OK;
-  /* a description that cannot be read is rewritten: the records carry the keys themselves */
-  if (there && ambulo__listing_load(directory, a, NULL, &old) == AMBULO_OK) {
+  return status;
+}
+
+/* what the folder says it was filled from, against this sweep */
+static ambulo_status compare_with_old(const ambulo_sweep *sweep, const char *directory, int force,
+                                      const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  ambulo__listing old;
+  ambulo__place place = {directory, 0, 0, NULL};
+  int damaged = 0;
+  ambulo_diagnostics *reasons = ambulo_diagnostics_create(a);
+  if (!reasons) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__listing_try(directory, a, reasons, &old, &damaged);
+  if (!status) {
     changes c = compare(sweep, &old);
     if (c.changed + c.added + c.gone > 0 && !force)
       status = refuse(sweep, directory, &old, c, diagnostics);
     ambulo__listing_free(&old);
+  } else if (damaged) {
+    ambulo__warning(diagnostics, place, NULL,
+                    "damaged: the list of cases is not what was written; it is written anew from "
+                    "the sweep, and cases of other inputs are computed again");
+    status = AMBULO_OK;
+  } else if (status == AMBULO_E_PROBLEM && force) {
+    status = AMBULO_OK;
+  } else {
+    const ambulo_diagnostic *reason = ambulo_diagnostics_get(reasons, 0);
+    if (reason) {
+      place.file = reason->file;
+      (void)ambulo__error(diagnostics, status, place, reason->hint, "%s", reason->message);
+    }
   }
+  ambulo_diagnostics_free(reasons);
+  return status;
+}
+
+ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
+                                      const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  int there = 0;
+  ambulo_status status = find_mark(directory, a, diagnostics, &there);
+  if (!status && there) status = compare_with_old(sweep, directory, force, a, diagnostics);
   return status ? status : write_listing(sweep, directory, a, diagnostics);
 }

@@ -99,6 +99,15 @@ static int division_of(const char *name) {
   return ambulo__parse_integer(at, strlen(at), 1, 1000000, &division) ? (int)division : 0;
 }
 
+static ambulo_status refuse_if_held(const char *path, ambulo_diagnostics *diagnostics) {
+  char holder[AMBULO__HOLDER_TEXT];
+  int file = open(path, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return ambulo__io_error(diagnostics, path, "open the lock");
+  ambulo_status status = find_holder(file, holder) ? held(diagnostics, path, holder) : AMBULO_OK;
+  close(file);
+  return status;
+}
+
 /* Shards of another k would compute the same cases. Each run looks after it holds its own lock,
  * so that of two which begin at once at least one sees the other. */
 static ambulo_status refuse_other_division(const char *directory, int shards,
@@ -106,17 +115,19 @@ static ambulo_status refuse_other_division(const char *directory, int shards,
                                            ambulo_diagnostics *diagnostics) {
   ambulo_status status = AMBULO_OK;
   DIR *stream = opendir(directory);
-  for (struct dirent *e = stream ? readdir(stream) : NULL; e && !status; e = readdir(stream)) {
+  if (!stream) return ambulo__io_error(diagnostics, directory, "read the folder");
+  while (!status) {
+    errno = 0;
+    const struct dirent *e = readdir(stream);
+    if (!e) break;
     int division = division_of(e->d_name);
     if (division == 0 || division == shards) continue;
     char *path = ambulo__join_paths(a, directory, e->d_name, NULL);
-    char holder[AMBULO__HOLDER_TEXT];
-    int file = path ? open(path, O_RDONLY | O_CLOEXEC) : -1;
-    if (file >= 0 && find_holder(file, holder)) status = held(diagnostics, path, holder);
-    if (file >= 0) close(file);
+    status = path ? refuse_if_held(path, diagnostics) : AMBULO_E_MEMORY;
     ambulo__free(a, path);
   }
-  if (stream) closedir(stream);
+  if (!status && errno) status = ambulo__io_error(diagnostics, directory, "read the folder");
+  closedir(stream);
   return status;
 }
 
@@ -150,14 +161,20 @@ void ambulo__lock_release(ambulo__lock *lock) {
   lock->shard = lock->folder = -1;
 }
 
-void ambulo__lock_holder(const char *directory, const ambulo_allocator *a,
-                         char holder[AMBULO__HOLDER_TEXT]) {
+ambulo_status ambulo__lock_holder(const char *directory, const ambulo_allocator *a,
+                                  ambulo_diagnostics *diagnostics,
+                                  char holder[AMBULO__HOLDER_TEXT]) {
   holder[0] = '\0';
   char *path = ambulo__join_paths(a, directory, "lock", NULL);
-  int file = path ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+  if (!path) return AMBULO_E_MEMORY;
+  int file = open(path, O_RDONLY | O_CLOEXEC);
+  ambulo_status status = AMBULO_OK;
   if (file >= 0) {
     if (!find_holder(file, holder)) holder[0] = '\0';
     close(file);
+  } else if (errno != ENOENT) {
+    status = ambulo__io_error(diagnostics, path, "open the lock");
   }
   ambulo__free(a, path);
+  return status;
 }

@@ -21,8 +21,10 @@ ambulo_status ambulo__lock_take(const char *directory, int shard, int shards,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 ambulo__lock *lock);
 void ambulo__lock_release(ambulo__lock *lock);
-/* Who holds DIR/lock, as far as another process can tell; "" if nobody does. */
-void ambulo__lock_holder(const char *directory, const ambulo_allocator *allocator,
-                         char holder[AMBULO__HOLDER_TEXT]);
+/* Who holds DIR/lock, as far as another process can tell; "" if nobody does. Errors: E_IO,
+ * E_MEMORY. */
+ambulo_status ambulo__lock_holder(const char *directory, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics,
+                                  char holder[AMBULO__HOLDER_TEXT]);
 
 #endif

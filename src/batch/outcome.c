@@ -10,6 +10,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,7 +30,7 @@ static ambulo_status disk_trouble(ambulo__run *run, const char *id) {
     text = NULL;
   const char *error = text ? strstr(text, "error[") : NULL;
   if (error && strstr(error, "]: ")) error = strstr(error, "]: ") + 3;
-  if (!error) error = text && text[0] ? text : "its log is empty";
+  if (!error) error = text && text[0] ? text : "its log says nothing";
   ambulo__place place = {run->directory, 0, 0, NULL};
   ambulo_status status = ambulo__error(run->diagnostics, AMBULO_E_IO, place,
                                        "what is finished is kept; run the same command again",
@@ -39,47 +40,50 @@ static ambulo_status disk_trouble(ambulo__run *run, const char *id) {
   return status;
 }
 
-static void set_state(ambulo__record *record, const char *state) {
+/* what is to become of the case */
+typedef enum judgement { RECORDED, AGAIN, DISK } judgement;
+
+/* it ended without a result: what stands there of one does not count, its log does */
+static judgement without_result(ambulo__record *record, const char *state) {
+  ambulo__case_files *files = &record->files;
+  int kept = 0;
+  for (int i = 0; i < files->count; i++)
+    if (files->file[i].ending[0] != '/') files->file[kept++] = files->file[i];
+  files->count = kept;
+  record->valid = 0;
+  record->violation = -1.0;
   (void)snprintf(record->state, sizeof record->state, "%s", state);
+  return RECORDED;
 }
 
-/* a worker that exited; 1: recorded, 0: again, -1: disk */
-static int judge_exit(ambulo__run *run, const char *id, int code, ambulo__record *record) {
+/* a worker that exited; `taken`: it left a result */
+static judgement judge_exit(int code, int taken, ambulo__record *record) {
   record->exit_code = code;
-  if (code == 4 || code == NOT_STARTED) return -1;
-  if (code > SIGNAL_BASE && from_outside(code - SIGNAL_BASE)) return 0;
-  if (code <= 1 && ambulo__record_take_summary(run->directory, id, run->allocator, record))
-    return 1;
-  if (code == 0) return 0;
-  set_state(record, code == 2 || code == 3 ? "invalid" : code == 5 ? "memory" : "error");
-  return 1;
+  if (code == 4 || code == NOT_STARTED) return DISK;
+  if (code > SIGNAL_BASE && from_outside(code - SIGNAL_BASE)) return AGAIN;
+  if (code <= 1 && taken) return RECORDED;
+  if (code == 0) return AGAIN;
+  return without_result(record, code == 2 || code == 3 ? "invalid"
+                                : code == 5            ? "memory"
+                                                       : "error");
 }
 
-static int judge(ambulo__run *run, const ambulo__slot *slot, int wait_status,
-                 ambulo__record *record) {
-  if (WIFEXITED(wait_status))
-    return judge_exit(run, run->sweep->cases[slot->index].id, WEXITSTATUS(wait_status), record);
+static judgement judge(const ambulo__slot *slot, int wait_status, int taken,
+                       ambulo__record *record) {
+  if (WIFEXITED(wait_status)) return judge_exit(WEXITSTATUS(wait_status), taken, record);
   record->signal = WTERMSIG(wait_status);
-  if (slot->cut == 1) {
-    set_state(record, "timeout");
-    return 1;
-  }
-  if (from_outside(record->signal)) return 0;
-  set_state(record, "crashed");
-  return 1;
+  if (slot->cut == 1) return without_result(record, "timeout");
+  return from_outside(record->signal) ? AGAIN : without_result(record, "crashed");
 }
 
 /* an empty log says nothing; one of a case that was solved is kept when it has warnings */
-static void drop_empty_log(const ambulo__run *run, const char *id) {
-  char *path = ambulo__case_path(run->allocator, run->directory, id, ".log"), *text = NULL;
-  size_t length = 0;
-  int empty =
-      path &&
-      ambulo__read_file(path, MOST_LOG_BYTES, run->allocator, NULL, &text, &length) == AMBULO_OK &&
-      length == 0;
-  if (empty) (void)unlink(path);
-  ambulo__free(run->allocator, text);
+static ambulo_status drop_empty_log(const ambulo__run *run, const char *id) {
+  struct stat entry;
+  char *path = ambulo__case_path(run->allocator, run->directory, id, ".log");
+  if (!path) return AMBULO_E_MEMORY;
+  if (stat(path, &entry) == 0 && entry.st_size == 0) (void)unlink(path);
   ambulo__free(run->allocator, path);
+  return AMBULO_OK;
 }
 
 static ambulo_status keep(ambulo__run *run, int index, const ambulo__record *record) {
@@ -87,7 +91,6 @@ static ambulo_status keep(ambulo__run *run, int index, const ambulo__record *rec
   ambulo_status status =
       ambulo__record_write(run->directory, one->id, record, run->allocator, run->diagnostics);
   if (status) return status;
-  drop_empty_log(run, one->id);
   ambulo_batch_progress *p = &run->progress;
   run->state[index] = AMBULO__CASE_DONE;
   run->solved[index] = (unsigned char)record->valid;
@@ -117,10 +120,16 @@ ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot,
   record.seconds = ambulo__run_clock() - slot->begin;
   record.limit_seconds = run->case_seconds;
   record.limit_megabytes = run->case_megabytes;
-  int verdict = judge(run, slot, wait_status, &record);
-  if (verdict > 0) return keep(run, slot->index, &record);
+  int taken = 0;
   run->state[slot->index] = AMBULO__CASE_WAITING;
-  if (verdict < 0) return disk_trouble(run, one->id);
+  ambulo_status status = drop_empty_log(run, one->id);
+  if (!status)
+    status = ambulo__record_take_result(run->directory, one->id, run->allocator, run->diagnostics,
+                                        &record, &taken);
+  if (status) return status;
+  judgement judged = judge(slot, wait_status, taken, &record);
+  if (judged == RECORDED) return keep(run, slot->index, &record);
+  if (judged == DISK) return disk_trouble(run, one->id);
   if (slot->cut == 0 && ++run->attempts[slot->index] == MOST_ATTEMPTS) {
     run->state[slot->index] = AMBULO__CASE_GIVEN_UP;
     ambulo__place place = {run->directory, 0, 0, NULL};

@@ -6,8 +6,8 @@
 #include "batch/paths.h"
 #include "trajectory/table_text.h"
 
+#include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_MOTION_BYTES = 1 << 30, PART = 128, MOST_NAMES = 256 };
@@ -31,18 +31,18 @@ static const ambulo__yaml_node *step(const ambulo__yaml_node *node, const char *
   if (item && **path == ']') (*path)++;
   if (**path == '.') (*path)++;
   if (item) {
-    int index = (int)strtol(part, NULL, 10);
-    return index >= 0 && index < ambulo__yaml_count(node) ? ambulo__yaml_item(node, index) : NULL;
+    long long index = -1;
+    (void)ambulo__parse_integer(part, length, 0, INT_MAX, &index);
+    return ambulo__yaml_item(node, (int)index);
   }
-  return ambulo__yaml_kind_of(node) == AMBULO__YAML_MAPPING ? ambulo__yaml_get(node, part) : NULL;
+  return ambulo__yaml_is(node, AMBULO__YAML_MAPPING) ? ambulo__yaml_get(node, part) : NULL;
 }
 
 static void read_path(const ambulo__yaml_node *root, const char *path, ambulo__output *value) {
   const ambulo__yaml_node *node = root;
   while (node && *path) node = step(node, &path);
-  if (node && ambulo__yaml_kind_of(node) == AMBULO__YAML_MAPPING)
-    node = ambulo__yaml_get(node, "total");
-  if (!node || ambulo__yaml_kind_of(node) != AMBULO__YAML_SCALAR) return;
+  if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) node = ambulo__yaml_get(node, "total");
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return;
   const char *text = ambulo__yaml_text(node);
   double number;
   if (ambulo__parse_double(text, strlen(text), &number)) {
@@ -125,30 +125,62 @@ static int open_motion(motion *m) {
   return 0;
 }
 
-void ambulo__outputs_of(const char *directory, const char *id, char *const *output, int count,
-                        const ambulo_allocator *a, ambulo__output *value) {
-  char *summary = ambulo__case_path(a, directory, id, "/summary.json");
-  char *file = ambulo__case_path(a, directory, id, "/motion.csv"), *text = NULL;
-  ambulo__yaml *document = NULL;
-  motion m = {NULL, 0, {NULL, 0, 0, 0}};
-  if (summary && ambulo__yaml_load(summary, a, NULL, &document)) document = NULL;
-  for (int i = 0; i < count; i++) {
-    char column[PART];
-    reduction how = parse(output[i], column);
-    memset(&value[i], 0, sizeof value[i]);
-    if (how == PATH) {
-      if (document) read_path(ambulo__yaml_root(document), output[i], &value[i]);
-      continue;
-    }
-    if (!text && file && ambulo__read_file(file, MOST_MOTION_BYTES, a, NULL, &text, &m.length))
-      text = NULL;
-    m.text = text;
-    if (text && open_motion(&m)) reduce(&m, how, column, &value[i]);
+/* what the outputs of a case are taken from; either is read when the first one asks for it */
+typedef struct source {
+  const ambulo_allocator *allocator;
+  ambulo_diagnostics *diagnostics;
+  char *summary, *file; /* paths */
+  ambulo__yaml *document;
+  char *text;
+  motion motion;
+} source;
+
+static ambulo_status load_summary(source *s) {
+  if (s->document) return AMBULO_OK;
+  return ambulo__yaml_load(s->summary, s->allocator, s->diagnostics, &s->document);
+}
+
+static ambulo_status load_motion(source *s) {
+  if (s->text) return AMBULO_OK;
+  ambulo_status status = ambulo__read_file(s->file, MOST_MOTION_BYTES, s->allocator, s->diagnostics,
+                                           &s->text, &s->motion.length);
+  if (status) return status;
+  s->motion.text = s->text;
+  ambulo__place place = {s->file, 0, 0, NULL};
+  return open_motion(&s->motion) ? AMBULO_OK
+                                 : ambulo__error(s->diagnostics, AMBULO_E_PARSE, place, NULL,
+                                                 "holds no line of names; expected a motion");
+}
+
+static ambulo_status take(source *s, const char *output, ambulo__output *value) {
+  char column[PART];
+  reduction how = parse(output, column);
+  ambulo_status status = how == PATH ? load_summary(s) : load_motion(s);
+  if (status) return status;
+  if (how == PATH) {
+    read_path(ambulo__yaml_root(s->document), output, value);
+  } else {
+    reduce(&s->motion, how, column, value);
   }
-  ambulo__yaml_free(document);
-  ambulo__free(a, text);
-  ambulo__free(a, summary);
-  ambulo__free(a, file);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__outputs_of(const char *directory, const char *id, char *const *output,
+                                 int count, const ambulo_allocator *a,
+                                 ambulo_diagnostics *diagnostics, ambulo__output *value) {
+  source s = {.allocator = a, .diagnostics = diagnostics};
+  s.summary = ambulo__case_path(a, directory, id, "/summary.json");
+  s.file = ambulo__case_path(a, directory, id, "/motion.csv");
+  ambulo__output *found = ambulo__alloc(a, (size_t)count, sizeof *found);
+  ambulo_status status = s.summary && s.file && found ? AMBULO_OK : AMBULO_E_MEMORY;
+  for (int i = 0; i < count && !status; i++) status = take(&s, output[i], &found[i]);
+  if (!status && count > 0) memcpy(value, found, (size_t)count * sizeof *found);
+  ambulo__yaml_free(s.document);
+  ambulo__free(a, s.text);
+  ambulo__free(a, s.summary);
+  ambulo__free(a, s.file);
+  ambulo__free(a, found);
+  return status;
 }
 
 /* -------------------------------------------------------------- nearest names */
@@ -165,11 +197,10 @@ static const char *nearest_key(const ambulo__yaml_node *node, const char *path, 
       node = next;
       continue;
     }
-    if (!node || ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING || length >= sizeof word)
-      return NULL;
+    if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING) || length >= sizeof word) return NULL;
     memcpy(word, from, length);
     word[length] = '\0';
-    int count = ambulo__yaml_count(node) < MOST_NAMES ? ambulo__yaml_count(node) : MOST_NAMES;
+    int pairs = ambulo__yaml_pairs(node), count = pairs < MOST_NAMES ? pairs : MOST_NAMES;
     for (int i = 0; i < count; i++) key[i] = ambulo__yaml_key(node, i);
     const char *found = ambulo__nearest(word, key, (size_t)count);
     (void)snprintf(near, size, "%s", found ? found : "");

@@ -8,7 +8,7 @@
 typedef struct entry {
   const char *text;
   double number;
-  int first; /* case it was first seen in */
+  int first; /* point it was first seen in */
 } entry;
 
 static int by_number(const void *left, const void *right) {
@@ -39,19 +39,19 @@ static int unique(entry *e, int count, int numeric) {
   return kept;
 }
 
-ambulo_status ambulo__plot_axis_make(const ambulo__listing *l, int column,
-                                     ambulo__plot_axis *axis) {
-  entry *e = ambulo__alloc(&l->allocator, (size_t)l->cases, sizeof *e);
+ambulo_status ambulo__plot_axis_make(const ambulo__listing *l, const ambulo__plot_point *point,
+                                     int points, int column, ambulo__plot_axis *axis) {
+  entry *e = ambulo__alloc(&l->allocator, (size_t)points, sizeof *e);
   if (!e) return AMBULO_E_MEMORY;
   axis->column = column;
   axis->numeric = 1;
-  for (int k = 0; k < l->cases; k++) {
-    e[k].text = ambulo__listing_cell(l, k, column);
+  for (int k = 0; k < points; k++) {
+    e[k].text = ambulo__listing_cell(l, point[k].index, column);
     e[k].first = k;
     axis->numeric &= ambulo__parse_double(e[k].text, strlen(e[k].text), &e[k].number);
   }
-  qsort(e, (size_t)l->cases, sizeof *e, axis->numeric ? by_number : by_text);
-  axis->count = unique(e, l->cases, axis->numeric);
+  qsort(e, (size_t)points, sizeof *e, axis->numeric ? by_number : by_text);
+  axis->count = unique(e, points, axis->numeric);
   if (!axis->numeric) qsort(e, (size_t)axis->count, sizeof *e, by_first);
   axis->text = ambulo__alloc(&l->allocator, (size_t)axis->count, sizeof *axis->text);
   axis->at = ambulo__alloc(&l->allocator, (size_t)axis->count, sizeof *axis->at);

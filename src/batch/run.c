@@ -53,8 +53,8 @@ static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
   ambulo_case one;
   ambulo_status status = ambulo_sweep_case(run->sweep, index, &one);
   if (!status) status = make_fan(run, one.id);
+  if (!status) status = ambulo__clean_result(run->directory, one.id, run->allocator);
   if (status) return status;
-  ambulo__clean_result(run->directory, one.id, run->allocator);
   int from = ambulo__schedule_start_of(run, index);
   ambulo__worker_job job = {run->options.program,
                             run->sweep->base,
@@ -174,6 +174,7 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
                                const ambulo_batch_options *options,
                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                ambulo_batch_progress *progress) {
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!sweep || !directory || !directory[0]) return AMBULO_E_ARGUMENT;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo__run run;
@@ -199,5 +200,5 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
   ambulo__lock_release(&lock);
   if (progress) *progress = run.progress;
   ambulo__schedule_free(&run);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, directory);
 }

@@ -33,6 +33,7 @@ typedef struct ambulo__run {
   unsigned char *state;       /* [cases] ambulo__case_state */
   unsigned char *solved;      /* [cases] 1: has a valid solution */
   unsigned char *attempts;    /* [cases] */
+  unsigned char *damaged;     /* [cases] 1: told, and to be computed again */
   unsigned long long *origin; /* [cases] of those that are done: see ambulo__record */
   int *next;                  /* [cases] the case that continues from this one; -1: none */
   ambulo__slot *slot;         /* [workers] */

@@ -31,23 +31,37 @@ static int may_start(const ambulo__run *run, int k) {
          (previous < 0 || run->state[previous] == AMBULO__CASE_DONE);
 }
 
+static void tell_damage(const ambulo__run *run, const char *id, const ambulo__damage *damage) {
+  char *path = ambulo__case_path(run->allocator, run->directory, id, damage->ending);
+  ambulo__place place = {path ? path : run->directory, 0, 0, NULL};
+  ambulo__warning(run->diagnostics, place, NULL, "damaged: %s; the case is computed again",
+                  damage->what);
+  ambulo__free(run->allocator, path);
+}
+
 /* Takes a waiting case as done when its record is what this run would compute: same key, same
- * origin, limits no tighter than now. */
-static void take_record(ambulo__run *run, int k) {
+ * origin, limits no tighter than now; and all files of its result are what they were. */
+static ambulo_status take_record(ambulo__run *run, int k) {
   const ambulo__sweep_case *one = &run->sweep->cases[k];
+  ambulo__finding finding;
   ambulo__record record;
-  if (ambulo__record_read(run->directory, one->id, run->allocator, &record) != AMBULO__RECORD_READ)
-    return;
-  if (record.key != one->key || record.origin != ambulo__schedule_origin(run, k) ||
-      ambulo__record_was_cut(&record, run->case_seconds, run->case_megabytes) ||
-      !ambulo__record_summary_intact(run->directory, one->id, &record, run->allocator))
-    return;
+  ambulo__damage damage;
+  if (run->damaged[k]) return AMBULO_OK;
+  ambulo_status status = ambulo__record_find(run->directory, one->id, one->key, 1, run->allocator,
+                                             &finding, &record, &damage);
+  if (status) return status;
+  run->damaged[k] = finding == AMBULO__FOUND_DAMAGED;
+  if (run->damaged[k]) tell_damage(run, one->id, &damage);
+  if (finding != AMBULO__FOUND_INTACT || record.origin != ambulo__schedule_origin(run, k) ||
+      ambulo__record_was_cut(&record, run->case_seconds, run->case_megabytes))
+    return AMBULO_OK;
   run->state[k] = AMBULO__CASE_DONE;
   run->solved[k] = (unsigned char)record.valid;
   run->origin[k] = record.origin;
   run->progress.done++;
   run->progress.resumed++;
   run->progress.failed += !record.valid;
+  return AMBULO_OK;
 }
 
 ambulo_status ambulo__schedule_open(ambulo__run *run) {
@@ -56,14 +70,16 @@ ambulo_status ambulo__schedule_open(ambulo__run *run) {
   run->state = ambulo__alloc(a, cases, 1);
   run->solved = ambulo__alloc(a, cases, 1);
   run->attempts = ambulo__alloc(a, cases, 1);
+  run->damaged = ambulo__alloc(a, cases, 1);
   run->origin = ambulo__alloc(a, cases, sizeof *run->origin);
   run->next = ambulo__alloc(a, cases, sizeof *run->next);
   run->slot = ambulo__alloc(a, (size_t)run->workers, sizeof *run->slot);
-  if (!run->state || !run->solved || !run->attempts || !run->origin || !run->next || !run->slot)
+  if (!run->state || !run->solved || !run->attempts || !run->damaged || !run->origin ||
+      !run->next || !run->slot)
     return AMBULO_E_MEMORY;
   ambulo_status status = assign(run);
   for (int k = 0; k < run->sweep->case_count && !status; k++) {
-    if (may_start(run, k)) take_record(run, k);
+    if (may_start(run, k)) status = take_record(run, k);
   }
   return status;
 }
@@ -73,16 +89,17 @@ void ambulo__schedule_free(ambulo__run *run) {
   ambulo__free(a, run->state);
   ambulo__free(a, run->solved);
   ambulo__free(a, run->attempts);
+  ambulo__free(a, run->damaged);
   ambulo__free(a, run->origin);
   ambulo__free(a, run->next);
   ambulo__free(a, run->slot);
 }
 
-/* 1: the case has to be computed, and may be now */
+/* 1: the case has to be computed, and may be now; never after a failure, which is in run->status */
 static int is_due(ambulo__run *run, int k) {
-  if (!may_start(run, k)) return 0;
-  if (run->sweep->cases[k].previous >= 0) take_record(run, k);
-  return run->state[k] == AMBULO__CASE_WAITING;
+  if (run->status || !may_start(run, k)) return 0;
+  if (run->sweep->cases[k].previous >= 0) run->status = take_record(run, k);
+  return !run->status && run->state[k] == AMBULO__CASE_WAITING;
 }
 
 int ambulo__schedule_next(ambulo__run *run) {
@@ -90,7 +107,7 @@ int ambulo__schedule_next(ambulo__run *run) {
   for (int pass = 0; pass < 2; pass++) {
     for (; run->cursor < run->sweep->case_count; run->cursor++)
       if (is_due(run, run->cursor)) return run->cursor++;
-    if (run->progress.running > 0) break;
+    if (run->progress.running > 0 || run->status) break;
     run->cursor = 0;
   }
   return -1;

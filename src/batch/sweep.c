@@ -10,39 +10,36 @@
 
 enum { MOST_BASE_BYTES = 16 << 20 };
 
-static char *copy_scalar(ambulo_sweep *s, const ambulo__yaml_node *node) {
-  const char *text = node ? ambulo__yaml_text(node) : NULL;
-  return text ? ambulo__strdup(&s->allocator, text) : NULL;
+static ambulo_status read_filters(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  int items = ambulo__yaml_items(node);
+  ambulo_status status = AMBULO_OK;
+  s->filter = ambulo__alloc(&s->allocator, (size_t)items, sizeof *s->filter);
+  if (!s->filter) return AMBULO_E_MEMORY;
+  for (int i = 0; i < items && !status; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, i);
+    status = ambulo__sweep_copy(s, item, &s->filter[i]);
+    s->filters += !status;
+    if (!status && !s->filter[i][0])
+      status = ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "no filter; expected one");
+  }
+  return status;
 }
 
-static ambulo_status read_texts(ambulo_sweep *s, const ambulo__yaml_node *node, char ***texts,
-                                int *count) {
-  int items = ambulo__yaml_count(node);
-  if (node && ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE)
-    return ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "not a list; expected [TEXT, ...]");
-  if (items == 0) return AMBULO_OK;
-  *texts = ambulo__alloc(&s->allocator, (size_t)items, sizeof **texts);
-  if (!*texts) return AMBULO_E_MEMORY;
-  for (int i = 0; i < items; i++) {
-    char *text = copy_scalar(s, ambulo__yaml_item(node, i));
-    if (!text) return AMBULO_E_SCHEMA;
-    (*texts)[(*count)++] = text;
-  }
-  return AMBULO_OK;
+ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status) {
+  if (status != AMBULO_E_MEMORY) ambulo__yaml_close(section);
+  return status;
 }
 
 static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
-  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
-  const char *key_text = key ? ambulo__yaml_text(key) : NULL;
-  if (!key_text) return AMBULO_E_SCHEMA;
-  ambulo__axis *axis = ambulo__sweep_add_axis(s, name ? ambulo__yaml_text(name) : NULL, key_text,
-                                              ambulo__spot_of(key));
-  if (!axis)
-    return ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "more than %d axes", AMBULO__SWEEP_AXES);
-  ambulo_status status = ambulo__sweep_read_values(s, axis, node);
-  ambulo__yaml_close(node);
-  return status;
+  const char *name = ambulo__yaml_text(ambulo__yaml_get(node, "name"));
+  ambulo__axis *axis = NULL;
+  const char *path = ambulo__yaml_text(key);
+  if (!ambulo__yaml_is(key, AMBULO__YAML_SCALAR)) return AMBULO_E_SCHEMA;
+  ambulo_status status = ambulo__sweep_add_axis(s, name, path, ambulo__spot_of(key), &axis);
+  if (!status) status = ambulo__sweep_read_label(s, axis, node);
+  if (!status) status = ambulo__sweep_read_values(s, axis, node);
+  return ambulo__sweep_close(node, status);
 }
 
 /* one group an axis, or one for all */
@@ -61,6 +58,7 @@ static ambulo_status group_axes(ambulo_sweep *s, const ambulo__yaml_node *node, 
     ambulo__axis_group group = {i, 1, s->axis[i].count};
     s->group[s->groups++] = group;
   }
+  s->zipped = zip ? s->axes : 0;
   return AMBULO_OK;
 }
 
@@ -69,9 +67,7 @@ static ambulo_status read_axes(ambulo_sweep *s, const ambulo__yaml_node *root) {
   const ambulo__yaml_node *axes = ambulo__yaml_get(root, "axes");
   int zip = ambulo__yaml_choice(ambulo__yaml_get(root, "combine"), ways, 2, 0);
   ambulo_status status = AMBULO_OK;
-  if (axes && ambulo__yaml_kind_of(axes) != AMBULO__YAML_SEQUENCE)
-    return ambulo__yaml_error(axes, AMBULO_E_SCHEMA, NULL, "'axes' is not a list; expected axes");
-  for (int i = 0; i < ambulo__yaml_count(axes) && !status; i++)
+  for (int i = 0; i < ambulo__yaml_items(axes) && !status; i++)
     status = read_axis(s, ambulo__yaml_item(axes, i));
   if (!status) status = group_axes(s, axes, zip);
   const ambulo__yaml_node *table = ambulo__yaml_get(root, "table");
@@ -98,8 +94,8 @@ static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) 
   const ambulo__yaml_node *chain =
       start ? ambulo__yaml_require(root, "along") : ambulo__yaml_get(root, "along");
   s->chain_axis = -1;
-  const char *name = chain && start ? ambulo__yaml_text(chain) : NULL;
-  if (!name) return AMBULO_OK;
+  const char *name = ambulo__yaml_text(chain);
+  if (!start || !name[0]) return AMBULO_OK;
   s->chain_axis = ambulo__sweep_find_axis(s, name);
   if (s->chain_axis < 0)
     return ambulo__yaml_error(chain, AMBULO_E_SCHEMA, NULL,
@@ -107,29 +103,37 @@ static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) 
   return AMBULO_OK;
 }
 
+static ambulo_status hash_file(ambulo_sweep *s, const char *path, unsigned long long *hash) {
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status =
+      ambulo__read_file(path, MOST_BASE_BYTES, &s->allocator, s->diagnostics, &text, &length);
+  if (!status) *hash = ambulo__hash_text(AMBULO__HASH_START, text);
+  ambulo__free(&s->allocator, text);
+  return status;
+}
+
 /* the base problem is loaded once: a fault in it is told now, and its hash enters every key */
-static ambulo_status read_base(ambulo_sweep *s) {
+static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
   ambulo_problem *problem = NULL;
   ambulo_status status =
       ambulo_problem_load(s->base, NULL, 0, &s->allocator, s->diagnostics, &problem);
-  if (status) return status;
+  if (status)
+    return ambulo__yaml_error(node, status, NULL, "the base problem '%s' could not be loaded",
+                              s->base);
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   s->problem_hash = ambulo_problem_hash(problem);
-  s->output_unit = ambulo__alloc(&s->allocator, (size_t)s->outputs, sizeof *s->output_unit);
-  for (int i = 0; s->output_unit && i < s->outputs; i++)
-    s->output_unit[i] = ambulo__unit_of_output(s->output[i], ambulo_problem_model(problem));
-  char *text = NULL;
-  size_t length = 0;
-  if (!ambulo__read_file(s->base, MOST_BASE_BYTES, &s->allocator, NULL, &text, &length))
-    s->text_hash = ambulo__hash_text(AMBULO__HASH_START, text);
-  ambulo__free(&s->allocator, text);
+  for (int i = 0; i < s->outputs; i++)
+    s->output[i].known_unit =
+        ambulo__unit_of_output(s->output[i].path, ambulo_problem_model(problem));
+  status = hash_file(s, s->base, &s->text_hash);
   /* not the instruction set: the nodes of a cluster may differ in it */
   unsigned long long hash = ambulo__hash_word(AMBULO__HASH_START, s->problem_hash);
   hash = ambulo__hash_text(hash, versions.ambulo);
   s->base_hash = ambulo__hash_text(hash, versions.nlopt);
   ambulo_problem_free(problem);
-  return s->output_unit ? AMBULO_OK : AMBULO_E_MEMORY;
+  return status;
 }
 
 /* a fault in one key must not make strangers of those that would have been read after it */
@@ -140,32 +144,39 @@ static void expect_all(const ambulo__yaml_node *root) {
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) ambulo__yaml_expect(root, keys[i]);
 }
 
+/* the first keys, which nothing else can be read without */
+static ambulo_status read_head(ambulo_sweep *s, const ambulo__yaml *document,
+                               const ambulo__yaml_node *root) {
+  (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
+  const ambulo__yaml_node *name = ambulo__yaml_require(root, "name");
+  ambulo_status status = ambulo__sweep_copy(s, name, &s->name);
+  const char *base = ambulo__yaml_text(ambulo__yaml_require(root, "base"));
+  const ambulo__yaml_node *pattern = ambulo__yaml_get(root, "case_name");
+  if (!status) status = ambulo__sweep_copy(s, pattern, &s->case_name);
+  s->case_name_spot = ambulo__spot_of(pattern);
+  s->base = ambulo__sibling_path(&s->allocator, s->path, base);
+  if (!s->base) status = AMBULO_E_MEMORY;
+  return status ? status : ambulo__yaml_finish(document);
+}
+
 ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) {
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
   static const char *const kinds[] = {"sweep"};
   if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return ambulo__yaml_finish(document);
   expect_all(root);
-  (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
-  s->name = copy_scalar(s, ambulo__yaml_require(root, "name"));
-  const ambulo__yaml_node *pattern = ambulo__yaml_get(root, "case_name");
-  s->case_name = copy_scalar(s, pattern);
-  if (pattern) s->case_name_spot = ambulo__spot_of(pattern);
-  const ambulo__yaml_node *base = ambulo__yaml_require(root, "base");
-  const ambulo__yaml_node *cases = ambulo__yaml_get(root, "cases");
-  if (!base || !s->name) return ambulo__yaml_finish(document);
-  s->base = ambulo__sibling_path(&s->allocator, s->path, ambulo__yaml_text(base));
-  ambulo_status status = s->base ? read_axes(s, root) : AMBULO_E_MEMORY;
+  ambulo_status status = read_head(s, document, root);
+  if (!status) status = read_axes(s, root);
   const ambulo__yaml_node *filters = ambulo__yaml_get(root, "filters");
   if (!status) status = ambulo__sweep_check_axes(s);
-  if (!status) status = read_texts(s, filters, &s->filter, &s->filters);
+  if (!status) status = read_filters(s, filters);
   if (!status) status = ambulo__sweep_check_filters(s, filters);
-  if (!status) status = read_texts(s, ambulo__yaml_get(root, "outputs"), &s->output, &s->outputs);
+  if (!status) status = ambulo__sweep_read_outputs(s, ambulo__yaml_get(root, "outputs"));
   if (!status) status = read_limits(s, root);
   if (!status) status = read_chain(s, root);
-  ambulo__yaml_close(root);
+  status = ambulo__sweep_close(root, status);
   if (!status) status = ambulo__yaml_finish(document);
-  if (!status) status = read_base(s);
-  if (!status) status = ambulo__sweep_build_cases(s, cases);
+  if (!status) status = read_base(s, ambulo__yaml_get(root, "base"));
+  if (!status) status = ambulo__sweep_build_cases(s, ambulo__yaml_get(root, "cases"));
   if (!status) status = ambulo__yaml_finish(document);
   return status;
 }
@@ -173,9 +184,10 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
 ambulo_status ambulo_sweep_load(const char *path, const ambulo_allocator *allocator,
                                 ambulo_diagnostics *diagnostics, ambulo_sweep **sweep) {
   if (!path || !sweep) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo_sweep *s = ambulo__alloc(&own, 1, sizeof *s);
-  if (!s) return AMBULO_E_MEMORY;
+  if (!s) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, path);
   s->allocator = own;
   s->diagnostics = diagnostics;
   s->path = ambulo__strdup(&own, path);
@@ -187,7 +199,7 @@ ambulo_status ambulo_sweep_load(const char *path, const ambulo_allocator *alloca
   s->diagnostics = NULL;
   if (status) {
     ambulo_sweep_free(s);
-    return status;
+    return ambulo__conclude(diagnostics, errors, status, path);
   }
   *sweep = s;
   return AMBULO_OK;
@@ -206,6 +218,8 @@ void ambulo_sweep_free(ambulo_sweep *s) {
     ambulo__free(&a, s->axis[i].value);
     ambulo__free(&a, s->axis[i].name);
     ambulo__free(&a, s->axis[i].key);
+    ambulo__free(&a, s->axis[i].label);
+    ambulo__free(&a, s->axis[i].unit);
   }
   for (int i = 0; i < s->case_count; i++) {
     ambulo__free(&a, (void *)s->cases[i].override);
@@ -213,8 +227,12 @@ void ambulo_sweep_free(ambulo_sweep *s) {
     ambulo__free(&a, s->cases[i].name);
   }
   free_texts(&a, s->filter, s->filters);
-  free_texts(&a, s->output, s->outputs);
-  ambulo__free(&a, (void *)s->output_unit);
+  for (int i = 0; s->output && i < s->outputs; i++) {
+    ambulo__free(&a, s->output[i].path);
+    ambulo__free(&a, s->output[i].label);
+    ambulo__free(&a, s->output[i].unit);
+  }
+  ambulo__free(&a, s->output);
   ambulo__free(&a, s->cases);
   ambulo__free(&a, s->value);
   ambulo__free(&a, s->name);

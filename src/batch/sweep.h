@@ -16,6 +16,7 @@ enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEX
 /* Where something stands in the sweep file, or in its table. */
 typedef struct ambulo__spot {
   int line, column;
+  int in_table;
 } ambulo__spot;
 
 /* A value of an axis. */
@@ -27,8 +28,8 @@ typedef struct ambulo__axis_value {
 
 typedef struct ambulo__axis {
   char *name, *key;
-  ambulo__spot spot; /* of the key */
-  int in_table;      /* 1: spots are in the table's file */
+  char *label, *unit; /* in drawings; NULL: the name, what is known of the key */
+  ambulo__spot spot;  /* of the key */
   ambulo__axis_value *value;
   int count, capacity;
 } ambulo__axis;
@@ -46,6 +47,13 @@ typedef struct ambulo__sweep_case {
   unsigned long long key;
 } ambulo__sweep_case;
 
+/* A column of the table. */
+typedef struct ambulo__sweep_output {
+  char *path;         /* "objective", "max(tau.knee_angle_r)" */
+  char *label, *unit; /* in drawings; NULL: the path, what is known of it */
+  const char *known_unit;
+} ambulo__sweep_output;
+
 struct ambulo_sweep {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;              /* while loading */
@@ -55,8 +63,9 @@ struct ambulo_sweep {
   int axes;
   ambulo__axis_group group[AMBULO__SWEEP_AXES];
   int groups;
-  char **filter, **output;  /* [filters], [outputs] */
-  const char **output_unit; /* [outputs] */
+  int zipped;                   /* the first so many axes advance together; 0: none */
+  char **filter;                /* [filters] */
+  ambulo__sweep_output *output; /* [outputs] */
   int filters, outputs;
   int chain_axis;      /* neighbours along it start from each other; -1: none */
   double case_seconds; /* 0: no limit */
@@ -77,27 +86,44 @@ ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_n
 /* Fills axes of a sampled group: samples values each, uniform in the axis's range. */
 ambulo_status ambulo__sweep_read_samples(ambulo_sweep *sweep, const ambulo__yaml_node *node,
                                          int latin);
+/* sweep_outputs.c: `outputs`, and the names and units that drawings use. */
+ambulo_status ambulo__sweep_read_outputs(ambulo_sweep *sweep, const ambulo__yaml_node *node);
+ambulo_status ambulo__sweep_read_label(ambulo_sweep *sweep, ambulo__axis *axis,
+                                       const ambulo__yaml_node *node);
+/* *copy of the text at a node, where there is one. */
+ambulo_status ambulo__sweep_copy(ambulo_sweep *sweep, const ambulo__yaml_node *node, char **copy);
 ambulo_status ambulo__sweep_read_values(ambulo_sweep *sweep, ambulo__axis *axis,
                                         const ambulo__yaml_node *node);
 
-/* A fresh axis, or NULL (too many, no memory). Names default to the key. */
-ambulo__axis *ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key,
-                                     ambulo__spot spot);
+/* A fresh axis; a name of "" defaults to the key. Errors: E_SCHEMA (no key that can be set),
+ * E_LIMIT (too many), E_MEMORY. */
+ambulo_status ambulo__sweep_add_axis(ambulo_sweep *sweep, const char *name, const char *key,
+                                     ambulo__spot spot, ambulo__axis **axis);
+/* Errors: E_IO (a file that the value names cannot be read), E_LIMIT (too many), E_MEMORY. */
 ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, const char *text,
                                     size_t length, ambulo__spot spot);
+ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,
+                                    const ambulo__yaml_node *node);
 ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value,
                                       ambulo__spot spot);
 const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
 ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
+/* Its place in the sweep file or the table. */
+ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
+
+/* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
+ * was not read any more is no stranger. Returns `status`. */
+ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status);
 
 /* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one
- * name or key. Filters: neither side names an axis. Case name: {word} names none. Cases: two of
+ * name or key. Filters: neither side names an axis. Name: a {word} in
+ * it is no axis, or a brace has no other half. Cases: two of
  * one name; and each value of each axis is read once together with the base problem, so that a
  * key that does not exist or a value of the wrong kind is told now and not by every case. */
 ambulo_status ambulo__sweep_check_axes(ambulo_sweep *sweep);
 ambulo_status ambulo__sweep_check_filters(ambulo_sweep *sweep, const ambulo__yaml_node *filters);
-ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *sweep);
+ambulo_status ambulo__sweep_check_name(ambulo_sweep *sweep, const char *pattern, ambulo__spot spot);
 ambulo_status ambulo__sweep_check_cases(ambulo_sweep *sweep);
 
 /* sweep_chains.c: sets `previous` of every case, and lets keys depend on it. */

@@ -162,29 +162,25 @@ static int axis_of_key(const ambulo_sweep *s, const char *key) {
 
 /* axes for the keys that only explicit cases set, before any case is stored */
 static ambulo_status add_explicit_axes(ambulo_sweep *s, const ambulo__yaml_node *cases) {
-  for (int i = 0; i < ambulo__yaml_count(cases); i++) {
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < ambulo__yaml_items(cases); i++) {
     const ambulo__yaml_node *set = ambulo__yaml_require(ambulo__yaml_item(cases, i), "set");
-    for (int j = 0; j < ambulo__yaml_count(set); j++) {
+    for (int j = 0; j < ambulo__yaml_pairs(set) && !status; j++) {
       const char *key = ambulo__yaml_key(set, j);
-      if (axis_of_key(s, key) >= 0) continue;
-      if (s->axes == AMBULO__SWEEP_AXES)
-        return ambulo__yaml_error(set, AMBULO_E_LIMIT, NULL, "more than %d keys",
-                                  AMBULO__SWEEP_AXES);
-      ambulo__spot spot = ambulo__spot_of(ambulo__yaml_value(set, j));
-      if (!ambulo__sweep_add_axis(s, NULL, key, spot)) return AMBULO_E_MEMORY;
+      ambulo__axis *axis;
+      if (axis_of_key(s, key) < 0)
+        status =
+            ambulo__sweep_add_axis(s, "", key, ambulo__spot_of(ambulo__yaml_value(set, j)), &axis);
     }
   }
-  return AMBULO_OK;
+  return status;
 }
 
 static ambulo_status set_value(builder *b, const char *key, const ambulo__yaml_node *node) {
   ambulo_sweep *s = b->sweep;
   int axis = axis_of_key(s, key);
-  const char *text = ambulo__yaml_text(node);
   if (axis < 0) return AMBULO_E_INTERNAL;
-  if (!text) return AMBULO_E_SCHEMA;
-  ambulo_status status =
-      ambulo__axis_add_text(s, &s->axis[axis], text, strlen(text), ambulo__spot_of(node));
+  ambulo_status status = ambulo__axis_add_node(s, &s->axis[axis], node);
   if (!status) b->value[axis] = s->axis[axis].count - 1;
   return status;
 }
@@ -194,13 +190,15 @@ static ambulo_status explicit_case(builder *b, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *set = ambulo__yaml_require(node, "set");
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < AMBULO__SWEEP_AXES; i++) b->value[i] = -1;
-  for (int i = 0; i < ambulo__yaml_count(set) && !status; i++) {
+  for (int i = 0; i < ambulo__yaml_pairs(set) && !status; i++) {
     const char *key = ambulo__yaml_key(set, i);
     ambulo__yaml_expect(set, key);
     status = set_value(b, key, ambulo__yaml_value(set, i));
   }
-  ambulo__yaml_close(node);
-  if (!status) status = add_case(b, name ? ambulo__yaml_text(name) : b->sweep->case_name);
+  status = ambulo__sweep_close(node, status);
+  const char *pattern = name ? ambulo__yaml_text(name) : b->sweep->case_name;
+  if (!status && name) status = ambulo__sweep_check_name(b->sweep, pattern, ambulo__spot_of(name));
+  if (!status) status = add_case(b, pattern);
   b->place++;
   return status;
 }
@@ -210,9 +208,10 @@ ambulo_status ambulo__sweep_build_cases(ambulo_sweep *sweep,
   builder b = {.sweep = sweep};
   ambulo_status status = add_explicit_axes(sweep, explicit_cases);
   sweep->stride = sweep->axes > 0 ? sweep->axes : 1;
-  if (!status) status = ambulo__sweep_check_case_name(sweep);
-  if (!status) status = product(&b, ambulo__yaml_count(explicit_cases));
-  for (int i = 0; i < ambulo__yaml_count(explicit_cases) && !status; i++)
+  if (!status && sweep->case_name)
+    status = ambulo__sweep_check_name(sweep, sweep->case_name, sweep->case_name_spot);
+  if (!status) status = product(&b, ambulo__yaml_items(explicit_cases));
+  for (int i = 0; i < ambulo__yaml_items(explicit_cases) && !status; i++)
     status = explicit_case(&b, ambulo__yaml_item(explicit_cases, i));
   if (status) return status;
   if (sweep->case_count == 0) {

@@ -9,11 +9,6 @@
 
 enum { MOST_PROBES = 200, HINT = 200 };
 
-static ambulo__place place_in(const ambulo_sweep *s, const ambulo__axis *axis, ambulo__spot spot) {
-  const char *file = axis && axis->in_table ? s->table : s->path;
-  return (ambulo__place){file, spot.line, spot.column, NULL};
-}
-
 /* "did you mean 'speed'?", or the names there are */
 static void hint_axis(const ambulo_sweep *s, const char *word, char hint[HINT]) {
   const char *name[AMBULO__SWEEP_AXES];
@@ -35,7 +30,7 @@ static void hint_axis(const ambulo_sweep *s, const char *word, char hint[HINT]) 
 
 static ambulo_status repeated(ambulo_sweep *s, const ambulo__axis *axis, const char *what,
                               const char *text, const ambulo__axis *first) {
-  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place_in(s, axis, axis->spot), NULL,
+  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, axis->spot), NULL,
                        "the %s '%s' is that of another axis (line %d); expected another one", what,
                        text, first->spot.line);
 }
@@ -89,18 +84,31 @@ ambulo_status ambulo__sweep_check_filters(ambulo_sweep *s, const ambulo__yaml_no
 
 /* --------------------------------------------------------------- case names */
 
-ambulo_status ambulo__sweep_check_case_name(ambulo_sweep *s) {
-  for (const char *c = s->case_name ? strchr(s->case_name, '{') : NULL; c; c = strchr(c + 1, '{')) {
+static ambulo_status stray_brace(ambulo_sweep *s, ambulo__spot spot, const char *at) {
+  return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, spot),
+                       "an axis stands in braces: \"walk_{speed}\"",
+                       "a brace without its other half in the name of a case (got '%.40s'); "
+                       "expected {AXIS}",
+                       at);
+}
+
+ambulo_status ambulo__sweep_check_name(ambulo_sweep *s, const char *pattern, ambulo__spot spot) {
+  for (const char *c = pattern; *c; c++) {
     char word[AMBULO__SWEEP_TEXT], hint[HINT];
-    size_t length = strcspn(c + 1, "}");
-    if (length >= sizeof word || c[1 + length] != '}') break;
+    if (*c == '}') return stray_brace(s, spot, c);
+    if (*c != '{') continue;
+    size_t length = strcspn(c + 1, "{}");
+    if (c[1 + length] != '}' || length >= sizeof word) return stray_brace(s, spot, c);
     memcpy(word, c + 1, length);
     word[length] = '\0';
-    if (ambulo__sweep_find_axis(s, word) >= 0) continue;
-    hint_axis(s, word, hint);
-    return ambulo__error(
-        s->diagnostics, AMBULO_E_SCHEMA, place_in(s, NULL, s->case_name_spot), hint,
-        "unknown axis in case_name (got '{%s}'); expected the name of an axis", word);
+    if (ambulo__sweep_find_axis(s, word) < 0) {
+      hint_axis(s, word, hint);
+      return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, spot), hint,
+                           "unknown axis in the name of a case (got '{%s}'); expected the name of "
+                           "an axis",
+                           word);
+    }
+    c += length + 1;
   }
   return AMBULO_OK;
 }
@@ -117,10 +125,11 @@ static ambulo_status names_differ(ambulo_sweep *s) {
     size_t at = (size_t)ambulo__hash_text(AMBULO__HASH_START, name) & (slots - 1);
     while (slot[at] >= 0 && strcmp(s->cases[slot[at]].name, name) != 0) at = (at + 1) & (slots - 1);
     if (slot[at] >= 0)
-      status = ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place_in(s, NULL, s->case_name_spot),
-                             "name every axis that varies in case_name, or leave it out",
-                             "two cases are named '%s' (%s and %s); expected different names", name,
-                             s->cases[slot[at]].id, s->cases[k].id);
+      status =
+          ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, s->case_name_spot),
+                        "name every axis that varies in case_name, or leave it out",
+                        "two cases are named '%s' (%s and %s); expected different names", name,
+                        s->cases[slot[at]].id, s->cases[k].id);
     slot[at] = k;
   }
   ambulo__free(&s->allocator, slot);
@@ -151,13 +160,13 @@ static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
   int value = i < 0 ? -1 : s->value[(size_t)index * (size_t)s->stride + (size_t)i];
   if (value < 0) {
     message = ambulo_diagnostics_get(list, 0);
-    return ambulo__error(s->diagnostics, status, place_in(s, NULL, (ambulo__spot){0, 0}),
+    return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, (ambulo__spot){0, 0, 0}),
                          message ? message->hint : NULL, "case '%s': %s", s->cases[index].name,
                          message ? message->message : ambulo_status_text(status));
   }
   const ambulo__axis *axis = &s->axis[i];
   ambulo__spot spot = message->line > 0 ? axis->value[value].spot : axis->spot;
-  return ambulo__error(s->diagnostics, status, place_in(s, axis, spot), message->hint, "%s: %s",
+  return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, spot), message->hint, "%s: %s",
                        axis->key, message->message);
 }
 
@@ -167,10 +176,12 @@ static ambulo_status probe(ambulo_sweep *s, int index) {
   const ambulo__sweep_case *one = &s->cases[index];
   ambulo_problem *problem = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(&s->allocator);
+  if (!list) return AMBULO_E_MEMORY;
   ambulo_status status =
       ambulo_problem_load(s->base, one->override, one->overrides, &s->allocator, list, &problem);
   ambulo_problem_free(problem);
-  if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO)
+  if (status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_IO ||
+      status == AMBULO_E_ARGUMENT)
     status = tell(s, index, status, list);
   else if (status != AMBULO_E_MEMORY)
     status = AMBULO_OK;

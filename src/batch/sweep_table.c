@@ -15,7 +15,8 @@ typedef struct table {
 } table;
 
 static ambulo__place place_of(const table *t, ambulo__spot spot) {
-  return (ambulo__place){t->sweep->table, spot.line, spot.column, NULL};
+  spot.in_table = 1;
+  return ambulo__spot_place(t->sweep, spot);
 }
 
 static ambulo_status fault(const table *t, ambulo__spot spot, const char *what) {
@@ -27,15 +28,14 @@ static ambulo_status add_header(table *t, const ambulo__table_line *line) {
   size_t position = 0;
   while (ambulo__table_next_cell(line, AMBULO__CELLS_COMMA, &position, &cell)) {
     char key[AMBULO__SWEEP_TEXT];
-    ambulo__spot spot = {line->number, cell.column};
+    ambulo__spot spot = {line->number, cell.column, 1};
+    ambulo__axis *axis;
     if (cell.length == 0 || cell.length >= sizeof key)
       return fault(t, spot, "a column has no name; expected a key of the problem");
     memcpy(key, cell.start, cell.length);
     key[cell.length] = '\0';
-    if (t->sweep->axes == AMBULO__SWEEP_AXES) return fault(t, spot, "too many columns");
-    ambulo__axis *axis = ambulo__sweep_add_axis(t->sweep, NULL, key, spot);
-    if (!axis) return AMBULO_E_MEMORY;
-    axis->in_table = 1;
+    ambulo_status status = ambulo__sweep_add_axis(t->sweep, "", key, spot, &axis);
+    if (status) return status;
     t->group->axes++;
   }
   return AMBULO_OK;
@@ -61,13 +61,13 @@ static ambulo_status add_row(table *t, const ambulo__table_line *line) {
   size_t position = 0;
   int column = 0, cells = ambulo__table_count_cells(line, AMBULO__CELLS_COMMA);
   if (cells != t->group->axes) {
-    ambulo__spot spot = {line->number, 1};
+    ambulo__spot spot = {line->number, 1, 1};
     return ambulo__error(t->sweep->diagnostics, AMBULO_E_SCHEMA, place_of(t, spot), NULL,
                          "the row has %d cells; expected %d, as the header", cells, t->group->axes);
   }
   while (ambulo__table_next_cell(line, AMBULO__CELLS_COMMA, &position, &cell)) {
     ambulo__axis *axis = &t->sweep->axis[t->group->first + column++];
-    ambulo__spot spot = {line->number, cell.column};
+    ambulo__spot spot = {line->number, cell.column, 1};
     ambulo_status status = check_cell(t, axis, &cell, spot);
     if (!status) status = ambulo__axis_add_text(t->sweep, axis, cell.start, cell.length, spot);
     if (status) return status;
@@ -85,7 +85,7 @@ static ambulo_status read_lines(table *t, const char *text, size_t length) {
     status = header ? add_header(t, &line) : add_row(t, &line);
     header = 0;
   }
-  ambulo__spot end = {line.number, 1};
+  ambulo__spot end = {line.number, 1, 1};
   if (!status && t->group->count == 0)
     return fault(t, end, "no row below the header; expected at least one");
   return status;
@@ -93,16 +93,18 @@ static ambulo_status read_lines(table *t, const char *text, size_t length) {
 
 ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_node *node) {
   const char *name = ambulo__yaml_text(node);
-  if (!name) return AMBULO_E_SCHEMA;
+  if (!name[0]) return AMBULO_E_SCHEMA;
   char *text = NULL;
   size_t length = 0;
   sweep->table = ambulo__sibling_path(&sweep->allocator, sweep->path, name);
   if (!sweep->table) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__read_file(sweep->table, MOST_TABLE_BYTES, &sweep->allocator,
                                            sweep->diagnostics, &text, &length);
+  if (status)
+    return ambulo__yaml_error(node, status, NULL, "the table '%s' could not be read", sweep->table);
   table t = {sweep, &sweep->group[sweep->groups]};
   t.group->first = sweep->axes;
-  if (!status) status = read_lines(&t, text, length);
+  status = read_lines(&t, text, length);
   if (t.group->axes > 0) sweep->groups++;
   ambulo__free(&sweep->allocator, text);
   return status;

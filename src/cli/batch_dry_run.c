@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,8 +27,9 @@ static double weigh_and_remove(const char *folder) {
   return bytes;
 }
 
-/* solves the first case; 1: *seconds and *bytes are set */
-static int time_first_case(const ambulo_sweep *sweep, double *seconds, double *bytes) {
+/* solves the first case; AMBULO_OK: *seconds and *bytes are set */
+static ambulo_status time_first_case(const ambulo_sweep *sweep, ambulo_diagnostics *diagnostics,
+                                     double *seconds, double *bytes) {
   ambulo_case one;
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
@@ -38,21 +40,21 @@ static int time_first_case(const ambulo_sweep *sweep, double *seconds, double *b
   ambulo_status status = ambulo_sweep_case(sweep, 0, &one);
   if (!status)
     status = ambulo_problem_load(ambulo_sweep_base(sweep), one.overrides, one.override_count, NULL,
-                                 NULL, &problem);
+                                 diagnostics, &problem);
   if (!status) {
     ambulo_options options = ambulo_problem_options(problem);
-    status = ambulo_solve(problem, &options, NULL, NULL, NULL, &result);
+    status = ambulo_solve(problem, &options, NULL, NULL, diagnostics, &result);
   }
-  int timed = 0;
-  if (!status && mkdtemp(folder)) {
+  if (!status && !mkdtemp(folder)) status = AMBULO_E_IO;
+  if (!status) {
     ambulo_report_options options = ambulo_report_options_default();
-    timed = !ambulo_report_write(problem, result, folder, &options, NULL, NULL);
+    status = ambulo_report_write(problem, result, folder, &options, NULL, diagnostics);
     *bytes = weigh_and_remove(folder);
     *seconds = ambulo_result_timing(result)->total + 0.05;
   }
   ambulo_result_free(result);
   ambulo_problem_free(problem);
-  return timed;
+  return status;
 }
 
 static void print_cases(const ambulo_sweep *sweep) {
@@ -67,14 +69,34 @@ static void print_cases(const ambulo_sweep *sweep) {
   }
 }
 
+static int has_batch(const char *directory) {
+  char path[4200];
+  struct stat entry;
+  if (!directory) return 0;
+  ambulo__cli_format(path, sizeof path, "%.4096s/batch.json", directory);
+  return stat(path, &entry) == 0;
+}
+
 int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int workers) {
   double seconds = 0.0, bytes = 0.0;
   ambulo_batch_census census;
+  memset(&census, 0, sizeof census);
   int cases = ambulo_sweep_case_count(sweep), left = cases;
   const char *source = "the first case";
   print_cases(sweep);
-  int timed = time_first_case(sweep, &seconds, &bytes);
-  if (directory && !ambulo_batch_status(directory, NULL, NULL, &census) && census.done > 0) {
+  ambulo_diagnostics *trial = ambulo_diagnostics_create(NULL);
+  ambulo_status timed = time_first_case(sweep, trial, &seconds, &bytes);
+  int code = timed ? ambulo__cli_diagnostics(trial, timed, ambulo_sweep_base(sweep)) : 0;
+  ambulo_diagnostics_free(trial);
+  if (code == ambulo_status_exit_code(AMBULO_E_MEMORY)) return code;
+  if (has_batch(directory)) {
+    ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+    ambulo_status status = ambulo_batch_status(directory, NULL, diagnostics, &census);
+    code = ambulo__cli_diagnostics(diagnostics, status, directory);
+    ambulo_diagnostics_free(diagnostics);
+    if (code) return code;
+  }
+  if (census.done > 0) {
     seconds = census.seconds / census.done;
     left = cases > census.done ? cases - census.done : 0;
     source = "the finished cases";
@@ -82,6 +104,8 @@ int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int wo
   int processes = ambulo_batch_workers(workers, 0);
   printf("%d cases, %d to do", cases, left);
   if (timed)
+    printf("; no estimate, since the first case could not be solved");
+  else
     printf("; about %.0f s with %d processes and %.1f MB, judged by %s", seconds * left / processes,
            processes, bytes * cases / 1e6, source);
   printf("\n");

@@ -125,10 +125,18 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
   return end.failed > 0 || end.done < end.cases ? 1 : 0;
 }
 
-static int print_status(const char *directory) {
+static void print_damage(void *user, const ambulo_batch_damage *damage) {
+  (void)user;
+  printf("damaged  %s: %s (case '%s')\n", damage->file, damage->what, damage->name);
+}
+
+static int print_status(const char *directory, int verify) {
   ambulo_batch_census c;
+  memset(&c, 0, sizeof c);
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  ambulo_status status = ambulo_batch_status(directory, NULL, diagnostics, &c);
+  ambulo_status status =
+      verify ? ambulo_batch_verify(directory, print_damage, NULL, NULL, diagnostics, &c)
+             : ambulo_batch_status(directory, NULL, diagnostics, &c);
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
   ambulo_diagnostics_free(diagnostics);
   if (code) return code;
@@ -136,12 +144,17 @@ static int print_status(const char *directory) {
          c.done, c.failed, c.missing, c.stale, c.corrupt);
   if (c.done > 0) printf("seconds  %.2f a case\n", c.seconds / c.done);
   printf("running  %s\n", c.holder[0] ? c.holder : "no");
-  return 0;
+  if (!verify) return 0;
+  if (c.corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
+  return c.missing + c.stale > 0 ? 1 : 0;
 }
 
 static int run(const ambulo__cli_input *input) {
   const char *folder = ambulo__cli_value(input, "status");
-  if (folder) return print_status(folder);
+  const char *verified = ambulo__cli_value(input, "verify");
+  if (folder && verified)
+    return ambulo__cli_usage_error("batch", NULL, "--status and --verify; expected one of them");
+  if (folder || verified) return print_status(folder ? folder : verified, verified != NULL);
   int dry = ambulo__cli_flag(input, "dry-run");
   const char *directory = ambulo__cli_value(input, "output");
   if (input->argument_count == 0)
@@ -174,7 +187,11 @@ static const ambulo__cli_option options[] = {
     {"grace", 0, "S", "what running cases get after Ctrl-C (default: 30)"},
     {"force", 0, NULL, "inputs changed: compute the cases that differ, keep the others"},
     {"dry-run", 0, NULL, "print the case list, and the time and disk it will take"},
-    {"status", 0, "DIR", "print the state of a batch folder, running or not"},
+    {"status", 0, "DIR", "print the state of a batch folder, running or not, by its records"},
+    {"verify", 0, "DIR",
+     "the same by reading every file and comparing it with its checksum; names\n"
+     "what is damaged. Exit code 0: all is finished and intact; 1: some cases are\n"
+     "missing or stale; 4: some are damaged, which the same batch computes again"},
     {"quiet", 'q', NULL, "no progress, no summary"},
 };
 

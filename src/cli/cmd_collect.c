@@ -7,6 +7,9 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 
+enum { MOST_CONDITIONS = 64 };
+
+/* returns the exit code */
 static int print_census(const char *directory, const ambulo_batch_census *c) {
   printf("%d cases: %d done (%d without a valid solution), %d missing, %d stale, %d corrupt\n",
          c->cases, c->done, c->failed, c->missing, c->stale, c->corrupt);
@@ -16,6 +19,7 @@ static int print_census(const char *directory, const ambulo_batch_census *c) {
   } else if (incomplete) {
     printf("run 'ambulo batch' with -o %s again to complete it\n", directory);
   }
+  if (c->corrupt > 0) return ambulo_status_exit_code(AMBULO_E_IO);
   return incomplete ? 1 : 0;
 }
 
@@ -30,6 +34,13 @@ static int is_no_batch(const char *directory) {
 
 static int run(const ambulo__cli_input *input) {
   const char *directory = input->arguments[0], *plot = ambulo__cli_value(input, "plot");
+  const char *where[MOST_CONDITIONS];
+  if (input->given_count > MOST_CONDITIONS)
+    return ambulo__cli_usage_error("collect", NULL, "more than %d options", MOST_CONDITIONS);
+  int conditions = ambulo__cli_values(input, "where", where);
+  if (conditions > 0 && !plot)
+    return ambulo__cli_usage_error("collect", "a table is always whole",
+                                   "--where without --plot; expected X[,Y]:OUTPUT");
   if (is_no_batch(directory)) {
     ambulo__cli_error("E_IO", "'ambulo batch SWEEP.yaml -o DIR' fills one",
                       "%s: no batch folder (it has no batch.json)", directory);
@@ -45,7 +56,11 @@ static int run(const ambulo__cli_input *input) {
     code = print_census(directory, &census);
   }
   char *file = NULL;
-  if (!status && plot) status = ambulo_batch_plot(directory, plot, NULL, diagnostics, &file);
+  ambulo_plot_options drawing = ambulo_plot_options_default();
+  drawing.where = where;
+  drawing.where_count = conditions;
+  if (!status && plot)
+    status = ambulo_batch_plot(directory, plot, &drawing, NULL, diagnostics, &file);
   if (file) printf("drawn to %s\n", file);
   ambulo_text_free(file, NULL);
   int failed = ambulo__cli_diagnostics(diagnostics, status, directory);
@@ -57,6 +72,9 @@ static const ambulo__cli_option options[] = {
     {"plot", 0, "X[,Y]:OUTPUT",
      "draw an output over one axis (curves) or two (a heat map), as SVG;\n"
      "every point names its case and leads to its gait.svg"},
+    {"where", 0, "NAME<VALUE",
+     "draw only the cases for which this holds (< <= > >= == !=; NAME is an\n"
+     "axis, an output, name or state); may be repeated"},
 };
 
 const ambulo__cli_command ambulo__cli_collect = {
@@ -66,9 +84,10 @@ const ambulo__cli_command ambulo__cli_collect = {
     .description =
         "Writes DIR/results.csv and DIR/results.jsonl: one line per case, sorted by id, with the\n"
         "axes and the outputs the sweep file asks for. The same results give the same bytes,\n"
-        "however they were computed. Exit code 0: every case has a record; 1: some are missing,\n"
-        "stale (of other inputs) or corrupt; the table is written all the same and says which.",
-    .example = "ambulo collect walks --plot speed:objective",
+        "however they were computed. Every file is compared with its checksum. Exit code 0: every\n"
+        "case is finished; 1: some are missing, or stale (of other inputs); 4: some are corrupt\n"
+        "(damaged since, or cannot be read). The table is written all the same and says which.",
+    .example = "ambulo collect walks --plot gait.speed:objective --where 'sex == male'",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,

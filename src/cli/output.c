@@ -7,7 +7,6 @@
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -65,13 +64,11 @@ int ambulo__cli_usage_error(const char *command, const char *hint, const char *f
   return ambulo_status_exit_code(AMBULO_E_ARGUMENT);
 }
 
+/* without memory, which may be what the message is about */
 static void print_diagnostic(const ambulo_diagnostics *list, size_t index) {
-  size_t needed = ambulo_diagnostics_format(list, index, NULL, 0);
-  char *text = malloc(needed + 1);
-  if (!text) return;
-  ambulo_diagnostics_format(list, index, text, needed + 1);
+  char text[16384];
+  (void)ambulo_diagnostics_format(list, index, text, sizeof text);
   fprintf(stderr, "%s\n", text);
-  free(text);
 }
 
 int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,

@@ -93,8 +93,9 @@ ambulo_status ambulo_model_adapt(const ambulo_model *model, const ambulo_conditi
                          AMBULO__LARGEST_SLOPE, AMBULO__LARGEST_SLOPE);
   }
   ambulo_model *copy = NULL;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = copy_model(model, allocator, diagnostics, &copy);
-  if (status) return status;
+  if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
   if (conditions->load_link >= 0)
     ambulo__model_carry(copy, conditions->load_link, conditions->load_mass,
                         conditions->load_position);

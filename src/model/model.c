@@ -193,7 +193,9 @@ ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
 ambulo_status ambulo_model_create(const ambulo_model_definition *definition,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_model **model) {
-  return ambulo__model_build(definition, NULL, allocator, diagnostics, model);
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status = ambulo__model_build(definition, NULL, allocator, diagnostics, model);
+  return ambulo__conclude(diagnostics, errors, status, NULL);
 }
 
 void ambulo_model_free(ambulo_model *model) {

@@ -14,12 +14,12 @@ int ambulo__read_count(ambulo__reader *reader, const ambulo__yaml_node *list, co
   (void)reader;
   *count = 0;
   if (!list) return 1;
-  if (ambulo__yaml_kind_of(list) != AMBULO__YAML_SEQUENCE) {
+  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
     (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL, "`%s` is not a list; expected a list",
                              what);
     return 0;
   }
-  int items = ambulo__yaml_count(list);
+  int items = ambulo__yaml_items(list);
   if (items > limit) {
     (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL,
                              "too many %s (got %d); expected at most %d", what, items, limit);
@@ -71,12 +71,11 @@ static void release(ambulo__reader *r) {
 
 /* A free text, or a list of them. */
 static void read_source(const ambulo__yaml_node *node) {
-  if (!node) return;
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE) {
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE)) {
     (void)ambulo__yaml_text(node);
     return;
   }
-  for (int i = 0; i < ambulo__yaml_count(node); i++) {
+  for (int i = 0; i < ambulo__yaml_items(node); i++) {
     (void)ambulo__yaml_text(ambulo__yaml_item(node, i));
   }
 }
@@ -85,7 +84,7 @@ static void read_header(ambulo__reader *r, const ambulo__yaml_node *root) {
   static const char *const versions[] = {"1"};
   (void)ambulo__yaml_choice(ambulo__yaml_require(root, "ambulo"), versions, 1, 0);
   const char *name = ambulo__yaml_name(ambulo__yaml_require(root, "name"));
-  if (name) r->definition.name = name;
+  if (name[0]) r->definition.name = name;
   read_source(ambulo__yaml_get(root, "source"));
   (void)ambulo__yaml_numbers(ambulo__yaml_get(root, "gravity"), 3, r->definition.gravity);
   (void)ambulo__yaml_numbers(ambulo__yaml_get(root, "forward"), 3, r->definition.forward);
@@ -177,7 +176,10 @@ ambulo_status ambulo_model_load(const char *path, const ambulo_subject *subject,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 ambulo_model **model) {
   if (!path || !model) return AMBULO_E_ARGUMENT;
-  return ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status =
+      ambulo__model_load_with(path, subject, NULL, 0, allocator, diagnostics, model);
+  return ambulo__conclude(diagnostics, errors, status, path);
 }
 
 /* "path=value" put into the document */
@@ -223,6 +225,7 @@ ambulo_status ambulo_model_load_text(const char *text, size_t length, const char
                                      const ambulo_allocator *allocator,
                                      ambulo_diagnostics *diagnostics, ambulo_model **model) {
   ambulo__yaml *document = NULL;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!text || !model) return AMBULO_E_ARGUMENT;
   ambulo_status status = check_subject(subject, diagnostics);
   if (status == AMBULO_OK) {
@@ -230,5 +233,5 @@ ambulo_status ambulo_model_load_text(const char *text, size_t length, const char
   }
   if (status == AMBULO_OK) status = build(document, subject, allocator, diagnostics, model);
   ambulo__yaml_free(document);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, name);
 }

@@ -41,8 +41,8 @@ static void read_part(ambulo__reader *reader, const ambulo__yaml_node *node, con
   if (!good || isnan(part.mass)) return; /* reported already */
   ambulo__body_places places = {ambulo__yaml_place(mass),
                                 ambulo__yaml_place(inertia ? inertia : gyration)};
-  ambulo_status status = ambulo__check_body(what ? what : owner, part.mass, part.com, part.inertia,
-                                            places, reader->diagnostics);
+  ambulo_status status = ambulo__check_body(what[0] ? what : owner, part.mass, part.com,
+                                            part.inertia, places, reader->diagnostics);
   if (status == AMBULO_OK) {
     ambulo__part_add(whole, &part);
   } else if (reader->status == AMBULO_OK) {

@@ -6,7 +6,7 @@ void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list) 
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_point *point = &reader->points[i];
     const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
-    point->name = reader->point_names[i] = name ? name : "";
+    point->name = reader->point_names[i] = name;
     reader->point_places[i] = ambulo__yaml_place(item);
     point->link = ambulo__read_reference(ambulo__yaml_require(item, "link"), "link",
                                          reader->link_names, reader->definition.link_count);
@@ -25,8 +25,8 @@ static void read_corners(const ambulo__reader *reader, const ambulo__yaml_node *
                          int corners[2]) {
   corners[0] = corners[1] = -1;
   if (!node) return;
-  int count = ambulo__yaml_count(node);
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || count < 1 || count > 2) {
+  int count = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
+  if (count < 1 || count > 2) {
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                              "expected a list of one or two point names");
     return;
@@ -47,7 +47,7 @@ void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
     ambulo_foot *foot = &reader->feet[i];
     const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
-    foot->name = reader->foot_names[i] = name ? name : "";
+    foot->name = reader->foot_names[i] = name;
     reader->foot_places[i] = ambulo__yaml_place(item);
     read_corners(reader, ambulo__yaml_require(item, "heel"), foot->heel);
     read_corners(reader, ambulo__yaml_require(item, "toe"), foot->toe);

@@ -14,8 +14,8 @@ static void read_names(ambulo__reader *reader, const ambulo__yaml_node *list) {
     const char *name = ambulo__yaml_name(node);
     reader->links[i] = ambulo_link_default();
     reader->link_places[i] = ambulo__yaml_place(item);
-    reader->links[i].name = reader->link_names[i] = name ? name : "";
-    if (name && is_world(name)) {
+    reader->links[i].name = reader->link_names[i] = name;
+    if (is_world(name)) {
       (void)ambulo__yaml_error(node, AMBULO_E_MODEL, NULL,
                                "no link can be named '%s': it stands for the world", name);
     }
@@ -26,9 +26,9 @@ static void read_names(ambulo__reader *reader, const ambulo__yaml_node *list) {
 static void read_parent(ambulo__reader *reader, const ambulo__yaml_node *item, int index,
                         int *root) {
   const ambulo__yaml_node *node = ambulo__yaml_require(item, "parent");
-  const char *name = node ? ambulo__yaml_text(node) : NULL;
+  const char *name = ambulo__yaml_text(node);
   ambulo_link *link = &reader->links[index];
-  if (!name) return;
+  if (!name[0]) return;
   if (!is_world(name)) {
     link->parent =
         ambulo__read_reference(node, "link", reader->link_names, reader->definition.link_count);
@@ -49,7 +49,7 @@ static void read_dh(ambulo__reader *reader, const ambulo__yaml_node *item, ambul
   const ambulo__yaml_node *list = ambulo__by_sex(reader, node);
   double unused[4];
   if (!list) return;
-  if (ambulo__yaml_kind_of(list) != AMBULO__YAML_SEQUENCE || ambulo__yaml_count(list) != 4) {
+  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE) || ambulo__yaml_items(list) != 4) {
     (void)ambulo__yaml_numbers(list, 4, unused); /* says what is wrong */
     return;
   }
@@ -77,7 +77,6 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   reader->coordinate_places[index] = node ? ambulo__yaml_place(node) : link_place;
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
   if (name) coordinate->name = ambulo__yaml_name(name);
-  if (!coordinate->name) coordinate->name = "";
   reader->coordinate_names[index] = coordinate->name;
   ambulo__read_interval(reader, ambulo__yaml_get(node, "range"), unit, is_angle, coordinate->range);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);

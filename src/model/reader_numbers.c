@@ -5,8 +5,34 @@
 
 #include "model/reader.h"
 
+static int is_none(const ambulo__yaml_node *node) {
+  return ambulo__yaml_is(node, AMBULO__YAML_SCALAR) && strcmp(ambulo__yaml_text(node), "none") == 0;
+}
+
+/* The value for the other sex is read by nobody, and must be of the same shape all the same: a
+ * fault in it would show only for another subject. */
+static void check_other(const ambulo__yaml_node *chosen, const ambulo__yaml_node *other) {
+  if (ambulo__yaml_is(other, AMBULO__YAML_MAPPING)) { /* by sex once more, as an item may be */
+    check_other(chosen, ambulo__yaml_require(other, "female"));
+    check_other(chosen, ambulo__yaml_require(other, "male"));
+    ambulo__yaml_close(other);
+    return;
+  }
+  if (!ambulo__yaml_is(chosen, AMBULO__YAML_SEQUENCE)) {
+    if (!is_none(other)) (void)ambulo__yaml_number(other, 0.0);
+    return;
+  }
+  int count = ambulo__yaml_items(chosen), others = ambulo__yaml_items(other);
+  if (ambulo__yaml_is(other, AMBULO__YAML_SEQUENCE) && others != count)
+    (void)ambulo__yaml_error(other, AMBULO_E_SCHEMA, NULL,
+                             "got a sequence of %d; expected %d, as for the other sex", others,
+                             count);
+  for (int i = 0; i < count; i++)
+    check_other(ambulo__yaml_item(chosen, i), ambulo__yaml_item(other, i));
+}
+
 const ambulo__yaml_node *ambulo__by_sex(ambulo__reader *reader, const ambulo__yaml_node *node) {
-  if (!node || ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) return node;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) return node;
   const ambulo__yaml_node *female = ambulo__yaml_require(node, "female");
   const ambulo__yaml_node *male = ambulo__yaml_require(node, "male");
   ambulo__yaml_close(node);
@@ -15,7 +41,9 @@ const ambulo__yaml_node *ambulo__by_sex(ambulo__reader *reader, const ambulo__ya
                        "a value differs by sex, but the subject has none; expected subject.sex");
     return NULL;
   }
-  return reader->subject.sex == AMBULO_FEMALE ? female : male;
+  int is_female = reader->subject.sex == AMBULO_FEMALE;
+  check_other(is_female ? female : male, is_female ? male : female);
+  return is_female ? female : male;
 }
 
 double ambulo__read_scaled(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
@@ -25,7 +53,7 @@ double ambulo__read_scaled(ambulo__reader *reader, const ambulo__yaml_node *node
 }
 
 static int is_sequence_of(const ambulo__yaml_node *node, int count) {
-  if (ambulo__yaml_kind_of(node) == AMBULO__YAML_SEQUENCE && ambulo__yaml_count(node) == count) {
+  if (ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) && ambulo__yaml_items(node) == count) {
     return 1;
   }
   double unused[8];
@@ -64,11 +92,6 @@ double ambulo__read_angle(ambulo__reader *reader, const ambulo__yaml_node *node,
   return value * unit;
 }
 
-static int is_none(const ambulo__yaml_node *node) {
-  return node && ambulo__yaml_kind_of(node) == AMBULO__YAML_SCALAR &&
-         strcmp(ambulo__yaml_text(node), "none") == 0;
-}
-
 void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node, double factor,
                            int is_angle, double interval[2]) {
   const ambulo__yaml_node *list = ambulo__by_sex(reader, node);
@@ -87,8 +110,8 @@ void ambulo__read_interval(ambulo__reader *reader, const ambulo__yaml_node *node
 
 int ambulo__read_reference(const ambulo__yaml_node *node, const char *kind,
                            const char *const *names, int count) {
-  const char *name = node ? ambulo__yaml_text(node) : NULL;
-  if (!name) return -1;
+  const char *name = ambulo__yaml_text(node);
+  if (!name[0]) return -1;
   for (int i = 0; i < count; i++) {
     if (strcmp(names[i], name) == 0) return i;
   }

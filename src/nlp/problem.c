@@ -181,11 +181,12 @@ ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
   if (!problem) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = ambulo__definition_check(definition, diagnostics);
   if (status) return status;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo_problem *p = ambulo__alloc(&own, 1, sizeof *p);
-  if (!p) return AMBULO_E_MEMORY;
+  if (!p) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, NULL);
   p->allocator = own;
   p->file_options = ambulo_options_default();
   ambulo__row_table_init(&p->table, &own);
@@ -193,7 +194,7 @@ ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
   if (!status) status = build(p, diagnostics);
   if (status) {
     ambulo_problem_free(p);
-    return status;
+    return ambulo__conclude(diagnostics, errors, status, NULL);
   }
   *problem = p;
   return AMBULO_OK;

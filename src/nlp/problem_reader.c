@@ -19,6 +19,7 @@ void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t 
                                     : ambulo__alloc(&reader->allocator, 1, sizeof *block + bytes);
   if (!block) {
     reader->failure = AMBULO_E_MEMORY;
+    if (reader->document) ambulo__yaml_out_of_memory(reader->document);
     return NULL;
   }
   block->next = reader->blocks;

@@ -68,7 +68,7 @@ static ambulo_status apply_overrides(ambulo__problem_reader *reader, ambulo__yam
 
 const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key) {
   const ambulo__yaml_node *node = ambulo__yaml_get(root, key);
-  if (!node || ambulo__yaml_kind_of(node) == AMBULO__YAML_MAPPING) return node;
+  if (!node || ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) return node;
   (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "'%s' is not a mapping; expected keys",
                            key);
   return NULL;
@@ -107,8 +107,8 @@ static ambulo_subject read_subject(const ambulo__yaml_node *root) {
 static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   ambulo_subject subject = read_subject(root);
   const ambulo__yaml_node *node = ambulo__yaml_require(root, "model");
-  const char *name = node ? ambulo__yaml_text(node) : NULL;
-  if (!name) return;
+  const char *name = ambulo__yaml_text(node);
+  if (!name[0]) return;
   const char *path = ambulo__reader_path(reader, name);
   if (!path) return;
   ambulo_status status =
@@ -160,7 +160,7 @@ static const ambulo__yaml_node *read_key(const ambulo__yaml_node *mapping, const
   char key[32];
   size_t length = strspn(*at, "abcdefghijklmnopqrstuvwxyz_");
   if (length == 0 || length >= sizeof key) return NULL;
-  if (ambulo__yaml_kind_of(mapping) != AMBULO__YAML_MAPPING) return NULL;
+  if (!ambulo__yaml_is(mapping, AMBULO__YAML_MAPPING)) return NULL;
   memcpy(key, *at, length);
   key[length] = '\0';
   *at += length;
@@ -177,10 +177,8 @@ static const ambulo__yaml_node *node_of_message(const ambulo__yaml_node *root,
     if (!child) return node;
     node = child;
     int index = read_index(&at);
-    int is_list = ambulo__yaml_kind_of(node) == AMBULO__YAML_SEQUENCE;
-    if (index >= 0 && is_list && index < ambulo__yaml_count(node)) {
-      node = ambulo__yaml_item(node, index);
-    }
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, index);
+    if (item) node = item;
     if (*at != '.') return node;
     at++;
   }
@@ -266,9 +264,11 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   if (!path || !problem || override_count < 0 || (override_count > 0 && !overrides)) {
     return AMBULO_E_ARGUMENT;
   }
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
   ambulo__yaml *document = NULL;
   ambulo_status status = ambulo__yaml_load(path, &reader.allocator, diagnostics, &document);
+  reader.document = document;
   if (!status) {
     reader.directory = directory_of(&reader, path);
     status = reader.directory ? read_document(&reader, document, overrides, override_count, problem)
@@ -276,7 +276,7 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   }
   ambulo__yaml_free(document);
   ambulo__reader_clear(&reader);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, path);
 }
 
 ambulo_status ambulo_problem_load_text(const char *text, size_t length, const char *name,
@@ -286,13 +286,15 @@ ambulo_status ambulo_problem_load_text(const char *text, size_t length, const ch
   if (!text || !problem || override_count < 0 || (override_count > 0 && !overrides)) {
     return AMBULO_E_ARGUMENT;
   }
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
   if (directory) reader.directory = directory;
   ambulo__yaml *document = NULL;
   ambulo_status status = ambulo__yaml_load_text(text, length, name ? name : "problem",
                                                 &reader.allocator, diagnostics, &document);
+  reader.document = document;
   if (!status) status = read_document(&reader, document, overrides, override_count, problem);
   ambulo__yaml_free(document);
   ambulo__reader_clear(&reader);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, name);
 }

@@ -16,6 +16,7 @@ typedef struct ambulo__reader_block ambulo__reader_block;
 typedef struct ambulo__problem_reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
+  ambulo__yaml *document;         /* NULL before it is loaded */
   const char *directory;          /* where relative names start; "" for the current one */
   ambulo__reader_block *blocks;   /* freed with the reader */
   ambulo_status failure;          /* E_MEMORY, or what a referenced file failed with */
@@ -33,7 +34,8 @@ typedef struct ambulo__problem_reader {
   ambulo_options options;
 } ambulo__problem_reader;
 
-/* Zero-filled memory that lives as long as the reader; NULL sets reader->failure. */
+/* Zero-filled memory that lives as long as the reader; NULL sets reader->failure, and later faults
+ * of the document, which may come of it, are not told. */
 void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t size);
 /* `name` seen from the reader's directory. */
 const char *ambulo__reader_path(ambulo__problem_reader *reader, const char *name);

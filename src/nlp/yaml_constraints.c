@@ -8,9 +8,8 @@
 /* a number, or the word `off` for a negative one: no row */
 static double read_minimum_force(const ambulo__yaml_node *node) {
   static const char *const words[] = {"off"};
-  if (!node) return -1.0;
   const char *text = ambulo__yaml_text(node);
-  if (!text) return -1.0;
+  if (!text[0]) return -1.0;
   if (text[0] == 'o') {
     (void)ambulo__yaml_choice(node, words, 1, 0);
     return -1.0;

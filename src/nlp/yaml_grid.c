@@ -24,8 +24,8 @@ void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *
 static void read_breakpoints(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                              const ambulo__yaml_node *intervals) {
   ambulo_problem_definition *d = &reader->definition;
-  int count = ambulo__yaml_count(node);
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || count < 2) {
+  int count = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
+  if (count < 2) {
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                              "breakpoints are not a list; expected rising times from 0 to the "
                              "duration, s");

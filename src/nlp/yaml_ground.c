@@ -52,12 +52,12 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   if (!section) return;
   double position[3] = {0.0, 0.0, 0.0};
   const ambulo__yaml_node *node = ambulo__yaml_require(section, "link");
-  const char *name = node ? ambulo__yaml_name(node) : NULL;
+  const char *name = ambulo__yaml_name(node);
   double mass = ambulo__yaml_number_in(ambulo__yaml_require(section, "mass"), 1e-6, 1000.0, 1.0);
   int placed = ambulo__yaml_numbers(ambulo__yaml_require(section, "position"), 3, position);
   ambulo__yaml_close(section);
-  int link = name ? ambulo_model_find_link(reader->model, name) : -1;
-  if (name && link < 0) unknown_link(reader, node, name);
+  int link = name[0] ? ambulo_model_find_link(reader->model, name) : -1;
+  if (name[0] && link < 0) unknown_link(reader, node, name);
   if (link >= 0 && placed) ambulo__model_carry(reader->model, link, mass, position);
 }
 
@@ -66,8 +66,8 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *s
 /* a number, or the word `off` for a negative one: no rows */
 static double read_bound(const ambulo__yaml_node *node, double most, double fallback) {
   static const char *const words[] = {"off"};
-  const char *text = node ? ambulo__yaml_text(node) : NULL;
-  if (!text) return fallback;
+  const char *text = ambulo__yaml_text(node);
+  if (!text[0]) return fallback;
   if (text[0] != 'o') return ambulo__yaml_number_in(node, 0.0, most, fallback);
   (void)ambulo__yaml_choice(node, words, 1, 0);
   return -1.0;
@@ -82,7 +82,7 @@ static void read_interval(const ambulo__yaml_node *node, double interval[2]) {
 static void read_pressure(const ambulo__yaml_node *node, ambulo_ground_reaction *r) {
   static const char *const words[] = {"off", "on"};
   if (!node) return;
-  if (ambulo__yaml_kind_of(node) == AMBULO__YAML_SCALAR) {
+  if (ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) {
     r->pressure = ambulo__yaml_choice(node, words, 2, 1);
     return;
   }
@@ -128,7 +128,7 @@ void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node
 static void read_strike_pitch(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
   double *pitch = reader->definition.strike_pitch;
   if (!node) return;
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || ambulo__yaml_count(node) != 2) {
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) || ambulo__yaml_items(node) != 2) {
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                              "'strike_pitch' is not a list of two angles");
     return;

@@ -19,7 +19,7 @@ static double *coordinate_array(ambulo__problem_reader *reader, double value) {
 /* a number for all coordinates, or a mapping with `default` for those it does not name */
 static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
   if (!node) return coordinate_array(reader, 1.0);
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) {
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     return coordinate_array(reader, ambulo__yaml_number_in(node, 0.0, 1e12, 1.0));
   }
   double rest = ambulo__yaml_number_in(ambulo__yaml_get(node, "default"), 0.0, 1e12, 1.0);
@@ -54,7 +54,7 @@ static double body_weight_on(const ambulo__problem_reader *reader, const ambulo_
 
 static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
   if (!node) return NULL;
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_MAPPING) {
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     (void)ambulo__yaml_error(
         node, AMBULO_E_SCHEMA, NULL,
         "'offset' is not a mapping; expected coordinate: number or body_weight");
@@ -66,9 +66,9 @@ static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_no
         ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
     if (!value) continue;
     const char *text = ambulo__yaml_text(value);
-    if (text && strcmp(text, "body_weight") == 0) {
+    if (strcmp(text, "body_weight") == 0) {
       offset[i] = body_weight_on(reader, value, i);
-    } else if (text) {
+    } else if (text[0]) {
       offset[i] = ambulo__yaml_number(value, 0.0);
     }
   }
@@ -96,8 +96,8 @@ static void read_line(const ambulo__problem_reader *reader, const ambulo__yaml_n
                       ambulo_term *term) {
   for (int end = 0; end < 2; end++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(node, end);
-    const char *name = item ? ambulo__yaml_name(item) : NULL;
-    if (!name) continue;
+    const char *name = ambulo__yaml_name(item);
+    if (!name[0]) continue;
     term->point[end] = ambulo_model_find_point(reader->model, name);
     if (term->point[end] < 0)
       (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL,
@@ -209,15 +209,15 @@ static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *n
 
 static int is_none(const ambulo__yaml_node *node) {
   static const char *const words[] = {"none"};
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SCALAR) return 0;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
   (void)ambulo__yaml_choice(node, words, 1, 0);
   return 1;
 }
 
 void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
   if (!node || is_none(node)) return;
-  int count = ambulo__yaml_count(node);
-  if (ambulo__yaml_kind_of(node) != AMBULO__YAML_SEQUENCE || count < 1 || count > MOST_TERMS) {
+  int count = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
+  if (count < 1 || count > MOST_TERMS) {
     (void)ambulo__yaml_error(
         node, AMBULO_E_SCHEMA, NULL,
         "'objective' is not a list of 1 to %d terms; expected terms, or 'none'", MOST_TERMS);
@@ -227,7 +227,7 @@ void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_n
   if (!terms) return;
   for (int t = 0; t < count; t++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(node, t);
-    if (ambulo__yaml_kind_of(item) == AMBULO__YAML_MAPPING) {
+    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
       read_term(reader, item, &terms[t]);
     } else {
       (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,

@@ -123,7 +123,7 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, int samples,
                                           double *scale) {
   const char *name = ambulo__yaml_text(node);
-  const char *path = name ? ambulo__reader_path(reader, name) : NULL;
+  const char *path = name[0] ? ambulo__reader_path(reader, name) : NULL;
   if (!path) return NULL;
   ambulo__motion *motion = NULL;
   ambulo_status status =

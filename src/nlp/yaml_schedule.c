@@ -46,13 +46,13 @@ static void read_contact(const ambulo__problem_reader *reader, const ambulo__yam
 }
 
 static void read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_node *list) {
-  int count = ambulo__yaml_count(list);
-  if (ambulo__yaml_kind_of(list) != AMBULO__YAML_SEQUENCE) {
+  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
     (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
                              "'contacts' is not a list; expected items with foot, mode, from, to, "
                              "place");
     return;
   }
+  int count = ambulo__yaml_items(list);
   if (count > MOST_CONTACTS) {
     (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL, "%d contacts; expected at most %d", count,
                              MOST_CONTACTS);
@@ -62,7 +62,7 @@ static void read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (!contacts) return;
   for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
-    if (ambulo__yaml_kind_of(item) == AMBULO__YAML_MAPPING) {
+    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
       read_contact(reader, item, &contacts[i]);
     } else {
       (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
@@ -163,7 +163,7 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
 }
 
 static int is_list(const ambulo__yaml_node *node) {
-  return node && ambulo__yaml_kind_of(node) == AMBULO__YAML_SEQUENCE;
+  return ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE);
 }
 
 /* two step times: 1 if the file gives them */

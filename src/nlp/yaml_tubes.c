@@ -39,7 +39,7 @@ static void read_tube(ambulo__problem_reader *reader, const ambulo__yaml_node *i
   const ambulo__yaml_node *widths = ambulo__yaml_require(item, "coordinates");
   tube->samples = PER_INTERVAL * reader->definition.intervals + 1;
   if (file) tube->reference = ambulo__read_sampled_motion(reader, file, tube->samples, has_column);
-  if (widths && ambulo__yaml_kind_of(widths) != AMBULO__YAML_MAPPING) {
+  if (widths && !ambulo__yaml_is(widths, AMBULO__YAML_MAPPING)) {
     (void)ambulo__yaml_error(widths, AMBULO_E_SCHEMA, NULL,
                              "expected a mapping of coordinates to half widths");
     widths = NULL;
@@ -51,20 +51,20 @@ static void read_tube(ambulo__problem_reader *reader, const ambulo__yaml_node *i
 
 void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   const ambulo__yaml_node *section = ambulo__yaml_get(root, "constraints");
-  if (!section || ambulo__yaml_kind_of(section) != AMBULO__YAML_MAPPING) return;
+  if (!ambulo__yaml_is(section, AMBULO__YAML_MAPPING)) return;
   const ambulo__yaml_node *list = ambulo__yaml_get(section, "tubes");
   if (!list) return;
-  if (ambulo__yaml_kind_of(list) != AMBULO__YAML_SEQUENCE) {
+  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
     (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
                              "expected a list of {reference, coordinates}");
     return;
   }
-  int count = ambulo__yaml_count(list);
+  int count = ambulo__yaml_items(list);
   ambulo_tube *tubes = ambulo__reader_alloc(reader, (size_t)count, sizeof *tubes);
   if (!tubes) return;
   for (int t = 0; t < count; t++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, t);
-    if (ambulo__yaml_kind_of(item) == AMBULO__YAML_MAPPING) {
+    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
       read_tube(reader, item, &tubes[t]);
     } else {
       (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,

@@ -196,8 +196,8 @@ static ambulo_status allocate(comparing *c) {
   c->left = ambulo__alloc(a, (size_t)most, sizeof(double));
   c->right = ambulo__alloc(a, (size_t)most, sizeof(double));
   c->result = ambulo__alloc(a, 1, sizeof *c->result);
+  if (c->result) c->result->allocator = *a;
   if (!c->percents || !c->left || !c->right || !c->result) return AMBULO_E_MEMORY;
-  c->result->allocator = *a;
   c->result->scores = ambulo__alloc(a, (size_t)c->reference.count, sizeof(ambulo_curve_score));
   c->result->names = ambulo__alloc(a, (size_t)c->reference.count, sizeof(curve_name));
   return c->result->scores && c->result->names ? AMBULO_OK : AMBULO_E_MEMORY;
@@ -213,8 +213,9 @@ ambulo_status ambulo_compare(const char *directory, const char *reference,
   comparing c = {.options = options, .diagnostics = diagnostics};
   ambulo__sheet sheet = {.text = NULL};
   ambulo__map fallback = {.entries = NULL};
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = ambulo__cycle_open(directory, options, allocator, diagnostics, &c.cycle);
-  if (status) return status;
+  if (status) return ambulo__conclude(diagnostics, errors, status, directory);
   ambulo_allocator a = c.cycle.allocator;
   status = read_reference(&c, reference, &sheet);
   if (!status) status = ambulo__map_default(AMBULO__LAYOUT_WIDE, &a, &fallback);
@@ -234,7 +235,7 @@ ambulo_status ambulo_compare(const char *directory, const char *reference,
   ambulo__map_free(&fallback);
   ambulo__sheet_free(&sheet);
   ambulo__cycle_close(&c.cycle);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, reference);
 }
 
 void ambulo_comparison_free(ambulo_comparison *comparison) {

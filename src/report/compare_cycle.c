@@ -54,8 +54,8 @@ static void read_body(ambulo__cycle *c, const ambulo__yaml_node *body) {
 /* 0, 1, or -1 for a foot of another name */
 static int side_of(const ambulo__yaml_node *item) {
   const ambulo__yaml_node *foot = ambulo__yaml_get(item, "foot");
-  const char *name = foot ? ambulo__yaml_text(foot) : NULL;
-  for (int side = 0; name && side < 2; side++) {
+  const char *name = ambulo__yaml_text(foot);
+  for (int side = 0; side < 2; side++) {
     if (strcmp(name, feet[side]) == 0) return side;
   }
   return -1;
@@ -64,7 +64,7 @@ static int side_of(const ambulo__yaml_node *item) {
 /* first strike of each side, and the way to its next one; have[side] counts strikes */
 static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int have[2]) {
   double first[2] = {INFINITY, INFINITY}, second[2] = {INFINITY, INFINITY};
-  for (int i = 0; i < ambulo__yaml_count(strikes); i++) {
+  for (int i = 0; i < ambulo__yaml_items(strikes); i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(strikes, i);
     int side = side_of(item);
     if (side < 0) continue;
@@ -86,8 +86,8 @@ static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
   if (status) return status;
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
   const ambulo__yaml_node *verdict = ambulo__yaml_get(root, "verdict");
-  const char *word = verdict ? ambulo__yaml_text(verdict) : NULL;
-  if (word && strcmp(word, "optimal") != 0 && strcmp(word, "feasible") != 0)
+  const char *word = ambulo__yaml_text(verdict);
+  if (word[0] && strcmp(word, "optimal") != 0 && strcmp(word, "feasible") != 0)
     ambulo__warning(c->diagnostics, ambulo__yaml_place(verdict), NULL,
                     "the result is no solution (verdict %s); its curves predict nothing", word);
   const ambulo__yaml_node *body = ambulo__yaml_get(root, "body");

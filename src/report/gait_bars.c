@@ -68,7 +68,7 @@ void ambulo__time_axis(const ambulo__panel *panel, int parts, const char *unit,
   int decimals;
   double step = ambulo__nice_step(panel->duration, parts, &decimals);
   ambulo__text_buffer label;
-  ambulo__text_init(&label, &text->allocator);
+  ambulo__text_init_part(&label, text);
   ambulo__svg_line(text, "axis", panel->x, panel->y, panel->x + panel->width, panel->y);
   int last = (int)(panel->duration / step + 1e-6);
   for (int i = 0; i <= last; i++) {

@@ -31,7 +31,7 @@ void ambulo__chart_grid(ambulo__chart *c, ambulo__text_buffer *text) {
   c->low = floor(c->low / step + 1e-9) * step;
   c->high = ceil(c->high / step - 1e-9) * step;
   ambulo__text_buffer label;
-  ambulo__text_init(&label, &text->allocator);
+  ambulo__text_init_part(&label, text);
   int lines = (int)lround((c->high - c->low) / step);
   for (int i = 0; i <= lines; i++) {
     double value = c->low + (double)i * step, y = chart_y(c, value);

@@ -89,7 +89,7 @@ static void draw_chart(ambulo__chart *c, int coordinate, const char *quantity,
   int pair[2] = {coordinate, model->coordinates[coordinate].mirror};
   int count = pair[1] == coordinate ? 1 : 2;
   ambulo__text_buffer title;
-  ambulo__text_init(&title, &text->allocator);
+  ambulo__text_init_part(&title, text);
   pretty_name(model, coordinate, &title);
   ambulo__text_append(&title, quantity);
   ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0, ambulo__text_data(&title));

@@ -214,7 +214,7 @@ static double slope_of(const ambulo_model *model) {
 static void caption(const strip *s, ambulo__text_buffer *text) {
   double true_width = s->scale * fabs(s->speed) * s->panel->duration;
   ambulo__text_buffer label;
-  ambulo__text_init(&label, &text->allocator);
+  ambulo__text_init_part(&label, text);
   if (true_width > 0.05 * s->panel->width) {
     ambulo__text_append(&label, "side view, walking direction stretched ");
     ambulo__label_number(&label, s->panel->width / true_width, 1);

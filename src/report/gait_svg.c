@@ -60,7 +60,7 @@ static void heading(const ambulo_problem *problem, const ambulo_result *result, 
                     ambulo__text_buffer *text) {
   const char *name = ambulo_problem_name(problem);
   ambulo__text_buffer line;
-  ambulo__text_init(&line, &text->allocator);
+  ambulo__text_init_part(&line, text);
   for (const char *c = name ? name : "motion"; *c; c++)
     ambulo__text_append_char(&line, *c == '_' ? ' ' : *c);
   ambulo__svg_label(text, "title", margin, 46.0, ambulo__text_data(&line));

@@ -111,6 +111,7 @@ ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_re
                                   ambulo_diagnostics *diagnostics) {
   ambulo_report_options own;
   if (!problem || !result || !directory || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__folder *folder = NULL;
   ambulo_status status = begin(directory, &own, allocator, diagnostics, &folder);
   if (status) return status;
@@ -120,7 +121,7 @@ ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_re
   ambulo__text_free(&text);
   if (status) {
     ambulo__folder_abort(folder);
-    return status;
+    return ambulo__conclude(diagnostics, errors, status, directory);
   }
   return ambulo__folder_commit(folder, diagnostics);
 }

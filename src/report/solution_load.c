@@ -63,21 +63,23 @@ static ambulo_status read_coordinates(reader *r, const ambulo__yaml_node *root) 
   const ambulo__yaml_node *names = ambulo__yaml_require(root, "coordinates");
   ambulo_status status = ambulo__yaml_finish(r->document);
   if (status) return status;
-  int count = ambulo__yaml_count(names);
-  if (ambulo__yaml_kind_of(names) != AMBULO__YAML_SEQUENCE || count != model->coordinate_count)
+  int count = ambulo__yaml_items(names);
+  status = ambulo__yaml_finish(r->document);
+  if (status) return status;
+  if (count != model->coordinate_count)
     return ambulo__yaml_error(names, AMBULO_E_PROBLEM, NULL,
                               "got %d coordinates; expected the %d of model '%s'", count,
                               model->coordinate_count, model->name);
   for (int i = 0; i < count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(names, i);
     const char *name = ambulo__yaml_name(item);
-    int coordinate = name ? ambulo_model_find_coordinate(model, name) : -1;
+    int coordinate = name[0] ? ambulo_model_find_coordinate(model, name) : -1;
     for (int k = 0; k < i && coordinate >= 0; k++) {
       if (r->column[k] == coordinate)
         return ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "coordinate '%s' appears twice",
                                   name);
     }
-    if (name && coordinate < 0)
+    if (name[0] && coordinate < 0)
       return ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL, "model '%s' has no coordinate '%s'",
                                 model->name, name);
     r->column[i] = coordinate;
@@ -90,8 +92,10 @@ static ambulo_status read_points(reader *r, const ambulo__yaml_node *root) {
   const ambulo__yaml_node *rows = ambulo__yaml_require(root, "control_points");
   ambulo_status status = ambulo__yaml_finish(r->document);
   if (status) return status;
-  int count = ambulo__yaml_count(rows);
-  if (ambulo__yaml_kind_of(rows) != AMBULO__YAML_SEQUENCE || count != expected)
+  int count = ambulo__yaml_items(rows);
+  status = ambulo__yaml_finish(r->document);
+  if (status) return status;
+  if (count != expected)
     return ambulo__yaml_error(rows, AMBULO_E_SCHEMA, NULL,
                               "got %d control points; expected %d for this trajectory", count,
                               expected);
@@ -150,6 +154,7 @@ static ambulo_status load(const char *path, const ambulo_problem *problem, int s
   if (!path || !problem || !x) return AMBULO_E_ARGUMENT;
   reader r = {
       .problem = problem, .stretch = stretch, .allocator = ambulo__allocator_or_default(allocator)};
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = ambulo__yaml_load(path, &r.allocator, diagnostics, &r.document);
   if (status) return status;
   status = read_document(&r, x);
@@ -157,7 +162,7 @@ static ambulo_status load(const char *path, const ambulo_problem *problem, int s
   ambulo__free(&r.allocator, r.column);
   ambulo__basis_free(r.basis);
   ambulo__yaml_free(r.document);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, path);
 }
 
 ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *problem,

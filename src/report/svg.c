@@ -132,6 +132,20 @@ void ambulo__svg_label(ambulo__text_buffer *text, const char *style, double x, d
   ambulo__text_append(text, "</text>\n");
 }
 
+void ambulo__svg_label_turned(ambulo__text_buffer *text, const char *style, double x, double y,
+                              double angle, const char *label) {
+  open_element(text, "text", style);
+  ambulo__text_append(text, " transform=\"translate(");
+  number(text, x);
+  ambulo__text_append_char(text, ' ');
+  number(text, y);
+  ambulo__text_append(text, ") rotate(");
+  number(text, angle);
+  ambulo__text_append(text, ")\">");
+  escape(text, label);
+  ambulo__text_append(text, "</text>\n");
+}
+
 void ambulo__svg_group_begin(ambulo__text_buffer *text, const char *style) {
   open_element(text, "g", style);
   ambulo__text_append(text, ">\n");

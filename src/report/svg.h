@@ -19,6 +19,10 @@ void ambulo__svg_circle(ambulo__text_buffer *text, const char *style, double x, 
 void ambulo__svg_label(ambulo__text_buffer *text, const char *style, double x, double y,
                        const char *label);
 
+/* The same, turned about (x, y) by an angle in degrees, clockwise. */
+void ambulo__svg_label_turned(ambulo__text_buffer *text, const char *style, double x, double y,
+                              double angle, const char *label);
+
 void ambulo__svg_group_begin(ambulo__text_buffer *text, const char *style);
 void ambulo__svg_group_end(ambulo__text_buffer *text);
 

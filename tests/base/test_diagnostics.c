@@ -95,6 +95,54 @@ static void no_list_and_no_memory_keep_the_status(void **state) {
   }
 }
 
+/* the list itself has memory, its messages have not: from each k-th request on, or only there */
+static void without_memory_an_error_is_still_told(void **state) {
+  (void)state;
+  ambulo__place here = {"walk.yaml", 3, 4, "path"};
+  for (int only_once = 0; only_once < 2; only_once++) {
+    for (long k = 1; k < 14; k++) {
+      fail_alloc memory = fail_alloc_at(k);
+      memory.only_once = only_once;
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      ambulo_diagnostics *list = ambulo_diagnostics_create(&hook);
+      ambulo__error(list, AMBULO_E_SCHEMA, here, "hint", "got %d", 7);
+      ambulo__error(list, AMBULO_E_MEMORY, here, "hint", "out of memory");
+      ambulo__error(list, AMBULO_E_MEMORY, here, NULL, "again");
+      char text[512];
+      assert_true(ambulo_diagnostics_count(list) >= 2);
+      ambulo_diagnostics_format(list, 0, text, sizeof text);
+      assert_non_null(strstr(text, "walk.yaml:3:4: error[E_SCHEMA]: got 7"));
+      ambulo_diagnostics_format(list, 1, text, sizeof text);
+      assert_non_null(strstr(text, "walk.yaml:3:4: error[E_MEMORY]: out of memory"));
+      assert_int_equal(ambulo_diagnostics_error_count(list), 3);
+      ambulo_diagnostics_clear(list);
+      memory.fail_at = 0; /* what was kept without memory is given back for the next one */
+      memory.only_once = 0;
+      ambulo__error(list, AMBULO_E_MEMORY, here, NULL, "afterwards");
+      expect_text(list, 0, "walk.yaml:3:4: error[E_MEMORY]: afterwards");
+      ambulo_diagnostics_free(list);
+      assert_int_equal(memory.live, 0);
+    }
+  }
+}
+
+static void no_failure_is_concluded_without_an_error(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo__conclude(list, 0, AMBULO_OK, "f"), AMBULO_OK);
+  assert_int_equal(ambulo_diagnostics_count(list), 0);
+  assert_int_equal(ambulo__conclude(list, 0, AMBULO_E_MEMORY, "f"), AMBULO_E_MEMORY);
+  expect_text(list, 0, "f: error[E_MEMORY]: memory could not be allocated");
+  assert_int_equal(ambulo__conclude(list, 0, AMBULO_E_IO, "f"), AMBULO_E_IO);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_int_equal(ambulo__conclude(list, 1, AMBULO_E_IO, NULL), AMBULO_E_IO);
+  expect_text(list, 1, "ambulo: error[E_IO]: a file could not be read or written");
+  assert_int_equal(ambulo__conclude(list, 2, AMBULO_E_ARGUMENT, "f"), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_diagnostics_count(list), 2);
+  assert_int_equal(ambulo__conclude(NULL, 0, AMBULO_E_IO, "f"), AMBULO_E_IO);
+  ambulo_diagnostics_free(list);
+}
+
 static void nearest_names(void **state) {
   (void)state;
   static const char *const words[] = {"mass", "name", "inertia", "center_of_mass", "d", "q"};
@@ -133,6 +181,8 @@ int main(void) {
                                      cmocka_unit_test(short_buffers_are_terminated),
                                      cmocka_unit_test(twenty_errors_are_kept_and_all_counted),
                                      cmocka_unit_test(no_list_and_no_memory_keep_the_status),
+                                     cmocka_unit_test(without_memory_an_error_is_still_told),
+                                     cmocka_unit_test(no_failure_is_concluded_without_an_error),
                                      cmocka_unit_test(nearest_names)};
   return cmocka_run_group_tests_name("base/diagnostics", tests, NULL, NULL);
 }

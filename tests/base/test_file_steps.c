@@ -29,6 +29,19 @@ static void writes_are_complete_or_report_why(void **state) {
   close(file);
 }
 
+/* a call of the system that finds no memory is told like one of ours */
+static void no_memory_of_the_system_is_no_fault_of_the_file(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  errno = ENOMEM;
+  assert_int_equal(ambulo__io_error(list, "f", "read the folder"), AMBULO_E_MEMORY);
+  errno = EIO;
+  assert_int_equal(ambulo__io_error(list, "f", "read"), AMBULO_E_IO);
+  assert_int_equal(ambulo_diagnostics_get(list, 0)->status, AMBULO_E_MEMORY);
+  assert_int_equal(ambulo_diagnostics_get(list, 1)->status, AMBULO_E_IO);
+  ambulo_diagnostics_free(list);
+}
+
 static void parents_are_found_for_any_kind_of_path(void **state) {
   (void)state;
   ambulo_allocator memory = ambulo__allocator_or_default(NULL);
@@ -52,6 +65,7 @@ int main(void) {
       cmocka_unit_test(siblings_differ_by_process_and_number),
       cmocka_unit_test_setup_teardown(writes_are_complete_or_report_why, scratch_open,
                                       scratch_close),
+      cmocka_unit_test(no_memory_of_the_system_is_no_fault_of_the_file),
       cmocka_unit_test(parents_are_found_for_any_kind_of_path),
       cmocka_unit_test_setup_teardown(folders_are_flushed, scratch_open, scratch_close),
   };

@@ -16,6 +16,28 @@ static void bytes_come_back_with_a_terminator(void **state) {
   free(text);
 }
 
+/* longer than the piece it is read in; of a file that cannot be read there is none */
+static void checksums_are_of_the_whole_file(void **state) {
+  enum { LENGTH = 200000 };
+  char *text = malloc(LENGTH + 1), want[AMBULO__SHA256_TEXT], got[AMBULO__SHA256_TEXT] = "none";
+  assert_non_null(text);
+  for (int i = 0; i < LENGTH; i++) text[i] = (char)('a' + i % 26);
+  text[LENGTH] = '\0';
+  const char *path = scratch_path(state, "long");
+  scratch_write(path, text);
+  ambulo__sha256_of(text, LENGTH, want);
+  assert_int_equal(ambulo__digest_file(path, NULL, got), AMBULO_OK);
+  assert_string_equal(got, want);
+  free(text);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo__digest_file(scratch_path(state, "none"), list, got), AMBULO_E_IO);
+  assert_message(list, 0, "none: error[E_IO]: cannot open: No such file");
+  assert_int_equal(ambulo__digest_file(*state, list, got), AMBULO_E_IO);
+  assert_message(list, 1, "not a regular file (it is a folder)");
+  assert_string_equal(got, want);
+  ambulo_diagnostics_free(list);
+}
+
 static void an_empty_file_is_an_empty_text(void **state) {
   const char *path = scratch_path(state, "empty");
   scratch_write(path, "");
@@ -82,6 +104,7 @@ int main(void) {
                                       scratch_close),
       cmocka_unit_test_setup_teardown(bytes_come_back_with_a_terminator, scratch_open,
                                       scratch_close),
+      cmocka_unit_test_setup_teardown(checksums_are_of_the_whole_file, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(an_empty_file_is_an_empty_text, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(what_is_not_a_readable_file_is_refused, scratch_open,
                                       scratch_close),

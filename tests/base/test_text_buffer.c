@@ -1,5 +1,6 @@
 /* Text that grows: contents, numbers, sticky failure. */
 #include "base/text_buffer.h"
+#include "support/fail_alloc.h"
 #include "support/test.h"
 
 static void appends_follow_one_another(void **state) {
@@ -66,11 +67,38 @@ static void the_first_failure_sticks(void **state) {
   ambulo__text_free(&text);
 }
 
+/* a label that found no memory makes the picture that lacks it a failure */
+static void parts_pass_on_their_failure(void **state) {
+  (void)state;
+  for (int clear = 0; clear < 2; clear++) {
+    fail_alloc memory = fail_alloc_at(-1);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo__text_buffer whole, part;
+    ambulo__text_init(&whole, &hook);
+    ambulo__text_append(&whole, "picture");
+    ambulo__text_init_part(&part, &whole);
+    ambulo__text_append(&part, "label");
+    ambulo__text_clear(&part);
+    assert_int_equal(ambulo__text_status(&whole), AMBULO_OK);
+    ambulo__text_free(&part);
+    assert_int_equal(ambulo__text_status(&whole), AMBULO_OK);
+    ambulo__text_init_part(&part, &whole);
+    memory.fail_at = 0;
+    ambulo__text_append(&part, "label");
+    if (clear) ambulo__text_clear(&part);
+    ambulo__text_free(&part);
+    assert_int_equal(ambulo__text_status(&whole), AMBULO_E_MEMORY);
+    ambulo__text_free(&whole);
+    assert_int_equal(memory.live, 0);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(appends_follow_one_another),
       cmocka_unit_test(long_texts_keep_every_byte),
       cmocka_unit_test(the_first_failure_sticks),
+      cmocka_unit_test(parts_pass_on_their_failure),
   };
   return cmocka_run_group_tests_name("base/text_buffer", tests, NULL, NULL);
 }

@@ -5,8 +5,9 @@
 static void expect_value_error(const char *value, char kind, const char *want) {
   static const char *const words[] = {"slsqp", "auglag", "auto"};
   char text[256], message[512];
-  (void)snprintf(text, sizeof text, "v: %s\n", value);
-  (void)snprintf(message, sizeof message, "t.yaml:1:4: error[E_SCHEMA]: %s", want);
+  (void)snprintf(text, sizeof text, "v:%s%s\n", value[0] ? " " : "", value);
+  (void)snprintf(message, sizeof message, "t.yaml:1:%d: error[E_SCHEMA]: %s", value[0] ? 4 : 3,
+                 want);
   yaml_case c = yaml_open(text);
   assert_int_equal(c.status, AMBULO_OK);
   const ambulo__yaml_node *node = ambulo__yaml_get(c.root, "v");
@@ -34,10 +35,19 @@ static void expect_value_error(const char *value, char kind, const char *want) {
     assert_int_equal(ambulo__yaml_choice(node, words, 3, -3), -3);
     break;
   case 'N':
-    assert_null(ambulo__yaml_name(node));
+    assert_string_equal(ambulo__yaml_name(node), "");
     break;
   case 't':
-    assert_null(ambulo__yaml_text(node));
+    assert_string_equal(ambulo__yaml_text(node), "");
+    break;
+  case 'L':
+    assert_int_equal(ambulo__yaml_items(node), 0);
+    break;
+  case 'M':
+    assert_int_equal(ambulo__yaml_pairs(node), 0);
+    break;
+  case 'g':
+    assert_null(ambulo__yaml_get(node, "a"));
     break;
   default:
     assert_false(ambulo__yaml_numbers(node, 2, numbers));
@@ -105,6 +115,8 @@ static void words(void **state) {
   expect_value_error("ipopt", 'c', "got 'ipopt'; expected one of: slsqp, auglag, auto");
   expect_value_error("[auto]", 'c', "got a sequence of 1; expected one of: slsqp, auglag, auto");
   expect_value_error("[a]", 't', "got a sequence of 1; expected a text");
+  expect_value_error("{a: 1}", 't', "got a mapping; expected a text");
+  expect_value_error("", 't', "got nothing; expected a text");
   static const char rule[] = "expected a name of 1 to 64 letters, digits, '_', '-' or '.'";
   static const char *const names[][2] = {{"a/b", "'a/b'"},
                                          {"'a b'", "the quoted text 'a b'"},
@@ -127,7 +139,7 @@ static void names_have_at_most_64_letters(void **state) {
     memset(text + 3, 'a', (size_t)length);
     text[3 + length] = '\0';
     yaml_case c = yaml_open(text);
-    assert_int_equal(ambulo__yaml_name(ambulo__yaml_get(c.root, "v")) != NULL, length <= 64);
+    assert_int_equal(ambulo__yaml_name(ambulo__yaml_get(c.root, "v"))[0] != '\0', length <= 64);
     expect_messages(&c, length <= 64 ? 0 : 1);
     yaml_shut(&c);
   }
@@ -138,6 +150,11 @@ static void lists(void **state) {
   expect_value_error("[1, 2, 3]", 's', "got a sequence of 3; expected a sequence of 2 numbers");
   expect_value_error("[1]", 's', "got a sequence of 1; expected a sequence of 2 numbers");
   expect_value_error("1", 's', "got '1'; expected a sequence of 2 numbers");
+  expect_value_error("1", 'L', "got '1'; expected a list");
+  expect_value_error("{a: 1}", 'L', "got a mapping; expected a list");
+  expect_value_error("", 'M', "got nothing; expected a mapping");
+  expect_value_error("[{a: 1}]", 'M', "got a sequence of 1; expected a mapping");
+  expect_value_error("[{a: 1}]", 'g', "got a sequence of 1; expected a mapping");
   yaml_case c = yaml_open("v: [x, y]\n");
   double pair[2] = {7.0, 8.0};
   assert_false(ambulo__yaml_numbers(ambulo__yaml_get(c.root, "v"), 2, pair));
@@ -177,8 +194,17 @@ static void absent_values_are_fallbacks(void **state) {
   assert_int_equal(ambulo__yaml_integer(NULL, 0, 1, 4), 4);
   assert_int_equal(ambulo__yaml_boolean(NULL, 4), 4);
   assert_int_equal(ambulo__yaml_choice(NULL, NULL, 0, 4), 4);
-  assert_null(ambulo__yaml_name(NULL));
-  assert_null(ambulo__yaml_text(NULL));
+  assert_string_equal(ambulo__yaml_name(NULL), "");
+  assert_string_equal(ambulo__yaml_text(NULL), "");
+  assert_int_equal(ambulo__yaml_items(NULL), 0);
+  assert_int_equal(ambulo__yaml_pairs(NULL), 0);
+  assert_null(ambulo__yaml_item(NULL, 0));
+  assert_null(ambulo__yaml_value(NULL, 0));
+  assert_string_equal(ambulo__yaml_key(NULL, 0), "");
+  assert_false(ambulo__yaml_is(NULL, AMBULO__YAML_SCALAR));
+  assert_null(ambulo__yaml_place(NULL).file);
+  assert_int_equal(ambulo__yaml_error(NULL, AMBULO_E_IO, NULL, "x"), AMBULO_E_IO);
+  ambulo__yaml_warning(NULL, NULL, "x");
   assert_false(ambulo__yaml_numbers(NULL, 2, pair));
   assert_true(pair[0] == 7.0);
   assert_null(ambulo__yaml_get(NULL, "a"));
@@ -218,6 +244,37 @@ static void missing_and_unknown_keys(void **state) {
                  "  hint: known here: links, time");
   expect_messages(&c, 5);
   assert_string_equal(ambulo_diagnostics_get(c.list, 1)->path, "links[0].mas");
+  yaml_shut(&c);
+}
+
+/* no getter trusts its caller: each of them on each kind of node */
+static void every_getter_takes_every_node(void **state) {
+  (void)state;
+  static const char *const words[] = {"a"};
+  yaml_case c =
+      yaml_open("n: 1\nw: word\ne:\nq: ''\nl: []\nL: [[1], {a: 1}]\nm: {}\nM: {a: [1]}\n");
+  for (int i = -1; i <= ambulo__yaml_pairs(c.root); i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_value(c.root, i);
+    double pair[2];
+    assert_non_null(ambulo__yaml_text(node));
+    assert_non_null(ambulo__yaml_name(node));
+    assert_true(ambulo__yaml_items(node) >= 0 && ambulo__yaml_pairs(node) >= 0);
+    assert_true(!ambulo__yaml_item(node, 0) || ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE));
+    assert_true(!ambulo__yaml_value(node, 0) || ambulo__yaml_is(node, AMBULO__YAML_MAPPING));
+    assert_null(ambulo__yaml_item(node, 100));
+    assert_string_equal(ambulo__yaml_key(node, -1), "");
+    assert_int_equal(ambulo__yaml_get(node, "a") != NULL, ambulo__yaml_value(node, 0) != NULL);
+    (void)ambulo__yaml_require(node, "b");
+    ambulo__yaml_expect(node, "b");
+    (void)ambulo__yaml_number(node, 0.0);
+    (void)ambulo__yaml_number_in(node, 0.0, 1.0, 0.0);
+    (void)ambulo__yaml_integer(node, 0, 1, 0);
+    (void)ambulo__yaml_boolean(node, 0);
+    (void)ambulo__yaml_choice(node, words, 1, 0);
+    (void)ambulo__yaml_numbers(node, 2, pair);
+    ambulo__yaml_close(node);
+  }
+  assert_int_equal(ambulo__yaml_finish(c.document), AMBULO_E_SCHEMA);
   yaml_shut(&c);
 }
 
@@ -291,6 +348,7 @@ static void parts_are_named_by_their_item(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(parts_are_named_by_their_item),
                                      cmocka_unit_test(numbers),
+                                     cmocka_unit_test(every_getter_takes_every_node),
                                      cmocka_unit_test(whole_numbers),
                                      cmocka_unit_test(words),
                                      cmocka_unit_test(names_have_at_most_64_letters),

@@ -70,10 +70,41 @@ static void tab_indentation(void **state) {
   yaml_shut(&c);
 }
 
+static void bytes_are_found_by_line_and_column(void **state) {
+  (void)state;
+  static const char text[] = "ab\n\xC3\xA9[c\n";
+  assert_int_equal(ambulo__yaml_byte_at(text, sizeof text - 1, 1, 2), 'b');
+  assert_int_equal(ambulo__yaml_byte_at(text, sizeof text - 1, 1, 3), '\0');
+  assert_int_equal(ambulo__yaml_byte_at(text, sizeof text - 1, 2, 2), '[');
+  assert_int_equal(ambulo__yaml_byte_at(text, sizeof text - 1, 2, 3), 'c');
+  assert_int_equal(ambulo__yaml_byte_at(text, sizeof text - 1, 4, 1), '\0');
+}
+
+/* the commonest fault in a sweep file: its axes are written between brackets */
+static void brackets_between_brackets_stand_in_quotes(void **state) {
+  (void)state;
+  static const char *const texts[] = {"a: {key: objective[0].weight}\n", "a: [max(x), b[1]]\n",
+                                      "a: {key: x{y}}\n"};
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+    char message[1024];
+    yaml_case c = yaml_open(texts[i]);
+    assert_int_equal(c.status, AMBULO_E_PARSE);
+    ambulo_diagnostics_format(c.list, 0, message, sizeof message);
+    assert_non_null(strstr(message, "hint: between brackets a text that holds brackets stands in "
+                                    "quotes"));
+    yaml_shut(&c);
+  }
+  yaml_case c = yaml_open("a: {key: \"objective[0].weight\"}\n");
+  assert_int_equal(c.status, AMBULO_OK);
+  yaml_shut(&c);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(bytes_that_are_no_text),
                                      cmocka_unit_test(columns_count_characters_and_lines_any_break),
                                      cmocka_unit_test(directives),
-                                     cmocka_unit_test(tab_indentation)};
+                                     cmocka_unit_test(tab_indentation),
+                                     cmocka_unit_test(bytes_are_found_by_line_and_column),
+                                     cmocka_unit_test(brackets_between_brackets_stand_in_quotes)};
   return cmocka_run_group_tests_name("base/yaml_scan", tests, NULL, NULL);
 }

@@ -38,7 +38,7 @@ static void values_are_replaced_and_added(void **state) {
   const ambulo__yaml_node *solver = at(c.root, "solver");
   assert_string_equal(ambulo__yaml_text(at(solver, "algorithm")), "slsqp");
   assert_string_equal(ambulo__yaml_text(at(solver, "presolve")), "on");
-  assert_int_equal(ambulo__yaml_count(solver), 2);
+  assert_int_equal(ambulo__yaml_pairs(solver), 2);
   assert_string_equal(ambulo__yaml_place(at(solver, "presolve")).path, "solver.presolve");
   assert_int_equal(ambulo__yaml_set(c.document, "matrix[1]", "[0, 0]"), AMBULO_OK);
   assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(at(c.root, "matrix"), 1)).path,
@@ -57,15 +57,15 @@ static void null_leaves_out(void **state) {
   const ambulo__yaml_node *time = at(c.root, "time"), *terms = at(c.root, "objective");
   const ambulo__yaml_node *row = ambulo__yaml_item(at(c.root, "matrix"), 1);
   assert_null(at(time, "duration"));
-  assert_int_equal(ambulo__yaml_count(time), 1);
+  assert_int_equal(ambulo__yaml_pairs(time), 1);
   assert_int_equal(ambulo__yaml_integer(at(time, "intervals"), 1, 100, 0), 36);
-  assert_int_equal(ambulo__yaml_count(terms), 1);
+  assert_int_equal(ambulo__yaml_items(terms), 1);
   assert_string_equal(ambulo__yaml_text(at(ambulo__yaml_item(terms, 0), "term")), "upright");
   assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(terms, 0)).path, "objective[0]");
-  assert_int_equal(ambulo__yaml_count(row), 1);
+  assert_int_equal(ambulo__yaml_items(row), 1);
   assert_int_equal(ambulo__yaml_set(c.document, "objective[0].term", "torque"), AMBULO_OK);
   assert_int_equal(ambulo__yaml_set(c.document, "objective[torque]", "null"), AMBULO_OK);
-  assert_int_equal(ambulo__yaml_count(at(c.root, "objective")), 0);
+  assert_int_equal(ambulo__yaml_items(at(c.root, "objective")), 0);
   assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "\"null\""), AMBULO_OK);
   assert_string_equal(ambulo__yaml_text(at(time, "duration")), "null");
   assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "null"), AMBULO_OK);
@@ -176,7 +176,7 @@ static void out_of_memory_anywhere(void **state) {
     ambulo_status status = ambulo__yaml_set(document, "time.list", value);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     const ambulo__yaml_node *time = ambulo__yaml_value(ambulo__yaml_root(document), 0);
-    assert_int_equal(ambulo__yaml_count(time), memory.failed ? 2 : 3);
+    assert_int_equal(ambulo__yaml_pairs(time), memory.failed ? 2 : 3);
     ambulo__yaml_free(document);
     assert_int_equal(memory.live, 0);
     if (!memory.failed) break;

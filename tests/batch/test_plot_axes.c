@@ -25,7 +25,10 @@ static void numbers_stand_in_their_order(void **state) {
   const char *cell[(CASES + 1) * COLUMNS];
   ambulo__listing l = listing_of(cell);
   ambulo__plot_axis axis = {0};
-  assert_int_equal(ambulo__plot_axis_make(&l, AMBULO__LISTING_AXES, &axis), AMBULO_OK);
+  ambulo__plot_point point[CASES] = {{.index = 0}};
+  for (int i = 0; i < CASES; i++) point[i].index = i;
+  assert_int_equal(ambulo__plot_axis_make(&l, point, CASES, AMBULO__LISTING_AXES, &axis),
+                   AMBULO_OK);
   assert_true(axis.numeric);
   assert_int_equal(axis.count, 3);
   assert_true(axis.at[0] == 1.0 && axis.at[1] == 2.0 && axis.at[2] == 10.0);
@@ -43,7 +46,10 @@ static void words_stand_as_the_list_has_them(void **state) {
   const char *cell[(CASES + 1) * COLUMNS];
   ambulo__listing l = listing_of(cell);
   ambulo__plot_axis axis = {0};
-  assert_int_equal(ambulo__plot_axis_make(&l, AMBULO__LISTING_AXES + 1, &axis), AMBULO_OK);
+  ambulo__plot_point point[CASES] = {{.index = 0}};
+  for (int i = 0; i < CASES; i++) point[i].index = i;
+  assert_int_equal(ambulo__plot_axis_make(&l, point, CASES, AMBULO__LISTING_AXES + 1, &axis),
+                   AMBULO_OK);
   assert_false(axis.numeric);
   assert_int_equal(axis.count, 2);
   assert_string_equal(axis.text[0], "male");

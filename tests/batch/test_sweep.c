@@ -191,9 +191,17 @@ static void names_are_used_once(void **state) {
           "the key 'time.duration' is that of another axis (line 7)");
   refused(state, TWO_AXES "  - {key: name, name: T, values: [a]}\n", "the name 'T' is that of");
   refused(state, TWO_AXES "case_name: \"{n}\"\n", "two cases are named '8'");
-  refused(state, TWO_AXES "case_name: \"{n}-{t}\"\n", "unknown axis in case_name (got '{t}')");
+  refused(state, TWO_AXES "case_name: \"{n}-{t}\"\n",
+          "unknown axis in the name of a case (got '{t}')");
+  refused(state, TWO_AXES "case_name: \"{n}_{T\"\n",
+          "s.yaml:8:12: error[E_SCHEMA]: a brace without its other half in the name of a case (got "
+          "'{T')");
+  refused(state, TWO_AXES "case_name: \"{n}_T}\"\n", "(got '}')");
+  refused(state, TWO_AXES "case_name: \"{n{T}\"\n", "(got '{n{T}')");
+  refused(state, TWO_AXES "cases:\n  - {name: \"x{T\", set: {time.duration: 3}}\n",
+          "s.yaml:9:12: error[E_SCHEMA]: a brace");
   refused(state, TWO_AXES "filters: [\"speed != 3\"]\n", "unknown axis in filter");
-  refused(state, TWO_AXES "filters: \"n > 8\"\n", "not a list");
+  refused(state, TWO_AXES "filters: \"n > 8\"\n", "expected a list");
 }
 
 static void table_refused(void **state, const char *table, const char *message) {

@@ -42,6 +42,13 @@ static void faults_by_sex(void **state) {
             "t.yaml:5:59: error[E_SCHEMA]: a value differs by sex, but the subject has none");
   model_bad("subject: {sex: male}\n" ROD_WITH("[0, 0, {male: 2}, 0]", MODEL_BODY), AMBULO_E_SCHEMA,
             "t.yaml:6:59: error[E_SCHEMA]: missing required key 'female'");
+  /* the value for the other sex, which nobody reads now */
+  model_bad("subject: {sex: male}\n" ROD_WITH("[0, 0, {male: 2, female: [1]}, 0]", MODEL_BODY),
+            AMBULO_E_SCHEMA,
+            "t.yaml:6:77: error[E_SCHEMA]: got a sequence of 1; expected a number");
+  model_bad(
+      "subject: {sex: male}\n" ROD_WITH("{male: [0, 0, 2, 0], female: [0, 0, 1]}", MODEL_BODY),
+      AMBULO_E_SCHEMA, "t.yaml:6:81: error[E_SCHEMA]: got a sequence of 3; expected 4");
   model_bad(
       "subject: {sex: male}\n" ROD_WITH("[0, 0, {male: 2, femal: 1, female: 1}, 0]", MODEL_BODY),
       AMBULO_E_SCHEMA, "t.yaml:6:69: error[E_SCHEMA]: unknown key 'femal'");

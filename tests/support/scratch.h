@@ -59,6 +59,22 @@ static inline void scratch_write(const char *path, const char *text) {
   assert_int_equal(fclose(file), 0);
 }
 
+/* a whole file, to be freed */
+static inline char *read_whole(const char *path) {
+  FILE *file = fopen(path, "rb");
+  if (!file) print_error("%s does not exist\n", path);
+  assert_non_null(file);
+  assert_int_equal(fseek(file, 0, SEEK_END), 0);
+  size_t length = (size_t)ftell(file);
+  rewind(file);
+  char *text = malloc(length + 1);
+  assert_non_null(text);
+  assert_int_equal(fread(text, 1, length, file), length);
+  text[length] = '\0';
+  fclose(file);
+  return text;
+}
+
 /* the file holds exactly this text */
 static inline void assert_file_equal(const char *path, const char *text) {
   char buffer[4096];

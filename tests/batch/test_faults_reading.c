@@ -1,0 +1,201 @@
+/* Every step of collecting, verifying and drawing a batch fails once: the k-th file operation of
+ * each kind, the k-th request for memory. No table says what is not so, and every failure has a
+ * message. */
+#define _DEFAULT_SOURCE /* syscall */
+#include "support/fault_world.h"
+
+/* -------------------------------------------------------------------- table */
+
+/* lines of a table: each is that of the undisturbed one, or says that its case is corrupt */
+static int corrupt_lines(const char *got, const char *good, const char *mark) {
+  int corrupt = 0;
+  while (*got && *good) {
+    size_t length = strcspn(got, "\n"), want = strcspn(good, "\n");
+    if (length != want || memcmp(got, good, length) != 0) {
+      char line[512];
+      (void)snprintf(line, sizeof line, "%.*s", (int)length, got);
+      if (!strstr(line, mark)) print_error("a wrong line: %s\n", line);
+      assert_non_null(strstr(line, mark));
+      corrupt++;
+    }
+    got += length + 1;
+    good += want + 1;
+  }
+  assert_int_equal(*got, *good);
+  return corrupt;
+}
+
+static void remove_tables(void) {
+  static const char *const names[] = {"results.csv", "results.jsonl", "results_T_objective.svg"};
+  for (int i = 0; i < 3; i++) (void)unlink(in_folder(names[i]));
+}
+
+/* after a failure there is no table, or a right one; after none it says what it lacks */
+static void expect_true_table(ambulo_status status, const ambulo_batch_census *census) {
+  static const char *const names[] = {"results.csv", "results.jsonl"};
+  static const char *const marks[] = {",corrupt,", "\"state\": \"corrupt\""};
+  for (int i = 0; i < 2; i++) {
+    if (access(in_folder(names[i]), F_OK)) {
+      assert_true(status != AMBULO_OK);
+      continue;
+    }
+    char *text = read_whole(in_folder(names[i]));
+    int corrupt = corrupt_lines(text, i ? w.lines : w.table, marks[i]);
+    if (!status) assert_int_equal(corrupt, census->corrupt);
+    free(text);
+  }
+}
+
+static void files_fail_while_it_collects(void **state) {
+  (void)state;
+  int partial = 0;
+  for (int kind = 0; kind < FAULT_KINDS; kind++) {
+    for (long k = 0;; k++) {
+      ambulo_batch_census census;
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      remove_tables();
+      fault_arm((fault_kind)kind, k);
+      ambulo_status status = ambulo_batch_collect(w.folder, NULL, list, &census);
+      int hit = fault_disarm();
+      expect_told(status, list);
+      expect_true_table(status, &census);
+      if (!status && census.corrupt > 0) {
+        assert_message(list, 0, "damaged: ");
+        partial++;
+      }
+      ambulo_diagnostics_free(list);
+      if (!hit) break;
+    }
+  }
+  assert_true(partial > CASES);
+}
+
+static void memory_fails_while_it_collects(void **state) {
+  (void)state;
+  for (int only_once = 0; only_once < 2; only_once++) {
+    for (long k = 0;; k++) {
+      fail_alloc memory = fail_alloc_at(k);
+      memory.only_once = only_once;
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      ambulo_batch_census census;
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      remove_tables();
+      ambulo_status status = ambulo_batch_collect(w.folder, &hook, list, &census);
+      assert_int_equal(memory.live, 0);
+      expect_told(status, list);
+      /* what is lost without memory may be a hint, never a value or a row */
+      assert_true(status == AMBULO_E_MEMORY || (!status && census.done == CASES));
+      assert_true(status == AMBULO_OK || memory.failed);
+      expect_true_table(status, &census);
+      ambulo_diagnostics_free(list);
+      if (!memory.failed) break;
+    }
+  }
+}
+
+/* ------------------------------------------------------- state, verification */
+
+static void files_fail_while_it_is_verified(void **state) {
+  (void)state;
+  for (int kind = 0; kind < FAULT_KINDS; kind++) {
+    for (int verify = 0; verify < 2; verify++) {
+      for (long k = 0;; k++) {
+        ambulo_batch_census census;
+        ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+        fault_arm((fault_kind)kind, k);
+        ambulo_status status = verify
+                                   ? ambulo_batch_verify(w.folder, NULL, NULL, NULL, list, &census)
+                                   : ambulo_batch_status(w.folder, NULL, list, &census);
+        int hit = fault_disarm();
+        expect_told(status, list);
+        if (!status) assert_int_equal(census.done + census.corrupt, CASES);
+        if (!status && !hit) assert_int_equal(census.done, CASES);
+        ambulo_diagnostics_free(list);
+        if (!hit) break;
+      }
+    }
+  }
+}
+
+static void memory_fails_while_it_is_verified(void **state) {
+  (void)state;
+  for (int verify = 0; verify < 2; verify++) {
+    for (long k = 0;; k++) {
+      fail_alloc memory = fail_alloc_at(k);
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      ambulo_batch_census census;
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      ambulo_status status = verify
+                                 ? ambulo_batch_verify(w.folder, NULL, NULL, &hook, list, &census)
+                                 : ambulo_batch_status(w.folder, &hook, list, &census);
+      expect_told(status, list);
+      assert_int_equal(memory.live, 0);
+      assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+      if (!status) assert_int_equal(census.done, CASES);
+      ambulo_diagnostics_free(list);
+      if (!memory.failed) break;
+    }
+  }
+}
+
+/* ------------------------------------------------------------------ drawing */
+
+static void expect_true_drawing(ambulo_status status) {
+  if (access(in_folder("results_T_objective.svg"), F_OK)) {
+    assert_true(status != AMBULO_OK);
+    return;
+  }
+  char *text = read_whole(in_folder("results_T_objective.svg"));
+  if (strcmp(text, w.drawing) != 0) assert_non_null(strstr(text, "corrupt"));
+  free(text);
+}
+
+static void files_fail_while_it_is_drawn(void **state) {
+  (void)state;
+  for (int kind = 0; kind < FAULT_KINDS; kind++) {
+    for (long k = 0;; k++) {
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      remove_tables();
+      fault_arm((fault_kind)kind, k);
+      ambulo_status status = draw(NULL, list);
+      int hit = fault_disarm();
+      expect_told(status, list);
+      expect_true_drawing(status);
+      ambulo_diagnostics_free(list);
+      if (!hit) break;
+    }
+  }
+}
+
+static void memory_fails_while_it_is_drawn(void **state) {
+  (void)state;
+  for (int only_once = 0; only_once < 2; only_once++) {
+    for (long k = 0;; k++) {
+      fail_alloc memory = fail_alloc_at(k);
+      memory.only_once = only_once;
+      ambulo_allocator hook = fail_alloc_hook(&memory);
+      ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+      remove_tables();
+      ambulo_status status = draw(&hook, list);
+      expect_told(status, list);
+      assert_int_equal(memory.live, 0);
+      assert_true(status == AMBULO_OK || (status == AMBULO_E_MEMORY && memory.failed));
+      if (!status) {
+        char *drawing = read_whole(in_folder("results_T_objective.svg"));
+        assert_string_equal(drawing, w.drawing);
+        free(drawing);
+      }
+      ambulo_diagnostics_free(list);
+      if (!memory.failed) break;
+    }
+  }
+}
+
+int main(void) {
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
+  const struct CMUnitTest tests[] = {
+      TEST(files_fail_while_it_collects),    TEST(memory_fails_while_it_collects),
+      TEST(files_fail_while_it_is_verified), TEST(memory_fails_while_it_is_verified),
+      TEST(files_fail_while_it_is_drawn),    TEST(memory_fails_while_it_is_drawn)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
