@@ -244,9 +244,7 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = run(&v, output, residual, text);
   clear(&v);
-  if (status == AMBULO_E_MEMORY && ambulo_diagnostics_error_count(diagnostics) == errors)
-    (void)ambulo__io_memory_error(diagnostics, motion);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, motion);
 }
 
 ambulo_status ambulo_inverse_dynamics_file(const ambulo_model *model, const char *motion,

@@ -43,9 +43,10 @@ ambulo_status ambulo_report_check(const char *directory, const ambulo_report_opt
   ambulo_report_options own;
   if (!directory || !options_of(options, &own)) return AMBULO_E_ARGUMENT;
   ambulo__folder *folder = NULL;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = begin(directory, &own, NULL, diagnostics, &folder);
   if (!status) ambulo__folder_abort(folder);
-  return status;
+  return ambulo__conclude(diagnostics, errors, status, directory);
 }
 
 /* hands a finished text to the folder and empties the buffer for the next one */

@@ -40,6 +40,7 @@ typedef struct solve {
   const ambulo_problem *problem;
   const ambulo_allocator *allocator;
   ambulo_diagnostics *diagnostics;
+  size_t errors; /* in it before */
   ambulo__run run;
   ambulo__engine *engine;
   ambulo_result *result;
@@ -362,7 +363,7 @@ static ambulo_status end(solve *s, ambulo_status status, ambulo_result **result)
   ambulo__engine_free(s->engine);
   if (status) {
     ambulo_result_free(s->result);
-    return status;
+    return ambulo__conclude(s->diagnostics, s->errors, status, NULL);
   }
   *result = s->result;
   return AMBULO_OK;
@@ -374,6 +375,7 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
   if (!problem || !result) return AMBULO_E_ARGUMENT;
   ambulo_options own = options ? *options : problem->file_options;
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  s.errors = ambulo_diagnostics_error_count(diagnostics);
   s.explains = 1;
   ambulo_status status = begin(&s, &own, start);
   if (!status && s.engine) status = search(&s);
@@ -387,6 +389,7 @@ ambulo_status ambulo_audit_point(const ambulo_problem *problem, const ambulo_opt
   if (!problem || !x || !result) return AMBULO_E_ARGUMENT;
   ambulo_options own = options ? *options : problem->file_options;
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  s.errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = begin(&s, &own, x);
   if (!status) status = finish(&s);
   if (!status) (void)snprintf(s.result->ending, sizeof s.result->ending, "audit of a given point");

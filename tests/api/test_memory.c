@@ -182,6 +182,65 @@ static ambulo_status compare_folder(const ambulo_allocator *a, ambulo_diagnostic
   return status;
 }
 
+/* ------------------------------------------------------------------- solving */
+
+static ambulo_problem *small; /* of solve_with: two links */
+
+static ambulo_status solve_with(const ambulo_allocator *a, ambulo_diagnostics *list,
+                                ambulo_algorithm algorithm, int presolve) {
+  ambulo_options options = ambulo_problem_options(small);
+  ambulo_result *result = NULL;
+  options.algorithm = algorithm;
+  options.presolve = presolve;
+  options.maximum_iterations = 2;
+  ambulo_status status = ambulo_solve(small, &options, NULL, a, list, &result);
+  ambulo_result_free(result);
+  return status;
+}
+
+static ambulo_status solve(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  return solve_with(a, list, AMBULO_AUTO, 1);
+}
+
+static ambulo_status solve_by_pipeline(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  return solve_with(a, list, AMBULO_AUGLAG, 1);
+}
+
+static ambulo_status solve_plain(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  return solve_with(a, list, AMBULO_SLSQP, 0);
+}
+
+/* a start that leads nowhere, a second attempt from zero, and an explanation */
+static ambulo_status solve_in_vain(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  ambulo_options options = ambulo_problem_options(small);
+  ambulo_result *result = NULL;
+  size_t n = (size_t)ambulo_problem_variable_count(small);
+  double *start = calloc(n, sizeof *start);
+  options.maximum_iterations = 2;
+  ambulo_status status = ambulo_solve(small, &options, start, a, list, &result);
+  if (!status) assert_non_null(ambulo_result_explanation(result));
+  ambulo_result_free(result);
+  free(start);
+  return status;
+}
+
+static ambulo_status audit(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  ambulo_result *result = NULL;
+  ambulo_status status =
+      ambulo_audit_point(w.walk.problem, NULL, ambulo_result_x(w.walk.result), a, list, &result);
+  ambulo_result_free(result);
+  return status;
+}
+
+static ambulo_status inverse(const ambulo_allocator *a, ambulo_diagnostics *list) {
+  char *text = NULL;
+  ambulo_status status = ambulo_inverse_dynamics_motion(ambulo_problem_model(w.walk.problem),
+                                                        scratch_path(w.state, "result/motion.csv"),
+                                                        NULL, NULL, a, list, NULL, &text);
+  ambulo_text_free(text, a);
+  return status;
+}
+
 /* -------------------------------------------------------------------- tests */
 
 static void models(void **state) {
@@ -222,9 +281,30 @@ static void comparisons(void **state) {
   try_all("ambulo_compare", compare_folder);
 }
 
+static void solves(void **state) {
+  (void)state;
+  assert_int_equal(ambulo_problem_load(MODEL "two_link_reach.yaml", NULL, 0, NULL, NULL, &small),
+                   AMBULO_OK);
+  try_all("ambulo_solve", solve);
+  try_all("ambulo_solve by the pipeline", solve_by_pipeline);
+  try_all("ambulo_solve, plain", solve_plain);
+  ambulo_problem_free(small);
+  assert_int_equal(ambulo_problem_load(AMBULO_SOURCE_DIR "/tests/infeasible/torque_too_weak.yaml",
+                                       NULL, 0, NULL, NULL, &small),
+                   AMBULO_OK);
+  try_all("ambulo_solve in vain", solve_in_vain);
+  ambulo_problem_free(small);
+  try_all("ambulo_audit_point", audit);
+}
+
+static void motions(void **state) {
+  (void)state;
+  try_all("ambulo_inverse_dynamics_motion", inverse);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
-  const struct CMUnitTest tests[] = {TEST(models), TEST(problems), TEST(results),
-                                     TEST(comparisons)};
+  const struct CMUnitTest tests[] = {TEST(models),      TEST(problems), TEST(results),
+                                     TEST(comparisons), TEST(solves),   TEST(motions)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
