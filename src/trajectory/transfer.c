@@ -96,17 +96,23 @@ static void insert_knots(const ambulo__basis *from, const double *x_from, const 
 
 /* -------------------------------------------------------- central differences */
 
-/* row[d] = factor * D^order q(t) + keep * row */
+/* row[d] += factor * D^order q(t) */
 static void add_motion(const ambulo__basis *basis, const double *x, double t, int order,
-                       double factor, double keep, double *row, int d) {
+                       double factor, double *row, int d) {
   ambulo__basis_point point;
   ambulo__basis_at(basis, t, &point);
-  for (int i = 0; i < d; i++) row[i] *= keep;
   for (int k = 0; k < point.span; k++) {
     const double *control = x + (size_t)(point.first + k) * (size_t)d;
     double w = factor * point.weight[order][k];
     for (int i = 0; i < d; i++) row[i] += w * control[i];
   }
+}
+
+/* row[d] = factor * D^order q(t), whatever the row held */
+static void set_motion(const ambulo__basis *basis, const double *x, double t, int order,
+                       double factor, double *row, int d) {
+  memset(row, 0, (size_t)d * sizeof *row);
+  add_motion(basis, x, t, order, factor, row, d);
 }
 
 static void sample_nodes(const ambulo__basis *from, const double *x_from, const ambulo__basis *to,
@@ -115,13 +121,13 @@ static void sample_nodes(const ambulo__basis *from, const double *x_from, const 
   size_t row = (size_t)d;
   double h = to->duration / last;
   for (int i = 0; i <= last; i++) {
-    add_motion(from, x_from, to->breakpoints[i], 0, 1.0, 0.0, x_to + (size_t)(i + 1) * row, d);
+    set_motion(from, x_from, to->breakpoints[i], 0, 1.0, x_to + (size_t)(i + 1) * row, d);
   }
   memcpy(x_to, x_to + 2 * row, row * sizeof *x_to);
-  add_motion(from, x_from, 0.0, 1, -2.0 * h, 1.0, x_to, d);
+  add_motion(from, x_from, 0.0, 1, -2.0 * h, x_to, d);
   double *ghost = x_to + (size_t)(last + 2) * row;
   memcpy(ghost, x_to + (size_t)last * row, row * sizeof *x_to);
-  add_motion(from, x_from, to->duration, 1, 2.0 * h, 1.0, ghost, d);
+  add_motion(from, x_from, to->duration, 1, 2.0 * h, ghost, d);
 }
 
 /* ------------------------------------------------------------- least squares */
@@ -154,7 +160,7 @@ static void assemble(projection *p, const ambulo__basis *from, const double *x_f
       double weight, t = ambulo__gauss_time(g, start, end, &weight);
       ambulo__basis_point point;
       ambulo__basis_at(to, t, &point);
-      add_motion(from, x_from, t, 0, 1.0, 0.0, p->value, p->d);
+      set_motion(from, x_from, t, 0, 1.0, p->value, p->d);
       add_sample(p, &point, weight);
     }
     if (same_time(end, to->breakpoints[j], to->duration)) j++;
@@ -216,8 +222,8 @@ static ambulo_status through_hermite(const ambulo__basis *from, const double *x_
   double h = from->duration / from->intervals;
   for (int i = 0; i <= from->intervals; i++) {
     double *node = x + 2 * (size_t)i * row;
-    add_motion(from, x_from, from->breakpoints[i], 0, 1.0, 0.0, node, d);
-    add_motion(from, x_from, from->breakpoints[i], 1, h, 0.0, node + row, d);
+    set_motion(from, x_from, from->breakpoints[i], 0, 1.0, node, d);
+    set_motion(from, x_from, from->breakpoints[i], 1, h, node + row, d);
   }
   status = ambulo__basis_transfer(hermite, x, to, x_to, d, allocator);
   ambulo__free(allocator, x);

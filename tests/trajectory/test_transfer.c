@@ -117,6 +117,7 @@ static void least_squares_to_a_coarser_basis_are_a_projection(void **state) {
   ambulo__basis *fine = make_basis(AMBULO__BSPLINE, 3, 24, 1.0, NULL);
   ambulo__basis *coarse = make_basis(AMBULO__BSPLINE, 3, 8, 1.0, NULL);
   double x[27], once[11], back[27], twice[11];
+  for (int c = 0; c < 11; c++) once[c] = twice[c] = back[c] = NAN;
   fill_pseudo_random(x, 27, 4);
   assert_int_equal(ambulo__basis_transfer(fine, x, coarse, once, 1, NULL), AMBULO_OK);
   assert_int_equal(ambulo__basis_transfer(coarse, once, fine, back, 1, NULL), AMBULO_OK);
@@ -131,7 +132,9 @@ static void central_differences_take_and_give_node_values(void **state) {
   ambulo__basis *spline = make_basis(AMBULO__BSPLINE, 3, 6, 1.2, NULL);
   ambulo__basis *nodes = make_basis(AMBULO__CENTRAL_DIFFERENCE, 0, 12, 1.2, NULL);
   ambulo__basis *hermite = make_basis(AMBULO__HERMITE, 3, 12, 1.2, NULL);
-  double x[9], y[15], z[26];
+  double x[9], y[15], z[26]; /* what targets held before does not matter */
+  for (int i = 0; i < 15; i++) y[i] = NAN;
+  for (int i = 0; i < 26; i++) z[i] = NAN;
   fill_pseudo_random(x, 9, 8);
   assert_int_equal(ambulo__basis_transfer(spline, x, nodes, y, 1, NULL), AMBULO_OK);
   for (int i = 0; i <= 12; i++) assert_close(y[i + 1], curve(spline, x, 0.1 * i, 0), 1e-14);
