@@ -147,6 +147,7 @@ static ambulo_status print_outcome(job *j, int written) {
       printf("written to   %s\n", j->directory);
       printf("picture      %s/gait.svg\n", j->directory);
     }
+    ambulo__cli_print_last(j->result);
   }
   return AMBULO_OK;
 }

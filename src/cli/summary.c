@@ -46,6 +46,14 @@ static void print_audit(const ambulo_result *result) {
   printf("\n");
 }
 
+/* families that fail between the nodes, a line each */
+static void print_between(const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (!dense || dense->line_count == 0) return;
+  printf("between the nodes\n");
+  for (int i = 0; i < dense->line_count; i++) printf("  %s\n", dense->lines[i]);
+}
+
 static void print_families(const ambulo_result *result) {
   int count = ambulo_result_family_count(result);
   if (count == 0) return;
@@ -68,14 +76,29 @@ static void print_explanation(const ambulo_result *result) {
   for (int i = 0; i < e->line_count; i++) printf("  %s\n", e->lines[i]);
 }
 
+static int fails_between(const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  return dense && dense->line_count > 0;
+}
+
+void ambulo__cli_print_last(const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (dense && dense->summary[0]) printf("%s\n", dense->summary);
+}
+
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   const ambulo_timing *timing = ambulo_result_timing(result);
   printf("problem      %s\n", ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "");
-  printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  if (fails_between(result)) {
+    printf("verdict      %s at the nodes, not between them\n", ambulo_verdict_name(verdict));
+  } else {
+    printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  }
   print_objective(problem, result);
   print_audit(result);
   print_families(result);
+  print_between(result);
   print_explanation(result);
   printf("size         %d unknowns, %d rows (%d equalities), %d nodes\n",
          ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem),

@@ -194,8 +194,5 @@ ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
   memcpy(result->row, e->workspace->row_value, (size_t)result->rows * sizeof *result->row);
   audit_violations(p, result);
   audit_first_order(e, options, result);
-  ambulo_status status = audit_rank(e, result);
-  if (status) return status;
-  return ambulo__audit_dense(p, result->x, options->dense_samples, &e->pool.allocator,
-                             &result->audit.dense_violation);
+  return audit_rank(e, result);
 }

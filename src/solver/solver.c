@@ -8,6 +8,7 @@
  * Whatever happened, the result's numbers are those of the audit (audit.c).
  */
 #include "solver/audit.h"
+#include "solver/dense_audit.h"
 #include "solver/explain.h"
 #include "solver/finisher.h"
 #include "solver/nlopt_direct.h"
@@ -193,11 +194,20 @@ static void explain(const solve *s) {
   }
 }
 
+static int has_time(const solve *s) {
+  double limit = s->run.options->time_limit;
+  return !(limit > 0.0) || ambulo__seconds_now() - s->run.started < limit;
+}
+
 static ambulo_status finish(solve *s) {
   ambulo_result *r = s->result;
   ambulo_status status = ambulo__audit(s->engine, s->run.options, r);
+  if (!status)
+    status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, s->allocator, r);
   if (status) return status;
   r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
+  status = ambulo__dense_advise(s->problem, has_time(s), s->allocator, s->diagnostics, r);
+  if (status) return status;
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;
   describe(s);
