@@ -4,6 +4,7 @@
  * rows and terms may count nodes; they are not asked off the nodes. Events are moved with their
  * contacts, except those at 0 and T, which are nodes on every grid.
  */
+#include "nlp/problem.h"
 #include "solver/dense.h"
 
 #include <math.h>
@@ -42,7 +43,8 @@ static ambulo_status create_fine(const ambulo_problem *p, double shift,
   d.term_count = 0;
   d.user_rows = NULL;
   d.user_row_count = 0;
-  ambulo_status status = ambulo_problem_create(&d, &dense->allocator, diagnostics, &dense->fine);
+  ambulo_status status =
+      ambulo__problem_create_unnamed(&d, &dense->allocator, diagnostics, &dense->fine);
   ambulo__free(&dense->allocator, contacts);
   return status;
 }

@@ -165,9 +165,12 @@ static void write_summary(const wording *w, const char *verdict) {
 void ambulo__dense_words(const ambulo_problem *p, ambulo_verdict verdict,
                          const ambulo__dense_cure *cure, ambulo__dense_report *report) {
   wording w = {.problem = p, .cure = cure, .report = report};
+  report->view.line_count = 0;
+  report->summary[0] = '\0';
   for (int i = 0; i < report->view.family_count; i++) {
     ambulo_dense_family *f = &report->family[i];
     if (f->holds) continue;
+    report->settings[i][0] = report->advice[i][0] = '\0';
     w.brief[i] = advise(&w, i);
     f->settings = report->settings[i];
     f->advice = report->advice[i];
