@@ -108,11 +108,14 @@ static void write_line(const wording *w, int i) {
   ambulo__dense_report *report = w->report;
   const ambulo_dense_family *f = &report->family[i];
   const ambulo_violation *v = &f->violation;
+  char value[80];
   char *line = report->line_text[report->view.line_count];
+  (void)snprintf(value, sizeof value, "%.3g %s", v->worst, v->unit);
   (void)snprintf(line, AMBULO__DENSE_LINE_SIZE,
-                 "%s: %.3g %s (%s%s%s, t = %.4g s; tolerance %.3g %s): %s%s%s", v->family, v->worst,
-                 v->unit, v->subject, v->detail[0] ? " " : "", v->detail, v->time, f->tolerance,
-                 v->unit, f->advice, f->settings[0] ? "; " : "", f->settings);
+                 "%s: %s (%s%s%s, t = %.4g s; tolerance %.3g %s): %s%s%s", v->family,
+                 isfinite(v->worst) ? value : not_finite, v->subject, v->detail[0] ? " " : "",
+                 v->detail, v->time, f->tolerance, v->unit, f->advice, f->settings[0] ? "; " : "",
+                 f->settings);
   report->line[report->view.line_count++] = line;
 }
 
