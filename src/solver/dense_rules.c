@@ -4,8 +4,9 @@
  * pressure count by the share of the load that the foot carries, as (17') counts zero-moment points
  * by the force: 5 cm under 0.4 % of the weight are 0.2 mm.
  *
- * Orders are the least of what bench/bench_dense.c sees on the shipped problems, rounded down
- * (docs/results.md has its table).
+ * Orders: of what lies between two nodes that both hold a row, and beside events, on the safe side
+ * of what bench/bench_dense.c sees on the shipped problems, so that what is foretold from them
+ * comes true there (docs/results.md has the measured ones).
  */
 #include "solver/dense_rules.h"
 
