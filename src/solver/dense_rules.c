@@ -18,32 +18,32 @@ enum { SLIP, FORCE };
 #define REMEDY(name) AMBULO__REMEDY_##name
 
 static const ambulo__dense_rule rules[AMBULO__DENSE_RULES] = {
-    /* family, unit, tolerance, of_limit, by_load, at_events, order_alone, order_both,
-       order_landing, remedy */
-    {"slip", "m", 0.001, 0, 0, 1, 1.5, 1.5, 2.0, REMEDY(NONE)},
-    {"ground_force", "body weights", 0.02, 0, 0, 0, 1.0, 0.0, 1.0, REMEDY(TOLERANCE)},
-    {"ground_penetration", "m", 0.001, 0, 0, 1, 1.5, 1.5, 2.0, REMEDY(NONE)},
-    {"foot_strike", "m", 0.001, 0, 0, 1, 1.5, 1.5, 2.0, REMEDY(NONE)},
-    {"contact", "m", 0.001, 0, 0, 1, 1.5, 1.5, 2.0, REMEDY(NONE)},
-    {"contact", "rad", 0.005, 0, 0, 1, 1.5, 1.5, 1.5, REMEDY(NONE)},
-    {"clearance", "m", 0.001, 0, 0, 1, 1.5, 1.5, 1.0, REMEDY(NONE)},
-    {"clearance", "rad", 0.005, 0, 0, 1, 1.5, 1.5, 1.0, REMEDY(NONE)},
-    {"zmp", "m", 0.001, 0, 0, 1, 0.0, 0.0, 1.0, REMEDY(TRANSFER)},
-    {"normal_force", "body weights", 0.02, 0, 0, 1, 1.0, 0.0, 1.0, REMEDY(TOLERANCE)},
-    {"pressure", "m", 0.001, 0, 1, 1, 1.0, 0.0, 0.75, REMEDY(TOLERANCE)},
-    {"friction", "body weights", 0.02, 0, 0, 1, 1.0, 0.0, 1.0, REMEDY(TOLERANCE)},
-    {"free_moment", "m", 0.001, 0, 0, 1, 1.5, 0.0, 1.0, REMEDY(TOLERANCE)},
-    {"joint_limit", "rad", 0.005, 0, 0, 0, 1.5, 0.0, 1.0, REMEDY(CONTROL_POINTS)},
-    {"joint_limit", "m", 0.001, 0, 0, 0, 1.5, 0.0, 1.0, REMEDY(CONTROL_POINTS)},
-    {"speed_limit", NULL, 0.02, 1, 0, 0, 1.5, 0.0, 1.0, REMEDY(TOLERANCE)},
-    {"torque_limit", NULL, 0.02, 1, 0, 0, 1.0, 0.0, 1.0, REMEDY(TOLERANCE)},
-    {"tracking_tube", "rad", 0.005, 0, 0, 0, 1.5, 1.5, 1.0, REMEDY(NONE)},
-    {"tracking_tube", "m", 0.001, 0, 0, 0, 1.5, 1.5, 1.0, REMEDY(NONE)},
+    /* family, unit, tolerance; order_alone, order_both, order_landing; of_limit, by_load, at_events
+     */
+    {"slip", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {"ground_force", "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 0, REMEDY(TOLERANCE)},
+    {"ground_penetration", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {"foot_strike", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {"contact", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {"contact", "rad", 0.005, 1.5, 1.5, 1.5, 0, 0, 1, REMEDY(NONE)},
+    {"clearance", "m", 0.001, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {"clearance", "rad", 0.005, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {"zmp", "m", 0.001, 0.0, 0.0, 1.0, 0, 0, 1, REMEDY(TRANSFER)},
+    {"normal_force", "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
+    {"pressure", "m", 0.001, 1.0, 0.0, 0.75, 0, 1, 1, REMEDY(TOLERANCE)},
+    {"friction", "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
+    {"free_moment", "m", 0.001, 1.5, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
+    {"joint_limit", "rad", 0.005, 1.5, 0.0, 1.0, 0, 0, 0, REMEDY(CONTROL_POINTS)},
+    {"joint_limit", "m", 0.001, 1.5, 0.0, 1.0, 0, 0, 0, REMEDY(CONTROL_POINTS)},
+    {"speed_limit", NULL, 0.02, 1.5, 0.0, 1.0, 1, 0, 0, REMEDY(TOLERANCE)},
+    {"torque_limit", NULL, 0.02, 1.0, 0.0, 1.0, 1, 0, 0, REMEDY(TOLERANCE)},
+    {"tracking_tube", "rad", 0.005, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
+    {"tracking_tube", "m", 0.001, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
     /* families that are not named above, by their unit */
-    {NULL, "m", 0.001, 0, 0, 1, 1.0, 0.0, 1.0, REMEDY(NONE)},
-    {NULL, "rad", 0.005, 0, 0, 1, 1.0, 0.0, 1.0, REMEDY(NONE)},
-    {NULL, "body weights", 0.02, 0, 0, 1, 1.0, 0.0, 1.0, REMEDY(NONE)},
-    {NULL, NULL, 1e-6, 0, 0, 1, 1.0, 0.0, 1.0, REMEDY(NONE)},
+    {NULL, "m", 0.001, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {NULL, "rad", 0.005, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {NULL, "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {NULL, NULL, 1e-6, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
 };
 
 static const char *const on_ends[] = {"initial_state", "final_state", "periodic", "mirrored"};

@@ -19,15 +19,16 @@ typedef struct ambulo__dense_rule {
   const char *family; /* NULL: any family that is not in the table */
   const char *unit;   /* NULL: any */
   double tolerance;   /* in unit, or a share of the limit */
-  int of_limit;       /* 1: a share */
-  int by_load;        /* 1: counted by the share of the load that the foot carries */
-  int at_events;      /* 1: its rows change when a contact begins or ends */
-  /* The ratio goes down with this power of the number of time intervals, at least: with the
-   * trajectory's kept; with the trajectory's in proportion. 0: it need not go down at all. */
+  /* Where two nodes hold a row its ratio goes down with this power of the number of time intervals,
+   * at least: with the trajectory's kept; with the trajectory's in proportion. 0: it need not go
+   * down at all. */
   double order_alone, order_both;
   /* Beside an event it goes down with the gap to the node: where a contact ends to the first
    * power, where it begins to this one. */
   double order_landing;
+  int of_limit;  /* 1: the tolerance is a share */
+  int by_load;   /* 1: counted by the share of the load that the foot carries */
+  int at_events; /* 1: its rows change when a contact begins or ends */
   ambulo__dense_remedy remedy;
 } ambulo__dense_rule;
 
