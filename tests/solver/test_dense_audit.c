@@ -143,6 +143,28 @@ static void a_motion_that_overflows_is_named(void **state) {
   ambulo_problem_free(p);
 }
 
+/* a height that no force can follow: places are numbers, the force is not, and comes first */
+static void what_is_not_finite_comes_first(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_result *r = result_of(p, 0.0);
+  int height = ambulo_model_find_coordinate(p->model, "pelvis_ty");
+  r->x[8 * p->coordinates + height] = 1e304;
+  assert_int_equal(ambulo__dense_audit(p, 10, NULL, r), AMBULO_OK);
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
+  int finite = 0;
+  for (int i = 0; i < dense->family_count; i++) {
+    const ambulo_violation *v = &dense->families[i].violation;
+    if (isfinite(v->worst)) finite++;
+    if (finite) assert_true(isfinite(v->worst));
+    if (strcmp(v->family, "slip") == 0) assert_true(isfinite(v->worst));
+    if (strcmp(v->family, "ground_force") == 0) assert_true(!isfinite(v->worst));
+  }
+  assert_in_range(finite, 2, dense->family_count - 1);
+  ambulo_result_free(r);
+  ambulo_problem_free(p);
+}
+
 static void without_time_nothing_is_foretold(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("walk_normal");
@@ -228,6 +250,7 @@ int main(void) {
       cmocka_unit_test(a_point_that_is_no_solution_is_only_measured),
       cmocka_unit_test(an_audit_says_what_the_solve_said),
       cmocka_unit_test(a_motion_that_overflows_is_named),
+      cmocka_unit_test(what_is_not_finite_comes_first),
       cmocka_unit_test(without_time_nothing_is_foretold),
       cmocka_unit_test(a_grid_that_cannot_be_is_not_a_motion_that_holds),
       cmocka_unit_test(a_refusal_between_the_nodes_is_told),

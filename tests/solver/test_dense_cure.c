@@ -1,6 +1,6 @@
 /* What is foretold comes true: problems are solved again with the settings that the audit names.
  * (bench/bench_dense.c does the same for every shipped problem.) */
-#include "solver/dense.h"
+#include "support/dense_fixture.h"
 #include "support/engine_fixture.h"
 
 enum { MOST_SETTINGS = 6, TEXT = 400 };
@@ -129,6 +129,43 @@ static void the_number_named_has_nodes_where_they_count(void **state) {
   ambulo_problem_free(p);
 }
 
+/* A body that is moved as a whole at 0.4 m/s, on N intervals of 0.55 s, of which only slip is
+ * looked at and only beside one event. Slip is speed times gap; 0.7 mm are allowed. */
+static int intervals_named(int intervals, double event) {
+  dense_fixture f;
+  ambulo__dense_events events = {1, &event};
+  ambulo__dense_worst worst;
+  ambulo__dense_cure cure;
+  int slip = ambulo__dense_rule_of_slip();
+  memset(&worst, 0, sizeof worst);
+  worst.entry[slip].present = 1;
+  worst.entry[slip].ratio = 2.0;
+  dense_open(&f, intervals);
+  dense_move(&f, 0, 0.0, 0.4, 0.0);
+  assert_int_equal(ambulo__dense_cure_find(f.problem, f.x, &events, &worst, NULL, &cure),
+                   AMBULO_OK);
+  assert_true(cure.cured[slip] && cure.intervals > intervals);
+  assert_int_equal(cure.spline_intervals, cure.intervals);
+  dense_close(&f);
+  return cure.intervals;
+}
+
+static void gaps_to_come_are_foretold_from_the_motion(void **state) {
+  (void)state;
+  const double toe_off = 0.24 * 0.55, foot_flat = 0.16 * 0.55, longest = 0.0007 / 0.4;
+  /* toe-off on a node: the interval before it is free, and its slip is there to be seen */
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, intervals_named(25, toe_off)) <= longest);
+  /* toe-off just after a node: nothing slips now, and on 22 intervals it would */
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, 21) < longest);
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, 22) > 3.0 * longest);
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, intervals_named(21, toe_off)) <= longest);
+  /* the toe comes down on a node: nothing slips now, and on 26 intervals it would */
+  assert_true(ambulo__dense_gap_after(foot_flat, 0.55, 25) < 1e-9);
+  assert_true(ambulo__dense_gap_after(foot_flat, 0.55, 26) > 5.0 * longest);
+  assert_true(ambulo__dense_gap_after(foot_flat, 0.55, intervals_named(25, foot_flat)) <=
+              2.0 * longest);
+}
+
 static void grids_keep_their_proportion_where_contacts_are_equations(void **state) {
   (void)state;
   ambulo_problem *exact = load_problem("walk_without_reaction"), *tube = load_problem("walk_slow");
@@ -147,6 +184,7 @@ int main(void) {
       cmocka_unit_test(contacts_that_are_equations_have_three_cures),
       cmocka_unit_test(no_failure_is_left_without_a_word),
       cmocka_unit_test(the_number_named_has_nodes_where_they_count),
+      cmocka_unit_test(gaps_to_come_are_foretold_from_the_motion),
       cmocka_unit_test(grids_keep_their_proportion_where_contacts_are_equations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,7 @@ static void a_toe_that_leaves_slips_from_its_last_node_on(void **state) {
   dense_fixture f;
   dense_open(&f, 20);
   dense_move(&f, 0, 0.0, 0.4, 0.0);
-  dense_look(&f, 10);
+  dense_look(&f, 7);
   double last = 4 * 0.55 / 20;
   dense_largest toe = largest_of(&f, "left_toe", -1.0, 1.0);
   assert_close(toe.sample.value, 0.4 * (toe_off - last), 1e-9);
