@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/summary.h"
+#include "cli/worker.h"
 
 /* the only things the signal handler touches */
 static volatile sig_atomic_t pending_signal = 0;
@@ -158,6 +159,12 @@ static int verdict_exit_code(const ambulo_result *result) {
   return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE ? 0 : 1;
 }
 
+/* the warning that a batch finds in each summary.json: a million logs need not hold it as well */
+static const char *in_table(const job *j) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(j->result);
+  return ambulo__cli_is_worker() && dense && dense->summary[0] ? dense->summary : NULL;
+}
+
 static int run_job(job *j) {
   int code = read_options(j);
   if (code) return code;
@@ -171,7 +178,7 @@ static int run_job(job *j) {
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);
   status =
       ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
-  code = ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
+  code = ambulo__cli_diagnostics_but(j->diagnostics, status, j->directory, in_table(j));
   ambulo_status printed = print_outcome(j, !status);
   if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
   return code ? code : verdict_exit_code(j->result);
