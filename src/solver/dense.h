@@ -37,9 +37,12 @@ typedef struct ambulo__dense {
   double *row_value;             /* [rows of fine]; only rows on one node */
 } ambulo__dense;
 
-/* Evaluates x on a grid `samples` times as fine, fewer where that would be too many nodes. Events
- * of contacts inside (0, T) are moved by `shift` s (0: as they are). E_PROBLEM, with the reason in
- * diagnostics: there is no such grid; E_MEMORY. Values may be infinite or NaN. */
+/* `samples`, or as many as a problem may have intervals for; 1: there is no finer grid. */
+int ambulo__dense_samples(const ambulo_problem *problem, int samples);
+
+/* Evaluates x on a grid that many times as fine. Events of contacts inside (0, T) are moved by
+ * `shift` s (0: as they are). E_PROBLEM, with the reason in diagnostics: there is no such grid;
+ * E_MEMORY. Values may be infinite or NaN. */
 ambulo_status ambulo__dense_open(const ambulo_problem *problem, const double *x, int samples,
                                  double shift, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics, ambulo__dense *dense);

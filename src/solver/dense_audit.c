@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { MANY = 20000 }; /* intervals: a tenth of a second */
+
 static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
 /* ---------------------------------------------------------------- families */
@@ -75,22 +77,22 @@ static ambulo_status measure(const ambulo__dense *dense, const ambulo_problem *p
   return AMBULO_OK;
 }
 
+/* why the finer grid is not looked at; NULL: it is */
+static const char *obstacle(const ambulo_problem *p, int samples, int in_time) {
+  if (samples < 2) return "solver.dense_samples is 1: a grid as coarse as the nodes";
+  int possible = ambulo__dense_samples(p, samples);
+  if (possible < 2) return "there are too many time intervals for a grid twice as fine";
+  return !in_time && p->definition.intervals > MANY / possible ? "no time was left" : NULL;
+}
+
 static ambulo_status look(const ambulo_problem *p, const double *x, int samples,
                           const ambulo_allocator *allocator, ambulo__dense_report *report) {
   ambulo__dense dense;
-  if (samples < 2) {
-    refuse(report, "solver.dense_samples is 1: a grid as coarse as the nodes");
-    return AMBULO_OK;
-  }
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(allocator);
   if (!diagnostics) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__dense_open(p, x, samples, 0.0, allocator, diagnostics, &dense);
   if (!status) {
-    if (dense.samples < 2) {
-      refuse(report, "there are too many time intervals for a grid twice as fine");
-    } else {
-      status = measure(&dense, p, report);
-    }
+    status = measure(&dense, p, report);
     ambulo__dense_close(&dense);
   } else if (status != AMBULO_E_MEMORY) {
     refuse_for(report, diagnostics);
@@ -100,7 +102,7 @@ static ambulo_status look(const ambulo_problem *p, const double *x, int samples,
   return status;
 }
 
-ambulo_status ambulo__dense_audit(const ambulo_problem *p, int samples,
+ambulo_status ambulo__dense_audit(const ambulo_problem *p, int samples, int in_time,
                                   const ambulo_allocator *allocator, ambulo_result *result) {
   ambulo__dense_report *report = result->dense;
   if (!report) report = ambulo__alloc(&result->allocator, 1, sizeof *report);
@@ -111,7 +113,9 @@ ambulo_status ambulo__dense_audit(const ambulo_problem *p, int samples,
   report->view.lines = report->line;
   report->view.summary = report->summary;
   report->view.reason = report->reason;
-  ambulo_status status = look(p, result->x, samples, allocator, report);
+  const char *reason = obstacle(p, samples, in_time);
+  if (reason) refuse(report, reason);
+  ambulo_status status = reason ? AMBULO_OK : look(p, result->x, samples, allocator, report);
   if (status) return status;
   ambulo_violation none = {.family = "", .subject = "", .detail = "", .unit = ""};
   none.worst = report->view.samples ? 0.0 : (double)NAN;
@@ -132,14 +136,14 @@ static ambulo_status forecast_cure(const ambulo_problem *p, const ambulo_result 
   return status;
 }
 
-ambulo_status ambulo__dense_advise(const ambulo_problem *p, int forecast,
+ambulo_status ambulo__dense_advise(const ambulo_problem *p, int in_time,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo_result *result) {
   ambulo__dense_report *report = result->dense;
   ambulo__dense_cure cure;
   if (!report || (result->verdict != AMBULO_OPTIMAL && result->verdict != AMBULO_FEASIBLE))
     return AMBULO_OK;
-  forecast = forecast && report->view.failing > 0;
+  int forecast = in_time && report->view.failing > 0;
   if (forecast) {
     ambulo_status status = forecast_cure(p, result, allocator, &cure);
     if (status) return status;

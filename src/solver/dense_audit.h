@@ -27,14 +27,14 @@ typedef struct ambulo__dense_report {
 } ambulo__dense_report;
 
 /* Looks at result->x on a grid `samples` times as fine: fills result->dense (families, worst
- * first) and the audit's dense_violation. Where there is no such grid the report says why.
- * E_MEMORY. */
-ambulo_status ambulo__dense_audit(const ambulo_problem *problem, int samples,
+ * first) and the audit's dense_violation. Where there is no such grid, or it is large and time is
+ * up (`in_time` 0), the report says so. E_MEMORY. */
+ambulo_status ambulo__dense_audit(const ambulo_problem *problem, int samples, int in_time,
                                   const ambulo_allocator *allocator, ambulo_result *result);
 
 /* After the verdict, for points that satisfy every row at the nodes: what would help, in words,
- * and one warning. `forecast` 0: there is no time to look for the intervals that help. E_MEMORY. */
-ambulo_status ambulo__dense_advise(const ambulo_problem *problem, int forecast,
+ * and one warning. `in_time` 0: the intervals that help are not looked for. E_MEMORY. */
+ambulo_status ambulo__dense_advise(const ambulo_problem *problem, int in_time,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo_result *result);
 

@@ -128,7 +128,9 @@ static double foretold(const forecast *f, int rule, int intervals) {
 static int helps(const forecast *f, int rule) {
   const ambulo__dense_entry *entry = &f->worst->entry[rule];
   const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);
-  double order = ambulo__dense_is_strict(f->problem) ? r->order_both : r->order_alone;
+  int strict = ambulo__dense_is_strict(f->problem);
+  double order = strict ? r->order_both : r->order_alone;
+  if (strict && f->problem->definition.breakpoints) return 0; /* those would have to be new */
   return entry->present && !isnan(entry->ratio) && order > 0.0;
 }
 

@@ -73,14 +73,18 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
   return status;
 }
 
+int ambulo__dense_samples(const ambulo_problem *p, int samples) {
+  int most = MOST_INTERVALS / p->definition.intervals;
+  return samples < most ? samples : most;
+}
+
 ambulo_status ambulo__dense_open(const ambulo_problem *p, const double *x, int samples,
                                  double shift, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics, ambulo__dense *dense) {
   memset(dense, 0, sizeof *dense);
   dense->allocator = ambulo__allocator_or_default(allocator);
   dense->problem = p;
-  int most = MOST_INTERVALS / p->definition.intervals;
-  dense->samples = samples < most ? samples : most;
+  dense->samples = ambulo__dense_samples(p, samples);
   ambulo_status status = create_fine(p, shift, diagnostics, dense);
   if (!status) status = evaluate(dense, x);
   if (status) ambulo__dense_close(dense);

@@ -203,7 +203,8 @@ static ambulo_status finish(solve *s) {
   ambulo_result *r = s->result;
   ambulo_status status = ambulo__audit(s->engine, s->run.options, r);
   if (!status)
-    status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, s->allocator, r);
+    status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, has_time(s),
+                                 s->allocator, r);
   if (status) return status;
   r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
   status = ambulo__dense_advise(s->problem, has_time(s), s->allocator, s->diagnostics, r);

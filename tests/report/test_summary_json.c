@@ -71,7 +71,7 @@ static void test_between_nodes(void **state) {
     walk w;
     walk_open(&w, 12);
     if (overflows) w.result->x[9 * 7] = 1e200;
-    assert_int_equal(ambulo__dense_audit(w.problem, 10, NULL, w.result), AMBULO_OK);
+    assert_int_equal(ambulo__dense_audit(w.problem, 10, 1, NULL, w.result), AMBULO_OK);
     assert_int_equal(ambulo__dense_advise(w.problem, 1, NULL, NULL, w.result), AMBULO_OK);
     char *text = NULL;
     assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);

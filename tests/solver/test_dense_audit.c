@@ -129,7 +129,7 @@ static void a_motion_that_overflows_is_named(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("walk_normal");
   ambulo_result *r = result_of(p, 1e200);
-  assert_int_equal(ambulo__dense_audit(p, 10, NULL, r), AMBULO_OK);
+  assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
   assert_int_equal(ambulo__dense_advise(p, 1, NULL, NULL, r), AMBULO_OK);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
   assert_true(dense->failing > 0);
@@ -150,7 +150,7 @@ static void what_is_not_finite_comes_first(void **state) {
   ambulo_result *r = result_of(p, 0.0);
   int height = ambulo_model_find_coordinate(p->model, "pelvis_ty");
   r->x[8 * p->coordinates + height] = 1e304;
-  assert_int_equal(ambulo__dense_audit(p, 10, NULL, r), AMBULO_OK);
+  assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
   int finite = 0;
   for (int i = 0; i < dense->family_count; i++) {
@@ -169,7 +169,7 @@ static void without_time_nothing_is_foretold(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("walk_normal");
   ambulo_result *r = result_of(p, 0.0);
-  assert_int_equal(ambulo__dense_audit(p, 10, NULL, r), AMBULO_OK);
+  assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
   assert_int_equal(ambulo__dense_advise(p, 0, NULL, NULL, r), AMBULO_OK);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
   assert_true(dense->failing > 0 && dense->intervals == 0);
@@ -185,7 +185,7 @@ static void without_time_nothing_is_foretold(void **state) {
 static void check_refusal(const ambulo_problem *p, int samples, const char *reason) {
   ambulo_result *r = result_of(p, 0.0);
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  assert_int_equal(ambulo__dense_audit(p, samples, NULL, r), AMBULO_OK);
+  assert_int_equal(ambulo__dense_audit(p, samples, 1, NULL, r), AMBULO_OK);
   assert_int_equal(ambulo__dense_advise(p, 1, NULL, diagnostics, r), AMBULO_OK);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
   assert_int_equal(dense->samples, 0);
@@ -206,6 +206,15 @@ static void a_grid_that_cannot_be_is_not_a_motion_that_holds(void **state) {
   ambulo_problem_free(p);
   p = load_problem_with("pendulum_swing", "time.intervals=60000");
   check_refusal(p, 10, "too many time intervals");
+  ambulo_problem_free(p);
+  /* after a time limit a large grid is left alone, a small one takes no time */
+  p = load_problem_with("pendulum_swing", "time.intervals=2001");
+  ambulo_result *r = result_of(p, 0.0);
+  assert_int_equal(ambulo__dense_audit(p, 10, 0, NULL, r), AMBULO_OK);
+  assert_string_equal(ambulo_result_dense_audit(r)->reason, "no time was left");
+  assert_int_equal(ambulo__dense_audit(p, 9, 0, NULL, r), AMBULO_OK);
+  assert_string_equal(ambulo_result_dense_audit(r)->reason, "");
+  ambulo_result_free(r);
   ambulo_problem_free(p);
 }
 
@@ -232,7 +241,7 @@ static void every_allocation_may_fail(void **state) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo_result *r = result_of(p, 0.01);
-    ambulo_status status = ambulo__dense_audit(p, 10, &allocator, r);
+    ambulo_status status = ambulo__dense_audit(p, 10, 1, &allocator, r);
     if (!status) status = ambulo__dense_advise(p, 1, &allocator, NULL, r);
     assert_int_equal(memory.live, 0);
     done = !memory.failed;

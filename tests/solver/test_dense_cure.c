@@ -166,6 +166,29 @@ static void gaps_to_come_are_foretold_from_the_motion(void **state) {
               2.0 * longest);
 }
 
+/* breakpoints of the caller's own would have to be new ones: nothing is foretold then */
+static void given_breakpoints_are_left_alone(void **state) {
+  (void)state;
+  dense_fixture f;
+  double event = 0.24 * 0.55;
+  ambulo__dense_events events = {1, &event};
+  ambulo__dense_worst worst;
+  ambulo__dense_cure cure;
+  int slip = ambulo__dense_rule_of_slip();
+  memset(&worst, 0, sizeof worst);
+  worst.entry[slip].present = 1;
+  worst.entry[slip].ratio = 2.0;
+  dense_open(&f, 25);
+  f.problem->definition.breakpoints = ambulo__basis_breakpoints(f.problem->basis);
+  f.problem->definition.spline_intervals = 25;
+  assert_int_equal(ambulo__dense_spline_intervals(f.problem, 50), 25);
+  assert_int_equal(ambulo__dense_cure_find(f.problem, f.x, &events, &worst, NULL, &cure),
+                   AMBULO_OK);
+  assert_int_equal(cure.intervals + cure.cured[slip] + cure.out_of_reach[slip], 0);
+  f.problem->definition.breakpoints = NULL;
+  dense_close(&f);
+}
+
 static void grids_keep_their_proportion_where_contacts_are_equations(void **state) {
   (void)state;
   ambulo_problem *exact = load_problem("walk_without_reaction"), *tube = load_problem("walk_slow");
@@ -185,6 +208,7 @@ int main(void) {
       cmocka_unit_test(no_failure_is_left_without_a_word),
       cmocka_unit_test(the_number_named_has_nodes_where_they_count),
       cmocka_unit_test(gaps_to_come_are_foretold_from_the_motion),
+      cmocka_unit_test(given_breakpoints_are_left_alone),
       cmocka_unit_test(grids_keep_their_proportion_where_contacts_are_equations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
