@@ -34,11 +34,21 @@ static void print_violation(const char *label, const ambulo_violation *v) {
   }
 }
 
+static void print_dense_violation(const ambulo_result *result) {
+  static const char label[] = "violation between nodes";
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (dense && dense->samples == 0) {
+    printf("  %-24s not known: %s\n", label, dense->reason);
+  } else {
+    print_violation(label, &ambulo_result_audit(result)->dense_violation);
+  }
+}
+
 static void print_audit(const ambulo_result *result) {
   const ambulo_audit *audit = ambulo_result_audit(result);
   printf("audit\n");
   print_violation("violation at nodes", &audit->violation);
-  print_violation("violation between nodes", &audit->dense_violation);
+  print_dense_violation(result);
   printf("  %-24s %.2e%s\n", "KKT residual", audit->kkt,
          audit->at_lower_bound ? "; the objective is at its lower bound, zero" : "");
   printf("  %-24s %d, rank %d", "active rows", audit->active_rows, audit->rank);
