@@ -173,14 +173,13 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
-  p->hash = ambulo__problem_hash_of(p);
   return AMBULO_OK;
 }
 
-ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
-                                    const ambulo_allocator *allocator,
-                                    ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
-  if (!problem) return AMBULO_E_ARGUMENT;
+ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *definition,
+                                             const ambulo_allocator *allocator,
+                                             ambulo_diagnostics *diagnostics,
+                                             ambulo_problem **problem) {
   ambulo_status status = ambulo__definition_check(definition, diagnostics);
   if (status) return status;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
@@ -197,6 +196,16 @@ ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
   }
   *problem = p;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+  if (!problem) return AMBULO_E_ARGUMENT;
+  ambulo_status status =
+      ambulo__problem_create_unnamed(definition, allocator, diagnostics, problem);
+  if (!status) (*problem)->hash = ambulo__problem_hash_of(*problem);
+  return status;
 }
 
 void ambulo_problem_free(ambulo_problem *p) {
