@@ -277,8 +277,8 @@ ambulo_result_terms(const ambulo_result *result); /* [term_count], weighted */
 AMBULO_API const double *ambulo_result_rows(const ambulo_result *result);        /* [row_count] */
 AMBULO_API const double *ambulo_result_multipliers(const ambulo_result *result); /* [row_count] */
 AMBULO_API const ambulo_audit *ambulo_result_audit(const ambulo_result *result);
-/* Of every result of ambulo_solve and ambulo_audit_point. What fails, and what helps, is also
- * one warning among the diagnostics of those. */
+/* Of results of ambulo_solve and ambulo_audit_point; NULL where none was made. What fails, and what
+ * helps, is also one warning among the diagnostics of those. */
 AMBULO_API const ambulo_dense_audit *ambulo_result_dense_audit(const ambulo_result *result);
 AMBULO_API int ambulo_result_family_count(const ambulo_result *result);
 AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *result, int index);

@@ -8,6 +8,10 @@
 /* contacts hold within this where more time intervals than the trajectory's are asked for */
 #define CONTACT_TOLERANCE "constraints.contact_tolerance=0.002"
 
+/* ... and this many times as many: a trajectory that is held at three nodes for each interval has
+ * no more room between them, one held at two sometimes has */
+enum { ROOM = 3 };
+
 typedef struct wording {
   const ambulo_problem *problem;
   const ambulo__dense_cure *cure; /* NULL: nothing was foretold */
@@ -54,7 +58,7 @@ static const char *remedy_of(const wording *w, const ambulo__dense_rule *rule, c
   case AMBULO__REMEDY_TOLERANCE:
     if (!ambulo__dense_is_strict(p)) break;
     append(settings, AMBULO__DENSE_SETTINGS_SIZE, "--set " CONTACT_TOLERANCE " ");
-    set_intervals(w, 2 * (own > spline ? own : spline), spline, settings);
+    set_intervals(w, ROOM * (own > spline ? own : spline), spline, settings);
     append(advice, AMBULO__DENSE_LINE_SIZE,
            "more intervals do not help while contacts are exact; within a tolerance the same "
            "trajectory has room for more nodes");
