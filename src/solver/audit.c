@@ -234,7 +234,6 @@ ambulo_status ambulo__audit_values(ambulo_workspace *w, ambulo_result *result) {
 
 ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
                             ambulo_result *result) {
-  const ambulo_problem *p = e->problem;
   if (ambulo__audit_values(e->workspace, result)) return AMBULO_OK; /* the fault tells */
   result->audit.dropped_equalities = e->rows.dropped;
   result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
@@ -245,9 +244,5 @@ ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
   }
   audit_first_order(e, options, result);
   if (ambulo__run_late(e->run)) return AMBULO_OK;
-  ambulo_status status = audit_rank(e, result);
-  if (status) return status;
-  if (ambulo__run_late(e->run)) return AMBULO_OK;
-  return ambulo__audit_dense(p, result->x, options->dense_samples, &e->pool.allocator,
-                             &result->audit.dense_violation);
+  return audit_rank(e, result);
 }
