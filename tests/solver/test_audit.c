@@ -1,6 +1,8 @@
 /* The audit tells a good point from a spoilt one, whoever made it. */
 #include "solver/audit.h"
+#include "solver/result.h"
 #include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
 
 static ambulo_result *audit(const ambulo_problem *problem, const double *x) {
   ambulo_options options = ambulo_options_default();
@@ -122,6 +124,29 @@ static void families_are_complete(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* a solve audits more than once: what an audit takes it gives back */
+static void audits_keep_no_memory(void **state) {
+  (void)state;
+  fail_alloc memory = fail_alloc_at(-1);
+  ambulo_allocator hook = fail_alloc_hook(&memory);
+  ambulo_problem *problem = load_problem("pendulum_swing");
+  ambulo_options options = ambulo_options_default();
+  ambulo__engine *engine = NULL;
+  ambulo_result *result = NULL;
+  ambulo__run run;
+  ambulo__run_begin(&run, &options);
+  assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo__engine_create(problem, result->x, &hook, &run, NULL, &engine),
+                   AMBULO_OK);
+  long before = memory.live;
+  for (int k = 0; k < 300; k++)
+    assert_int_equal(ambulo__audit(engine, &options, result), AMBULO_OK);
+  assert_int_equal(memory.live, before);
+  ambulo__engine_free(engine);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(spoilt_coordinate_is_found_by_name),
@@ -129,6 +154,7 @@ int main(void) {
       cmocka_unit_test(multipliers_explain_the_gradient),
       cmocka_unit_test(dense_violation_is_larger_than_the_nodes),
       cmocka_unit_test(families_are_complete),
+      cmocka_unit_test(audits_keep_no_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
