@@ -82,7 +82,7 @@ static int project(ambulo__engine *e) {
   for (int pass = 0; pass < MULTIPLIER_PASSES; pass++) {
     for (int i = 0; i < e->inequalities; i++)
       e->linear[i] = e->held.excess[i] < 0.0 ? far_away : 0.0;
-    if (ambulo__model_minimize(e, &decrease) < 0) return 1;
+    if (ambulo__model_minimize(e, 0, &decrease)) return 1;
     double worst = 0.0;
     for (int i = 0; i < e->inequalities; i++) {
       double balance = ambulo__worse(e->linear[i], -e->lambda[i] / e->rho);

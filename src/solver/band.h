@@ -25,6 +25,8 @@ typedef struct ambulo__band {
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band);
 void ambulo__band_clear(ambulo__band *band);
 void ambulo__band_copy(const ambulo__band *from, ambulo__band *to);
+/* The same of a factor. */
+void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to);
 void ambulo__band_add_diagonal(ambulo__band *band, double value);
 /* Adds G'G of rows G [count][width] (row-major) on the unknowns from `first` on. */
 void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, const double *g);

@@ -34,13 +34,16 @@ static void create_vectors(ambulo__engine *e) {
   size_t n = (size_t)e->n, m = (size_t)e->inequalities, q = (size_t)e->equalities;
   double **long_vectors[] = {&e->center,       &e->gradient,   &e->step,           &e->total,
                              &e->curved,       &e->previous,   &e->previous_right, &e->w,
-                             &e->curved_total, &e->w_gradient, &e->iterate};
+                             &e->curved_total, &e->w_gradient, &e->iterate,
+                             &e->best_total, &e->best_curved};
   for (size_t i = 0; i < sizeof long_vectors / sizeof *long_vectors; i++)
     *long_vectors[i] = ambulo__pool_doubles(pool, n);
   e->lambda = ambulo__pool_doubles(pool, m);
   e->along = ambulo__pool_doubles(pool, m);
   e->linear = ambulo__pool_doubles(pool, m);
   e->active = ambulo__pool_ints(pool, m);
+  e->added = ambulo__pool_ints(pool, m);
+  e->best_linear = ambulo__pool_doubles(pool, m);
   e->active_next = ambulo__pool_ints(pool, m);
   e->equality_multiplier = ambulo__pool_doubles(pool, q);
   e->h = ambulo__pool_doubles(pool, q);

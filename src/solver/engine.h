@@ -54,6 +54,9 @@ typedef struct ambulo__engine {
   double *h, *b, *dual, *balanced; /* [equalities], [borders], [equalities] twice */
   double *row_weight;              /* [rows of the problem] */
   int *active, *active_next;       /* [inequalities] */
+  int *added;                      /* [inequalities]: rows that the whitener holds */
+  int assembled, warm;
+  double *best_total, *best_curved, *best_linear;
   double *along, *linear;          /* [inequalities] */
   double *gradient, *step, *total, *curved, *curved_total, *previous, *previous_right; /* [n] */
   double *iterate;        /* [n]: whitened point that NLopt works on */
@@ -105,7 +108,7 @@ int ambulo__model_step(ambulo__engine *engine, double *predicted);
  * engine->held.multiplier. Returns 1 when settled with the factor of the final active set,
  * 2 when done otherwise, -1 when a factorization failed or the run is late. *phi: decrease
  * (<= 0). */
-int ambulo__model_minimize(ambulo__engine *engine, double *phi);
+int ambulo__model_minimize(ambulo__engine *engine, int roughly, double *phi);
 
 /* augmented.c: augmented Lagrangian at retract(center + L^-T w); the result in
  * engine->held (and engine->best). gradient [n] may be NULL. A point that cannot be reached, or

@@ -30,7 +30,7 @@ static int step(ambulo__engine *e, double *y) {
   ambulo__band_add_diagonal(&e->base, e->mu);
   memset(e->gradient, 0, (size_t)e->n * sizeof *e->gradient);
   ambulo__sparse_rows_add_transpose(&e->rows.inequality, -1.0, e->lambda, e->gradient);
-  if (ambulo__model_minimize(e, &decrease) < 0) return 1;
+  if (ambulo__model_minimize(e, 0, &decrease)) return 1;
   for (int j = 0; j < e->n; j++) y[j] = e->center[j] + e->total[j];
   return !ambulo__retract(e, y);
 }
