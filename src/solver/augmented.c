@@ -20,7 +20,7 @@
 #include <math.h>
 #include <string.h>
 
-static void copy_trial(const ambulo__engine *e, const ambulo__trial *from, ambulo__trial *to) {
+void ambulo__trial_copy(const ambulo__engine *e, const ambulo__trial *from, ambulo__trial *to) {
   to->value = from->value;
   to->objective = from->objective;
   to->violation = from->violation;
@@ -71,7 +71,6 @@ static void differentiate(ambulo__engine *e) {
   for (int j = 0; j < e->n; j++) sum += e->w_gradient[j] * e->w_gradient[j];
   held->gradient_norm = sqrt(sum);
   if (!isfinite(sum)) held->value = HUGE_VAL;
-  if (held->value < e->best.value) copy_trial(e, held, &e->best);
 }
 
 /* the bowl: see above */

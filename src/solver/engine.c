@@ -121,7 +121,7 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   if (status) return status;
   create_vectors(e);
   status = create_trial(e, &e->held);
-  if (!status) status = create_trial(e, &e->best);
+  if (!status) status = create_trial(e, &e->reached);
   if (status) return status;
   for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(p, i);
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);

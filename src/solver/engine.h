@@ -63,7 +63,8 @@ typedef struct ambulo__engine {
   double *w, *w_gradient; /* [n]: whitened point held in `held`, gradient there */
   int has_held, has_held_gradient;
   double ceiling; /* highest value of the augmented Lagrangian since the centre was set */
-  ambulo__trial held, best;
+  ambulo__trial held;    /* the last point */
+  ambulo__trial reached; /* where the last inner solve ended */
 } ambulo__engine;
 
 /* Classifies rows, finds the objective's scale, allocates. Both are found at zero, so that they are
@@ -111,18 +112,16 @@ int ambulo__model_step(ambulo__engine *engine, double *predicted);
 int ambulo__model_minimize(ambulo__engine *engine, int roughly, double *phi);
 
 /* augmented.c: augmented Lagrangian at retract(center + L^-T w); the result in
- * engine->held (and engine->best). gradient [n] may be NULL. A point that cannot be reached, or
+ * engine->held. gradient [n] may be NULL. A point that cannot be reached, or
  * where something is not finite, has a finite value above that of the centre. */
 double ambulo__augmented(ambulo__engine *engine, const double *w, double *gradient);
 
 /* polish.c: moves x by a few Newton steps until the inequalities hold to a fifth of the
- * tolerance; 1 on success, else x stays. engine->best must belong to x. */
+ * tolerance; 1 on success, else x stays. engine->reached must belong to x. */
 int ambulo__polish(ambulo__engine *engine, double *x);
 
-/* inner.c: NLopt from engine->w: at most `evaluations` of ambulo__augmented. E_MEMORY. */
-typedef enum ambulo__inner_kind { AMBULO__INNER_AUGLAG, AMBULO__INNER_LBFGS } ambulo__inner_kind;
-ambulo_status ambulo__inner_minimize(ambulo__engine *engine, ambulo__inner_kind kind, double *w,
-                                     int evaluations);
+/* augmented.c: a point and what belongs to it. */
+void ambulo__trial_copy(const ambulo__engine *engine, const ambulo__trial *from, ambulo__trial *to);
 
 /* pipeline.c: the whole method from x (in and out); run->ending says why it ended. The last
  * multipliers stay in engine->lambda and engine->equality_multiplier. */
@@ -131,7 +130,6 @@ typedef enum ambulo__stage {
   AMBULO__FAR,    /* from anywhere */
   AMBULO__NEAR    /* from a point that nearly satisfies the rows, and stays in its valley */
 } ambulo__stage;
-ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__inner_kind kind, ambulo__stage stage,
-                               double *x);
+ambulo_status ambulo__pipeline(ambulo__engine *engine, ambulo__stage stage, double *x);
 
 #endif

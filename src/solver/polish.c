@@ -41,7 +41,7 @@ int ambulo__polish(ambulo__engine *e, double *x) {
   double begin = ambulo__seconds_now();
   int done = 0;
   memcpy(e->iterate, x, bytes);
-  memcpy(e->lambda, e->best.multiplier, (size_t)e->inequalities * sizeof *e->lambda);
+  memcpy(e->lambda, e->reached.multiplier, (size_t)e->inequalities * sizeof *e->lambda);
   e->rho = stiff;
   for (int k = 0; k < MAX_STEPS && !done; k++) {
     memcpy(e->center, e->iterate, bytes);
@@ -51,7 +51,7 @@ int ambulo__polish(ambulo__engine *e, double *x) {
     if (!done && step(e, e->iterate)) break;
   }
   e->rho = rho;
-  memcpy(e->equality_multiplier, e->best.equality_multiplier,
+  memcpy(e->equality_multiplier, e->reached.equality_multiplier,
          (size_t)e->equalities * sizeof *e->equality_multiplier);
   e->run->seconds_linear += ambulo__seconds_now() - begin;
   if (done) memcpy(x, e->center, bytes);

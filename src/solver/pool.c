@@ -16,7 +16,7 @@ void ambulo__pool_init(ambulo__pool *pool, const ambulo_allocator *allocator) {
   pool->failed = 0;
 }
 
-static void *take(ambulo__pool *pool, size_t count, size_t size) {
+void *ambulo__pool_blocks(ambulo__pool *pool, size_t count, size_t size) {
   ambulo__pool_block *block = NULL;
   if (!pool->failed && count <= (SIZE_MAX - HEADER) / size)
     block = ambulo__alloc_aligned(&pool->allocator, HEADER + count * size, 1);
@@ -30,11 +30,11 @@ static void *take(ambulo__pool *pool, size_t count, size_t size) {
 }
 
 double *ambulo__pool_doubles(ambulo__pool *pool, size_t count) {
-  return take(pool, count, sizeof(double));
+  return ambulo__pool_blocks(pool, count, sizeof(double));
 }
 
 int *ambulo__pool_ints(ambulo__pool *pool, size_t count) {
-  return take(pool, count, sizeof(int));
+  return ambulo__pool_blocks(pool, count, sizeof(int));
 }
 
 void ambulo__pool_clear(ambulo__pool *pool) {

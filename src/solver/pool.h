@@ -19,6 +19,8 @@ void ambulo__pool_init(ambulo__pool *pool, const ambulo_allocator *allocator);
 /* Zero-filled, 64-byte aligned; NULL (and pool->failed) when memory is out. */
 double *ambulo__pool_doubles(ambulo__pool *pool, size_t count);
 int *ambulo__pool_ints(ambulo__pool *pool, size_t count);
+/* The same, of anything. */
+void *ambulo__pool_blocks(ambulo__pool *pool, size_t count, size_t size);
 void ambulo__pool_clear(ambulo__pool *pool);
 
 #endif

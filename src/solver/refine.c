@@ -45,8 +45,8 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
   if (!status) status = ambulo__engine_create(level, x, a, run, NULL, &engine);
   if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
   if (!status && engine && engine->rows.regular)
-    status = ambulo__pipeline(engine, AMBULO__INNER_AUGLAG, AMBULO__COARSE, x);
-  int useful = !status && engine && engine->rows.regular && engine->best.value < HUGE_VAL;
+    status = ambulo__pipeline(engine, AMBULO__COARSE, x);
+  int useful = !status && engine && engine->rows.regular && engine->reached.value < HUGE_VAL;
   ambulo__engine_free(engine);
   if (useful) {
     ambulo_problem_free(*previous);

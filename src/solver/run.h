@@ -16,6 +16,10 @@ typedef struct ambulo__run {
   int faults;           /* points that were given up because something was not finite */
   int faults_lately;    /* of these, since the last iteration that brought a point */
   ambulo_fault fault, first_fault; /* the first of those lately; of all */
+  struct {
+    int calls, outer, inner; /* of AUGLAG: calls, completed inner solves, evaluations in them */
+    int result;              /* of the last call */
+  } nlopt;
   double seconds_evaluate, seconds_linear, seconds_nlopt;
 } ambulo__run;
 

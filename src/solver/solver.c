@@ -78,7 +78,7 @@ static ambulo_status solve_again(solve *s, double *x) {
   if (!other) return AMBULO_E_MEMORY;
   ambulo_ending before = s->run.ending;
   double violation = ambulo__violation_at(s->engine, x);
-  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, AMBULO__FAR, other);
+  ambulo_status status = ambulo__pipeline(s->engine, AMBULO__FAR, other);
   if (!status && ambulo__violation_at(s->engine, other) < violation) {
     memcpy(x, other, n * sizeof *x);
   } else {
@@ -106,7 +106,7 @@ static ambulo_status finish_by_slsqp(solve *s, double *x) {
     status = ambulo__is_better(s->problem, s->run.options, x, other, s->allocator, &better);
   if (better) {
     memcpy(x, other, n * sizeof *x);
-    s->method = "pipeline (inner steps: NLopt's AUGLAG with LBFGS), then SLSQP";
+    s->method = "NLopt's AUGLAG with LBFGS, then SLSQP";
     s->nlopt = message;
   }
   ambulo__free(&a, other);
@@ -123,12 +123,12 @@ static ambulo_status solve_by_pipeline(solve *s) {
   double *x = s->result->x;
   int levels = 0;
   ambulo_status status = AMBULO_OK;
-  s->method = "pipeline (inner steps: NLopt's AUGLAG with LBFGS)";
+  s->method = "NLopt's AUGLAG with LBFGS";
   s->run.stage = "coarse grids";
   if (s->from_zero && o->continuation)
     status = ambulo__refine(s->problem, s->allocator, &s->run, x, &levels);
   s->run.stage = "solve";
-  if (!status) status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, stage_of(s, x), x);
+  if (!status) status = ambulo__pipeline(s->engine, stage_of(s, x), x);
   if (!status && levels > 0 && !s->run.stopped &&
       !(ambulo__violation_at(s->engine, x) <= o->feasibility_tolerance))
     status = solve_again(s, x);
@@ -239,7 +239,7 @@ static ambulo_status look_again(solve *s) {
     double before = r->objective;
     int cut = ambulo__run_over(&s->run) || s->run.ending == AMBULO_ENDING_ITERATIONS;
     if (!able || cut || r->verdict != AMBULO_FEASIBLE) break;
-    status = ambulo__pipeline(s->engine, AMBULO__INNER_AUGLAG, AMBULO__NEAR, r->x);
+    status = ambulo__pipeline(s->engine, AMBULO__NEAR, r->x);
     if (status && status != AMBULO_E_NUMERIC) return status;
     ambulo__candidates_offer(&s->candidates, s->engine, r->x);
     (void)ambulo__candidates_take(&s->candidates, r->x);
