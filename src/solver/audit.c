@@ -77,8 +77,6 @@ static int project(ambulo__engine *e) {
   ambulo__band_clear(&e->base);
   ambulo__band_add_diagonal(&e->base, 1.0);
   e->rho = cone_penalty;
-  memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
-  memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
   for (int pass = 0; pass < MULTIPLIER_PASSES; pass++) {
     for (int i = 0; i < e->inequalities; i++)
       e->linear[i] = e->held.excess[i] < 0.0 ? far_away : 0.0;
@@ -206,9 +204,11 @@ static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
                               ambulo_result *result) {
   double size = ambulo__largest(e->gradient, (size_t)e->n);
   mark(e, active_factor * options->feasibility_tolerance);
-  int failed = project(e);
+  int failed = project(e); /* from the solver's multipliers, if it has any */
   if (failed) {
     normalize(&e->rows.inequality);
+    memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
+    memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
     failed = project(e);
   }
   if (!failed) take_first_order(e, size, result);

@@ -8,7 +8,8 @@
  * and holds multipliers mu, penalty rho and the outer loop. In NLopt's inner problem
  *
  *     S f + rho/2 sum max(0, c + mu/rho)^2 = S F + constant,
- *     F = f + 1/(2 R) sum ( max(0, lambda + R v)^2 - lambda^2 ),   lambda = mu + rho sigma,  R = rho S
+ *     F = f + 1/(2 R) sum ( max(0, lambda + R v)^2 - lambda^2 ),   lambda = mu + rho sigma,  R =
+ * rho S
  *
  * F is augmented.c's. What is ours:
  *
@@ -22,10 +23,9 @@
  *              gradients are zero.
  *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
  *              walks stand (left alone rho runs to 1e9, and stops the solve 0.6 to 7 % too high).
- *              S is lowered in the same moment, for objective and rows alike: then lambda stays, and
- *              R grows by 2.
- *   sigma      where a call has to be repeated, it starts with the lambda that the last one reached.
- *   ending     stopping.h, by nlopt_force_stop.
+ *              S is lowered in the same moment, for objective and rows alike: then lambda stays,
+ * and R grows by 2. sigma      where a call has to be repeated, it starts with the lambda that the
+ * last one reached. ending     stopping.h, by nlopt_force_stop.
  *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
  * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
@@ -150,8 +150,8 @@ static void inner_ended(session *s, double value) {
   ambulo__run_forgive(run);
   run->iterations++;
   run->nlopt.outer++;
-  int stop = ambulo__run_progress(run, e->reached.objective / e->objective_scale,
-                                  e->reached.violation);
+  int stop =
+      ambulo__run_progress(run, e->reached.objective / e->objective_scale, e->reached.violation);
   s->ending = ambulo__stopping_test(s->stopping, e, s->x);
   if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
@@ -321,8 +321,8 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
   return AMBULO_OK;
 }
 
-/* calls until something ends it: more than one where NLopt ended by a test of its own (all rows hold
- * without a multiplier; its line search found nothing) */
+/* calls until something ends it: more than one where NLopt ended by a test of its own (all rows
+ * hold without a multiplier; its line search found nothing) */
 static ambulo_status run(session *s) {
   ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {

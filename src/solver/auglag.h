@@ -4,8 +4,8 @@
 
 #include "solver/stopping.h"
 
-/* From x, on the equalities (restore.c), with the engine's lambda, rho and mu, until `stopping` or a
- * limit ends it: *ending. x moves to where the last inner solve ended, and polish.c from there.
+/* From x, on the equalities (restore.c), with the engine's lambda, rho and mu, until `stopping` or
+ * a limit ends it: *ending. x moves to where the last inner solve ended, and polish.c from there.
  * E_MEMORY. */
 ambulo_status ambulo__auglag(ambulo__engine *engine, ambulo__stopping *stopping, double *x,
                              ambulo_ending *ending);

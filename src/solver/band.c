@@ -44,13 +44,25 @@ void ambulo__band_add_diagonal(ambulo__band *band, double value) {
   for (int j = 0; j < band->n; j++) band->a[(size_t)j * (size_t)band->ld] += value;
 }
 
-void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, const double *g) {
+void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, int stride,
+                           const double *g) {
   if (count == 0) return;
-  double one = 1.0;
+  double one = 1.0, *a = band->a + (size_t)first * (size_t)band->ld;
   int ld = band->ld - 1;
-  /* g is [count][width] row-major, that is width x count column-major */
-  dsyrk_("L", "N", &width, &count, &one, g, &width, &one,
-         band->a + (size_t)first * (size_t)band->ld, &ld);
+  if (band->kernels) {
+    band->kernels->add_gram(count, width, stride, g, band->ld, a);
+  } else { /* g is [count][stride] row-major, that is stride x count column-major */
+    dsyrk_("L", "N", &width, &count, &one, g, &stride, &one, a, &ld);
+  }
+}
+
+void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride, double weight,
+                            const double *g) {
+  for (int f = 0; f < count; f++) {
+    double *diagonal = band->a + (size_t)(first + f * stride) * (size_t)band->ld;
+    for (int e = f; e < count; e++)
+      diagonal[(e - f) * stride] += weight * g[f * stride] * g[e * stride];
+  }
 }
 
 static void add_scaled(int count, double factor, const double *restrict from, double *restrict to) {

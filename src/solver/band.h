@@ -28,8 +28,14 @@ void ambulo__band_copy(const ambulo__band *from, ambulo__band *to);
 /* The same of a factor. */
 void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to);
 void ambulo__band_add_diagonal(ambulo__band *band, double value);
-/* Adds G'G of rows G [count][width] (row-major) on the unknowns from `first` on. */
-void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, const double *g);
+/* Adds G'G of rows G [count][stride] (row-major) on the `width` unknowns from `first` on. G is
+ * 64-byte aligned, its stride whole tiles, and what lies beyond the width zero. */
+void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, int stride,
+                           const double *g);
+/* Adds weight * g'g of a row with `count` entries, `stride` unknowns (and places in g) apart from
+ * `first` on. */
+void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride, double weight,
+                            const double *g);
 /* Adds weight * g'g of row i of a set of hosted rows. */
 void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
                              double weight);

@@ -26,6 +26,9 @@ typedef struct ambulo__band_kernels {
                        double *w);
   /* a = W'W, a full triangle of `width` unknowns in band storage */
   void (*gram)(int n, int width, const double *w, int ld, double *a);
+  /* a += G'G for the first `width` unknowns of `a` in band storage, which need not be aligned, of
+   * `count` rows G, aligned, `stride` whole tiles apart and zero from `width` on */
+  void (*add_gram)(int count, int width, int stride, const double *g, int ld, double *a);
   /* y = W'x, y [width] aligned; x -= W y */
   void (*gather)(int n, int width, const double *w, const double *x, double *y);
   void (*scatter)(int n, int width, const double *w, const double *y, double *x);

@@ -18,6 +18,7 @@
 enum { T = AMBULO__TILE, W = AMBULO__WIDTH };
 
 typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias));
+typedef double loose __attribute__((vector_size(8 * AMBULO__WIDTH), may_alias, aligned(8)));
 
 static inline wide load(const double *at) {
   return *(const wide *)at;
@@ -239,6 +240,25 @@ static void gram(int n, int width, const double *w, int ld, double *a) {
   }
 }
 
+static void add_gram(int count, int width, int stride, const double *g, int ld, double *a) {
+  size_t step = (size_t)ld - 1;
+  for (int j = 0; j < width; j += T) {
+    int columns = width - j < T ? width - j : T;
+    for (int i = j; i < width; i += W) {
+      wide sum[T];
+      gram_rows(count, (size_t)stride, g + i, g + j, sum);
+      for (int c = 0; c < columns; c++) {
+        double *at = a + (size_t)(j + c) * step + i;
+        if (i >= j + T) {
+          *(loose *)at += sum[c];
+        } else {
+          for (int r = 0; r < W; r++) at[r] += i + r >= j + c ? sum[c][r] : 0.0;
+        }
+      }
+    }
+  }
+}
+
 static void gather(int n, int width, const double *w, const double *x, double *y) {
   size_t stride = (size_t)width, from = 0, end = (size_t)n;
   for (size_t v = 0; v < stride; v++) y[v] = 0.0;
@@ -269,5 +289,6 @@ const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_
                                                    .backward = backward,
                                                    .forward_many = forward_many,
                                                    .gram = gram,
+                                                   .add_gram = add_gram,
                                                    .gather = gather,
                                                    .scatter = scatter};

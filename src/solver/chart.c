@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double step_cap = 0.5;       /* rad, m: largest change that a model step proposes */
-static const double least_cosine = 1e-4;  /* between s and -g; below, the step is left out */
+static const double step_cap = 0.5;      /* rad, m: largest change that a model step proposes */
+static const double least_cosine = 1e-4; /* between s and -g; below, the step is left out */
 
 static double dot(const double *a, const double *b, int n) {
   double sum = 0.0;
@@ -46,8 +46,7 @@ int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, doub
   return 1;
 }
 
-double ambulo__chart_value(ambulo__chart *c, ambulo__engine *e, const double *w,
-                           double *gradient) {
+double ambulo__chart_value(ambulo__chart *c, ambulo__engine *e, const double *w, double *gradient) {
   int n = e->n;
   for (int j = 0; j < n; j++) c->whitened[j] = (w[j] - c->origin[j]) / c->stretch;
   double turned = dot(c->turn, c->whitened, n);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double adjoint_tolerance = 1e-4, retraction_tolerance = 1e-8;
+static const double adjoint_tolerance = 1e-3, retraction_tolerance = 1e-7;
 static const double usual_cap = 1.0; /* rad, m: unit of ambulo__engine_step_limit */
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
@@ -34,8 +34,8 @@ static void create_vectors(ambulo__engine *e) {
   size_t n = (size_t)e->n, m = (size_t)e->inequalities, q = (size_t)e->equalities;
   double **long_vectors[] = {&e->center,       &e->gradient,   &e->step,           &e->total,
                              &e->curved,       &e->previous,   &e->previous_right, &e->w,
-                             &e->curved_total, &e->w_gradient, &e->iterate,
-                             &e->best_total, &e->best_curved};
+                             &e->curved_total, &e->w_gradient, &e->iterate,        &e->best_total,
+                             &e->best_curved};
   for (size_t i = 0; i < sizeof long_vectors / sizeof *long_vectors; i++)
     *long_vectors[i] = ambulo__pool_doubles(pool, n);
   e->lambda = ambulo__pool_doubles(pool, m);
@@ -128,6 +128,7 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
   e->adjoint_tolerance = adjoint_tolerance;
   e->retraction_tolerance = retraction_tolerance;
+  e->carried_objective = -1.0;
   e->negligible = negligible_objective(e);
   return AMBULO_OK;
 }

@@ -57,14 +57,16 @@ typedef struct ambulo__engine {
   int *added;                      /* [inequalities]: rows that the whitener holds */
   int assembled, warm;
   double *best_total, *best_curved, *best_linear;
-  double *along, *linear;          /* [inequalities] */
+  double *along, *linear; /* [inequalities] */
   double *gradient, *step, *total, *curved, *curved_total, *previous, *previous_right; /* [n] */
   double *iterate;        /* [n]: whitened point that NLopt works on */
   double *w, *w_gradient; /* [n]: whitened point held in `held`, gradient there */
   int has_held, has_held_gradient;
-  double ceiling; /* highest value of the augmented Lagrangian since the centre was set */
-  ambulo__trial held;    /* the last point */
-  ambulo__trial reached; /* where the last inner solve ended */
+  double carried_objective; /* lambda is from a coarser grid (carry.c), where the objective (not
+                               scaled) came to this; < 0: it is not */
+  double ceiling;           /* highest value of the augmented Lagrangian since the centre was set */
+  ambulo__trial held;       /* the last point */
+  ambulo__trial reached;    /* where the last inner solve ended */
 } ambulo__engine;
 
 /* Classifies rows, finds the objective's scale, allocates. Both are found at zero, so that they are

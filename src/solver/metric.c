@@ -16,6 +16,9 @@
 #include <string.h>
 
 static const double acceleration_weight = 1e-3;
+/* least curvature of the objective along every q, per rad^2 and s, for the metric alone: motions
+ * that nothing asks for are not worth long steps */
+static const double least_curvature = 2e-3;
 static const double pi = 3.14159265358979323846;
 /* mean curvature of an objective along qdd, per second, for which mu and rho were tuned */
 static const double reference_curvature = 0.5;
@@ -75,7 +78,8 @@ ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
     metric->row_capacity += p->coordinates + all + metric->users;
     metric->probe = ambulo__pool_doubles(pool, (size_t)(6 * all));
   }
-  metric->rows = ambulo__pool_doubles(pool, (size_t)metric->row_capacity * widest);
+  metric->stride = ambulo__whole_tiles((int)widest);
+  metric->rows = ambulo__pool_doubles(pool, (size_t)metric->row_capacity * (size_t)metric->stride);
   metric->one = ambulo__pool_doubles(pool, widest);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
@@ -95,6 +99,13 @@ static double curvature_of(const ambulo_workspace *workspace, int node, int chan
     sum += term->weight * scale * scale * ambulo__term_residual(term, u).curvature;
   }
   return sum * p->quadrature[node];
+}
+
+/* the place of a row of a node; what lies beyond its width is zero */
+static double *row_at(const ambulo__metric *metric, int row, int width) {
+  double *g = metric->rows + (size_t)row * (size_t)metric->stride;
+  for (int j = width; j < ambulo__whole_tiles(width); j++) g[j] = 0.0;
+  return g;
 }
 
 /* adds the part of a form that stands on `node`, times factor, to a row; returns whether
@@ -126,7 +137,7 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
     int base = node - ahead, forms = ambulo__term_forms(term, &frame, base), shared;
     double weight = scale * term->weight * ambulo__term_quadrature(p, term, base);
     for (int j = 0; j < forms && count < metric->row_capacity; j++) {
-      double *row = metric->rows + (size_t)count * (size_t)width;
+      double *row = row_at(metric, count, width);
       ambulo__form form;
       ambulo__term_form(term, &frame, base, j, &form);
       if (!form_row(metric, workspace, node, ahead, &form, row, &shared)) continue;
@@ -156,7 +167,7 @@ static int user_rows(const ambulo__metric *metric, const ambulo_workspace *works
     ambulo__user_term_curvature(workspace, term, node, scratch, one, &kind);
     for (int c = 0; kind > 0 && c < all; c++) sum[c] += weight * one[c];
     if (kind > 0) continue;
-    double *row = metric->rows + (size_t)count++ * (size_t)width;
+    double *row = row_at(metric, count++, width);
     memset(row, 0, (size_t)width * sizeof *row);
     for (int c = 0; c < all; c++) {
       if (one[c] == 0.0) continue;
@@ -166,22 +177,39 @@ static int user_rows(const ambulo__metric *metric, const ambulo_workspace *works
   }
   for (int c = 0; c < all; c++) {
     if (sum[c] == 0.0) continue;
-    double *row = metric->rows + (size_t)count++ * (size_t)width, root = sqrt(sum[c]);
+    double *row = row_at(metric, count++, width), root = sqrt(sum[c]);
     ambulo__channel_local_gradient(workspace, node, c, row);
     for (int j = 0; j < width; j++) row[j] *= root;
   }
   return count;
 }
 
+/* q, qd and qdd of a coordinate depend on the control points of that coordinate alone */
+static void add_light(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+                      int channel, double curvature, ambulo__band *h) {
+  const ambulo_problem *p = metric->problem;
+  int d = p->coordinates, i = channel % d, width = ambulo__node_width(p, node);
+  ambulo__channel_local_gradient(workspace, node, channel, metric->one);
+  ambulo__band_add_outer(h, ambulo__node_first(p, node) + i, (width - i + d - 1) / d, d, curvature,
+                         metric->one + i);
+}
+
 /* returns how many forms have a curvature */
 static int add_node(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                     double scale, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
-  int width = ambulo__node_width(p, node), count = 0;
+  int width = ambulo__node_width(p, node), count = 0, light = 0;
+  for (int i = 0; i < p->coordinates; i++)
+    add_light(metric, workspace, node, i, scale * least_curvature * p->quadrature[node], h);
   for (int c = 0; c < metric->channels; c++) {
     double curvature = scale * curvature_of(workspace, node, metric->channel[c]);
     if (curvature <= 0.0) continue; /* not NaN, which the factorization meets */
-    double *row = metric->rows + (size_t)count++ * (size_t)width, root = sqrt(curvature);
+    if (metric->channel[c] < ambulo__channel_outputs(&p->channels)) {
+      add_light(metric, workspace, node, metric->channel[c], curvature, h);
+      light++;
+      continue;
+    }
+    double *row = row_at(metric, count++, width), root = sqrt(curvature);
     ambulo__channel_local_gradient(workspace, node, metric->channel[c], row);
     for (int j = 0; j < width; j++) row[j] *= root;
   }
@@ -190,21 +218,16 @@ static int add_node(const ambulo__metric *metric, const ambulo_workspace *worksp
     if (is_composite(term)) count = composite_rows(metric, workspace, term, node, scale, count);
   }
   if (metric->users > 0) count = user_rows(metric, workspace, node, scale, count);
-  ambulo__band_add_rows(h, ambulo__node_first(p, node), width, count, metric->rows);
-  return count;
+  ambulo__band_add_rows(h, ambulo__node_first(p, node), width, count, metric->stride, metric->rows);
+  return count + light;
 }
 
 static void add_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,
                               int node, double weight, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
-  int width = ambulo__node_width(p, node);
-  double root = sqrt(weight * p->quadrature[node]);
-  for (int i = 0; i < p->coordinates; i++) {
-    double *row = metric->rows + (size_t)i * (size_t)width;
-    ambulo__channel_local_gradient(workspace, node, ambulo__channel_qdd(&p->channels, i), row);
-    for (int j = 0; j < width; j++) row[j] *= root;
-  }
-  ambulo__band_add_rows(h, ambulo__node_first(p, node), width, p->coordinates, metric->rows);
+  for (int i = 0; i < p->coordinates; i++)
+    add_light(metric, workspace, node, ambulo__channel_qdd(&p->channels, i),
+              weight * p->quadrature[node], h);
 }
 
 void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,

@@ -19,8 +19,8 @@ typedef struct ambulo__metric {
   int composites; /* terms whose residuals stand on several channels */
   int users;      /* terms of the caller */
   double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
-  double *rows;   /* [row_capacity][widest window]: one node's weighted gradients */
-  int row_capacity;
+  double *rows;   /* [row_capacity][stride]: one node's weighted gradients */
+  int row_capacity, stride;
   double *one; /* [widest window]: gradient of one channel */
 } ambulo__metric;
 

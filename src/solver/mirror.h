@@ -7,9 +7,9 @@
  *     after every inner solve  I' = max |max(c, -mu / rho)|,  mu <- max(0, mu + rho c),
  *                              rho <- 10 rho where I' > I / 2
  *
- * Every operation in NLopt's order, so that the numbers are NLopt's to the last bit. They are needed
- * to whiten with the rows that are going to be active, and to put the gradients of all rows into one
- * reverse sweep. Nothing here acts on NLopt.
+ * Every operation in NLopt's order, so that the numbers are NLopt's to the last bit. They are
+ * needed to whiten with the rows that are going to be active, and to put the gradients of all rows
+ * into one reverse sweep. Nothing here acts on NLopt.
  */
 #ifndef AMBULO_SOLVER_MIRROR_H
 #define AMBULO_SOLVER_MIRROR_H

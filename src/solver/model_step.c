@@ -36,10 +36,10 @@ enum {
   FULL_STEPS = 8, /* then line searches */
   MAX_SEARCH = 20
 };
-static const double enough = 1e-3;  /* of the gain so far: what a step has to bring */
-static const double exact = 1e-8;   /* the same, where the minimum itself is wanted */
+static const double enough = 1e-3;      /* of the gain so far: what a step has to bring */
+static const double exact = 1e-8;       /* the same, where the minimum itself is wanted */
 static const double negligible = 1e-10; /* slope along a step, relative to phi */
-static const double level = 1e-6;   /* of phi' at 0: what counts as zero along a step */
+static const double level = 1e-6;       /* of phi' at 0: what counts as zero along a step */
 
 static double square(double x) {
   return x * x;
@@ -124,8 +124,7 @@ static int assemble(ambulo__engine *e) {
   }
   for (int i = 0; i < e->inequalities; i++) {
     if (e->active[i] == e->added[i]) continue;
-    ambulo__band_add_sparse(&e->whitener, &e->rows.inequality, i,
-                            e->active[i] ? e->rho : -e->rho);
+    ambulo__band_add_sparse(&e->whitener, &e->rows.inequality, i, e->active[i] ? e->rho : -e->rho);
     e->added[i] = e->active[i];
     moved = 1;
   }
@@ -134,8 +133,8 @@ static int assemble(ambulo__engine *e) {
 
 /* -------------------------------------------------------------------- one step */
 
-/* The step for the active set; *slope: minus the product of phi's gradient with it. 1 when it cannot
- * be factored. */
+/* The step for the active set; *slope: minus the product of phi's gradient with it. 1 when it
+ * cannot be factored. */
 static int direction(ambulo__engine *e, double *slope) {
   if (assemble(e) && ambulo__kkt_factor(&e->kkt, &e->whitener)) return 1;
   for (int i = 0; i < e->inequalities; i++)

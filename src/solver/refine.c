@@ -6,6 +6,7 @@
  */
 #include "nlp/problem.h"
 #include "nlp/user_term.h"
+#include "solver/carry.h"
 #include "solver/refine.h"
 
 #include <math.h>
@@ -28,57 +29,75 @@ static int has_callbacks(const ambulo_problem *p) {
   return p->definition.user_row_count > 0;
 }
 
-/* solves one level from the last one; *previous and *x_previous are replaced */
+/* a solved grid: its problem, solution and multipliers */
+typedef struct level {
+  ambulo_problem *problem; /* NULL: none yet */
+  double *x;
+  ambulo__carried carried;
+} level;
+
+static void free_level(const ambulo_allocator *a, level *l) {
+  ambulo_problem_free(l->problem);
+  ambulo__free(a, l->x);
+  ambulo__carry_clear(a, &l->carried);
+  memset(l, 0, sizeof *l);
+}
+
+static ambulo_status create_level(const ambulo_problem *problem, int intervals, int spline,
+                                  const ambulo_allocator *a, const level *before, level *l) {
+  ambulo_status status = ambulo__problem_with_grid(problem, intervals, spline, a, &l->problem);
+  if (status) return status;
+  l->x = ambulo__alloc(a, (size_t)l->problem->variables, sizeof *l->x);
+  if (!l->x) return AMBULO_E_MEMORY;
+  return before->problem ? ambulo_problem_transfer(before->problem, before->x, l->problem, l->x)
+                         : AMBULO_OK;
+}
+
+/* solves one level from the last one, which it replaces */
 static ambulo_status solve_level(const ambulo_problem *problem, int intervals, int spline,
-                                 const ambulo_allocator *a, ambulo__run *run,
-                                 ambulo_problem **previous, double **x_previous) {
-  ambulo_problem *level = NULL;
+                                 const ambulo_allocator *a, ambulo__run *run, level *before) {
+  level new = {0};
   ambulo__engine *engine = NULL;
-  double *x = NULL;
-  int warm = *previous != NULL;
-  ambulo_status status = ambulo__problem_with_grid(problem, intervals, spline, a, &level);
-  if (!status) {
-    x = ambulo__alloc(a, (size_t)level->variables, sizeof *x);
-    if (!x) status = AMBULO_E_MEMORY;
-  }
-  if (!status && warm) status = ambulo_problem_transfer(*previous, *x_previous, level, x);
-  if (!status) status = ambulo__engine_create(level, x, a, run, NULL, &engine);
+  int useful = 0;
+  ambulo_status status = create_level(problem, intervals, spline, a, before, &new);
+  if (!status) status = ambulo__engine_create(new.problem, new.x, a, run, NULL, &engine);
   if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
-  if (!status && engine && engine->rows.regular)
-    status = ambulo__pipeline(engine, AMBULO__COARSE, x);
-  int useful = !status && engine && engine->rows.regular && engine->reached.value < HUGE_VAL;
+  if (!status && engine && engine->rows.regular) {
+    if (before->problem) ambulo__carry_to(&before->carried, engine);
+    status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
+    useful = !status && engine->reached.value < HUGE_VAL;
+  }
+  if (useful) status = ambulo__carry_from(engine, a, &new.carried);
   ambulo__engine_free(engine);
-  if (useful) {
-    ambulo_problem_free(*previous);
-    ambulo__free(a, *x_previous);
-    *previous = level;
-    *x_previous = x;
+  if (useful && !status) {
+    free_level(a, before);
+    *before = new;
     return AMBULO_OK;
   }
-  ambulo_problem_free(level);
-  ambulo__free(a, x);
+  free_level(a, &new);
   return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
 }
 
-ambulo_status ambulo__refine(const ambulo_problem *p, const ambulo_allocator *allocator,
-                             ambulo__run *run, double *x, int *levels) {
+ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocator, double *x,
+                             int *levels) {
+  const ambulo_problem *p = e->problem;
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
   int grid[MAX_LEVELS], count = 0, nodes = p->definition.intervals;
   int spline = ambulo__basis_intervals(p->basis);
-  ambulo_problem *previous = NULL;
-  double *x_previous = NULL;
+  level last = {0};
   *levels = 0;
   if (has_callbacks(p)) return AMBULO_OK;
   for (int n = coarser(nodes); n > 0 && count < MAX_LEVELS; n = coarser(n)) grid[count++] = n;
   ambulo_status status = AMBULO_OK;
-  while (count-- > 0 && !status && !ambulo__run_over(run)) {
+  while (count-- > 0 && !status && !ambulo__run_over(e->run)) {
     int coarse_spline = (int)((long long)spline * grid[count] / nodes);
     if (coarse_spline < 1) continue;
-    status = solve_level(p, grid[count], coarse_spline, &a, run, &previous, &x_previous);
+    status = solve_level(p, grid[count], coarse_spline, &a, e->run, &last);
   }
-  if (!status && previous && ambulo_problem_transfer(previous, x_previous, p, x) == AMBULO_OK)
+  if (!status && last.problem && ambulo_problem_transfer(last.problem, last.x, p, x) == AMBULO_OK) {
+    ambulo__carry_to(&last.carried, e);
     *levels = 1;
-  ambulo_problem_free(previous);
-  ambulo__free(&a, x_previous);
+  }
+  free_level(&a, &last);
   return status;
 }

@@ -125,8 +125,7 @@ static ambulo_status solve_by_pipeline(solve *s) {
   ambulo_status status = AMBULO_OK;
   s->method = "NLopt's AUGLAG with LBFGS";
   s->run.stage = "coarse grids";
-  if (s->from_zero && o->continuation)
-    status = ambulo__refine(s->problem, s->allocator, &s->run, x, &levels);
+  if (s->from_zero && o->continuation) status = ambulo__refine(s->engine, s->allocator, x, &levels);
   s->run.stage = "solve";
   if (!status) status = ambulo__pipeline(s->engine, stage_of(s, x), x);
   if (!status && levels > 0 && !s->run.stopped &&

@@ -14,7 +14,7 @@ static const double nothing = 1e-6;      /* of f for the motionless body: the sa
                                             a measure of their own (engine.c) */
 static const double moving = 1e-3;       /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
-static const double polishable = 1e-5; /* violation, relative to the sizes of the rows */
+static const double polishable = 1e-5;   /* violation, relative to the sizes of the rows */
 static const double polish_reach = 1e-5; /* the same, where polishing may start */
 static const double loose_violation = 1e-3, loose_change = 1e-3; /* on coarse grids */
 static const double penalty_largest = 3000.0, penalty_last = 3e5;
