@@ -51,6 +51,7 @@ static const double penalty_growth = 2.0;
 static const double nlopt_growth = 10.0;
 static const double least_scale = 1e-11; /* S: below, L-BFGS's absolute tests come near */
 static const double no_gradient = 1e-5;  /* of max(1, |f|): below the gradient's own accuracy */
+static const double least_adjoint_tolerance = 1e-6;
 static const double mu_least = 0.03, mu_largest = 3.0; /* times mu at the beginning */
 
 typedef struct session session;
@@ -321,17 +322,23 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
   return AMBULO_OK;
 }
 
-/* calls until something ends it: more than one where NLopt ended by a test of its own (all rows
- * hold without a multiplier; its line search found nothing) */
+/* calls until something ends it: more than one where NLopt ended by a test of its own: all rows
+ * hold without a multiplier; or its line search found nothing, which asks for better gradients */
 static ambulo_status run(session *s) {
-  ambulo__run *r = s->engine->run;
+  ambulo__engine *e = s->engine;
+  ambulo__run *r = e->run;
   while (!s->ending && !ambulo__run_over(r)) {
     int before = r->nlopt.outer;
     s->ending = prepare(s);
     if (s->ending) break;
     int result = call(s);
     if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
-    if (r->nlopt.outer == before && !s->ending) s->ending = AMBULO_ENDING_NLOPT;
+    if (result >= 0 || is_over(s)) continue;
+    if (e->adjoint_tolerance > least_adjoint_tolerance) {
+      e->adjoint_tolerance *= 0.1;
+    } else if (r->nlopt.outer == before) {
+      s->ending = AMBULO_ENDING_NLOPT;
+    }
   }
   return AMBULO_OK;
 }
@@ -341,8 +348,10 @@ ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, doub
   session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->mu};
   ambulo__pool pool;
   ambulo__pool_init(&pool, &e->pool.allocator);
+  double accuracy = e->adjoint_tolerance;
   ambulo_status status = create(&s, &pool);
   if (!status) status = run(&s);
+  e->adjoint_tolerance = accuracy;
   ambulo__pool_clear(&pool);
   *ending = s.ending;
   return status;

@@ -200,7 +200,7 @@ static int add_node(const ambulo__metric *metric, const ambulo_workspace *worksp
   const ambulo_problem *p = metric->problem;
   int width = ambulo__node_width(p, node), count = 0, light = 0;
   for (int i = 0; i < p->coordinates; i++)
-    add_light(metric, workspace, node, i, scale * least_curvature * p->quadrature[node], h);
+    add_light(metric, workspace, node, i, least_curvature * p->quadrature[node], h);
   for (int c = 0; c < metric->channels; c++) {
     double curvature = scale * curvature_of(workspace, node, metric->channel[c]);
     if (curvature <= 0.0) continue; /* not NaN, which the factorization meets */

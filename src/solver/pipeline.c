@@ -59,8 +59,8 @@ ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__stage stage, double *x
   e->mu = (differences ? mu_start_differences : mu_start) * interval;
   e->reached.value = HUGE_VAL;
   ambulo_status status = solve(e, stage, &stopping, x, &ending);
-  if (!status && (e->run->stopped || ending == AMBULO_ENDING_ITERATIONS))
-    ambulo__stopping_cut(&stopping, e, x);
+  int cut = e->run->stopped || ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_NLOPT;
+  if (!status && cut) ambulo__stopping_cut(&stopping, e, x);
   if (ending) ambulo__run_end(e->run, ending);
   return status;
 }

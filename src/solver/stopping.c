@@ -14,8 +14,9 @@ static const double nothing = 1e-6;      /* of f for the motionless body: the sa
                                             a measure of their own (engine.c) */
 static const double moving = 1e-3;       /* relative change of f that is progress */
 static const double gradient_small = 1e-4;
-static const double polishable = 1e-5;   /* violation, relative to the sizes of the rows */
-static const double polish_reach = 1e-5; /* the same, where polishing may start */
+static const double polishable = 1e-5;    /* violation, relative to the sizes of the rows */
+static const double polish_reach = 1e-5;  /* the same, where polishing may start */
+static const double stalled_reach = 1e-2; /* the same, where nothing else helps */
 static const double loose_violation = 1e-3, loose_change = 1e-3; /* on coarse grids */
 static const double penalty_largest = 3000.0, penalty_last = 3e5;
 
@@ -23,6 +24,7 @@ ambulo__stopping ambulo__stopping_begin(int loose) {
   return (ambulo__stopping){.loose = loose,
                             .objective = HUGE_VAL,
                             .least_violation = HUGE_VAL,
+                            .halved = HUGE_VAL,
                             .penalty_limit = penalty_largest};
 }
 
@@ -47,28 +49,40 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
   if (violation < 0.9 * s->least_violation || change > moving * fabs(point->objective))
     s->since_better = 0;
   s->least_violation = fmin(s->least_violation, violation);
+  s->since_halved++;
+  if (violation < 0.5 * s->halved) {
+    s->halved = violation;
+    s->since_halved = 0;
+  }
   if (s->settled >= 1 && (small || s->loose)) return AMBULO_ENDING_CONVERGED;
   if (near && has_vanished(e, s)) return AMBULO_ENDING_VANISHED;
   return s->settled >= LONG_SETTLED ? AMBULO_ENDING_SETTLED : AMBULO_ENDING_NONE;
+}
+
+/* at the bound of the penalty, and the rows do not give way: a higher bound; 1 when there is none
+ */
+static int raise_limit(ambulo__stopping *s) {
+  if (s->penalty_limit >= penalty_last) return 1;
+  s->penalty_limit *= 10.0;
+  s->since_better = s->since_halved = 0;
+  return 0;
 }
 
 ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, double *x) {
   double tolerance = s->loose ? loose_violation : e->run->options->feasibility_tolerance;
   ambulo_ending settled = settle(s, e, tolerance);
   double violation = e->reached.violation;
-  int stalled = e->rho >= 0.999 * s->penalty_limit && s->since_better > STALL;
+  int bound = e->rho >= 0.999 * s->penalty_limit;
   if (violation <= tolerance) return settled;
-  if (!settled && !stalled) return AMBULO_ENDING_NONE;
-  if (violation <= polish_reach && ambulo__polish(e, x))
+  int stalled = bound && s->since_better > STALL;
+  double reach = stalled ? stalled_reach : polish_reach;
+  if ((settled || stalled) && violation <= reach && ambulo__polish(e, x))
     return settled ? settled : AMBULO_ENDING_STALLED;
-  if (!stalled) return AMBULO_ENDING_NONE;
-  if (s->penalty_limit >= penalty_last) return AMBULO_ENDING_STALLED;
-  s->penalty_limit *= 10.0;
-  s->since_better = 0;
-  return AMBULO_ENDING_NONE;
+  int slow = stalled || (bound && s->since_halved > STALL);
+  return slow && raise_limit(s) && stalled ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE;
 }
 
 void ambulo__stopping_cut(const ambulo__stopping *s, ambulo__engine *e, double *x) {
-  if (s->loose || !(e->reached.value < HUGE_VAL) || e->reached.violation > polish_reach) return;
+  if (s->loose || !(e->reached.value < HUGE_VAL) || e->reached.violation > stalled_reach) return;
   (void)ambulo__polish(e, x);
 }

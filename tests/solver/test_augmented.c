@@ -38,20 +38,6 @@ static void gradient_is_the_slope(void **state) {
   engine_close(&f);
 }
 
-static void best_point_is_kept(void **state) {
-  (void)state;
-  engine_fixture f;
-  open_at_model_step(&f);
-  double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
-  double first = ambulo__augmented(f.engine, w, g);
-  w[3] = 0.5;
-  double second = ambulo__augmented(f.engine, w, g);
-  assert_true(f.engine->best.value == fmin(first, second));
-  free(w);
-  free(g);
-  engine_close(&f);
-}
-
 static void lost_point_gives_a_large_finite_value(void **state) {
   (void)state;
   engine_fixture f;
@@ -69,7 +55,6 @@ static void lost_point_gives_a_large_finite_value(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gradient_is_the_slope),
-      cmocka_unit_test(best_point_is_kept),
       cmocka_unit_test(lost_point_gives_a_large_finite_value),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

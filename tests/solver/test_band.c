@@ -2,7 +2,7 @@
 #include "solver/band.h"
 #include "support/engine_fixture.h"
 
-enum { N = 71, KD = 6 }; /* several blocks of columns */
+enum { N = 71, KD = 6, STRIDE = 8 }; /* several blocks of columns */
 
 typedef struct banded {
   ambulo__pool pool;
@@ -16,11 +16,11 @@ static void fill(banded *m, unsigned seed) {
   assert_int_equal(ambulo__band_create(&m->pool, N, KD, &m->band), AMBULO_OK);
   memset(m->dense, 0, sizeof m->dense);
   for (int first = 0; first + KD < N; first++) {
-    double rows[3][KD + 1];
+    _Alignas(64) double rows[3][STRIDE] = {{0.0}};
     for (int r = 0; r < 3; r++) {
       for (int j = 0; j <= KD; j++) rows[r][j] = random_number(&seed);
     }
-    ambulo__band_add_rows(&m->band, first, KD + 1, 3, &rows[0][0]);
+    ambulo__band_add_rows(&m->band, first, KD + 1, 3, STRIDE, &rows[0][0]);
     for (int r = 0; r < 3; r++) {
       for (int i = 0; i <= KD; i++) {
         for (int j = 0; j <= KD; j++) m->dense[first + i][first + j] += rows[r][i] * rows[r][j];

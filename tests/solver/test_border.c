@@ -34,7 +34,7 @@ static void open_system(bordered *s, int count, int kernels) {
   for (int first = 0; first + KD < N; first++) {
     double row[KD + 1];
     for (int j = 0; j <= KD; j++) row[j] = random_number(&seed);
-    ambulo__band_add_rows(&s->m, first, KD + 1, 1, row);
+    ambulo__band_add_outer(&s->m, first, KD + 1, 1, 1.0, row);
   }
   ambulo__band_add_diagonal(&s->m, 1.0);
   for (int r = 0; r < count; r++) add_row(s, r, &seed);

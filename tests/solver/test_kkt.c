@@ -62,7 +62,7 @@ static void open_system(kkt_case *s) {
   for (int first = 0; first + KD < N; first++) {
     double row[KD + 1];
     for (int j = 0; j <= KD; j++) row[j] = 10.0 * random_number(&seed);
-    ambulo__band_add_rows(&s->h, first, KD + 1, 1, row);
+    ambulo__band_add_outer(&s->h, first, KD + 1, 1, 1.0, row);
     for (int i = 0; i <= KD; i++) {
       for (int j = 0; j <= KD; j++)
         s->dense[(size_t)(first + j) * ALL + (size_t)(first + i)] += row[i] * row[j];
