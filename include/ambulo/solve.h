@@ -150,6 +150,17 @@ typedef struct ambulo_timing {
   double total, evaluate, linear_algebra, nlopt; /* s */
 } ambulo_timing;
 
+/* What NLopt did, on all grids together. */
+typedef struct ambulo_nlopt_work {
+  int calls; /* of nlopt_optimize */
+  int outer; /* iterations of AUGLAG: completed inner solves, after each of which it updates its
+                multipliers and its penalty */
+  int inner; /* evaluations of objective and rows that it asked for */
+  double seconds;          /* its own, without those */
+  int result;              /* what the last call returned, an nlopt_result; 0: none was made */
+  const char *result_name; /* "FORCED_STOP": Ambulo's own test ended it; "" without a call */
+} ambulo_nlopt_work;
+
 /* ------------------------------------------------------ between the nodes */
 
 /* Rows are enforced at the time nodes. The dense audit looks at the same motion on a grid
@@ -285,6 +296,7 @@ AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *res
 AMBULO_API int ambulo_result_iterations(const ambulo_result *result);
 AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
+AMBULO_API const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *result);
 /* Why the solver ended, in words, with the method and what it took. */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
 /* The same as a code. */

@@ -117,6 +117,10 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
          "%.3f, NLopt %.3f)\n",
          ambulo_result_iterations(result), ambulo_result_evaluations(result), timing->total,
          timing->evaluate, timing->linear_algebra, timing->nlopt);
+  const ambulo_nlopt_work *nlopt = ambulo_result_nlopt(result);
+  if (nlopt->calls > 0)
+    printf("NLopt        %d calls, %d outer iterations, %d evaluations, last result %s\n",
+           nlopt->calls, nlopt->outer, nlopt->inner, nlopt->result_name);
   if (ambulo_result_ending(result)) printf("ending       %s\n", ambulo_result_ending(result));
 }
 

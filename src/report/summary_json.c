@@ -223,6 +223,18 @@ static ambulo_status foot_strikes(ambulo__json *json, const ambulo_problem *prob
   return AMBULO_OK;
 }
 
+static void nlopt(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_nlopt_work *work = ambulo_result_nlopt(result);
+  ambulo__json_open(json, "nlopt", '{');
+  ambulo__json_integer(json, "calls", work->calls);
+  ambulo__json_integer(json, "outer_iterations", work->outer);
+  ambulo__json_integer(json, "inner_evaluations", work->inner);
+  ambulo__json_number(json, "seconds", work->seconds);
+  ambulo__json_integer(json, "result", work->result);
+  ambulo__json_text(json, "result_name", work->result_name);
+  ambulo__json_close(json, '}');
+}
+
 static void effort(ambulo__json *json, const ambulo_result *result) {
   const ambulo_timing *timing = ambulo_result_timing(result);
   ambulo__json_integer(json, "iterations", ambulo_result_iterations(result));
@@ -233,6 +245,7 @@ static void effort(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_number(json, "linear_algebra", timing->linear_algebra);
   ambulo__json_number(json, "nlopt", timing->nlopt);
   ambulo__json_close(json, '}');
+  nlopt(json, result);
 }
 
 static void versions(ambulo__json *json) {

@@ -34,6 +34,7 @@
 #include "solver/auglag.h"
 #include "solver/chart.h"
 #include "solver/mirror.h"
+#include "solver/nlopt_direct.h"
 #include "solver/nlopt_memory.h"
 
 #include <math.h>
@@ -88,12 +89,16 @@ struct session {
 /* the model step, mu raised until it can be factored; why it could not be, or none */
 static ambulo_ending model(session *s) {
   ambulo__engine *e = s->engine;
-  for (int trial = 0; trial < MAX_DAMPINGS; trial++) {
-    int failed = ambulo__model_step(e, &s->predicted);
-    if (failed == 0) return AMBULO_ENDING_NONE;
-    if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
-    e->mu *= 10.0;
-  }
+  double mu = e->mu;
+  do {
+    e->mu = mu;
+    for (int trial = 0; trial < MAX_DAMPINGS; trial++) {
+      int failed = ambulo__model_step(e, &s->predicted);
+      if (failed == 0) return AMBULO_ENDING_NONE;
+      if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
+      e->mu *= 10.0;
+    }
+  } while (ambulo__kkt_by_row(&e->kkt));
   return AMBULO_ENDING_BREAKDOWN;
 }
 
@@ -272,9 +277,8 @@ static int call(session *s) {
   }
   nlopt_destroy(outer);
   nlopt_destroy(local);
-  e->run->nlopt.calls++;
-  e->run->nlopt.result = result;
-  e->run->seconds_nlopt += ambulo__seconds_now() - begin - (s->seconds - inside);
+  ambulo__run_nlopt(e->run, result, ambulo__nlopt_name(result),
+                    ambulo__seconds_now() - begin - (s->seconds - inside));
   return result;
 }
 

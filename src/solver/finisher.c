@@ -166,6 +166,7 @@ ambulo_status ambulo__finish(ambulo__engine *e, double *x, const char **message)
   for (int round = 0; round < ROUNDS && !s.failed; round++) {
     int result = minimize(&s, e->iterate);
     *message = ambulo__nlopt_name(result);
+    ambulo__run_nlopt(e->run, result, *message, 0.0); /* seconds below */
     if (result == NLOPT_OUT_OF_MEMORY) status = AMBULO_E_MEMORY;
     if (status || move_to(&s, e->iterate) || screen(&s) == 0) break;
   }
@@ -173,6 +174,6 @@ ambulo_status ambulo__finish(ambulo__engine *e, double *x, const char **message)
   e->adjoint_tolerance = adjoint;
   e->retraction_tolerance = retraction;
   e->run->iterations++;
-  e->run->seconds_nlopt += ambulo__seconds_now() - begin - s.seconds;
+  e->run->nlopt.seconds += ambulo__seconds_now() - begin - s.seconds;
   return status;
 }

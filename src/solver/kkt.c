@@ -24,7 +24,8 @@
 #include <string.h>
 
 enum { MAX_PASSES = 8 };
-static const double stiffness_start = 1e4, stiffness_largest = 1e8, stiffness_factor = 100.0;
+static const double stiffness_start = 1e4, stiffness_largest = 1e8,
+                    stiffness_factor = 100.0;
 static const double pass_tolerance = 1e-11;
 static const double slow = 1e-7; /* error after all passes that asks for more stiffness */
 
@@ -44,16 +45,26 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
-static void set_penalties(ambulo__kkt *kkt, double size) {
+/* S_i for unit |J_i|: stiffness times the largest curvature of H; where that drowns H (fine grids,
+ * whose rows and metric are uneven), times the curvature of H along the row. */
+static void set_penalties(ambulo__kkt *kkt, const ambulo__band *h) {
+  const ambulo__sparse_rows *rows = kkt->equality;
+  double largest = ambulo__band_largest(h);
   for (int i = 0; i < kkt->equalities; i++) {
-    double norm = ambulo__sparse_rows_norm(kkt->equality, i);
-    kkt->penalty[i] = norm > 0.0 ? kkt->stiffness * size / (norm * norm) : 0.0;
+    double square = 0.0, along = 0.0;
+    for (int e = rows->start[i]; e < rows->start[i + 1]; e++) {
+      double part = rows->value[e] * rows->value[e];
+      square += part;
+      along += part * h->a[(size_t)rows->column[e] * (size_t)h->ld];
+    }
+    double curvature = kkt->by_row && square > 0.0 ? along / square : largest;
+    kkt->penalty[i] = square > 0.0 ? kkt->stiffness * curvature / square : 0.0;
   }
 }
 
 static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
   ambulo__band_copy(h, &kkt->factor);
-  set_penalties(kkt, ambulo__band_largest(h));
+  set_penalties(kkt, h);
   for (int i = 0; i < kkt->equalities; i++)
     ambulo__band_add_sparse(&kkt->factor, kkt->equality, i, kkt->penalty[i]);
   if (ambulo__band_factor(&kkt->factor)) return 1;
@@ -66,6 +77,12 @@ int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
   if (!failed || kkt->stiffness <= stiffness_start) return failed;
   kkt->stiffness = stiffness_start;
   return factor(kkt, h);
+}
+
+int ambulo__kkt_by_row(ambulo__kkt *kkt) {
+  int was = kkt->by_row;
+  kkt->by_row = 1;
+  return !was;
 }
 
 void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m) {

@@ -15,7 +15,8 @@ typedef struct ambulo__kkt {
   const ambulo__sparse_rows *equality;
   ambulo__band factor; /* L of M = H + J' S J */
   ambulo__border border;
-  double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H */
+  double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H, */
+  int by_row;       /* or to what H has along the row */
   double *penalty;  /* [equalities]: diagonal of S */
   double *residual; /* [equalities] */
 } ambulo__kkt;
@@ -27,6 +28,8 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
 /* Factors (K) for metric H and the gradients that the row sets hold; they must not change
  * while the factor is in use. 0, or 1 when H is not positive definite. */
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h);
+/* Where no H can be factored: from now on stiffness row by row. 0 when it already is. */
+int ambulo__kkt_by_row(ambulo__kkt *kkt);
 
 /* One pass: d solves M d + C' m = right, C d = b exactly; J d is what it comes out as.
  * b NULL: zero. right becomes d. m [border->count] may be NULL. */

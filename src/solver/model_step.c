@@ -216,13 +216,18 @@ int ambulo__model_minimize(ambulo__engine *e, int roughly, double *phi) {
   e->assembled = 0;
   if (!roughly || !e->warm) (void)mark_active(e);
   e->warm = 0;
-  descent d = {.before = HUGE_VAL, .least = HUGE_VAL, .tolerance = roughly ? enough : exact};
+  descent d = {.before = HUGE_VAL,
+               .least = HUGE_VAL,
+               .searching = !roughly,
+               .tolerance = roughly ? enough : exact};
   d.start = d.value = value_at(e, 0.0);
   keep(e, &d);
   for (int k = 0; k < MAX_NEWTON && settled == 0; k++)
     settled = ambulo__run_late(e->run) ? -1 : newton(e, k, &d);
   if (settled < 0) return -1;
-  if (d.value > d.least) go_back(e, &d);
+  /* never where the minimum itself is wanted: next to it phi is rounding, and d = 0 says that there
+   * is nothing left to gain */
+  if (roughly && d.value > d.least) go_back(e, &d);
   for (int i = 0; i < e->inequalities; i++)
     e->held.multiplier[i] = ambulo__worse(0.0, e->lambda[i] + e->rho * e->linear[i]);
   *phi = d.least - d.start;

@@ -245,6 +245,6 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algori
   d->message = ambulo__nlopt_name(d->result);
   nlopt_destroy(opt);
   inside = d->workspace->seconds_evaluate - inside;
-  d->run->seconds_nlopt += ambulo__seconds_now() - begin - inside;
+  ambulo__run_nlopt(d->run, d->result, d->message, ambulo__seconds_now() - begin - inside);
   return d->result == NLOPT_OUT_OF_MEMORY ? AMBULO_E_MEMORY : AMBULO_OK;
 }

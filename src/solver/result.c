@@ -92,6 +92,10 @@ int ambulo_result_iterations(const ambulo_result *r) {
 int ambulo_result_evaluations(const ambulo_result *r) {
   return r->evaluations;
 }
+const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *r) {
+  return &r->nlopt;
+}
+
 const ambulo_timing *ambulo_result_timing(const ambulo_result *r) {
   return &r->timing;
 }

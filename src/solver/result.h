@@ -22,6 +22,7 @@ struct ambulo_result {
   ambulo_violation *family; /* [families], in the order in which they first appear */
   ambulo_audit audit;
   ambulo_timing timing;
+  ambulo_nlopt_work nlopt;
   int iterations, evaluations;
   struct ambulo__explanation *explanation; /* NULL: none */
   struct ambulo__dense_report *dense;      /* NULL: not audited */

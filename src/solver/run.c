@@ -12,6 +12,7 @@ void ambulo__run_begin(ambulo__run *run, const ambulo_options *options) {
   run->options = options;
   run->started = run->polled_at = ambulo__seconds_now();
   run->stage = "set-up";
+  run->nlopt.result_name = "";
 }
 
 static void stop(ambulo__run *run, ambulo_ending ending) {
@@ -49,6 +50,13 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
   };
   if (o->progress(o->user, &progress)) stop(run, AMBULO_ENDING_CALLER);
   return run->stopped;
+}
+
+void ambulo__run_nlopt(ambulo__run *run, int result, const char *name, double seconds) {
+  run->nlopt.calls++;
+  run->nlopt.result = result;
+  run->nlopt.result_name = name;
+  run->nlopt.seconds += seconds;
 }
 
 void ambulo__run_end(ambulo__run *run, ambulo_ending ending) {

@@ -16,11 +16,8 @@ typedef struct ambulo__run {
   int faults;           /* points that were given up because something was not finite */
   int faults_lately;    /* of these, since the last iteration that brought a point */
   ambulo_fault fault, first_fault; /* the first of those lately; of all */
-  struct {
-    int calls, outer, inner; /* of AUGLAG: calls, completed inner solves, evaluations in them */
-    int result;              /* of the last call */
-  } nlopt;
-  double seconds_evaluate, seconds_linear, seconds_nlopt;
+  ambulo_nlopt_work nlopt;
+  double seconds_evaluate, seconds_linear;
 } ambulo__run;
 
 void ambulo__run_begin(ambulo__run *run, const ambulo_options *options);
@@ -36,6 +33,8 @@ int ambulo__run_poll(ambulo__run *run);
 /* 1 when a run that was stopped by the clock or the caller has also used up its grace: what it
  * takes to say what it found, a tenth of the time it had, and at least a quarter of a second. */
 int ambulo__run_late(const ambulo__run *run);
+/* One call of NLopt: what it returned, its own time in s. */
+void ambulo__run_nlopt(ambulo__run *run, int result, const char *name, double seconds);
 /* A method ends for a reason of its own; a limit that stopped the run stays. */
 void ambulo__run_end(ambulo__run *run, ambulo_ending ending);
 /* Something was not finite at a point that is given up. */

@@ -291,7 +291,8 @@ static ambulo_status finish(solve *s) {
   s->engine = NULL;
   r->timing.evaluate = s->run.seconds_evaluate;
   r->timing.linear_algebra = s->run.seconds_linear;
-  r->timing.nlopt = s->run.seconds_nlopt;
+  r->nlopt = s->run.nlopt;
+  r->timing.nlopt = s->run.nlopt.seconds;
   r->timing.total = ambulo__seconds_now() - s->run.started;
   return AMBULO_OK;
 }
