@@ -18,7 +18,7 @@ static const format formats[] = {
     {"model", "a skeleton model", "links", "a problem names its skeleton under 'model:'"},
     {"problem", "a problem", "objective", "ambulo solve, evaluate and check take it"},
     {"solution", "a solution", "control_points", "ambulo evaluate takes it, and solve --start"},
-    {"sweep", "a sweep", "axes", "ambulo batch takes it"},
+    {"sweep", "a sweep", "axes", "ambulo batch takes it; its --dry-run checks it and lists the cases"},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
