@@ -95,8 +95,6 @@ static char *default_directory(const char *problem) {
 static int read_options(job *j) {
   const ambulo__cli_input *input = j->input;
   const char *directory = ambulo__cli_value(input, "output");
-  if (directory && !directory[0])
-    return ambulo__cli_usage_error("solve", NULL, "--output is empty; expected a folder name");
   j->report = ambulo_report_options_default();
   j->report.overwrite = ambulo__cli_flag(input, "force");
   j->time_limit = -1.0;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file_steps.h"
 #include "base/yaml_node.h"
 
 static const char *const feet[] = {"left", "right"};
@@ -150,9 +151,11 @@ ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_opt
                      .up = {0.0, 1.0, 0.0},
                      .forward = {1.0, 0.0, 0.0}};
   int have[2] = {0, 0};
+  ambulo_status status = ambulo__expect_path(directory, "result folder", diagnostics);
+  if (status) return status;
   c.motion_path = join(&c.allocator, directory, "motion.csv");
   c.summary_path = join(&c.allocator, directory, "summary.json");
-  ambulo_status status = c.motion_path && c.summary_path ? AMBULO_OK : AMBULO_E_MEMORY;
+  status = c.motion_path && c.summary_path ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) status = ambulo__sheet_read(c.motion_path, &c.allocator, diagnostics, &c.sheet);
   if (!status) status = read_times(&c);
   if (!status) status = read_summary(&c, have);

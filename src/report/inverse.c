@@ -211,10 +211,18 @@ static ambulo_status deliver(ambulo__inverse *v, const char *output, char **text
 
 /* ------------------------------------------------------------------- the whole */
 
+static ambulo_status expect_paths(const ambulo__inverse *v, const char *output) {
+  ambulo_diagnostics *diagnostics = v->doubts.diagnostics;
+  ambulo_status status = ambulo__expect_path(v->file, "motion", diagnostics);
+  if (!status) status = ambulo__expect_path(v->options.forces, "file of forces", diagnostics);
+  return status ? status : ambulo__expect_path(output, "output", diagnostics);
+}
+
 static ambulo_status run(ambulo__inverse *v, const char *output, ambulo_ground_residual *residual,
                          char **text) {
   ambulo_ground_residual left_over = {.moment_rms = (double)NAN};
-  ambulo_status status = check_output(v, output);
+  ambulo_status status = expect_paths(v, output);
+  if (!status) status = check_output(v, output);
   if (!status) status = ambulo__inverse_read(v);
   if (!status) status = compute(v);
   const char *forces = status ? NULL : forces_of(v);
