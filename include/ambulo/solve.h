@@ -133,7 +133,8 @@ typedef struct ambulo_violation {
 typedef struct ambulo_audit {
   ambulo_violation violation; /* worst of all, at the nodes */
   ambulo_violation
-      dense_violation; /* worst of all, between the nodes (inequalities and contacts) */
+      dense_violation; /* worst of all between the nodes, relative to its tolerance; family "":
+                          there is none, or (worst NaN) nothing is known (ambulo_dense_audit) */
   double kkt;          /* |projected gradient| / max(1e-12, |gradient|), infinity norms; infinite:
                           unknown */
   double complementarity; /* largest |multiplier * row| / max(1, |J|) */
@@ -148,6 +149,57 @@ typedef struct ambulo_audit {
 typedef struct ambulo_timing {
   double total, evaluate, linear_algebra, nlopt; /* s */
 } ambulo_timing;
+
+/* ------------------------------------------------------ between the nodes */
+
+/* Rows are enforced at the time nodes. The dense audit looks at the same motion on a grid
+ * options.dense_samples times as fine: at every row that such a grid would have (rows on the ends
+ * are the same on every grid, rows of the caller are not asked), and at two quantities that no
+ * row covers. Each has a tolerance:
+ *
+ *   slip                how far a loaded corner of a foot moves along the ground away from
+ *                       where the nodes have it: from the straight line between its places at
+ *                       the nodes around; before the first node of its loading and from the last
+ *                       one until the contact ends, from its place there               0.001 m
+ *   ground_force        how far the ground's normal force, in total and on each foot, is from the
+ *                       straight line through its values at the nodes (which is how a table with
+ *                       a line a node is drawn and integrated)                0.02 body weights
+ *   ground_penetration, foot_strike, contact, clearance, zmp, free_moment, joint_limit,
+ *   tracking_tube       violation of rows in m                                         0.001 m
+ *   contact, clearance, joint_limit, tracking_tube      of rows in rad               0.005 rad
+ *   pressure            of rows in m, times the share of the load on the foot          0.001 m
+ *   normal_force, friction                                                    0.02 body weights
+ *   speed_limit, torque_limit                    0.02 of the larger of the coordinate's two
+ *                       bounds; where both are zero of 1 rad/s, 1 m/s, the body weight, or the
+ *                       body weight times 0.1 m
+ *
+ * A motion that fails here keeps its verdict: it is optimal, or feasible, at the nodes. */
+typedef struct ambulo_dense_family {
+  ambulo_violation violation; /* the worst, relative to its tolerance; not finite where the motion
+                                 is not */
+  double tolerance;           /* in violation.unit */
+  int holds;                  /* 1: violation.worst <= tolerance */
+  const char *settings;       /* what brings it under its tolerance, as arguments of `ambulo solve`:
+                                 "--set time.intervals=163"; foretold, except that limits on control
+                                 points hold for certain. "": nothing known does, or it holds */
+  const char *advice; /* in words; "" where it holds, and for points that are no solutions */
+} ambulo_dense_family;
+
+typedef struct ambulo_dense_audit {
+  int samples; /* of each interval; 0: there is no finer grid, see `reason` */
+  const ambulo_dense_family *families;
+  int family_count; /* worst first, relative to the tolerance */
+  int failing;      /* how many do not hold */
+  /* time.intervals and trajectory.intervals that are foretold to bring all families with these
+   * `settings` under their tolerances at once; 0: none */
+  int intervals, spline_intervals;
+  const char *const *lines; /* one for each family that fails, when the verdict is optimal or
+                               feasible: where it is worst, and what helps */
+  int line_count;
+  const char *summary; /* all of it in one sentence; "" when every family holds, or the point is no
+                          solution at the nodes either */
+  const char *reason;  /* why there is no finer grid; "" when there is one */
+} ambulo_dense_audit;
 
 /* ------------------------------------------------- why there is no solution */
 
@@ -225,6 +277,9 @@ ambulo_result_terms(const ambulo_result *result); /* [term_count], weighted */
 AMBULO_API const double *ambulo_result_rows(const ambulo_result *result);        /* [row_count] */
 AMBULO_API const double *ambulo_result_multipliers(const ambulo_result *result); /* [row_count] */
 AMBULO_API const ambulo_audit *ambulo_result_audit(const ambulo_result *result);
+/* Of results of ambulo_solve and ambulo_audit_point; NULL where none was made. What fails, and what
+ * helps, is also one warning among the diagnostics of those. */
+AMBULO_API const ambulo_dense_audit *ambulo_result_dense_audit(const ambulo_result *result);
 AMBULO_API int ambulo_result_family_count(const ambulo_result *result);
 AMBULO_API const ambulo_violation *ambulo_result_family(const ambulo_result *result, int index);
 AMBULO_API int ambulo_result_iterations(const ambulo_result *result);

@@ -62,6 +62,7 @@ static int run(const ambulo__cli_input *input) {
   } else if (!status) {
     ambulo__cli_print_result(e.problem, e.result);
     if (rows) ambulo__cli_print_rows(e.problem, e.result);
+    ambulo__cli_print_last(e.result);
   }
   ambulo_result_free(e.result);
   free(e.x);

@@ -16,6 +16,7 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/summary.h"
+#include "cli/worker.h"
 
 /* the only things the signal handler touches */
 static volatile sig_atomic_t pending_signal = 0;
@@ -151,6 +152,7 @@ static ambulo_status print_outcome(job *j, int written) {
       printf("written to   %s\n", j->directory);
       printf("picture      %s/gait.svg\n", j->directory);
     }
+    ambulo__cli_print_last(j->result);
   }
   return AMBULO_OK;
 }
@@ -159,6 +161,12 @@ static int verdict_exit_code(const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   if (pending_signal) return 128 + (int)pending_signal;
   return verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE ? 0 : 1;
+}
+
+/* the warning that a batch finds in each summary.json: a million logs need not hold it as well */
+static const char *in_table(const job *j) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(j->result);
+  return ambulo__cli_is_worker() && dense && dense->summary[0] ? dense->summary : NULL;
 }
 
 static int run_job(job *j) {
@@ -173,7 +181,7 @@ static int run_job(job *j) {
   if (status) return ambulo__cli_diagnostics(j->diagnostics, status, file);
   status =
       ambulo_report_write(j->problem, j->result, j->directory, &j->report, NULL, j->diagnostics);
-  code = ambulo__cli_diagnostics(j->diagnostics, status, j->directory);
+  code = ambulo__cli_diagnostics_but(j->diagnostics, status, j->directory, in_table(j));
   ambulo_status printed = print_outcome(j, !status);
   if (printed && !code) code = ambulo__cli_diagnostics(NULL, printed, "summary");
   return code ? code : verdict_exit_code(j->result);

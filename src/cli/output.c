@@ -73,11 +73,17 @@ static void print_diagnostic(const ambulo_diagnostics *list, size_t index) {
 
 int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
                             const char *subject) {
+  return ambulo__cli_diagnostics_but(diagnostics, status, subject, NULL);
+}
+
+int ambulo__cli_diagnostics_but(const ambulo_diagnostics *diagnostics, ambulo_status status,
+                                const char *subject, const char *known) {
   size_t count = ambulo_diagnostics_count(diagnostics);
   size_t errors = ambulo_diagnostics_error_count(diagnostics), shown = 0;
   for (size_t i = 0; i < count; i++) {
-    shown += ambulo_diagnostics_get(diagnostics, i)->severity == AMBULO_ERROR;
-    print_diagnostic(diagnostics, i);
+    const ambulo_diagnostic *d = ambulo_diagnostics_get(diagnostics, i);
+    shown += d->severity == AMBULO_ERROR;
+    if (!known || strcmp(d->message, known) != 0) print_diagnostic(diagnostics, i);
   }
   if (errors > shown) fprintf(stderr, "ambulo: ... and %zu more errors\n", errors - shown);
   if (status && errors == 0)

@@ -20,6 +20,9 @@ int ambulo__cli_usage_error(const char *command, const char *hint, const char *f
  * says what the status means. Returns the exit code of `status`. */
 int ambulo__cli_diagnostics(const ambulo_diagnostics *diagnostics, ambulo_status status,
                             const char *subject);
+/* The same without messages that say what is known. NULL: all. */
+int ambulo__cli_diagnostics_but(const ambulo_diagnostics *diagnostics, ambulo_status status,
+                                const char *subject, const char *known);
 
 /* Flushes stdout. `code` if all output arrived, else 4 and a message; the message is left out where
  * the reader of a pipe has gone away, as `head` does when it has seen enough. */

@@ -34,16 +34,34 @@ static void print_violation(const char *label, const ambulo_violation *v) {
   }
 }
 
+static void print_dense_violation(const ambulo_result *result) {
+  static const char label[] = "violation between nodes";
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (dense && dense->samples == 0) {
+    printf("  %-24s not known: %s\n", label, dense->reason);
+  } else {
+    print_violation(label, &ambulo_result_audit(result)->dense_violation);
+  }
+}
+
 static void print_audit(const ambulo_result *result) {
   const ambulo_audit *audit = ambulo_result_audit(result);
   printf("audit\n");
   print_violation("violation at nodes", &audit->violation);
-  print_violation("violation between nodes", &audit->dense_violation);
+  print_dense_violation(result);
   printf("  %-24s %.2e%s\n", "KKT residual", audit->kkt,
          audit->at_lower_bound ? "; the objective is at its lower bound, zero" : "");
   printf("  %-24s %d, rank %d", "active rows", audit->active_rows, audit->rank);
   if (audit->dropped_equalities) printf(", %d dependent equalities", audit->dropped_equalities);
   printf("\n");
+}
+
+/* families that fail between the nodes, a line each */
+static void print_between(const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (!dense || dense->line_count == 0) return;
+  printf("between the nodes\n");
+  for (int i = 0; i < dense->line_count; i++) printf("  %s\n", dense->lines[i]);
 }
 
 static void print_families(const ambulo_result *result) {
@@ -68,14 +86,29 @@ static void print_explanation(const ambulo_result *result) {
   for (int i = 0; i < e->line_count; i++) printf("  %s\n", e->lines[i]);
 }
 
+static int fails_between(const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  return dense && dense->line_count > 0;
+}
+
+void ambulo__cli_print_last(const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (dense && dense->summary[0]) printf("%s\n", dense->summary);
+}
+
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   const ambulo_timing *timing = ambulo_result_timing(result);
   printf("problem      %s\n", ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "");
-  printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  if (fails_between(result)) {
+    printf("verdict      %s at the nodes, not between them\n", ambulo_verdict_name(verdict));
+  } else {
+    printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
+  }
   print_objective(problem, result);
   print_audit(result);
   print_families(result);
+  print_between(result);
   print_explanation(result);
   printf("size         %d unknowns, %d rows (%d equalities), %d nodes\n",
          ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem),

@@ -7,6 +7,9 @@
 /* Verdict, objective by term, audit by family, effort. */
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result);
 
+/* What fails between the nodes and what helps, in one sentence; nothing where nothing fails. */
+void ambulo__cli_print_last(const ambulo_result *result);
+
 /* Every row: index, family, subject, detail, time, value, unit, multiplier. */
 void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result);
 

@@ -28,3 +28,7 @@ int ambulo__cli_become_worker(void) {
   }
   return (long)getppid() == parent;
 }
+
+int ambulo__cli_is_worker(void) {
+  return getenv("AMBULO_WORKER") != NULL;
+}

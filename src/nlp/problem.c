@@ -173,7 +173,28 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
-  p->hash = ambulo__problem_hash_of(p);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *definition,
+                                             const ambulo_allocator *allocator,
+                                             ambulo_diagnostics *diagnostics,
+                                             ambulo_problem **problem) {
+  ambulo_status status = ambulo__definition_check(definition, diagnostics);
+  if (status) return status;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_problem *p = ambulo__alloc(&own, 1, sizeof *p);
+  if (!p) return AMBULO_E_MEMORY;
+  p->allocator = own;
+  p->file_options = ambulo_options_default();
+  ambulo__row_table_init(&p->table, &own);
+  status = ambulo__definition_copy(definition, &own, &p->definition);
+  if (!status) status = build(p, diagnostics);
+  if (status) {
+    ambulo_problem_free(p);
+    return status;
+  }
+  *problem = p;
   return AMBULO_OK;
 }
 
@@ -182,21 +203,10 @@ ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
   if (!problem) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = ambulo__definition_check(definition, diagnostics);
-  if (status) return status;
-  ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  ambulo_problem *p = ambulo__alloc(&own, 1, sizeof *p);
-  if (!p) return ambulo__conclude(diagnostics, errors, AMBULO_E_MEMORY, NULL);
-  p->allocator = own;
-  p->file_options = ambulo_options_default();
-  ambulo__row_table_init(&p->table, &own);
-  status = ambulo__definition_copy(definition, &own, &p->definition);
-  if (!status) status = build(p, diagnostics);
-  if (status) {
-    ambulo_problem_free(p);
-    return ambulo__conclude(diagnostics, errors, status, NULL);
-  }
-  *problem = p;
+  ambulo_status status =
+      ambulo__problem_create_unnamed(definition, allocator, diagnostics, problem);
+  if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
+  (*problem)->hash = ambulo__problem_hash_of(*problem);
   return AMBULO_OK;
 }
 

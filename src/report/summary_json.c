@@ -58,8 +58,7 @@ static ambulo_status ground_reaction(ambulo__json *json, const ambulo_problem *p
   return status;
 }
 
-static void violation(ambulo__json *json, const char *key, const ambulo_violation *v) {
-  ambulo__json_open(json, key, '{');
+static void violation_members(ambulo__json *json, const ambulo_violation *v) {
   ambulo__json_number(json, "worst", v->worst);
   ambulo__json_text(json, "unit", v->unit);
   ambulo__json_number(json, "size", v->size);
@@ -67,6 +66,11 @@ static void violation(ambulo__json *json, const char *key, const ambulo_violatio
   ambulo__json_text(json, "row", v->subject);
   ambulo__json_text(json, "detail", v->detail);
   ambulo__json_number(json, "time", v->time);
+}
+
+static void violation(ambulo__json *json, const char *key, const ambulo_violation *v) {
+  ambulo__json_open(json, key, '{');
+  violation_members(json, v);
   ambulo__json_close(json, '}');
 }
 
@@ -89,6 +93,32 @@ static void audit(ambulo__json *json, const ambulo_result *result) {
   for (int i = 0; i < ambulo_result_family_count(result); i++)
     violation(json, NULL, ambulo_result_family(result, i));
   ambulo__json_close(json, ']');
+}
+
+static void between_nodes(ambulo__json *json, const ambulo_result *result) {
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
+  if (!dense) return;
+  ambulo__json_open(json, "between_nodes", '{');
+  ambulo__json_integer(json, "samples", dense->samples);
+  ambulo__json_integer(json, "holds", dense->samples > 0 && dense->failing == 0);
+  ambulo__json_integer(json, "failing", dense->failing);
+  ambulo__json_text(json, "summary", dense->summary);
+  ambulo__json_text(json, "reason", dense->reason);
+  ambulo__json_integer(json, "intervals", dense->intervals);
+  ambulo__json_integer(json, "trajectory_intervals", dense->spline_intervals);
+  ambulo__json_open(json, "families", '[');
+  for (int i = 0; i < dense->family_count; i++) {
+    const ambulo_dense_family *f = &dense->families[i];
+    ambulo__json_open(json, NULL, '{');
+    violation_members(json, &f->violation);
+    ambulo__json_number(json, "tolerance", f->tolerance);
+    ambulo__json_integer(json, "holds", f->holds);
+    ambulo__json_text(json, "settings", f->settings);
+    ambulo__json_text(json, "advice", f->advice);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
 }
 
 static void conflict(ambulo__json *json, const ambulo_conflict *c) {
@@ -239,6 +269,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   objective(json, problem, result);
   if (!status) status = ground_reaction(json, problem, result);
   audit(json, result);
+  between_nodes(json, result);
   explanation(json, result);
   sizes(json, problem);
   effort(json, result);

@@ -150,31 +150,39 @@ static void audit_complementarity(const ambulo__engine *e, ambulo_result *result
   result->audit.complementarity /= fmax(1.0, fabs(result->objective));
 }
 
-/* rank of all equalities together with the active inequalities */
-static ambulo_status audit_rank(ambulo__engine *e, ambulo_result *result) {
+static ambulo_status find_rank(ambulo__engine *e, ambulo__pool *pool, ambulo_result *result) {
   const ambulo_problem *p = e->problem;
   ambulo__sparse_rows rows;
   int count = 0;
-  int *list = ambulo__pool_ints(&e->pool, (size_t)p->rows);
-  int *rank = ambulo__pool_ints(&e->pool, (size_t)p->rows);
-  if (e->pool.failed) return AMBULO_E_MEMORY;
+  int *list = ambulo__pool_ints(pool, (size_t)p->rows);
+  int *rank = ambulo__pool_ints(pool, (size_t)p->rows);
+  if (pool->failed) return AMBULO_E_MEMORY;
   for (int r = 0; r < p->rows; r++) {
     if (p->table.rows[r].relation == AMBULO_EQUAL) list[count++] = r;
   }
   for (int i = 0; i < e->inequalities; i++) {
     if (e->held.excess[i] >= 0.0) list[count++] = e->rows.inequality.row[i];
   }
-  double *value = ambulo__pool_doubles(&e->pool, (size_t)count);
-  ambulo_status status = ambulo__sparse_rows_create(p, list, count, NULL, &e->pool, &rows);
+  double *value = ambulo__pool_doubles(pool, (size_t)count);
+  ambulo_status status = ambulo__sparse_rows_create(p, list, count, NULL, pool, &rows);
   if (status) return status;
   ambulo__sparse_rows_fill(&rows, e->workspace, 1);
   ambulo__sparse_rows_values(&rows, e->workspace, value);
-  status = ambulo__rank_sort(&rows, value, NULL, &e->pool, rank);
+  status = ambulo__rank_sort(&rows, value, NULL, pool, rank);
   if (status) return status;
   result->audit.active_rows = count;
   result->audit.rank = 0;
   for (int i = 0; i < count; i++) result->audit.rank += rank[list[i]] == AMBULO__ROW_INDEPENDENT;
   return AMBULO_OK;
+}
+
+/* rank of all equalities together with the active inequalities */
+static ambulo_status audit_rank(ambulo__engine *e, ambulo_result *result) {
+  ambulo__pool pool; /* audits are many, their memory is not kept */
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  ambulo_status status = find_rank(e, &pool, result);
+  ambulo__pool_clear(&pool);
+  return status;
 }
 
 /* every gradient at the point; 1 when one is not finite */
@@ -226,7 +234,6 @@ ambulo_status ambulo__audit_values(ambulo_workspace *w, ambulo_result *result) {
 
 ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
                             ambulo_result *result) {
-  const ambulo_problem *p = e->problem;
   if (ambulo__audit_values(e->workspace, result)) return AMBULO_OK; /* the fault tells */
   result->audit.dropped_equalities = e->rows.dropped;
   result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
@@ -237,9 +244,5 @@ ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
   }
   audit_first_order(e, options, result);
   if (ambulo__run_late(e->run)) return AMBULO_OK;
-  ambulo_status status = audit_rank(e, result);
-  if (status) return status;
-  if (ambulo__run_late(e->run)) return AMBULO_OK;
-  return ambulo__audit_dense(p, result->x, options->dense_samples, &e->pool.allocator,
-                             &result->audit.dense_violation);
+  return audit_rank(e, result);
 }

@@ -5,18 +5,12 @@
 #include "solver/engine.h"
 #include "solver/result.h"
 
-/* Fills result (x must be set): objective, terms, rows, violations per family, dense
- * violation, multipliers, KKT residual, rank, and what is not finite. `engine` belongs to the same
+/* Fills result (x must be set): objective, terms, rows, violations per family,
+ * multipliers, KKT residual, rank, and what is not finite. `engine` belongs to the same
  * problem; its state is used up. A run that was stopped and is late (run.h) gets what takes one
  * evaluation, the rest stays unknown. E_MEMORY. */
 ambulo_status ambulo__audit(ambulo__engine *engine, const ambulo_options *options,
                             ambulo_result *result);
-
-/* audit_dense.c: violations between the nodes, of inequalities and contacts, on a grid
- * `samples` times as fine with the same trajectory. A worst of NAN (family "") when the
- * finer grid cannot be built. E_MEMORY. */
-ambulo_status ambulo__audit_dense(const ambulo_problem *problem, const double *x, int samples,
-                                  const ambulo_allocator *allocator, ambulo_violation *worst);
 
 /* Of a point that no engine could be made for: objective, terms, rows, violations. What it takes
  * gradients for stays unknown. E_MEMORY. */

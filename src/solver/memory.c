@@ -13,6 +13,7 @@
  */
 #include "solver/memory.h"
 #include "base/free_memory.h"
+#include "solver/dense.h"
 #include "solver/metric.h"
 
 static const double gigabyte = 1073741824.0;
@@ -59,7 +60,8 @@ ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
   memory.evaluation = ambulo__workspace_bytes(p, 1);
   double engine = memory.evaluation + bands + entries + vectors + wing;
   double coarse = coarse_share * (engine + memory.problem);
-  double dense = 10.0 * (memory.problem + ambulo__workspace_bytes(p, 0));
+  int samples = ambulo__dense_samples(p, ambulo_options_default().dense_samples);
+  double dense = samples < 2 ? 0.0 : samples * (memory.problem + ambulo__workspace_bytes(p, 0));
   double explanation = 2.0 / 3.0 * bands + entries + wing;
   double after = dense > explanation ? dense : explanation;
   memory.solve = margin * (memory.problem + engine + (coarse > after ? coarse : after));

@@ -7,13 +7,12 @@
 
 #include "base/alloc.h"
 
-#define AMBULO__POOL_CAPACITY 192
+typedef struct ambulo__pool_block ambulo__pool_block;
 
 typedef struct ambulo__pool {
   ambulo_allocator allocator;
-  void *block[AMBULO__POOL_CAPACITY];
-  int count;
-  int failed; /* sticky: some block could not be had */
+  ambulo__pool_block *last; /* of a list of any length */
+  int failed;               /* sticky: some block could not be had */
 } ambulo__pool;
 
 void ambulo__pool_init(ambulo__pool *pool, const ambulo_allocator *allocator);

@@ -6,7 +6,8 @@
 
 #define AMBULO__ENDING_SIZE 400
 
-struct ambulo__explanation; /* solver/explain.h */
+struct ambulo__explanation;  /* solver/explain.h */
+struct ambulo__dense_report; /* solver/dense_audit.h */
 
 struct ambulo_result {
   ambulo_allocator allocator;
@@ -23,6 +24,7 @@ struct ambulo_result {
   ambulo_timing timing;
   int iterations, evaluations;
   struct ambulo__explanation *explanation; /* NULL: none */
+  struct ambulo__dense_report *dense;      /* NULL: not audited */
   char ending[AMBULO__ENDING_SIZE];
 };
 

@@ -15,6 +15,7 @@
  */
 #include "solver/audit.h"
 #include "solver/candidates.h"
+#include "solver/dense_audit.h"
 #include "solver/explain.h"
 #include "solver/finisher.h"
 #include "solver/memory.h"
@@ -309,11 +310,20 @@ static ambulo_status finish_unsolved(solve *s) {
   return status;
 }
 
+static ambulo_status look_between(solve *s) {
+  int in_time = !ambulo__run_late(&s->run);
+  ambulo_status status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
+                                             s->allocator, s->result);
+  if (status) return status;
+  return ambulo__dense_advise(s->problem, in_time, s->allocator, s->diagnostics, s->result);
+}
+
 static ambulo_status finish(solve *s) {
   if (!s->engine) return finish_unsolved(s);
   ambulo_result *r = s->result;
   ambulo_status status = judge(s);
   if (!status && s->explains) status = look_again(s);
+  if (!status) status = look_between(s);
   if (status) return status;
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;

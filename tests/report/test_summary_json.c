@@ -1,6 +1,7 @@
 /* summary.json: well-formed, complete, and the same through both doors. */
 #include "report/summary_json.h"
 #include "support/fail_alloc.h"
+#include "solver/dense_audit.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"
 
@@ -87,9 +88,42 @@ static void test_stride(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* what happens between the nodes, with words, and where it is not finite */
+static void test_between_nodes(void **state) {
+  (void)state;
+  static const char *const parts[] = {"\"between_nodes\": {",
+                                      "\"samples\": 10",
+                                      "\"holds\": 0",
+                                      "\"family\": \"slip\"",
+                                      "\"tolerance\": 0.001",
+                                      "\"row\": \"",
+                                      "feasible at the nodes, not ",
+                                      "\"reason\": \"\"",
+                                      "\"advice\": \"",
+                                      "\"settings\": \""};
+  for (int overflows = 0; overflows < 2; overflows++) {
+    walk w;
+    walk_open(&w, 12);
+    if (overflows) w.result->x[9 * 7] = 1e200;
+    assert_int_equal(ambulo__dense_audit(w.problem, 10, 1, NULL, w.result), AMBULO_OK);
+    assert_int_equal(ambulo__dense_advise(w.problem, 1, NULL, NULL, w.result), AMBULO_OK);
+    char *text = NULL;
+    assert_int_equal(ambulo_report_summary(w.problem, w.result, NULL, &text), AMBULO_OK);
+    assert_true(is_json(text));
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+      if (!strstr(text, parts[i])) print_error("%s is missing from\n%s\n", parts[i], text);
+      assert_non_null(strstr(text, parts[i]));
+    }
+    const char *families = strstr(strstr(text, "\"between_nodes\""), "\"worst\": ");
+    assert_int_equal(strncmp(families, "\"worst\": null", 13) == 0, overflows);
+    ambulo_text_free(text, NULL);
+    walk_close(&w);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_content),
-                                     cmocka_unit_test(test_not_finite),
-                                     cmocka_unit_test(test_stride)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_content), cmocka_unit_test(test_not_finite),
+      cmocka_unit_test(test_stride), cmocka_unit_test(test_between_nodes)};
   return cmocka_run_group_tests_name("report/summary_json", tests, NULL, NULL);
 }

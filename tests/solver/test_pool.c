@@ -30,8 +30,25 @@ static void blocks_are_zero_and_aligned(void **state) {
   ambulo__pool_clear(&pool);
 }
 
+/* a second look at a solve takes as many again: no number of blocks is the last */
+static void blocks_are_as_many_as_memory_holds(void **state) {
+  (void)state;
+  fail_alloc memory = fail_alloc_at(-1);
+  ambulo_allocator allocator = fail_alloc_hook(&memory);
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, &allocator);
+  double *first = ambulo__pool_doubles(&pool, 1);
+  *first = 7.0;
+  for (int i = 0; i < 5000; i++) assert_non_null(ambulo__pool_ints(&pool, 3));
+  assert_true(*first == 7.0);
+  assert_null(ambulo__pool_doubles(&pool, SIZE_MAX / 8));
+  ambulo__pool_clear(&pool);
+  assert_int_equal(memory.live, 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(failure_is_sticky_and_nothing_leaks),
-                                     cmocka_unit_test(blocks_are_zero_and_aligned)};
+                                     cmocka_unit_test(blocks_are_zero_and_aligned),
+                                     cmocka_unit_test(blocks_are_as_many_as_memory_holds)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

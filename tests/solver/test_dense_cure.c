@@ -1,0 +1,215 @@
+/* What is foretold comes true: problems are solved again with the settings that the audit names.
+ * (bench/bench_dense.c does the same for every shipped problem.) */
+#include "support/dense_fixture.h"
+#include "support/engine_fixture.h"
+
+enum { MOST_SETTINGS = 6, TEXT = 400 };
+
+typedef struct solved {
+  ambulo_problem *problem;
+  ambulo_result *result;
+} solved;
+
+static solved solve_with(const char *name, const char *settings) {
+  char path[96], text[TEXT];
+  const char *overrides[MOST_SETTINGS];
+  int count = 0;
+  solved s = {NULL, NULL};
+  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  (void)snprintf(text, sizeof text, "%s", settings);
+  for (char *word = strtok(text, " "); word; word = strtok(NULL, " "))
+    if (strcmp(word, "--set") != 0) overrides[count++] = word;
+  assert_int_equal(ambulo_problem_load(path, overrides, count, NULL, NULL, &s.problem), AMBULO_OK);
+  assert_int_equal(ambulo_solve(s.problem, NULL, NULL, NULL, NULL, &s.result), AMBULO_OK);
+  ambulo_verdict verdict = ambulo_result_verdict(s.result);
+  assert_true(verdict == AMBULO_OPTIMAL || verdict == AMBULO_FEASIBLE);
+  return s;
+}
+
+static void release(solved *s) {
+  ambulo_result_free(s->result);
+  ambulo_problem_free(s->problem);
+}
+
+/* every family of `before` with these settings holds after them; returns their number */
+static int check(const char *name, const ambulo_dense_audit *before, const char *settings) {
+  solved s = solve_with(name, settings);
+  const ambulo_dense_audit *after = ambulo_result_dense_audit(s.result);
+  int count = 0;
+  for (int i = 0; i < before->family_count; i++) {
+    const ambulo_dense_family *f = &before->families[i];
+    if (strcmp(f->settings, settings) != 0) continue;
+    count++;
+    assert_false(f->holds);
+    assert_true(f->violation.worst > f->tolerance);
+    for (int k = 0; k < after->family_count; k++) {
+      const ambulo_dense_family *now = &after->families[k];
+      if (strcmp(now->violation.family, f->violation.family) != 0 ||
+          strcmp(now->violation.unit, f->violation.unit) != 0)
+        continue;
+      if (!now->holds)
+        print_error("%s %s: %s is %g, tolerance %g\n", name, settings, f->violation.family,
+                    now->violation.worst, now->tolerance);
+      assert_true(now->holds);
+    }
+  }
+  release(&s);
+  return count;
+}
+
+/* all the settings that are named; returns the number of families cured */
+static int check_all(const char *name) {
+  solved s = solve_with(name, "");
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(s.result);
+  int cured = 0;
+  for (int i = 0; i < dense->family_count; i++) {
+    const ambulo_dense_family *f = &dense->families[i];
+    int known = f->settings[0] == '\0';
+    for (int k = 0; k < i; k++) known |= strcmp(dense->families[k].settings, f->settings) == 0;
+    if (!known) cured += check(name, dense, f->settings);
+  }
+  release(&s);
+  return cured;
+}
+
+static void more_time_intervals_cure_a_walk(void **state) {
+  (void)state;
+  assert_int_equal(check_all("walk_slow"), 6);
+}
+
+static void joint_limits_of_an_arm_too(void **state) {
+  (void)state;
+  assert_int_equal(check_all("two_link_reach"), 1);
+}
+
+/* contacts that are equations: intervals of the trajectory go with those of time; forces need
+ * contacts within a tolerance, joint limits need rows on the control points */
+static void contacts_that_are_equations_have_three_cures(void **state) {
+  (void)state;
+  assert_int_equal(check_all("walker_2d_step"), 5);
+  assert_int_equal(check_all("walk_without_reaction"), 5);
+}
+
+/* families that fail have settings or say that more intervals do not help, or too far off */
+static void no_failure_is_left_without_a_word(void **state) {
+  (void)state;
+  static const char *const names[] = {"walker_2d_step", "yardstick_12", "fig5a_feasible"};
+  for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+    solved s = solve_with(names[n], "");
+    const ambulo_dense_audit *dense = ambulo_result_dense_audit(s.result);
+    int zmp = 0;
+    for (int i = 0; i < dense->family_count; i++) {
+      const ambulo_dense_family *f = &dense->families[i];
+      if (f->holds) continue;
+      assert_true(f->advice[0] != '\0');
+      if (strcmp(f->violation.family, "zmp") != 0) continue;
+      zmp++;
+      assert_string_equal(f->settings, "");
+      assert_non_null(strstr(f->advice, "more intervals do not help"));
+    }
+    assert_int_equal(zmp, 1);
+    assert_int_equal(dense->line_count, dense->failing);
+    release(&s);
+  }
+}
+
+/* the gap before toe-off decides, not the number of nodes: on 25 k intervals the walk's toe-off is
+ * on a node, and the interval before it is free; the number named has a node just before it */
+static void the_number_named_has_nodes_where_they_count(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_result *r = NULL;
+  assert_int_equal(ambulo_solve(p, NULL, NULL, NULL, NULL, &r), AMBULO_OK);
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(r);
+  double toe_off = 0.62 * 1.08 - 0.54;
+  assert_true(dense->intervals > 50 && dense->intervals < 500);
+  assert_int_equal(dense->spline_intervals, 17);
+  assert_true(ambulo__dense_gap_before(toe_off, 0.54, dense->intervals) < 0.54 / 25 / 16);
+  ambulo_result_free(r);
+  ambulo_problem_free(p);
+}
+
+/* A body that is moved as a whole at 0.4 m/s, on N intervals of 0.55 s, of which only slip is
+ * looked at and only beside one event. Slip is speed times gap; 0.7 mm are allowed. */
+static int intervals_named(int intervals, double event) {
+  dense_fixture f;
+  ambulo__dense_events events = {1, &event};
+  ambulo__dense_worst worst;
+  ambulo__dense_cure cure;
+  int slip = ambulo__dense_rule_of_slip();
+  memset(&worst, 0, sizeof worst);
+  worst.entry[slip].present = 1;
+  worst.entry[slip].ratio = 2.0;
+  dense_open(&f, intervals);
+  dense_move(&f, 0, 0.0, 0.4, 0.0);
+  assert_int_equal(ambulo__dense_cure_find(f.problem, f.x, &events, &worst, NULL, &cure),
+                   AMBULO_OK);
+  assert_true(cure.cured[slip] && cure.intervals > intervals);
+  assert_int_equal(cure.spline_intervals, cure.intervals);
+  dense_close(&f);
+  return cure.intervals;
+}
+
+static void gaps_to_come_are_foretold_from_the_motion(void **state) {
+  (void)state;
+  const double toe_off = 0.24 * 0.55, foot_flat = 0.16 * 0.55, longest = 0.0007 / 0.4;
+  /* toe-off on a node: the interval before it is free, and its slip is there to be seen */
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, intervals_named(25, toe_off)) <= longest);
+  /* toe-off just after a node: nothing slips now, and on 22 intervals it would */
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, 21) < longest);
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, 22) > 3.0 * longest);
+  assert_true(ambulo__dense_gap_before(toe_off, 0.55, intervals_named(21, toe_off)) <= longest);
+  /* the toe comes down on a node: nothing slips now, and on 26 intervals it would */
+  assert_true(ambulo__dense_gap_after(foot_flat, 0.55, 25) < 1e-9);
+  assert_true(ambulo__dense_gap_after(foot_flat, 0.55, 26) > 5.0 * longest);
+  assert_true(ambulo__dense_gap_after(foot_flat, 0.55, intervals_named(25, foot_flat)) <=
+              2.0 * longest);
+}
+
+/* breakpoints of the caller's own would have to be new ones: nothing is foretold then */
+static void given_breakpoints_are_left_alone(void **state) {
+  (void)state;
+  dense_fixture f;
+  double event = 0.24 * 0.55;
+  ambulo__dense_events events = {1, &event};
+  ambulo__dense_worst worst;
+  ambulo__dense_cure cure;
+  int slip = ambulo__dense_rule_of_slip();
+  memset(&worst, 0, sizeof worst);
+  worst.entry[slip].present = 1;
+  worst.entry[slip].ratio = 2.0;
+  dense_open(&f, 25);
+  f.problem->definition.breakpoints = ambulo__basis_breakpoints(f.problem->basis);
+  f.problem->definition.spline_intervals = 25;
+  assert_int_equal(ambulo__dense_spline_intervals(f.problem, 50), 25);
+  assert_int_equal(ambulo__dense_cure_find(f.problem, f.x, &events, &worst, NULL, &cure),
+                   AMBULO_OK);
+  assert_int_equal(cure.intervals + cure.cured[slip] + cure.out_of_reach[slip], 0);
+  f.problem->definition.breakpoints = NULL;
+  dense_close(&f);
+}
+
+static void grids_keep_their_proportion_where_contacts_are_equations(void **state) {
+  (void)state;
+  ambulo_problem *exact = load_problem("walk_without_reaction"), *tube = load_problem("walk_slow");
+  assert_true(ambulo__dense_is_strict(exact) && !ambulo__dense_is_strict(tube));
+  assert_int_equal(ambulo__dense_spline_intervals(exact, 48), 36);
+  assert_int_equal(ambulo__dense_spline_intervals(exact, 25), 19);
+  assert_int_equal(ambulo__dense_spline_intervals(tube, 50), 17);
+  ambulo_problem_free(exact);
+  ambulo_problem_free(tube);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(more_time_intervals_cure_a_walk),
+      cmocka_unit_test(joint_limits_of_an_arm_too),
+      cmocka_unit_test(contacts_that_are_equations_have_three_cures),
+      cmocka_unit_test(no_failure_is_left_without_a_word),
+      cmocka_unit_test(the_number_named_has_nodes_where_they_count),
+      cmocka_unit_test(gaps_to_come_are_foretold_from_the_motion),
+      cmocka_unit_test(given_breakpoints_are_left_alone),
+      cmocka_unit_test(grids_keep_their_proportion_where_contacts_are_equations),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,99 @@
+/* Slip of a body that is moved as a whole, by hand. The step lasts 0.55 s: the left foot, on its
+ * toes at first, leaves at 0.62 * 1.1 - 0.55 = 0.132 s; the right one lands flat at 0.088 s and
+ * goes on its toes at 0.418 s. */
+#include "support/dense_fixture.h"
+
+static const double toe_off = 0.62 * 1.1 - 0.55, foot_flat = 0.08 * 1.1, heel_off = 0.38 * 1.1;
+
+static dense_largest largest_of(const dense_fixture *f, const char *subject, double after,
+                                double before) {
+  dense_largest largest = {.subject = subject, .after = after, .before = before};
+  ambulo__dense_slip(&f->dense, dense_keep_largest, &largest);
+  return largest;
+}
+
+/* at constant speed every place between two nodes is on the line; from the last node on nothing
+ * holds the toe: speed times the time until toe-off, which is between two samples */
+static void a_toe_that_leaves_slips_from_its_last_node_on(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 20);
+  dense_move(&f, 0, 0.0, 0.4, 0.0);
+  dense_look(&f, 7);
+  double last = 4 * 0.55 / 20;
+  dense_largest toe = largest_of(&f, "left_toe", -1.0, 1.0);
+  assert_close(toe.sample.value, 0.4 * (toe_off - last), 1e-9);
+  assert_close(toe.sample.time, toe_off, 1e-12);
+  assert_string_equal(toe.sample.family, "slip");
+  assert_string_equal(toe.sample.unit, "m");
+  assert_true(largest_of(&f, "left_toe", -1.0, last + 1e-9).sample.value < 1e-12);
+  /* and the right toe before its first node: it is down from 0.088 s, the node comes at 0.11 s */
+  dense_largest landing = largest_of(&f, "right_toe", -1.0, 0.2);
+  assert_close(landing.sample.value, 0.4 * (4 * 0.55 / 20 - foot_flat), 1e-9);
+  assert_close(landing.sample.time, foot_flat, 1e-12);
+  /* the right heel is held until the last node before it leaves */
+  dense_largest heel = largest_of(&f, "right_heel", -1.0, 1.0);
+  assert_close(heel.sample.value, 0.4 * (heel_off - 15 * 0.55 / 20), 1e-9);
+  dense_close(&f);
+}
+
+/* a contact that ends on a node is not held by it: the whole interval before is free */
+static void toe_off_on_a_node_leaves_the_interval_before_free(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 25);
+  dense_move(&f, 0, 0.0, 0.4, 0.0);
+  dense_look(&f, 10);
+  assert_close(largest_of(&f, "left_toe", -1.0, 1.0).sample.value, 0.4 * 0.55 / 25, 1e-9);
+  dense_close(&f);
+}
+
+/* with an acceleration a the distance from the line is a h^2 / 8 half-way */
+static void between_two_nodes_it_is_the_distance_from_the_line(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 20);
+  dense_move(&f, 0, 0.0, 0.0, 3.0);
+  dense_look(&f, 10);
+  double h = 0.55 / 20;
+  assert_close(largest_of(&f, "left_toe", -1.0, 4 * h).sample.value, 6.0 * h * h / 8.0, 1e-9);
+  dense_close(&f);
+}
+
+/* heights do not count, nor points in the air */
+static void only_loaded_points_and_only_along_the_ground(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 20);
+  dense_move(&f, 1, 0.8, 1.0, 2.0);
+  dense_look(&f, 10);
+  assert_true(largest_of(&f, NULL, -1.0, 1.0).sample.value < 1e-12);
+  assert_int_equal(largest_of(&f, "left_toe", toe_off + 1e-6, 0.54).count, 0);
+  assert_int_equal(largest_of(&f, "left_heel", -1.0, 0.54).count, 0);
+  dense_close(&f);
+}
+
+/* four intervals: the left toe has one node at 0, is down until 0.132 s, before the next one */
+static void a_coarse_grid_still_has_a_place_to_start_from(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 4);
+  dense_move(&f, 0, 0.0, 0.4, 0.0);
+  dense_look(&f, 10);
+  assert_close(largest_of(&f, "left_toe", -1.0, 0.2).sample.value, 0.4 * toe_off, 1e-9);
+  /* the right foot is on its toes from 0.418 s to the end, and has a node there only */
+  assert_close(largest_of(&f, "right_heel", 0.2, 1.0).sample.value, 0.4 * (heel_off - 0.4125),
+               1e-9);
+  dense_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_toe_that_leaves_slips_from_its_last_node_on),
+      cmocka_unit_test(toe_off_on_a_node_leaves_the_interval_before_free),
+      cmocka_unit_test(between_two_nodes_it_is_the_distance_from_the_line),
+      cmocka_unit_test(only_loaded_points_and_only_along_the_ground),
+      cmocka_unit_test(a_coarse_grid_still_has_a_place_to_start_from),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
