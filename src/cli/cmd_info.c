@@ -224,7 +224,8 @@ const ambulo__cli_command ambulo__cli_info = {
         "Prints links, masses, coordinates with their limits, points and feet of a model; for a\n"
         "problem also the unknowns, rows by family, objective terms and the contact schedule with\n"
         "its footholds.",
-    .example = "ambulo info models/yardstick_36.yaml",
+    .example = "ambulo info models/lower_body_18.yaml\n"
+               "ambulo info models/yardstick_36.yaml",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,

@@ -219,8 +219,9 @@ const ambulo__cli_command ambulo__cli_solve = {
         "gait.svg into a new folder, all or nothing. The verdict comes from an audit of the\n"
         "point, not from the solver. Exit code 0: feasible or optimal; 1: the result was written\n"
         "but is not a solution, and says so.",
-    .example = "ambulo solve models/yardstick_36.yaml -o walk --time-limit 60\n"
-               "ambulo solve models/yardstick_72.yaml --start walk/solution.yaml",
+    .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
+               "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
+               "--start walk/solution.yaml -o finer",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
