@@ -50,13 +50,13 @@ count() {
 # "PAGE | beginning of a line | where | why", where: clone, installed, both, or slow, which is both
 # unless DOCS_WHOLE is 1
 exception() { # PAGE WHERE LINE: is there one?
-  local page start where why number=0
+  local page start where why number=0 line=${3#"${3%%[! ]*}"}
   while IFS='|' read -r page start where why; do
     number=$((number + 1))
     page=${page%% *} start=${start# } start=${start% } where=${where// /}
     [ "$page" = "$1" ] || continue
     case $where in "$2" | both | slow) ;; *) continue ;; esac
-    case $3 in "$start"*) ;; *) continue ;; esac
+    case $line in "$start"*) ;; *) continue ;; esac
     echo "$number" >>"$work/used"
     [ "$where${DOCS_WHOLE:-}" = slow1 ] || return 0
   done <"$work/exceptions"
@@ -110,7 +110,9 @@ make_prefix() {
 # the compiler of the build, with the flags of its variant
 make_tools() {
   mkdir -p "$work/tools"
-  printf '#!/bin/sh\nexec %s -std=c11 -Wall -Wextra -Werror %s "$@"\n' "${CC:-cc}" \
+  local compiler=${CC:-cc} # by its path: the tool is called cc as well
+  compiler="$(command -v "${compiler%% *}") ${compiler#"${compiler%% *}"}"
+  printf '#!/bin/sh\nexec %s -std=c11 -Wall -Wextra -Werror %s "$@"\n' "$compiler" \
     "${MODE:-} ${CFLAGS:-} ${LDFLAGS:-}" >"$work/tools/cc"
   chmod +x "$work/tools/cc"
   cp "$here"/stand_ins/* "$work/tools/"
