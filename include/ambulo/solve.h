@@ -80,7 +80,7 @@ typedef enum ambulo_finisher {
 
 /* Progress of a solve, given to the callback after every iteration (without presolve, every
  * evaluation that improves), and at least every tenth of a second during set-up, audit and
- * explanation, where objective and violation are NAN. */
+ * explanation, where the objective or the violation may be NAN: nothing to tell. */
 typedef struct ambulo_progress {
   int iteration, evaluations;
   double objective, violation; /* violation: worst over all rows, relative to their size */
