@@ -2,7 +2,8 @@
  *
  *     model.h      the skeleton (immutable)
  *     mechanics.h  inverse dynamics of given motions, in batches
- *     problem.h    what to minimize, subject to what (immutable) + evaluation workspace
+ *     problem.h    what to minimize, subject to what (immutable)
+ *     evaluate.h   what a problem says of one point: values, gradients, the motion
  *     solve.h      the solver, the verdict and the audit
  *     ground.h     parts of a problem: the ground's force, feet in the air
  *     report.h     results on disk, comparison with people
@@ -25,6 +26,7 @@
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"
+#include "ambulo/evaluate.h"
 #include "ambulo/ground.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"

@@ -8,7 +8,7 @@
 #ifndef AMBULO_SOLVE_H
 #define AMBULO_SOLVE_H
 
-#include "ambulo/problem.h"
+#include "ambulo/evaluate.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -16,6 +16,7 @@
 #include "solver/audit.h"
 #include "solver/candidates.h"
 #include "solver/dense_audit.h"
+#include "solver/ending.h"
 #include "solver/explain.h"
 #include "solver/finisher.h"
 #include "solver/memory.h"
@@ -220,60 +221,12 @@ static void describe(const solve *s) {
                  run->evaluations, dropped, s->note);
 }
 
-/* every family that could not be satisfied, by how much it would have to give */
-static void name_families(const solve *s) {
-  const ambulo_result *r = s->result;
-  double tolerance = s->run.options->feasibility_tolerance;
-  if (r->verdict != AMBULO_INFEASIBLE) return;
-  for (int f = 0; f < r->families; f++) {
-    const ambulo_violation *v = &r->family[f];
-    if (!(ambulo__relative(v) > tolerance)) continue;
-    ambulo__warning(s->diagnostics, nowhere, NULL,
-                    "no point was found that satisfies %s: %s (%s) at t = %.6g s is off by %.3g %s",
-                    v->family, v->subject, v->detail, v->time, v->worst, v->unit);
-  }
-}
-
-/* A method that gave up where values or derivatives were not finite failed for that reason. */
-static void take_faults(solve *s) {
-  ambulo__run *run = &s->run;
-  int gave_up = run->ending == AMBULO_ENDING_STALLED || run->ending == AMBULO_ENDING_NO_DESCENT ||
-                run->ending == AMBULO_ENDING_NOT_RESTORED ||
-                run->ending == AMBULO_ENDING_BREAKDOWN || run->ending == AMBULO_ENDING_NLOPT;
-  if (gave_up && run->faults_lately) run->ending = AMBULO_ENDING_NOT_FINITE;
-}
-
-/* nothing that was not finite stays unsaid */
-static void report_faults(solve *s) {
-  ambulo_result *r = s->result;
-  char text[AMBULO__FAULT_TEXT];
-  if (r->verdict == AMBULO_NUMERIC_FAILURE && r->audit.fault.kind == AMBULO_FAULT_NONE)
-    r->audit.fault = s->run.fault;
-  if (r->audit.fault.kind != AMBULO_FAULT_NONE) {
-    ambulo_fault_text(&r->audit.fault, text, sizeof text);
-    ambulo__warning(s->diagnostics, nowhere, NULL, "%s", text);
-  } else if (s->run.faults > 0) {
-    ambulo_fault_text(&s->run.first_fault, text, sizeof text);
-    ambulo__note(s->diagnostics, nowhere, "%d of %d points were given up; at the first %s",
-                 s->run.faults, s->run.evaluations, text);
-  }
-}
-
-/* The method's own iteration limit is no answer where the least violation was found, and is not
- * zero: then no more iterations would have helped. */
-static void settle_verdict(const solve *s) {
-  ambulo_result *r = s->result;
-  const ambulo_explanation *e = ambulo_result_explanation(r);
-  if (r->verdict != AMBULO_LIMIT_REACHED || s->run.ending != AMBULO_ENDING_ITERATIONS || !e) return;
-  if (e->complete && !e->feasible_point) r->verdict = AMBULO_INFEASIBLE;
-}
-
 static ambulo_status judge(solve *s) {
   ambulo_result *r = s->result;
   s->run.stage = "audit";
   ambulo_status status = ambulo__audit(s->engine, s->run.options, r);
   if (status) return status;
-  take_faults(s);
+  ambulo__ending_of_faults(&s->run);
   r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
   return AMBULO_OK;
 }
@@ -327,13 +280,14 @@ static ambulo_status finish(solve *s) {
   if (status) return status;
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;
-  report_faults(s);
+  ambulo__report_faults(&s->run, r, s->diagnostics);
   describe(s);
   s->run.stage = "explanation";
   if (s->explains) status = ambulo__explain(s->engine, r);
   if (status) return status;
-  settle_verdict(s);
-  if (s->explains) name_families(s);
+  ambulo__settle_verdict(&s->run, r);
+  if (s->explains)
+    ambulo__report_families(r, s->run.options->feasibility_tolerance, s->diagnostics);
   ambulo__engine_free(s->engine);
   s->engine = NULL;
   r->timing.evaluate = s->run.seconds_evaluate;

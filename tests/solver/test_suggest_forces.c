@@ -1,0 +1,112 @@
+/* What is suggested where a force on the ground, its centre or its moment misses its bounds. */
+#include "support/suggest_cases.h"
+
+static const miss misses[] = {
+    {WALK,
+     {0},
+     "clearance",
+     "heel_r",
+     "to the left",
+     -0.01,
+     "inward of feet",
+     {"constraints.clearance.inward=0.0402"},
+     0},
+    {WALK,
+     {0},
+     "normal_force",
+     "ground",
+     "vertical",
+     -0.1,
+     "fall to 0.099 body weights instead of 0.2",
+     {"ground_reaction.minimum_force=0.099"},
+     0},
+    {WALK,
+     {0},
+     "normal_force",
+     "ground",
+     "vertical",
+     -0.3,
+     "have to pull with 0.1 body weights",
+     {0},
+     1},
+    {WALK,
+     {0},
+     "free_moment",
+     "ground",
+     "to the left",
+     -0.01,
+     "be up to 0.0302 body weights m",
+     {"ground_reaction.free_moment=0.0302"},
+     0},
+    {WALK,
+     {0},
+     "pressure",
+     "left",
+     "front",
+     -0.01,
+     "of left go 0.01 m further front",
+     {"ground_reaction.pressure={heel: [-0.02, 0.03], roll: 0.04, flat: [-0.005, 0.02], toe: [-0.02"
+      ", 0.0652], width: 0.035}"},
+     1},
+    {"models/yardstick_36.yaml",
+     {0},
+     "ground_penetration",
+     "heel_lateral_l",
+     "height",
+     0.01,
+     "above the ground",
+     {"constraints.contact_tolerance=0.0102"},
+     1},
+    {"models/yardstick_36.yaml",
+     {0},
+     "zmp",
+     "support",
+     "front",
+     -0.01,
+     "leaves the support by 0.01 m",
+     {0},
+     1},
+};
+enum { MISSES = sizeof misses / sizeof *misses };
+
+static void what_a_row_misses_can_be_set(void **state) {
+  (void)state;
+  try_misses(misses, MISSES);
+}
+
+static void without_a_file_there_are_no_settings(void **state) {
+  (void)state;
+  try_without_keys(misses, MISSES);
+}
+
+/* mu n - t and mu n + t of one node give n, t and the friction that holds */
+static void friction_is_what_the_pair_of_rows_asks_for(void **state) {
+  (void)state;
+  ambulo_problem *p = load(WALK, NULL, 0);
+  const miss m = {WALK, {0}, "friction", "total", "forward", 0.0, NULL, {0}, 1};
+  int row = find_row(p, &m, 7);
+  const double mu = p->definition.ground_reaction.friction, normal = 0.8, along = 0.52;
+  double *values = calloc((size_t)p->rows, sizeof *values);
+  int other = strcmp(p->table.rows[row + 1].subject, "total") == 0 &&
+                      strcmp(p->table.rows[row + 1].detail, "backward") == 0
+                  ? row + 1
+                  : row - 1;
+  assert_string_equal(p->table.rows[other].detail, "backward");
+  values[row] = mu * normal - along;
+  values[other] = mu * normal + along;
+  ambulo__explanation *out = calloc(1, sizeof *out);
+  ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
+  ambulo__suggest(p, &remedy, out);
+  assert_string_equal(out->setting[0], "ground_reaction.friction=0.6515");
+  assert_non_null(strstr(out->suggestion, "raise the friction from 0.5 to 0.6515"));
+  free(out);
+  free(values);
+  ambulo_problem_free(p);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_row_misses_can_be_set),
+                                     cmocka_unit_test(without_a_file_there_are_no_settings),
+                                     cmocka_unit_test(friction_is_what_the_pair_of_rows_asks_for)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
