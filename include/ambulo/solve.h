@@ -135,8 +135,8 @@ typedef struct ambulo_audit {
   ambulo_violation
       dense_violation; /* worst of all between the nodes, relative to its tolerance; family "":
                           there is none, or (worst NaN) nothing is known (ambulo_dense_audit) */
-  double kkt;          /* |projected gradient| / max(1e-12, |gradient|), infinity norms; infinite:
-                          unknown */
+  double kkt;          /* |projected gradient| / |gradient|, infinity norms, 0 where the gradient
+                          is zero; infinite: unknown */
   double complementarity; /* largest |multiplier * row| / max(1, |J|) */
   int active_rows, rank;  /* of the rows active at the point; -1: a limit left no time for it */
   int dropped_equalities; /* dependent on the others */
