@@ -75,65 +75,67 @@ static void null_leaves_out(void **state) {
   yaml_shut(&c);
 }
 
+static const struct {
+  const char *path, *value;
+  ambulo_status status;
+  const char *want;
+  int hinted;
+} faults[] = {
+    {"nothing.there", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path needs a key that is not there (got 'nothing')", 1},
+    {"tmie.duration", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path needs a key that is not there (got 'tmie')\n"
+     "  hint: did you mean 'time'?",
+     0},
+    {"time.duration.x", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
+    {"objective.x", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
+    {"objective[2]", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
+    {"time[0]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [0]; the value is no sequence",
+     0},
+    {"", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"time.", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {".time", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[-1]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[x]", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: no item is named 'x'; expected the name of one, or its number", 0},
+    {"time[x]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [x]; the value is no sequence",
+     0},
+    {"objective[0", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[0]weight", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed",
+     1},
+    {"objective[99999999999999999999]", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"time.intervals", "", AMBULO_E_PARSE,
+     ": error[E_PARSE]: got no value; expected YAML text such as 36, [1, 2] or off, or null "
+     "to leave the key out",
+     0},
+    {"time.intervls", "null", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path needs a key that is not there (got 'intervls')\n"
+     "  hint: did you mean 'intervals'?",
+     0},
+    {"objective[2]", "~", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
+    {"time.intervals", "*a", AMBULO_E_PARSE,
+     ":1:1: error[E_PARSE]: aliases ('*') are not allowed; expected a plain value", 0},
+    {"time.intervals", "{a: 1, a: 2}", AMBULO_E_SCHEMA,
+     ":1:8: error[E_SCHEMA]: duplicate key 'a'; the first one is in line 1", 0},
+    {"time.intervals", "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]",
+     AMBULO_E_LIMIT, ":1:31: error[E_LIMIT]: nested too deeply; expected at most 32 levels", 0}};
+
 static void faults_name_the_setting(void **state) {
   (void)state;
   static const char hint[] = "\n  hint: paths look like 'time.intervals' or 'objective[0].weight'";
-  static const struct {
-    const char *path, *value;
-    ambulo_status status;
-    const char *want;
-    int hinted;
-  } cases[] = {
-      {"nothing.there", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path needs a key that is not there (got 'nothing')", 1},
-      {"tmie.duration", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path needs a key that is not there (got 'tmie')\n"
-       "  hint: did you mean 'time'?",
-       0},
-      {"time.duration.x", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
-      {"objective.x", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
-      {"objective[2]", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
-      {"time[0]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [0]; the value is no sequence",
-       0},
-      {"", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"time.", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {".time", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"objective[]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"objective[-1]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"objective[x]", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: no item is named 'x'; expected the name of one, or its number", 0},
-      {"time[x]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [x]; the value is no sequence",
-       0},
-      {"objective[0", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"objective[0]weight", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed",
-       1},
-      {"objective[99999999999999999999]", "1", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path is not well-formed", 1},
-      {"time.intervals", "", AMBULO_E_PARSE,
-       ": error[E_PARSE]: got no value; expected YAML text such as 36, [1, 2] or off, or null "
-       "to leave the key out",
-       0},
-      {"time.intervls", "null", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: the path needs a key that is not there (got 'intervls')\n"
-       "  hint: did you mean 'intervals'?",
-       0},
-      {"objective[2]", "~", AMBULO_E_SCHEMA,
-       ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
-      {"time.intervals", "*a", AMBULO_E_PARSE,
-       ":1:1: error[E_PARSE]: aliases ('*') are not allowed; expected a plain value", 0},
-      {"time.intervals", "{a: 1, a: 2}", AMBULO_E_SCHEMA,
-       ":1:8: error[E_SCHEMA]: duplicate key 'a'; the first one is in line 1", 0},
-      {"time.intervals", "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]",
-       AMBULO_E_LIMIT, ":1:31: error[E_LIMIT]: nested too deeply; expected at most 32 levels", 0}};
-  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+  for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
     char want[512];
-    (void)snprintf(want, sizeof want, "--set %s%s%s", cases[i].path, cases[i].want,
-                   cases[i].hinted ? hint : "");
+    (void)snprintf(want, sizeof want, "--set %s%s%s", faults[i].path, faults[i].want,
+                   faults[i].hinted ? hint : "");
     yaml_case c = yaml_open(TEXT);
-    assert_int_equal(ambulo__yaml_set(c.document, cases[i].path, cases[i].value), cases[i].status);
+    assert_int_equal(ambulo__yaml_set(c.document, faults[i].path, faults[i].value),
+                     faults[i].status);
     expect_message(&c, 0, want);
     expect_messages(&c, 1);
     assert_int_equal(ambulo__yaml_integer(at(at(c.root, "time"), "intervals"), 1, 100, 0), 36);

@@ -68,7 +68,7 @@ static void expect_refused(built *b, double *number, double value, const char *n
   ambulo_diagnostics_free(list);
 }
 
-static void numbers_have_ranges(void **state) {
+static void what_is_built_is_legal(void **state) {
   (void)state;
   built b;
   build(&b);
@@ -77,6 +77,13 @@ static void numbers_have_ranges(void **state) {
   if (status) assert_message(list, 0, "nothing is wrong");
   assert_int_equal(status, AMBULO_OK);
   ambulo_diagnostics_free(list);
+  ambulo_model_free(b.model);
+}
+
+static void numbers_have_ranges(void **state) {
+  (void)state;
+  built b;
+  build(&b);
   ambulo_ground_reaction *r = &b.d.ground_reaction;
   ambulo_clearance *c = &b.d.clearance;
   const struct {
@@ -148,7 +155,8 @@ static void no_bound_is_a_bound(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_have_ranges),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_built_is_legal),
+                                     cmocka_unit_test(numbers_have_ranges),
                                      cmocka_unit_test(no_bound_is_a_bound)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
