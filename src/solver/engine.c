@@ -9,6 +9,7 @@
 #include <string.h>
 
 static const double adjoint_tolerance = 1e-4, retraction_tolerance = 1e-8;
+static const double retraction_share = 0.3; /* of a feasibility tolerance that is tighter */
 static const double usual_cap = 1.0; /* rad, m: unit of ambulo__engine_step_limit */
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
@@ -124,7 +125,8 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
   if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
   e->adjoint_tolerance = adjoint_tolerance;
-  e->retraction_tolerance = retraction_tolerance;
+  e->retraction_tolerance =
+      fmin(retraction_tolerance, retraction_share * e->run->options->feasibility_tolerance);
   e->negligible = negligible_objective(e);
   return AMBULO_OK;
 }
