@@ -265,7 +265,7 @@ static void settle_verdict(const solve *s) {
   ambulo_result *r = s->result;
   const ambulo_explanation *e = ambulo_result_explanation(r);
   if (r->verdict != AMBULO_LIMIT_REACHED || s->run.ending != AMBULO_ENDING_ITERATIONS || !e) return;
-  if (e->complete && !e->feasible_point) r->verdict = AMBULO_INFEASIBLE;
+  if (e->complete && !e->feasible_point && e->conflict_count > 0) r->verdict = AMBULO_INFEASIBLE;
 }
 
 static ambulo_status judge(solve *s) {
