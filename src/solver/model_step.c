@@ -142,8 +142,7 @@ int ambulo__model_step(ambulo__engine *e, double *predicted) {
       ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0))
     return not_finite(e);
   ambulo__engine_excess(e, e->linear);
-  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
-  ambulo__band_add_diagonal(&e->base, e->mu);
+  if (ambulo__engine_fill_metric(e, e->mu)) return 2;
   int settled = ambulo__model_minimize(e, predicted);
   int failed = settled < 0 || finish(e, settled == 1);
   e->run->seconds_linear += ambulo__seconds_now() - begin;
