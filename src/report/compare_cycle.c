@@ -79,6 +79,16 @@ static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int
   }
 }
 
+/* of one step, of which a mirrored motion.csv holds two */
+static void check_duration(const ambulo__cycle *c, const ambulo__yaml_node *node) {
+  if (!node) return;
+  double told = ambulo__yaml_number(node, 0.0), lasts = c->time[c->rows - 1] - c->time[0];
+  if (fabs(lasts - told) <= 1e-6 * lasts || fabs(lasts - 2.0 * told) <= 1e-6 * lasts) return;
+  ambulo__warning(c->diagnostics, ambulo__yaml_place(node),
+                  "summary.json and motion.csv of one result belong together",
+                  "a duration of %g s beside a motion of %g s", told, lasts);
+}
+
 static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
   ambulo__yaml *document = NULL;
   ambulo_status status =
@@ -90,6 +100,7 @@ static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
   if (word[0] && strcmp(word, "optimal") != 0 && strcmp(word, "feasible") != 0)
     ambulo__warning(c->diagnostics, ambulo__yaml_place(verdict), NULL,
                     "the result is no solution (verdict %s); its curves predict nothing", word);
+  check_duration(c, ambulo__yaml_get(root, "duration"));
   const ambulo__yaml_node *body = ambulo__yaml_get(root, "body");
   if (body) read_body(c, body);
   const ambulo__yaml_node *strikes = ambulo__yaml_get(root, "strikes");
@@ -116,6 +127,16 @@ static ambulo_status find_onset(ambulo__cycle *c, ambulo__cycle_side side, int h
   return AMBULO_OK;
 }
 
+/* the folder's own are of the motion beside it, the caller's within it */
+static ambulo_status check_strike(const ambulo__cycle *c, double strike, const char *file,
+                                  const char *hint) {
+  double first = c->time[0], last = c->time[c->rows - 1], slack = 1e-6 * (last - first);
+  ambulo__place place = {.file = file};
+  if (strike >= first - slack && strike <= last + slack) return AMBULO_OK;
+  return ambulo__error(c->diagnostics, AMBULO_E_SCHEMA, place, hint,
+                       "a strike at %g s; the motion lasts from %g to %g s", strike, first, last);
+}
+
 static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options *options,
                                   int have[2]) {
   double whole = c->time[c->rows - 1] - c->time[0];
@@ -123,7 +144,15 @@ static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options
   for (int side = 0; side < 2; side++) {
     if (c->length[side] == 0.0) c->length[side] = whole;
   }
+  for (int side = 0; side < 2; side++) {
+    ambulo_status status = have[side] ? check_strike(c, c->strike[side], c->summary_path,
+                                                     "summary.json and motion.csv of one result")
+                                      : AMBULO_OK;
+    if (status) return status;
+  }
   if (isfinite(options->strike)) {
+    ambulo_status status = check_strike(c, options->strike, c->motion_path, "--strike S");
+    if (status) return status;
     c->strike[first] = options->strike;
     c->strike[1 - first] = options->strike + 0.5 * c->length[first];
     return AMBULO_OK;
