@@ -123,8 +123,10 @@ int ambulo__model_minimize(ambulo__engine *e, double *phi) {
   memcpy(e->active, e->active_next, (size_t)e->inequalities * sizeof *e->active);
   memset(e->along, 0, (size_t)e->inequalities * sizeof *e->along);
   double start = penalty(e, 0.0), value = start;
-  for (int k = 0; k < MAX_NEWTON && settled == 0; k++)
+  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) {
+    (void)ambulo__run_poll(e->run); /* one step of a large problem takes seconds */
     settled = ambulo__run_late(e->run) ? -1 : newton(e, start, &value);
+  }
   *phi = value - start;
   return settled == 0 ? 2 : settled;
 }
