@@ -61,6 +61,21 @@ static int side_of(const ambulo__yaml_node *item) {
   return -1;
 }
 
+static int is_within(const ambulo__cycle *c, double time) {
+  double first = c->time[0], last = c->time[c->rows - 1], slack = 1e-6 * (last - first);
+  return time >= first - slack && time <= last + slack;
+}
+
+/* s; of the motion beside the summary */
+static double read_strike(const ambulo__cycle *c, const ambulo__yaml_node *node) {
+  double time = ambulo__yaml_number(node, c->time[0]);
+  if (!is_within(c, time))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "summary.json and motion.csv of one result",
+                             "a strike at %g s; the motion lasts from %g to %g s", time, c->time[0],
+                             c->time[c->rows - 1]);
+  return time;
+}
+
 /* first strike of each side, and the way to its next one; have[side] counts strikes */
 static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int have[2]) {
   double first[2] = {INFINITY, INFINITY}, second[2] = {INFINITY, INFINITY};
@@ -68,7 +83,9 @@ static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int
     const ambulo__yaml_node *item = ambulo__yaml_item(strikes, i);
     int side = side_of(item);
     if (side < 0) continue;
-    double time = ambulo__yaml_number(ambulo__yaml_get(item, "time"), 0.0);
+    const ambulo__yaml_node *when = ambulo__yaml_get(item, "time");
+    if (!when) (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "a strike without 'time'");
+    double time = when ? read_strike(c, when) : c->time[0];
     second[side] = fmin(second[side], fmax(time, first[side]));
     first[side] = fmin(first[side], time);
     have[side]++;
@@ -127,16 +144,6 @@ static ambulo_status find_onset(ambulo__cycle *c, ambulo__cycle_side side, int h
   return AMBULO_OK;
 }
 
-/* the folder's own are of the motion beside it, the caller's within it */
-static ambulo_status check_strike(const ambulo__cycle *c, double strike, const char *file,
-                                  const char *hint) {
-  double first = c->time[0], last = c->time[c->rows - 1], slack = 1e-6 * (last - first);
-  ambulo__place place = {.file = file};
-  if (strike >= first - slack && strike <= last + slack) return AMBULO_OK;
-  return ambulo__error(c->diagnostics, AMBULO_E_SCHEMA, place, hint,
-                       "a strike at %g s; the motion lasts from %g to %g s", strike, first, last);
-}
-
 static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options *options,
                                   int have[2]) {
   double whole = c->time[c->rows - 1] - c->time[0];
@@ -144,15 +151,12 @@ static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options
   for (int side = 0; side < 2; side++) {
     if (c->length[side] == 0.0) c->length[side] = whole;
   }
-  for (int side = 0; side < 2; side++) {
-    ambulo_status status = have[side] ? check_strike(c, c->strike[side], c->summary_path,
-                                                     "summary.json and motion.csv of one result")
-                                      : AMBULO_OK;
-    if (status) return status;
-  }
   if (isfinite(options->strike)) {
-    ambulo_status status = check_strike(c, options->strike, c->motion_path, "--strike S");
-    if (status) return status;
+    ambulo__place place = {.file = c->motion_path};
+    if (!is_within(c, options->strike))
+      return ambulo__error(c->diagnostics, AMBULO_E_SCHEMA, place, "--strike S",
+                           "a strike at %g s; the motion lasts from %g to %g s", options->strike,
+                           c->time[0], c->time[c->rows - 1]);
     c->strike[first] = options->strike;
     c->strike[1 - first] = options->strike + 0.5 * c->length[first];
     return AMBULO_OK;

@@ -90,6 +90,8 @@ static void another_motion_is_told(void **state) {
   }
   folder(state, "{\"strikes\": [{\"foot\": \"left\", \"time\": 4}], " GAIT_BODY "}");
   told(state, reference, NULL, AMBULO_E_SCHEMA, "a strike at 4 s");
+  folder(state, "{\"strikes\": [{\"foot\": \"left\"}], " GAIT_BODY "}");
+  told(state, reference, NULL, AMBULO_E_SCHEMA, "a strike without 'time'");
   folder(state, "{\"duration\": 1.2, " GAIT_STRIKES ", " GAIT_BODY "}");
   told(state, reference, NULL, AMBULO_OK, NULL);
   folder(state, "{\"duration\": 0.6, " GAIT_STRIKES ", " GAIT_BODY "}");
