@@ -53,8 +53,8 @@ static void polish_closes_what_is_left(void **state) {
   engine_close(&f);
 }
 
-/* Equalities hold to what is asked: at any tolerance the same walk, never a violation that "the rows
- * hold" leaves. */
+/* Equalities hold to what is asked: at any tolerance the same walk, never a violation that "the
+ * rows hold" leaves. */
 static void tight_tolerances_are_met(void **state) {
   (void)state;
   static const char *const tolerances[] = {"solver.feasibility_tolerance=1e-9",

@@ -114,7 +114,8 @@ static void linear_terms_at_every_scale(void **state) {
   ambulo_model_free(model);
 }
 
-/* largest where the joints accelerate most: no curvature of its own, no minimum inside the limits */
+/* largest where the joints accelerate most: no curvature of its own, no minimum inside the limits
+ */
 static double sloth(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
   const wide *w = user;
   double sum = 0.0;
