@@ -65,7 +65,9 @@ typedef struct job {
 
 static int show_progress(void *user, const ambulo_progress *p) {
   const job *j = user;
-  if (j->terminal && isnan(p->objective)) {
+  if (j->terminal && isnan(p->objective) && p->iteration > 0) {
+    /* within an iteration: its line stays */
+  } else if (j->terminal && isnan(p->objective)) {
     fprintf(stderr, "\r%s: %.1f s\033[K", p->stage, p->seconds);
     fflush(stderr);
   } else if (j->terminal) {

@@ -123,8 +123,10 @@ int ambulo__model_minimize(ambulo__engine *e, double *phi) {
   memcpy(e->active, e->active_next, (size_t)e->inequalities * sizeof *e->active);
   memset(e->along, 0, (size_t)e->inequalities * sizeof *e->along);
   double start = penalty(e, 0.0), value = start;
-  for (int k = 0; k < MAX_NEWTON && settled == 0; k++)
+  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) {
+    (void)ambulo__run_poll(e->run); /* one step of a large problem takes seconds */
     settled = ambulo__run_late(e->run) ? -1 : newton(e, start, &value);
+  }
   *phi = value - start;
   return settled == 0 ? 2 : settled;
 }
@@ -142,8 +144,7 @@ int ambulo__model_step(ambulo__engine *e, double *predicted) {
       ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0))
     return not_finite(e);
   ambulo__engine_excess(e, e->linear);
-  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
-  ambulo__band_add_diagonal(&e->base, e->mu);
+  if (ambulo__engine_fill_metric(e, e->mu)) return 2;
   int settled = ambulo__model_minimize(e, predicted);
   int failed = settled < 0 || finish(e, settled == 1);
   e->run->seconds_linear += ambulo__seconds_now() - begin;

@@ -80,6 +80,29 @@ static void a_valid_start_is_not_made_worse(void **state) {
   close_chosen(&s);
 }
 
+/* by however little, where its rows hold as well */
+static void a_start_that_is_hardly_better_wins(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  double *middle = &s.good[s.f.n / 2], best = s.better[s.f.n / 2], two[2];
+  for (int side = 0; side < 2; side++) {
+    *middle = best + (side ? 1e-5 : -1e-5);
+    assert_true(ambulo__violation_at(s.f.engine, s.good) < 1e-9);
+    two[side] = s.f.engine->workspace->objective;
+  }
+  *middle = best + (two[1] > two[0] ? 1e-5 : -1e-5);
+  ambulo__candidates_offer_start(&s.c, s.f.engine, s.better);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  assert_true(s.c.found.objective > s.c.start.objective);
+  assert_true(s.c.found.objective < s.c.start.objective * (1.0 + 1e-6));
+  s.c.found.violation = s.c.start.violation;
+  expect(&s, 1, s.better);
+  s.c.found.violation = 0.5 * s.c.start.violation; /* what better rows may cost */
+  expect(&s, s.c.start.violation == 0.0, s.c.start.violation == 0.0 ? s.better : s.good);
+  close_chosen(&s);
+}
+
 static void an_invalid_start_never_wins(void **state) {
   (void)state;
   chosen s;
@@ -151,6 +174,7 @@ static void lack_of_memory_is_said(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_valid_point_wins),
                                      cmocka_unit_test(a_valid_start_is_not_made_worse),
+                                     cmocka_unit_test(a_start_that_is_hardly_better_wins),
                                      cmocka_unit_test(an_invalid_start_never_wins),
                                      cmocka_unit_test(points_that_are_not_finite_are_no_candidates),
                                      cmocka_unit_test(audits_decide_between_two),

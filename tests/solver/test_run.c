@@ -44,9 +44,25 @@ static void caller_says_stop(void **state) {
   assert_int_equal(run.ending, AMBULO_ENDING_CALLER);
 }
 
+/* within an iteration, not only after it */
+static void caller_is_asked_while_evaluations_are_counted(void **state) {
+  (void)state;
+  ambulo_options options = ambulo_options_default();
+  ambulo__run run;
+  options.progress = stop_at_three;
+  ambulo__run_begin(&run, &options);
+  run.iterations = 3;
+  run.polled_at += 1e9;
+  assert_int_equal(ambulo__run_count(&run), 0);
+  run.polled_at -= 2e9;
+  assert_int_equal(ambulo__run_count(&run), 1);
+  assert_int_equal(run.ending, AMBULO_ENDING_CALLER);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(evaluations_run_out),
-                                     cmocka_unit_test(time_runs_out),
-                                     cmocka_unit_test(caller_says_stop)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(evaluations_run_out), cmocka_unit_test(time_runs_out),
+      cmocka_unit_test(caller_says_stop),
+      cmocka_unit_test(caller_is_asked_while_evaluations_are_counted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
