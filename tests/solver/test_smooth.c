@@ -219,6 +219,28 @@ static void the_filter_has_its_cut_off(void **state) {
   engine_close(&f);
 }
 
+/* unknowns that are rates may move by s sqrt(a / s) = 0.77 rad/s, values by 0.02 rad */
+static void rates_have_their_own_size(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open_with(&f, "two_link_reach", "trajectory={basis: hermite}");
+  double *smooth = calloc((size_t)f.n, sizeof *smooth);
+  const ambulo_problem *p = f.problem;
+  double time = p->definition.duration / ambulo__basis_intervals(p->basis);
+  int rates = 0;
+  assert_int_equal(ambulo__smooth_curve(f.engine, f.x, smooth), 0);
+  for (int j = 0; j < f.n; j++) {
+    int is_value = 1;
+    (void)ambulo__basis_abscissa(p->basis, j / p->coordinates, &is_value);
+    double size = is_value ? 0.02 : 0.02 * sqrt(30.0 / 0.02);
+    assert_close(f.engine->step[j], time / (size * size), 1e-12 * time / (size * size));
+    rates += !is_value;
+  }
+  assert_int_equal(rates, f.n / 2);
+  free(smooth);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(noise_is_smoothed_away),
                                      cmocka_unit_test(lines_over_the_index_are_no_conflict),
@@ -227,6 +249,7 @@ int main(void) {
                                      cmocka_unit_test(the_start_is_returned_at_least),
                                      cmocka_unit_test(the_solver_tries_its_own_start),
                                      cmocka_unit_test(optima_stay),
-                                     cmocka_unit_test(the_filter_has_its_cut_off)};
+                                     cmocka_unit_test(the_filter_has_its_cut_off),
+                                     cmocka_unit_test(rates_have_their_own_size)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
