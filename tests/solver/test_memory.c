@@ -3,6 +3,7 @@
 #include "base/free_memory.h"
 #include "nlp/memory.h"
 #include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
 #include "support/messages.h"
 
 #include <limits.h>
@@ -153,8 +154,24 @@ static void workspaces_are_predicted(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* who runs out of memory is told how much it takes */
+static void lack_of_memory_tells_the_figure(void **state) {
+  (void)state;
+  fail_alloc memory = fail_alloc_at(20);
+  ambulo_allocator allocator = fail_alloc_hook(&memory);
+  ambulo_problem *problem = load_problem("pendulum_swing");
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, &allocator, list, &result), AMBULO_E_MEMORY);
+  assert_message(list, 0, "cannot allocate memory to solve the problem; it takes about ");
+  assert_int_equal(memory.live, 0);
+  ambulo_diagnostics_free(list);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(predictions_hold),
+                                     cmocka_unit_test(lack_of_memory_tells_the_figure),
                                      cmocka_unit_test(a_solve_that_does_not_fit_is_refused),
                                      cmocka_unit_test(absurd_problems_are_refused),
                                      cmocka_unit_test(what_the_machine_has_is_the_limit),
