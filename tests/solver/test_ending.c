@@ -82,6 +82,7 @@ static void nlopt_has_its_own_words(void **state) {
   r = solve(problem, NULL);
   expect(r, AMBULO_ENDING_CONVERGED, "pipeline (inner steps: NLopt's AUGLAG with LBFGS)");
   assert_null(strstr(ambulo_result_ending(r), "its last call"));
+  assert_null(strstr(ambulo_result_ending(r), "contradict")); /* none do */
   ambulo_result_free(r);
   ambulo_problem_free(problem);
 }
