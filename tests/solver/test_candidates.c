@@ -171,7 +171,8 @@ static void lack_of_memory_is_said(void **state) {
   close_chosen(&s);
 }
 
-/* a start has to be better by a millionth, of either sign; without any point x stays */
+/* a start has to be better by a millionth of either sign than a point whose rows hold better, or at
+ * all where they hold no better; without any point x stays */
 static void ties_go_to_what_was_found(void **state) {
   (void)state;
   static const double cases[][3] = {
@@ -180,9 +181,12 @@ static void ties_go_to_what_was_found(void **state) {
     double start = 1.0, found = 2.0, x = 0.0;
     ambulo__candidates c = {.n = 1, .tolerance = 1e-6};
     c.start = (ambulo__candidate){.x = &start, .objective = cases[i][0]};
+    c.start.violation = 1e-8;
     c.found = (ambulo__candidate){.x = &found, .objective = cases[i][0] + cases[i][1]};
     assert_int_equal(ambulo__candidates_take(&c, &x), cases[i][2] > 0.0);
     assert_true(x == (cases[i][2] > 0.0 ? start : found));
+    c.found.violation = 1e-8;
+    assert_int_equal(ambulo__candidates_take(&c, &x), 1);
     c.start.violation = c.found.violation = HUGE_VAL;
     x = 3.0;
     assert_int_equal(ambulo__candidates_take(&c, &x), 0);
@@ -218,7 +222,7 @@ static void closer_rows_have_a_price(void **state) {
   open_chosen(&s);
   ambulo_options o = ambulo_options_default();
   o.feasibility_tolerance = 0.1; /* all of these pass */
-  o.optimality_tolerance = 1e3;
+  o.optimality_tolerance = 1.0;
   size_t n = (size_t)s.f.n;
   double change[2], optimum = 0.0;
   for (int k = 0; k < 3; k++) { /* objective by the first unknown, which is prescribed */

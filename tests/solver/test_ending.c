@@ -215,19 +215,22 @@ static void faults_are_reported(void **state) {
   ambulo_diagnostics_free(list);
 }
 
-/* an iteration limit is no answer where the least violation was found, and is not zero */
+/* an iteration limit is no answer where the least violation was found, and is more than tolerances
+ * allow */
 static void verdicts_are_settled_by_explanations(void **state) {
   (void)state;
-  for (int k = 0; k < 16; k++) {
+  for (int k = 0; k < 32; k++) {
     int complete = k & 1, feasible = (k >> 1) & 1, iterations = (k >> 2) & 1, said = (k >> 3) & 1;
+    int conflicts = (k >> 4) & 1;
     ambulo__explanation *e = calloc(1, sizeof *e);
     ambulo__run run = {.ending = iterations ? AMBULO_ENDING_ITERATIONS : AMBULO_ENDING_TIME};
     ambulo_result r = {.verdict = AMBULO_LIMIT_REACHED};
     e->view.complete = complete;
     e->view.feasible_point = feasible;
+    e->view.conflict_count = conflicts;
     if (said) r.explanation = e;
     ambulo__settle_verdict(&run, &r);
-    int changes = complete && !feasible && iterations && said;
+    int changes = complete && !feasible && iterations && said && conflicts > 0;
     assert_int_equal(r.verdict, changes ? AMBULO_INFEASIBLE : AMBULO_LIMIT_REACHED);
     free(e);
   }
