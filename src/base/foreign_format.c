@@ -192,7 +192,7 @@ static look line_of(look text, look *next) {
 
 /* the first line that is neither blank nor a comment */
 static look first_line(look text, look *next) {
-  look line = text;
+  look line;
   do {
     line = line_of(text, next);
     line = skip_blanks(line);
