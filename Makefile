@@ -288,6 +288,9 @@ lint-leftovers:
 MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' 2>/dev/null)
 TARGET = $(DESTDIR)$(PREFIX)
 
+# where the loader does not look by itself, programs are told where the library is
+RPATH = $(if $(filter /usr,$(PREFIX)),,-Wl,-rpath,$${libdir} )
+
 define PKG_CONFIG_FILE
 prefix=$(PREFIX)
 libdir=$${prefix}/lib
@@ -296,7 +299,7 @@ includedir=$${prefix}/include
 Name: ambulo
 Description: prediction of human motion by optimization
 Version: $(VERSION)
-Libs: -L$${libdir} -lambulo
+Libs: -L$${libdir} $(RPATH)-lambulo
 Libs.private: $(LIBS)
 Cflags: -I$${includedir}
 endef

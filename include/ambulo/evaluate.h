@@ -23,7 +23,7 @@ typedef enum ambulo_fault_kind {
 } ambulo_fault_kind;
 typedef struct ambulo_fault {
   ambulo_fault_kind kind;
-  int derivative;               /* 0: the value; 1: its derivative by `by` of `of` */
+  int derivative;               /* 0: the value; 1: its derivative by `by` of `of`; 2: the second */
   const char *name;             /* of the term, family of the row; "" for others */
   const char *subject, *detail; /* of the row; "" for others */
   const char *by; /* "q", "qd", "qdd", "tau", "wrench", "points", "reaction", "unknown" */

@@ -82,7 +82,7 @@ typedef struct ambulo_curve_score {
   double rmse;            /* in the unit */
   double r;               /* Pearson's; NaN for a constant curve */
   double within_2sd;      /* share of the points, 0 to 1; NaN: the reference has no deviation */
-  double peak, peak_time; /* largest value, and where: percent of the cycle */
+  double peak, peak_time; /* largest value where the reference is, and percent of the cycle */
   double reference_peak, reference_peak_time;
 } ambulo_curve_score;
 

@@ -80,7 +80,7 @@ typedef enum ambulo_finisher {
 
 /* Progress of a solve, given to the callback after every iteration (without presolve, every
  * evaluation that improves), and at least every tenth of a second during set-up, audit and
- * explanation, where objective and violation are NAN. */
+ * explanation, where the objective or the violation may be NAN: nothing to tell. */
 typedef struct ambulo_progress {
   int iteration, evaluations;
   double objective, violation; /* violation: worst over all rows, relative to their size */
@@ -100,8 +100,8 @@ typedef struct ambulo_options {
                               it takes to judge the last point may add a tenth of it */
   double maximum_memory;   /* bytes that a solve may be predicted to take; 0: what is free */
   double feasibility_tolerance; /* worst violation that counts as feasible, relative to the size of
-                                   its row (ambulo_violation.size); 1e-6 */
-  double optimality_tolerance;  /* relative KKT residual that counts as optimal; 1e-3 */
+                                   its row (ambulo_violation.size), 1e-14 to 1; 1e-6 */
+  double optimality_tolerance;  /* relative KKT residual that counts as optimal, 1e-14 to 1; 1e-3 */
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
   ambulo_finisher finisher;     /* with presolve */
@@ -133,10 +133,10 @@ typedef struct ambulo_violation {
 typedef struct ambulo_audit {
   ambulo_violation violation; /* worst of all, at the nodes */
   ambulo_violation
-      dense_violation; /* worst of all between the nodes, relative to its tolerance; family "":
-                          there is none, or (worst NaN) nothing is known (ambulo_dense_audit) */
-  double kkt;          /* |projected gradient| / max(1e-12, |gradient|), infinity norms; infinite:
-                          unknown */
+      dense_violation;    /* worst of all between the nodes, relative to its tolerance; family "":
+                             there is none, or (worst NaN) nothing is known (ambulo_dense_audit) */
+  double kkt;             /* |projected gradient| / |gradient|, infinity norms, 0 where the gradient
+                             is zero; infinite: unknown */
   double complementarity; /* largest |multiplier * row| / max(1, |J|) */
   int active_rows, rank;  /* of the rows active at the point; -1: a limit left no time for it */
   int dropped_equalities; /* dependent on the others */

@@ -2,9 +2,9 @@
  *
  * Every fallible function returns an ambulo_status and leaves its outputs
  * untouched on failure, but where its comment says otherwise. A NULL that its
- * comment does not allow is E_ARGUMENT; functions that return a plain value expect
- * an object. A status says whether the *call* was legal and could be carried out;
- * what a solver concluded is an ambulo_verdict (solve.h), and how good the point is
+ * comment does not allow is E_ARGUMENT, and so is an empty name of a file or folder; functions that
+ * return a plain value expect an object. A status says whether the *call* was legal and could be
+ * carried out; what a solver concluded is an ambulo_verdict (solve.h), and how good the point is
  * stands in the audit (solve.h).
  *
  * Messages for people are collected in an ambulo_diagnostics list that the

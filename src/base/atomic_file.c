@@ -93,6 +93,8 @@ ambulo_status ambulo__write_file(const char *path, const char *data, size_t leng
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo__place place = {.file = path};
   struct stat info;
+  ambulo_status status = ambulo__expect_path(path, "file to write", diagnostics);
+  if (status) return status;
   if (stat(path, &info) == 0) {
     if (S_ISDIR(info.st_mode)) {
       return ambulo__error(diagnostics, AMBULO_E_IO, place, NULL,

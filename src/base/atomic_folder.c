@@ -155,6 +155,8 @@ ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo__folder **folder) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_status status = ambulo__expect_path(path, "folder to write", diagnostics);
+  if (status) return status;
   ambulo__folder *f = ambulo__alloc(&own, 1, sizeof *f);
   if (!f) return ambulo__io_memory_error(diagnostics, path);
   f->allocator = own;
@@ -167,7 +169,7 @@ ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *
   /* "out/" and "out" are one place; the temporary must be a sibling, not a child */
   for (size_t n = strlen(f->path); n > 1 && f->path[n - 1] == '/'; n--) f->path[n - 1] = '\0';
   int occupied;
-  ambulo_status status = inspect_target(f, diagnostics, &occupied);
+  status = inspect_target(f, diagnostics, &occupied);
   if (status == AMBULO_OK) {
     f->parent = ambulo__parent_path(&own, f->path);
     status =

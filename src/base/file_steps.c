@@ -20,6 +20,14 @@ ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const cha
   return ambulo__error(diagnostics, AMBULO_E_MEMORY, place, NULL, "out of memory");
 }
 
+ambulo_status ambulo__expect_path(const char *path, const char *what,
+                                  ambulo_diagnostics *diagnostics) {
+  ambulo__place nowhere = {.file = NULL};
+  if (!path || path[0]) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                       "the name of the %s is empty; expected a path", what);
+}
+
 char *ambulo__sibling_name(const ambulo_allocator *allocator, const char *path, const char *kind,
                            int k) {
   size_t size = strlen(path) + strlen(kind) + 48;

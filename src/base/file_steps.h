@@ -12,6 +12,11 @@ ambulo_status ambulo__io_error(ambulo_diagnostics *diagnostics, const char *path
 /* E_MEMORY with a message about a file. */
 ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const char *path);
 
+/* E_ARGUMENT, with a message, for an empty name; `what` it is the name of: "file", "folder". NULL
+ * is for callers who may leave it out. */
+ambulo_status ambulo__expect_path(const char *path, const char *what,
+                                  ambulo_diagnostics *diagnostics);
+
 /* "<path>.<kind>-<pid>-<k>", where <kind> is "tmp" or "old"; free with ambulo__free. */
 char *ambulo__sibling_name(const ambulo_allocator *allocator, const char *path, const char *kind,
                            int k);

@@ -22,6 +22,15 @@ static ssize_t read_all(int file, char *buffer, size_t capacity) {
   return (ssize_t)length;
 }
 
+static const char *hint_about_folder(int folder) {
+  struct stat info;
+  if (fstatat(folder, "solution.yaml", &info, 0) == 0)
+    return "a result folder: its solution.yaml, or its motion.csv, may be meant";
+  if (fstatat(folder, "batch.json", &info, 0) == 0)
+    return "a batch folder: 'ambulo collect' takes it, and 'ambulo batch --status'";
+  return NULL;
+}
+
 /* *info of an open file that is a regular one */
 static ambulo_status inspect(int file, const char *path, ambulo_diagnostics *diagnostics,
                              struct stat *info) {
@@ -29,9 +38,7 @@ static ambulo_status inspect(int file, const char *path, ambulo_diagnostics *dia
   if (fstat(file, info) != 0) return ambulo__io_error(diagnostics, path, "inspect");
   if (S_ISREG(info->st_mode)) return AMBULO_OK;
   int folder = S_ISDIR(info->st_mode);
-  int result = folder && fstatat(file, "solution.yaml", info, 0) == 0;
-  return ambulo__error(diagnostics, AMBULO_E_IO, place,
-                       result ? "a result folder: name its solution.yaml or motion.csv" : NULL,
+  return ambulo__error(diagnostics, AMBULO_E_IO, place, folder ? hint_about_folder(file) : NULL,
                        "not a regular file%s", folder ? " (it is a folder)" : "");
 }
 
@@ -79,9 +86,11 @@ static int open_to_read(const char *path) {
 ambulo_status ambulo__read_file(const char *path, size_t limit, const ambulo_allocator *allocator,
                                 ambulo_diagnostics *diagnostics, char **text, size_t *length) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_status status = ambulo__expect_path(path, "file", diagnostics);
+  if (status) return status;
   int file = open_to_read(path);
   if (file < 0) return ambulo__io_error(diagnostics, path, "open");
-  ambulo_status status = read_open_file(file, path, limit, &own, diagnostics, text, length);
+  status = read_open_file(file, path, limit, &own, diagnostics, text, length);
   close(file);
   return status;
 }

@@ -7,8 +7,8 @@
 #include "base/sha256.h"
 
 /* *text: the bytes and a NUL, free with ambulo__free. Directories, FIFOs, sockets and
- * devices are refused without blocking. Errors: E_IO (with strerror), E_LIMIT (larger than
- * `limit` bytes), E_MEMORY. */
+ * devices are refused without blocking. Errors: E_ARGUMENT (an empty name), E_IO (with strerror),
+ * E_LIMIT (larger than `limit` bytes), E_MEMORY. */
 ambulo_status ambulo__read_file(const char *path, size_t limit, const ambulo_allocator *allocator,
                                 ambulo_diagnostics *diagnostics, char **text, size_t *length);
 

@@ -18,7 +18,8 @@ static const format formats[] = {
     {"model", "a skeleton model", "links", "a problem names its skeleton under 'model:'"},
     {"problem", "a problem", "objective", "ambulo solve, evaluate and check take it"},
     {"solution", "a solution", "control_points", "ambulo evaluate takes it, and solve --start"},
-    {"sweep", "a sweep", "axes", "ambulo batch takes it"},
+    {"sweep", "a sweep", "axes",
+     "ambulo batch takes it; its --dry-run checks it and lists the cases"},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
@@ -52,9 +53,28 @@ static void list_expected(char *buffer, const char *const *kinds, int count) {
   }
 }
 
+/* neither version nor kind, nor a key that tells: of some other program */
+static int is_strange(const ambulo__yaml_node *root) {
+  return !ambulo__yaml_find(root, "ambulo") && !ambulo__yaml_find(root, "kind") && !of_keys(root);
+}
+
+static void refuse_strange(const ambulo__yaml_node *root, const char *const *kinds, int count) {
+  char expected[MAX_TEXT], hint[MAX_TEXT];
+  list_expected(expected, kinds, count);
+  (void)snprintf(hint, sizeof hint, "such a file begins with 'ambulo: 1' and 'kind: %s'",
+                 kinds[count - 1]);
+  (void)ambulo__yaml_error(root, AMBULO_E_SCHEMA, hint,
+                           "no key 'ambulo' and no 'kind': this is no file of Ambulo; expected %s",
+                           expected);
+}
+
 int ambulo__yaml_file_kind(const ambulo__yaml_node *root, const char *const *kinds, int count) {
   const ambulo__yaml_node *node = ambulo__yaml_get(root, "kind");
   const format *found = NULL;
+  if (is_strange(root)) {
+    refuse_strange(root, kinds, count);
+    return -1;
+  }
   if (!node) {
     found = of_keys(root);
   } else if (node->kind == AMBULO__YAML_SCALAR) {

@@ -288,6 +288,13 @@ const char *ambulo__yaml_name(const ambulo__yaml_node *node) {
   return "";
 }
 
+const char *ambulo__yaml_file_name(const ambulo__yaml_node *node) {
+  if (!node) return "";
+  if (node->kind == AMBULO__YAML_SCALAR && node->text[0]) return node->text;
+  mismatch(node, NULL, "the name of a file");
+  return "";
+}
+
 int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values) {
   if (!node) return 0;
   if (node->kind != AMBULO__YAML_SEQUENCE || node->count != count) {

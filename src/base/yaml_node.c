@@ -1,6 +1,7 @@
 /* base/yaml_node.c - a document: its memory, loading, walking, places and messages. */
 #include "base/yaml_tree.h"
 
+#include "base/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
 
@@ -55,13 +56,14 @@ void ambulo__yaml_free(ambulo__yaml *document) {
 
 /* --------------------------------------------------------------------- loading */
 
-static ambulo_status check_root(const ambulo__yaml *document) {
+static ambulo_status check_root(const ambulo__yaml *document, size_t length) {
   static const char *const kinds[] = {"scalar", "sequence", "mapping"};
   const ambulo__yaml_node *root = document->root;
   ambulo__place place = {document->file, 1, 1, NULL};
   if (!root || (root->kind == AMBULO__YAML_SCALAR && !root->quoted && root->text[0] == '\0')) {
     return ambulo__error(document->diagnostics, AMBULO_E_PARSE, place, NULL,
-                         "got an empty document; expected a mapping at the top level");
+                         "%s; expected YAML: lines 'key: value'",
+                         length ? "nothing but blank lines and comments" : "the file is empty");
   }
   if (root->kind != AMBULO__YAML_MAPPING) {
     return ambulo__error(document->diagnostics, AMBULO_E_SCHEMA, ambulo__yaml_place(root),
@@ -86,9 +88,11 @@ static ambulo_status fill(ambulo__yaml *document, const char *text, size_t lengt
                            "cannot allocate memory for the document");
     }
   }
-  ambulo_status status =
-      ambulo__yaml_parse(document, text, length, document->file, 0, &document->root);
-  return status == AMBULO_OK ? check_root(document) : status;
+  ambulo_status status = ambulo__refuse_foreign(text, length, AMBULO__TAKES_YAML, document->file,
+                                                document->diagnostics);
+  if (status == AMBULO_OK)
+    status = ambulo__yaml_parse(document, text, length, document->file, 0, &document->root);
+  return status == AMBULO_OK ? check_root(document, length) : status;
 }
 
 ambulo_status ambulo__yaml_load_text(const char *text, size_t length, const char *name,

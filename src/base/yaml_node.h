@@ -106,6 +106,8 @@ int ambulo__yaml_file_kind(const ambulo__yaml_node *root, const char *const *kin
 /* A name: 1-64 characters of letters, digits, '_', '-', '.'. "", never NULL, with an error
  * otherwise; a NULL node gives "" silently. */
 const char *ambulo__yaml_name(const ambulo__yaml_node *node);
+/* The same for the name of a file: any text but an empty one. */
+const char *ambulo__yaml_file_name(const ambulo__yaml_node *node);
 /* A sequence of exactly `count` numbers into values[]; 1 on success. A NULL node
  * leaves values[] as they are and returns 0. */
 int ambulo__yaml_numbers(const ambulo__yaml_node *node, int count, double *values);

@@ -1,5 +1,6 @@
 /* batch/listing.c - reading a batch folder's own description (listing.h). */
 #include "batch/listing.h"
+#include "base/file_steps.h"
 #include "base/read_file.h"
 #include "base/seal.h"
 #include "base/yaml_node.h"
@@ -205,6 +206,8 @@ ambulo_status ambulo__listing_try(const char *directory, const ambulo_allocator 
 ambulo_status ambulo__listing_load(const char *directory, const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo__listing *listing) {
   int damaged;
+  ambulo_status status = ambulo__expect_path(directory, "batch folder", diagnostics);
+  if (status) return status;
   return ambulo__listing_try(directory, allocator, diagnostics, listing, &damaged);
 }
 

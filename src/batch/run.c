@@ -175,7 +175,7 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                ambulo_batch_progress *progress) {
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  if (!sweep || !directory || !directory[0]) return AMBULO_E_ARGUMENT;
+  if (!sweep || !directory) return AMBULO_E_ARGUMENT;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo__run run;
   memset(&run, 0, sizeof run);
@@ -192,7 +192,9 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
   run.workers = ambulo__worker_count(run.options.workers, run.case_megabytes);
   run.progress.worst_violation = -1.0;
   ambulo__lock lock = {-1, -1};
-  ambulo_status status = ambulo__batch_make_folders(directory, &own, diagnostics);
+  ambulo_status status = ambulo__expect_path(directory, "batch folder", diagnostics);
+  if (!status) status = ambulo__expect_path(run.options.program, "program", diagnostics);
+  if (!status) status = ambulo__batch_make_folders(directory, &own, diagnostics);
   if (!status)
     status = ambulo__lock_take(directory, run.options.shard, run.options.shards, &own, diagnostics,
                                &lock);

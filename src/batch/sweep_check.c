@@ -93,6 +93,9 @@ static ambulo_status stray_brace(ambulo_sweep *s, ambulo__spot spot, const char 
 }
 
 ambulo_status ambulo__sweep_check_name(ambulo_sweep *s, const char *pattern, ambulo__spot spot) {
+  if (!pattern[0])
+    return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, ambulo__spot_place(s, spot), NULL,
+                         "the name of a case is empty; expected a text");
   for (const char *c = pattern; *c; c++) {
     char word[AMBULO__SWEEP_TEXT], hint[HINT];
     if (*c == '}') return stray_brace(s, spot, c);
@@ -147,15 +150,27 @@ static int axis_of_message(const ambulo_sweep *s, const ambulo_diagnostic *messa
   return -1;
 }
 
+/* why a file that a value names cannot be read: what was said of it before */
+static void tell_causes(ambulo_sweep *s, const ambulo_diagnostics *list, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    const ambulo_diagnostic *m = ambulo_diagnostics_get(list, k);
+    ambulo__place place = {m->file, m->line, m->column, m->path};
+    if (m->severity == AMBULO_ERROR)
+      (void)ambulo__error(s->diagnostics, m->status, place, m->hint, "%s", m->message);
+  }
+}
+
 /* a message of the problem's reader, told at the key (it has no position in the value) or at the
  * value that it is about */
 static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
                           const ambulo_diagnostics *list) {
   const ambulo_diagnostic *message = NULL;
   int i = -1;
+  size_t causes = 0;
   for (size_t k = 0; k < ambulo_diagnostics_count(list) && i < 0; k++) {
     message = ambulo_diagnostics_get(list, k);
     i = message->severity == AMBULO_ERROR ? axis_of_message(s, message) : -1;
+    causes = k;
   }
   int value = i < 0 ? -1 : s->value[(size_t)index * (size_t)s->stride + (size_t)i];
   if (value < 0) {
@@ -164,6 +179,7 @@ static ambulo_status tell(ambulo_sweep *s, int index, ambulo_status status,
                          message ? message->hint : NULL, "case '%s': %s", s->cases[index].name,
                          message ? message->message : ambulo_status_text(status));
   }
+  tell_causes(s, list, causes);
   const ambulo__axis *axis = &s->axis[i];
   ambulo__spot spot = message->line > 0 ? axis->value[value].spot : axis->spot;
   return ambulo__error(s->diagnostics, status, ambulo__spot_place(s, spot), message->hint, "%s: %s",

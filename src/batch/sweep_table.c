@@ -1,4 +1,5 @@
 /* batch/sweep_table.c - axes from a CSV table: one column an axis, one row a case. */
+#include "base/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
 #include "batch/paths.h"
@@ -92,7 +93,7 @@ static ambulo_status read_lines(table *t, const char *text, size_t length) {
 }
 
 ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_node *node) {
-  const char *name = ambulo__yaml_text(node);
+  const char *name = ambulo__yaml_file_name(node);
   if (!name[0]) return AMBULO_E_SCHEMA;
   char *text = NULL;
   size_t length = 0;
@@ -100,8 +101,13 @@ ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_n
   if (!sweep->table) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__read_file(sweep->table, MOST_TABLE_BYTES, &sweep->allocator,
                                            sweep->diagnostics, &text, &length);
-  if (status)
+  if (!status)
+    status =
+        ambulo__refuse_foreign(text, length, AMBULO__TAKES_CSV, sweep->table, sweep->diagnostics);
+  if (status) {
+    ambulo__free(&sweep->allocator, text);
     return ambulo__yaml_error(node, status, NULL, "the table '%s' could not be read", sweep->table);
+  }
   table t = {sweep, &sweep->group[sweep->groups]};
   t.group->first = sweep->axes;
   status = read_lines(&t, text, length);

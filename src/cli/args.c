@@ -175,8 +175,27 @@ static int parse_option(parser *p) {
                                      option->value);
     value = p->argv[++p->next];
   }
+  if (value && !value[0])
+    return ambulo__cli_usage_error(p->command->name, NULL, "--%s is empty; expected %s",
+                                   option->name, option->value);
   p->options[p->given_count] = index;
   p->values[p->given_count++] = value;
+  return 0;
+}
+
+/* an empty one is what a variable of the shell that is not set leaves */
+static int check_arguments(const parser *p) {
+  const ambulo__cli_command *c = p->command;
+  for (int i = 0; i < p->argument_count; i++) {
+    if (!p->arguments[i][0])
+      return ambulo__cli_usage_error(c->name, NULL, "argument %d is empty; expected %s", i + 1,
+                                     c->arguments);
+  }
+  if (p->argument_count < c->minimum)
+    return ambulo__cli_usage_error(c->name, NULL, "missing argument; expected %s", c->arguments);
+  if (c->maximum >= 0 && p->argument_count > c->maximum)
+    return ambulo__cli_usage_error(c->name, NULL, "unexpected argument '%s'; expected %s",
+                                   p->arguments[c->maximum], c->arguments);
   return 0;
 }
 
@@ -196,13 +215,7 @@ static int parse(parser *p, int *help) {
       if (code) return code;
     }
   }
-  const ambulo__cli_command *c = p->command;
-  if (p->argument_count < c->minimum)
-    return ambulo__cli_usage_error(c->name, NULL, "missing argument; expected %s", c->arguments);
-  if (c->maximum >= 0 && p->argument_count > c->maximum)
-    return ambulo__cli_usage_error(c->name, NULL, "unexpected argument '%s'; expected %s",
-                                   p->arguments[c->maximum], c->arguments);
-  return 0;
+  return check_arguments(p);
 }
 
 int ambulo__cli_run(const ambulo__cli_command *command, int argc, char **argv) {

@@ -75,23 +75,15 @@ static int read_subject(const ambulo__cli_input *input, subject_text *s) {
 static ambulo_status load(const ambulo__cli_input *input, const char *file,
                           const subject_text *subject, ambulo_diagnostics *diagnostics,
                           ambulo__cli_body *body) {
-  ambulo_file_kind kind = AMBULO_FILE_MODEL;
-  const char **overrides = calloc((size_t)input->given_count + SUBJECT_KEYS + 1, sizeof *overrides);
-  if (!overrides) return AMBULO_E_MEMORY;
-  int count = ambulo__cli_values(input, "set", overrides);
-  ambulo_status status = ambulo_file_kind_of(file, NULL, diagnostics, &kind);
-  if (!status && kind == AMBULO_FILE_MODEL) {
-    status = ambulo_model_load_with(file, overrides, count, &subject->subject, NULL, diagnostics,
-                                    &body->loaded);
-    body->model = body->loaded;
-  } else if (!status) {
-    for (int i = 0; i < subject->count; i++) overrides[count++] = subject->overrides[i];
-    status = ambulo_problem_load(file, overrides, count, NULL, diagnostics, &body->problem);
-    if (!status) body->model = ambulo_problem_model(body->problem);
-    if (!status) body->ground_height = ambulo_problem_ground_height(body->problem);
-  }
-  free(overrides);
-  return status;
+  const char *overrides[SUBJECT_KEYS];
+  for (int i = 0; i < subject->count; i++) overrides[i] = subject->overrides[i];
+  ambulo__cli_changes changes = {subject->subject, overrides, subject->count};
+  ambulo_status status =
+      ambulo__cli_load(input, file, &changes, diagnostics, &body->loaded, &body->problem);
+  if (status) return status;
+  body->model = body->problem ? ambulo_problem_model(body->problem) : body->loaded;
+  if (body->problem) body->ground_height = ambulo_problem_ground_height(body->problem);
+  return AMBULO_OK;
 }
 
 /* slope and load on top of what the file says */

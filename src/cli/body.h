@@ -4,12 +4,11 @@
 #define AMBULO_CLI_BODY_H
 
 #include "ambulo/ambulo.h"
-#include "cli/args.h"
+#include "cli/load.h"
 
 /* Options that ambulo__cli_body_load reads, for a command's table. */
 #define AMBULO__CLI_BODY_OPTIONS                                                                   \
-  {"set", 0, "path=value", "replace a value of the model or problem file; may be repeated"},       \
-      {"mass", 0, "KG", "body mass of the subject"},                                               \
+  AMBULO__CLI_SET_OPTION, {"mass", 0, "KG", "body mass of the subject"},                           \
       {"stature", 0, "M", "stature of the subject"},                                               \
       {"sex", 0, "female|male", "sex of the subject"},                                             \
       {"slope", 0, "DEG", "the ground rises so much along forward"}, {                             \

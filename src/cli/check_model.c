@@ -126,11 +126,8 @@ static ambulo_status check(tables *t) {
   return status;
 }
 
-ambulo_status ambulo__cli_check_model(const char *file, ambulo_diagnostics *diagnostics,
-                                      double tolerance, int *wrong) {
-  ambulo_model *model = NULL;
-  ambulo_status status = ambulo_model_load(file, NULL, NULL, diagnostics, &model);
-  if (status) return status;
+ambulo_status ambulo__cli_check_model(const char *file, const ambulo_model *model, double tolerance,
+                                      int *wrong) {
   tables t;
   memset(&t, 0, sizeof t);
   t.model = model;
@@ -141,9 +138,8 @@ ambulo_status ambulo__cli_check_model(const char *file, ambulo_diagnostics *diag
   int links = ambulo_model_link_count(model);
   printf("%s: model '%s', %d link%s, %d coordinate%s, %.3f kg\n", file, ambulo_model_name(model),
          links, links == 1 ? "" : "s", t.d, t.d == 1 ? "" : "s", ambulo_model_mass(model));
-  status = allocate(&t) ? AMBULO_E_MEMORY : check(&t);
+  ambulo_status status = allocate(&t) ? AMBULO_E_MEMORY : check(&t);
   if (!status) *wrong += print_table(&t, tolerance);
   release(&t);
-  ambulo_model_free(model);
   return status;
 }

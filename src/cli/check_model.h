@@ -4,9 +4,9 @@
 
 #include "ambulo/ambulo.h"
 
-/* Loads the model, prints one line a Jacobian, adds to *wrong those that are off by more than
- * `tolerance`. */
-ambulo_status ambulo__cli_check_model(const char *file, ambulo_diagnostics *diagnostics,
-                                      double tolerance, int *wrong);
+/* Prints one line a Jacobian, adds to *wrong those that are off by more than `tolerance`. `file`:
+ * what the model was read from. */
+ambulo_status ambulo__cli_check_model(const char *file, const ambulo_model *model, double tolerance,
+                                      int *wrong);
 
 #endif

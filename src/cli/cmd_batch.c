@@ -159,7 +159,7 @@ static int run(const ambulo__cli_input *input) {
   const char *directory = ambulo__cli_value(input, "output");
   if (input->argument_count == 0)
     return ambulo__cli_usage_error("batch", NULL, "missing argument; expected SWEEP.yaml");
-  if (!dry && (!directory || !directory[0]))
+  if (!dry && !directory)
     return ambulo__cli_usage_error("batch", NULL, "no folder given; expected -o DIR");
   ambulo_batch_options o;
   if (!read_options(input, &o)) return 2;

@@ -9,6 +9,7 @@
 
 #include "cli/check_model.h"
 #include "cli/commands.h"
+#include "cli/load.h"
 #include "cli/output.h"
 
 enum { MOST_FAMILIES = 64 };
@@ -72,31 +73,29 @@ static ambulo_status check_rank(const ambulo_problem *problem, ambulo_diagnostic
   return status;
 }
 
-static ambulo_status check_problem(const char *file, ambulo_diagnostics *diagnostics, int *wrong) {
-  ambulo_problem *problem = NULL;
-  ambulo_status status = ambulo_problem_load(file, NULL, 0, NULL, diagnostics, &problem);
-  if (status) return status;
+static ambulo_status check_problem(const char *file, const ambulo_problem *problem,
+                                   ambulo_diagnostics *diagnostics, int *wrong) {
   printf("%s: problem '%s', %d unknowns, %d rows%s\n", file,
          ambulo_problem_name(problem) ? ambulo_problem_name(problem) : "",
          ambulo_problem_variable_count(problem), ambulo_problem_row_count(problem),
          ambulo_problem_contact_count(problem) ? "; every foothold is within reach" : "");
-  status = check_gradients(problem, wrong);
-  if (!status) status = check_rank(problem, diagnostics);
-  ambulo_problem_free(problem);
-  return status;
+  ambulo_status status = check_gradients(problem, wrong);
+  return status ? status : check_rank(problem, diagnostics);
 }
 
-static int check_file(const char *file) {
+static int check_file(const ambulo__cli_input *input, const char *file) {
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  ambulo_file_kind kind;
+  ambulo_model *model = NULL;
+  ambulo_problem *problem = NULL;
   int wrong = 0;
-  ambulo_status status = ambulo_file_kind_of(file, NULL, diagnostics, &kind);
-  if (!status && kind == AMBULO_FILE_PROBLEM) {
-    status = check_problem(file, diagnostics, &wrong);
-  } else if (!status) {
-    status = ambulo__cli_check_model(file, diagnostics, tolerance, &wrong);
-  }
+  ambulo_status status = ambulo__cli_load(input, file, NULL, diagnostics, &model, &problem);
+  if (!status && problem) status = check_problem(file, problem, diagnostics, &wrong);
+  if (!status && model) status = ambulo__cli_check_model(file, model, tolerance, &wrong);
   int code = ambulo__cli_diagnostics(diagnostics, status, file);
+  if (code && input->argument_count > 1 && ambulo__cli_flag(input, "set"))
+    ambulo__cli_error(ambulo_status_name(status), NULL, "%s: not valid with these settings", file);
+  ambulo_model_free(model);
+  ambulo_problem_free(problem);
   ambulo_diagnostics_free(diagnostics);
   if (!code && wrong) {
     ambulo__cli_error("E_NUMERIC", NULL, "%s: %d gradients disagree with central differences", file,
@@ -110,11 +109,15 @@ static int check_file(const char *file) {
 static int run(const ambulo__cli_input *input) {
   int worst = 0;
   for (int i = 0; i < input->argument_count; i++) {
-    int code = check_file(input->arguments[i]);
+    int code = check_file(input, input->arguments[i]);
     if (code > worst) worst = code;
   }
   return worst;
 }
+
+static const ambulo__cli_option options[] = {
+    AMBULO__CLI_SET_OPTION,
+};
 
 const ambulo__cli_command ambulo__cli_check = {
     .name = "check",
@@ -123,8 +126,13 @@ const ambulo__cli_command ambulo__cli_check = {
     .description =
         "Reads each file with every check a solve would make, then compares the hand-derived\n"
         "gradients with central differences: one line a family, with the worst row, unknown and\n"
-        "time. Exit code 1 if one differs by more than 1e-7 of its size, 3 if a file is invalid.",
-    .example = "ambulo check models/lower_body_18.yaml models/yardstick_12.yaml",
+        "time. --set changes every file that is named. Exit code 1 if a gradient differs by more "
+        "than\n"
+        "1e-7 of its size, 3 if a file is invalid.",
+    .example = "ambulo check models/lower_body_18.yaml models/yardstick_12.yaml\n"
+               "ambulo check models/yardstick_12.yaml --set time.intervals=24",
+    .options = options,
+    .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
     .maximum = -1,
     .run = run,

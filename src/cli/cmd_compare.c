@@ -109,7 +109,7 @@ const ambulo__cli_command ambulo__cli_compare = {
         "Per curve: root mean square error, Pearson's r, share of the cycle within two standard\n"
         "deviations, peak and its time in percent of the cycle from heel strike to heel strike;\n"
         "then the landmarks that gait tables quote. Layouts and conventions: docs/compare.md.",
-    .example = "ambulo compare walk normal_walking.csv",
+    .example = "ambulo compare walk adults.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 2,

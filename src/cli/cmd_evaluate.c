@@ -84,7 +84,7 @@ const ambulo__cli_command ambulo__cli_evaluate = {
     .description =
         "Recomputes everything from the control points in SOLUTION.yaml ('zero': all zero) and\n"
         "judges the point as if a solver had returned it. Exit code 0 whatever the verdict.",
-    .example = "ambulo evaluate models/yardstick_36.yaml walk/solution.yaml --json",
+    .example = "ambulo evaluate models/walk_normal.yaml walk/solution.yaml --json",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 2,

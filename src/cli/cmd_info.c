@@ -1,10 +1,10 @@
 /* cli/cmd_info.c - ambulo info: what was understood of a model or a problem, as tables. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/load.h"
 #include "cli/output.h"
 
 static const double degrees = 57.295779513082321;
@@ -200,35 +200,20 @@ static void print_problem(const ambulo_problem *problem) {
 static int run(const ambulo__cli_input *input) {
   const char *file = input->arguments[0];
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
-  const char **overrides = calloc((size_t)input->given_count + 1, sizeof *overrides);
   ambulo_model *model = NULL;
   ambulo_problem *problem = NULL;
-  ambulo_file_kind kind = AMBULO_FILE_MODEL;
-  int misused = 0;
-  ambulo_status status =
-      overrides ? ambulo_file_kind_of(file, NULL, diagnostics, &kind) : AMBULO_E_MEMORY;
-  if (!status && kind == AMBULO_FILE_MODEL && ambulo__cli_flag(input, "set")) {
-    misused =
-        ambulo__cli_usage_error("info", "the 'subject' of a problem scales its model",
-                                "--set replaces values of problem files; '%s' is a model", file);
-  } else if (!status && kind == AMBULO_FILE_MODEL) {
-    status = ambulo_model_load(file, NULL, NULL, diagnostics, &model);
-    if (!status) print_model(model);
-  } else if (!status) {
-    int count = ambulo__cli_values(input, "set", overrides);
-    status = ambulo_problem_load(file, overrides, count, NULL, diagnostics, &problem);
-    if (!status) print_problem(problem);
-  }
-  int code = misused ? misused : ambulo__cli_diagnostics(diagnostics, status, file);
+  ambulo_status status = ambulo__cli_load(input, file, NULL, diagnostics, &model, &problem);
+  if (!status && problem) print_problem(problem);
+  if (!status && model) print_model(model);
+  int code = ambulo__cli_diagnostics(diagnostics, status, file);
   ambulo_model_free(model);
   ambulo_problem_free(problem);
   ambulo_diagnostics_free(diagnostics);
-  free(overrides);
   return code;
 }
 
 static const ambulo__cli_option options[] = {
-    {"set", 0, "path=value", "replace a value of a problem file; may be repeated"},
+    AMBULO__CLI_SET_OPTION,
 };
 
 const ambulo__cli_command ambulo__cli_info = {
@@ -239,7 +224,8 @@ const ambulo__cli_command ambulo__cli_info = {
         "Prints links, masses, coordinates with their limits, points and feet of a model; for a\n"
         "problem also the unknowns, rows by family, objective terms and the contact schedule with\n"
         "its footholds.",
-    .example = "ambulo info models/yardstick_36.yaml",
+    .example = "ambulo info models/lower_body_18.yaml\n"
+               "ambulo info models/yardstick_36.yaml",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,

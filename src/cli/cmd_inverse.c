@@ -76,8 +76,6 @@ static ambulo_status be_strict(const ambulo_inverse_options *o, const ambulo_dia
 static int run(const ambulo__cli_input *input) {
   const char *output = ambulo__cli_value(input, "output"), *motion = input->arguments[1];
   ambulo_inverse_options options = ambulo_inverse_options_default();
-  if (output && !output[0])
-    return ambulo__cli_usage_error("inverse", NULL, "--output is empty; expected a file name");
   if (!read_options(input, &options)) return 2;
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo__cli_body body = {.model = NULL};

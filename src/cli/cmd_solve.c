@@ -65,7 +65,9 @@ typedef struct job {
 
 static int show_progress(void *user, const ambulo_progress *p) {
   const job *j = user;
-  if (j->terminal && isnan(p->objective)) {
+  if (j->terminal && isnan(p->objective) && p->iteration > 0) {
+    /* within an iteration: its line stays */
+  } else if (j->terminal && isnan(p->objective)) {
     fprintf(stderr, "\r%s: %.1f s\033[K", p->stage, p->seconds);
     fflush(stderr);
   } else if (j->terminal) {
@@ -96,8 +98,6 @@ static char *default_directory(const char *problem) {
 static int read_options(job *j) {
   const ambulo__cli_input *input = j->input;
   const char *directory = ambulo__cli_value(input, "output");
-  if (directory && !directory[0])
-    return ambulo__cli_usage_error("solve", NULL, "--output is empty; expected a folder name");
   j->report = ambulo_report_options_default();
   j->report.overwrite = ambulo__cli_flag(input, "force");
   j->time_limit = -1.0;
@@ -221,8 +221,9 @@ const ambulo__cli_command ambulo__cli_solve = {
         "gait.svg into a new folder, all or nothing. The verdict comes from an audit of the\n"
         "point, not from the solver. Exit code 0: feasible or optimal; 1: the result was written\n"
         "but is not a solution, and says so.",
-    .example = "ambulo solve models/yardstick_36.yaml -o walk --time-limit 60\n"
-               "ambulo solve models/yardstick_72.yaml --start walk/solution.yaml",
+    .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
+               "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
+               "--start walk/solution.yaml -o finer",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,

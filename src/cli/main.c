@@ -6,6 +6,7 @@
 #include "cli/blas.h"
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 #include "cli/worker.h"
 
 static const ambulo__cli_command *const commands[] = {
@@ -19,7 +20,8 @@ static void print_overview(void) {
   printf("usage: ambulo COMMAND ARGUMENTS [options]\n\ncommands:\n");
   for (int i = 0; i < COMMAND_COUNT; i++)
     printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
-  printf("\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts.\n");
+  printf("\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts;\n"
+         "'ambulo --models' names the folder of the shipped models and problems.\n");
   printf("exit codes: 0 solved; 1 ended without a valid solution; 2 usage; 3 invalid input;\n"
          "            4 input/output; 5 memory or size limit; 6 internal error;\n"
          "            130/143 interrupted (the best point is saved)\n");
@@ -32,6 +34,17 @@ static void print_version(void) {
   printf("ambulo %s\n", versions.ambulo);
   printf("NLopt %s, libyaml %s, %s, instruction set %s\n", versions.nlopt, versions.libyaml,
          versions.blas, versions.instruction_set);
+}
+
+static int print_models(void) {
+  char folder[4096];
+  if (ambulo__cli_shipped_folder(folder, sizeof folder)) {
+    puts(folder);
+    return 0;
+  }
+  ambulo__cli_error("E_IO", "'make install' puts them beside it, in share/ambulo/models",
+                    "the shipped models are not where the program is");
+  return ambulo_status_exit_code(AMBULO_E_IO);
 }
 
 static int unknown_command(const char *word) {
@@ -64,6 +77,7 @@ static int dispatch(int argc, char **argv) {
     print_version();
     return 0;
   }
+  if (!strcmp(word, "--models")) return print_models();
   for (int i = 0; i < COMMAND_COUNT; i++) {
     if (strcmp(word, commands[i]->name) != 0) continue;
     return ambulo__cli_blas_fits() ? ambulo__cli_run(commands[i], argc, argv)

@@ -10,6 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/shipped.h"
+
 void ambulo__cli_format(char *buffer, size_t size, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -89,6 +91,7 @@ int ambulo__cli_diagnostics_but(const ambulo_diagnostics *diagnostics, ambulo_st
   if (status && errors == 0)
     ambulo__cli_error(ambulo_status_name(status), NULL, "%s: %s", subject,
                       ambulo_status_text(status));
+  if (status == AMBULO_E_IO) ambulo__cli_shipped_hint(subject);
   return ambulo_status_exit_code(status);
 }
 

@@ -190,6 +190,11 @@ static int find_mechanics(ambulo_workspace *workspace) {
   return 1;
 }
 
+void ambulo__fault_of_curvature(ambulo_workspace *workspace, double value) {
+  workspace->fault = fault_at(workspace->problem, AMBULO_FAULT_SUM, -1, value);
+  workspace->fault.derivative = 2;
+}
+
 /* finite parts, but a sum that is not */
 static void take_sum(ambulo_workspace *workspace, const double *gradient) {
   const ambulo_problem *p = workspace->problem;
@@ -263,7 +268,8 @@ static void owner_text(const ambulo_fault *f, char *text, size_t size) {
     (void)snprintf(text, size, "an unknown of %s", f->of);
     break;
   case AMBULO_FAULT_SUM:
-    (void)snprintf(text, size, "the objective with its rows");
+    (void)snprintf(text, size,
+                   f->derivative == 2 ? "the objective" : "the objective with its rows");
     break;
   case AMBULO_FAULT_NONE:
     break;
@@ -276,13 +282,16 @@ void ambulo_fault_text(const ambulo_fault *f, char *buffer, size_t size) {
     if (size) (void)snprintf(buffer, size, "every value and derivative is finite");
     return;
   }
+  const char *what = f->derivative == 0   ? "value"
+                     : f->derivative == 1 ? "derivative"
+                                          : "second derivative";
   owner_text(f, owner, sizeof owner);
-  if (f->derivative) (void)snprintf(by, sizeof by, " by %s of %s", f->by, f->of);
+  if (f->derivative == 1) (void)snprintf(by, sizeof by, " by %s of %s", f->by, f->of);
   if (f->node >= 0) {
     (void)snprintf(place, sizeof place, " at node %d (t = %.6g s)", f->node, f->time);
   } else if (f->kind == AMBULO_FAULT_ROW) {
     (void)snprintf(place, sizeof place, " at t = %.6g s", f->time);
   }
-  (void)snprintf(buffer, size, "the %s of %s%s%s is %s", f->derivative ? "derivative" : "value",
-                 owner, by, place, isnan(f->value) ? "not a number" : "infinite");
+  (void)snprintf(buffer, size, "the %s of %s%s%s is %s", what, owner, by, place,
+                 isnan(f->value) ? "not a number" : "infinite");
 }

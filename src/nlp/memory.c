@@ -5,6 +5,7 @@
  *
  *     values      8 B a channel and node, twice (channels and their adjoints)
  *     Jacobians   8 B (E + 2 D) a node, and 3 x 48 d B with ground reaction
+ *     scratch     of inverse dynamics in one block of nodes, once
  *     a row       its table (names, time, terms), its place in the runs, its value
  */
 #include "nlp/memory.h"
@@ -21,6 +22,7 @@ double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   double lanes = 8.0 * p->blocks, word = sizeof(double);
   double bytes = 2.0 * lanes * word * ambulo__channel_count(&p->channels);
   bytes += word * (2.0 * p->variables + 1.5 * p->rows);
+  bytes += word * (double)ambulo__plan_scratch(p->plan);
   if (!with_jacobians) return bytes;
   bytes += lanes * word * (pattern.count + 2.0 * pattern.dynamic_count);
   return bytes + 3.0 * word * p->nodes * ambulo__wrench_entries(p);

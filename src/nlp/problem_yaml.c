@@ -107,7 +107,7 @@ static ambulo_subject read_subject(const ambulo__yaml_node *root) {
 static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   ambulo_subject subject = read_subject(root);
   const ambulo__yaml_node *node = ambulo__yaml_require(root, "model");
-  const char *name = ambulo__yaml_text(node);
+  const char *name = ambulo__yaml_file_name(node);
   if (!name[0]) return;
   const char *path = ambulo__reader_path(reader, name);
   if (!path) return;

@@ -122,7 +122,7 @@ const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
 const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, int samples,
                                           double *scale) {
-  const char *name = ambulo__yaml_text(node);
+  const char *name = ambulo__yaml_file_name(node);
   const char *path = name[0] ? ambulo__reader_path(reader, name) : NULL;
   if (!path) return NULL;
   ambulo__motion *motion = NULL;

@@ -14,6 +14,7 @@
 #include "gait/neutral_pose.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum { MOST_CONTACTS = 5000 };
 
@@ -91,9 +92,11 @@ static double neutral_width(const ambulo_model *model) {
 
 static void check_agreement(const ambulo__yaml_node *node, const char *what, double step_time,
                             double other) {
-  if (!node || fabs(step_time - other) <= 1e-9 * fabs(other)) return;
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM,
-                           "expected one of them: '--set gait.speed=null' leaves one out",
+  char hint[96];
+  if (!node || !(fabs(step_time - other) > 1e-9 * fabs(other))) return; /* NaN: refused before */
+  (void)snprintf(hint, sizeof hint, "expected one of them: '--set gait.%s=null' leaves one out",
+                 what);
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, hint,
                            "'%s' makes a step last %.9g s; expected %.9g s, from the other keys",
                            what, step_time, other);
 }
@@ -102,8 +105,8 @@ static double read_step_time(const ambulo__problem_reader *reader, const ambulo_
                              const ambulo_gait *gait) {
   const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
   const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
-  double by_time = ambulo__yaml_number_in(time, 1e-3, 1e3, 1.0);
-  double velocity = ambulo__yaml_number_in(speed, 1e-3, 100.0, 1.0);
+  double by_time = ambulo__yaml_number_in(time, 1e-3, 1e3, NAN);
+  double velocity = ambulo__yaml_number_in(speed, 1e-3, 100.0, NAN);
   double by_speed = ambulo__gait_place(gait, gait->steps) / (velocity * (double)gait->steps);
   double by_duration = reader->definition.duration / (double)gait->steps;
   if (reader->has_duration) {

@@ -1,5 +1,6 @@
 /* report/compare.c - ambulo_compare(): a result folder against normative curves. */
 #include "report/compare_cycle.h"
+#include "report/compare_doubt.h"
 #include "report/compare_score.h"
 #include "report/json_text.h"
 
@@ -100,30 +101,19 @@ static ambulo_status sample_fine(comparing *c, const ambulo__map_entry *entry, d
   return sample(c, entry, c->percents, AMBULO__FINE, fine, found);
 }
 
-/* whether a comma-separated list names the curve; no list names all */
-static int is_listed(const char *list, const char *curve) {
-  size_t length = strlen(curve);
-  if (!list) return 1;
-  for (const char *at = list; at;) {
-    const char *comma = strchr(at, ',');
-    size_t size = comma ? (size_t)(comma - at) : strlen(at);
-    if (size == length && memcmp(at, curve, length) == 0) return 1;
-    at = comma ? comma + 1 : NULL;
-  }
-  return 0;
-}
-
 static ambulo_status score_all(comparing *c, const char *reference) {
   ambulo_comparison *result = c->result;
   double fine[AMBULO__FINE];
+  int doubted = 0; /* once is enough */
   for (int i = 0; i < c->reference.count; i++) {
     const ambulo__reference_curve *curve = &c->reference.curves[i];
     int found = 0;
-    if (!is_listed(c->options->curves, curve->entry->curve)) continue;
+    if (!ambulo__curve_is_listed(c->options->curves, curve->entry->curve)) continue;
     ambulo_status status = sample(c, curve->entry, curve->percent, curve->points, c->left, &found);
     if (!status && found) status = sample_fine(c, curve->entry, fine, &found);
     if (status) return status;
     if (!found) continue;
+    doubted = doubted || ambulo__curve_doubt(curve, fine, reference, c->diagnostics);
     ambulo_curve_score *score = &result->scores[result->score_count];
     memcpy(result->names[result->score_count], curve->entry->curve, sizeof(curve_name));
     score->name = result->names[result->score_count++];
@@ -132,12 +122,12 @@ static ambulo_status score_all(comparing *c, const char *reference) {
   }
   ambulo__place place = {.file = c->cycle.motion_path};
   if (result->score_count > 0) return AMBULO_OK;
-  return ambulo__error(c->diagnostics, AMBULO_E_SCHEMA, place,
-                       "moments and forces need the body mass: summary.json, or --mass",
-                       "no curve of '%s' can be made from these columns; the first would be '%s' "
-                       "from '%s'",
-                       reference, c->reference.curves[0].entry->curve,
-                       c->reference.curves[0].entry->result);
+  return ambulo__error(
+      c->diagnostics, AMBULO_E_SCHEMA, place,
+      c->cycle.mass > 0.0 ? NULL : "moments and forces need the body mass: summary.json, or --mass",
+      "no curve of '%s' can be made from these columns; the first would be '%s' "
+      "from '%s'",
+      reference, c->reference.curves[0].entry->curve, c->reference.curves[0].entry->result);
 }
 
 /* ---------------------------------------------------------------- landmarks */
@@ -219,6 +209,7 @@ ambulo_status ambulo_compare(const char *directory, const char *reference,
   ambulo_allocator a = c.cycle.allocator;
   status = read_reference(&c, reference, &sheet);
   if (!status) status = ambulo__map_default(AMBULO__LAYOUT_WIDE, &a, &fallback);
+  if (!status) status = ambulo__curves_check(options->curves, &c.reference, reference, diagnostics);
   if (!status) status = allocate(&c);
   if (!status) status = score_all(&c, reference);
   if (!status) status = add_landmarks(&c, &fallback);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file_steps.h"
 #include "base/yaml_node.h"
 
 static const char *const feet[] = {"left", "right"};
@@ -61,6 +62,21 @@ static int side_of(const ambulo__yaml_node *item) {
   return -1;
 }
 
+static int is_within(const ambulo__cycle *c, double time) {
+  double first = c->time[0], last = c->time[c->rows - 1], slack = 1e-6 * (last - first);
+  return time >= first - slack && time <= last + slack;
+}
+
+/* s; of the motion beside the summary */
+static double read_strike(const ambulo__cycle *c, const ambulo__yaml_node *node) {
+  double time = ambulo__yaml_number(node, c->time[0]);
+  if (!is_within(c, time))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "summary.json and motion.csv of one result",
+                             "a strike at %g s; the motion lasts from %g to %g s", time, c->time[0],
+                             c->time[c->rows - 1]);
+  return time;
+}
+
 /* first strike of each side, and the way to its next one; have[side] counts strikes */
 static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int have[2]) {
   double first[2] = {INFINITY, INFINITY}, second[2] = {INFINITY, INFINITY};
@@ -68,7 +84,9 @@ static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int
     const ambulo__yaml_node *item = ambulo__yaml_item(strikes, i);
     int side = side_of(item);
     if (side < 0) continue;
-    double time = ambulo__yaml_number(ambulo__yaml_get(item, "time"), 0.0);
+    const ambulo__yaml_node *when = ambulo__yaml_get(item, "time");
+    if (!when) (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL, "a strike without 'time'");
+    double time = when ? read_strike(c, when) : c->time[0];
     second[side] = fmin(second[side], fmax(time, first[side]));
     first[side] = fmin(first[side], time);
     have[side]++;
@@ -77,6 +95,16 @@ static void read_strikes(ambulo__cycle *c, const ambulo__yaml_node *strikes, int
     if (have[side] > 0) c->strike[side] = first[side];
     if (have[side] > 1 && second[side] > first[side]) c->length[side] = second[side] - first[side];
   }
+}
+
+/* of one step, of which a mirrored motion.csv holds two */
+static void check_duration(const ambulo__cycle *c, const ambulo__yaml_node *node) {
+  if (!node) return;
+  double told = ambulo__yaml_number(node, 0.0), lasts = c->time[c->rows - 1] - c->time[0];
+  if (fabs(lasts - told) <= 1e-6 * lasts || fabs(lasts - 2.0 * told) <= 1e-6 * lasts) return;
+  ambulo__warning(c->diagnostics, ambulo__yaml_place(node),
+                  "summary.json and motion.csv of one result belong together",
+                  "a duration of %g s beside a motion of %g s", told, lasts);
 }
 
 static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
@@ -90,6 +118,7 @@ static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
   if (word[0] && strcmp(word, "optimal") != 0 && strcmp(word, "feasible") != 0)
     ambulo__warning(c->diagnostics, ambulo__yaml_place(verdict), NULL,
                     "the result is no solution (verdict %s); its curves predict nothing", word);
+  check_duration(c, ambulo__yaml_get(root, "duration"));
   const ambulo__yaml_node *body = ambulo__yaml_get(root, "body");
   if (body) read_body(c, body);
   const ambulo__yaml_node *strikes = ambulo__yaml_get(root, "strikes");
@@ -124,6 +153,11 @@ static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options
     if (c->length[side] == 0.0) c->length[side] = whole;
   }
   if (isfinite(options->strike)) {
+    ambulo__place place = {.file = c->motion_path};
+    if (!is_within(c, options->strike))
+      return ambulo__error(c->diagnostics, AMBULO_E_SCHEMA, place, "--strike S",
+                           "a strike at %g s; the motion lasts from %g to %g s", options->strike,
+                           c->time[0], c->time[c->rows - 1]);
     c->strike[first] = options->strike;
     c->strike[1 - first] = options->strike + 0.5 * c->length[first];
     return AMBULO_OK;
@@ -150,9 +184,11 @@ ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_opt
                      .up = {0.0, 1.0, 0.0},
                      .forward = {1.0, 0.0, 0.0}};
   int have[2] = {0, 0};
+  ambulo_status status = ambulo__expect_path(directory, "result folder", diagnostics);
+  if (status) return status;
   c.motion_path = join(&c.allocator, directory, "motion.csv");
   c.summary_path = join(&c.allocator, directory, "summary.json");
-  ambulo_status status = c.motion_path && c.summary_path ? AMBULO_OK : AMBULO_E_MEMORY;
+  status = c.motion_path && c.summary_path ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) status = ambulo__sheet_read(c.motion_path, &c.allocator, diagnostics, &c.sheet);
   if (!status) status = read_times(&c);
   if (!status) status = read_summary(&c, have);

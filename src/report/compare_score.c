@@ -5,7 +5,7 @@
  *   rmse       sqrt( sum (y_i - m_i)^2 / n )
  *   r          sum (y_i - mean y)(m_i - mean m) / sqrt( sum (y_i - mean y)^2 sum (m_i - mean m)^2 )
  *   within     share of the points with |y_i - m_i| <= 2 s_i
- *   peak       largest value every half percent of the cycle
+ *   peak       largest value every half percent of what the reference covers of the cycle
  *   roughness  mean |f_{k-1} - 2 f_k + f_{k+1}|, f the vertical force in body weights every
  *              2 percent (51 points a cycle) from 4 to 56 percent, the loaded part
  */
@@ -59,7 +59,9 @@ void ambulo__score_curve(const ambulo__reference_curve *reference, const double 
   score->rmse = sqrt(squares / (double)n);
   score->r = correlation(values, reference->mean, n);
   score->within_2sd = reference->sd ? (double)inside / (double)n : (double)NAN;
-  int peak = largest(fine, 0, AMBULO__FINE - 1);
+  int first = (int)floor(2.0 * reference->percent[0]);
+  int last = (int)ceil(2.0 * reference->percent[n - 1]);
+  int peak = largest(fine, first, last);
   score->peak = fine[peak];
   score->peak_time = 0.5 * (double)peak;
   peak = largest(reference->mean, 0, n - 1);

@@ -276,6 +276,9 @@ static ambulo_status check_times(const ambulo__load_source *s, const ambulo__mot
     doubt_steps(s, table);
     return AMBULO_OK;
   }
+  if (table->rows < 2)
+    return ambulo__error(s->doubts->diagnostics, AMBULO_E_SCHEMA, place, NULL,
+                         "forces at one time, %g s; expected at least 2 rows", begin);
   int milliseconds =
       1e-3 * begin <= first + slack && 1e-3 * end >= last - slack && end > 100.0 * last;
   return ambulo__error(s->doubts->diagnostics, AMBULO_E_SCHEMA, place,

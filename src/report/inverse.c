@@ -121,6 +121,15 @@ static void tell(const ambulo__inverse *v, const char *forces, const ambulo_grou
                r->given_vertical_impulse, r->vertical_impulse);
 }
 
+/* a body with feet, and nothing that carries it */
+static void tell_unloaded(const ambulo__inverse *v) {
+  ambulo__place place = {.file = v->file};
+  if (v->options.without_forces || v->model->foot_count == 0) return;
+  ambulo__note(v->doubts.diagnostics, place,
+               "no forces on the feet (--grf): the root carries the whole body, and the torques of "
+               "legs on the ground lack what it does to them");
+}
+
 static ambulo_status allocate_loads(ambulo__inverse *v) {
   const ambulo_allocator *a = &v->allocator;
   size_t rows = (size_t)v->rows, feet = (size_t)v->model->foot_count;
@@ -211,14 +220,23 @@ static ambulo_status deliver(ambulo__inverse *v, const char *output, char **text
 
 /* ------------------------------------------------------------------- the whole */
 
+static ambulo_status expect_paths(const ambulo__inverse *v, const char *output) {
+  ambulo_diagnostics *diagnostics = v->doubts.diagnostics;
+  ambulo_status status = ambulo__expect_path(v->file, "motion", diagnostics);
+  if (!status) status = ambulo__expect_path(v->options.forces, "file of forces", diagnostics);
+  return status ? status : ambulo__expect_path(output, "output", diagnostics);
+}
+
 static ambulo_status run(ambulo__inverse *v, const char *output, ambulo_ground_residual *residual,
                          char **text) {
   ambulo_ground_residual left_over = {.moment_rms = (double)NAN};
-  ambulo_status status = check_output(v, output);
+  ambulo_status status = expect_paths(v, output);
+  if (!status) status = check_output(v, output);
   if (!status) status = ambulo__inverse_read(v);
   if (!status) status = compute(v);
   const char *forces = status ? NULL : forces_of(v);
   if (forces) status = apply_forces(v, forces, &left_over);
+  if (!status && !forces) tell_unloaded(v);
   size_t count = (size_t)v->rows * (size_t)v->model->coordinate_count;
   for (size_t i = 0; i < count && !status; i++) v->power[i] = v->tau[i] * v->qd[i];
   if (!status) status = ambulo__doubts_status(&v->doubts);

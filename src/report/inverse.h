@@ -37,9 +37,9 @@ ambulo_status ambulo__inverse_read(ambulo__inverse *v);
 
 /* Values that hardly are in radians and metres, rows that hardly are that many seconds apart. */
 void ambulo__doubt_units(ambulo__inverse *v);
-/* Rates and speeds, once they are known; `spline` [rows][d]: rates of a spline through the values,
- * NULL: none. */
-void ambulo__doubt_rates(ambulo__inverse *v, const double *spline);
+/* Rates and accelerations, once they are known, against the slopes of splines through the values
+ * and through the rates [rows][d], NULL: none; and speeds. */
+void ambulo__doubt_rates(ambulo__inverse *v, const double *of_values, const double *of_rates);
 /* Another body, or another gravity, than the motion was written for. */
 void ambulo__doubt_body(ambulo__inverse *v);
 /* Forces that act far from their foot, and what they leave over. */

@@ -84,6 +84,32 @@ static ambulo_status check_columns(ambulo__inverse *v) {
   return AMBULO_OK;
 }
 
+/* a value that moves a coordinate of some other model */
+static int is_stray(const ambulo__inverse *v, int column) {
+  const ambulo__motion *m = v->given;
+  int moves = 0;
+  if (!ambulo__motion_is_value(m->names[column])) return 0;
+  for (int i = 0; i < v->model->coordinate_count; i++) {
+    if (ambulo__motion_names(m->names[column], v->model->coordinates[i].name, AMBULO__ORDER_VALUE))
+      return 0;
+  }
+  for (int k = 0; k < m->rows; k++)
+    moves |= m->values[(size_t)k * (size_t)m->columns + (size_t)column] != 0.0;
+  return moves;
+}
+
+static void doubt_strays(ambulo__inverse *v) {
+  int count = 0, first = -1;
+  for (int c = 0; c < v->given->columns; c++) {
+    if (!is_stray(v, c)) continue;
+    if (count++ == 0) first = c;
+  }
+  if (count == 0) return;
+  ambulo__doubt(&v->doubts, v->file, "the motion of another body needs its own model",
+                "'%s' is no coordinate of model '%s'; %d such column%s left out",
+                v->given->names[first], v->model->name, count, count > 1 ? "s are" : " is");
+}
+
 /* ------------------------------------------------------------------- splines */
 
 /* rates and accelerations (each may be NULL) of a spline through values [rows][d] */
@@ -137,14 +163,15 @@ static ambulo_status fill_gaps(ambulo__inverse *v, double *const scratch[3],
                          "%d times; expected at least 4 for rates and accelerations", v->rows);
   }
   ambulo_status status = differentiate(v, v->q, scratch[0], scratch[1]);
-  if (!status && need_slope) status = differentiate(v, v->qd, scratch[2], NULL);
   if (status) return status;
   complete(v, by_value, scratch[1], v->qdd);
-  complete(v, by_rate, scratch[2], v->qdd);
   for (int i = 0; i < v->model->coordinate_count; i++)
     by_value[i] = (unsigned char)(v->has_value[i] && !v->has_rate[i]);
   complete(v, by_value, scratch[0], v->qd);
-  ambulo__doubt_rates(v, scratch[0]);
+  status = differentiate(v, v->qd, scratch[2], NULL);
+  if (status) return status;
+  complete(v, by_rate, scratch[2], v->qdd);
+  ambulo__doubt_rates(v, scratch[0], scratch[2]);
   return AMBULO_OK;
 }
 
@@ -219,6 +246,7 @@ ambulo_status ambulo__inverse_read(ambulo__inverse *v) {
   if (!status) status = take_columns(v);
   if (!status) status = check_columns(v);
   if (status) return status;
+  doubt_strays(v);
   ambulo__doubt_body(v);
   ambulo__doubt_units(v);
   status = filter(v);

@@ -7,13 +7,15 @@
 #include "report/inverse.h"
 #include "trajectory/motion_units.h"
 
-static const double slow_rows = 0.5;       /* s: no motion is recorded at so few rows a second */
-static const double fastest_angle = 200.0; /* rad/s; a pitcher's shoulder reaches 160 */
-static const double fastest_length = 50.0; /* m/s */
-static const double disagreement = 0.25;   /* of a rate, as a share of its size */
-static const double loaded = 0.1;          /* body weights: a foot whose point is looked at */
-static const double far_away = 0.5;        /* m from the middle of the foot */
-static const double large_residual = 0.1;  /* body weights, body weights m */
+static const double slow_rows = 0.5;          /* s: no motion is recorded at so few rows a second */
+static const double fastest_angle = 200.0;    /* rad/s; a pitcher's shoulder reaches 160 */
+static const double fastest_length = 50.0;    /* m/s */
+static const double disagreement = 0.25;      /* of a rate, as a share of its size */
+static const double rough_disagreement = 0.9; /* of an acceleration: few rows tell little of it */
+static const double loaded = 0.1;             /* body weights: a foot whose point is looked at */
+static const double far_away = 0.5;           /* m from the middle of the foot */
+static const double lightest = 0.3, heaviest = 3.0; /* bodies that could be meant, of the model's */
+static const double large_residual = 0.1;           /* body weights, body weights m */
 
 static double cell(const ambulo__inverse *v, const double *values, int row, int i) {
   return values[(size_t)row * (size_t)v->model->coordinate_count + (size_t)i];
@@ -83,28 +85,41 @@ static double rms(const ambulo__inverse *v, const double *a, const double *b, in
   return sqrt(sum / (double)v->rows);
 }
 
-/* rates of the file against the slopes of its values */
-static void doubt_slopes(ambulo__inverse *v, const double *spline) {
+typedef struct slopes {
+  const double *given, *spline; /* [rows][d] */
+  const unsigned char *has;     /* [d]: given by the file */
+  double share;                 /* of its size that may differ */
+  const char *what, *of, *unit; /* "rate", "values", "/s" */
+} slopes;
+
+/* what the file gives against the slopes of what it gives before */
+static void doubt_slopes(ambulo__inverse *v, const slopes *s) {
   double largest[2] = {0.0, 0.0};
   for (int i = 0; i < v->model->coordinate_count; i++)
-    largest[is_angle(v, i)] = fmax(largest[is_angle(v, i)], rms(v, spline, NULL, i));
+    largest[is_angle(v, i)] = fmax(largest[is_angle(v, i)], rms(v, s->spline, NULL, i));
   for (int i = 0; i < v->model->coordinate_count; i++) {
-    if (!v->has_rate[i]) continue;
-    double size = fmax(rms(v, spline, NULL, i), disagreement * largest[is_angle(v, i)]);
-    double off = rms(v, v->qd, spline, i);
-    if (off <= disagreement * size) continue;
+    if (!s->has[i]) continue;
+    double size = fmax(rms(v, s->spline, NULL, i), disagreement * largest[is_angle(v, i)]);
+    double off = rms(v, s->given, s->spline, i);
+    if (off <= s->share * size) continue;
     ambulo__doubt(&v->doubts, v->file,
                   "--derivatives spline computes rates and accelerations from the values",
-                  "the rate of '%s' differs from the slope of its values by %g of %g %s (rms)",
-                  v->model->coordinates[i].name, off, rms(v, spline, NULL, i),
-                  is_angle(v, i) ? "rad/s" : "m/s");
+                  "the %s of '%s' differs from the slope of its %s by %g of %g %s%s (rms)", s->what,
+                  v->model->coordinates[i].name, s->of, off, rms(v, s->spline, NULL, i),
+                  is_angle(v, i) ? "rad" : "m", s->unit);
     return;
   }
 }
 
-void ambulo__doubt_rates(ambulo__inverse *v, const double *spline) {
-  /* ambulo's own rates are exact, however few the rows */
-  if (spline && !isfinite(v->given->body_mass)) doubt_slopes(v, spline);
+void ambulo__doubt_rates(ambulo__inverse *v, const double *of_values, const double *of_rates) {
+  slopes rates = {v->qd, of_values, v->has_rate, disagreement, "rate", "values", "/s"};
+  slopes accelerations = {
+      v->qdd, of_rates, v->has_acceleration, rough_disagreement, "acceleration", "rates", "/s^2"};
+  /* ambulo's own are exact, however few the rows */
+  if (of_values && !isfinite(v->given->body_mass)) {
+    doubt_slopes(v, &rates);
+    doubt_slopes(v, &accelerations);
+  }
   doubt_speeds(v, 1);
   doubt_speeds(v, 0);
 }
@@ -186,17 +201,20 @@ static void doubt_residual(ambulo__inverse *v, const char *forces,
                            const ambulo_ground_residual *r) {
   double force = sqrt(r->force_rms[0] * r->force_rms[0] + r->force_rms[1] * r->force_rms[1] +
                       r->force_rms[2] * r->force_rms[2]);
-  int heavy = r->vertical_impulse > 0.0 &&
-              fabs(r->given_vertical_impulse / r->vertical_impulse - 1.0) > 0.05;
+  double ratio = r->given_vertical_impulse / r->vertical_impulse;
+  int heavy = fabs(ratio - 1.0) > 0.05 && ratio > lightest && ratio < heaviest;
   char hint[160];
   if (force <= large_residual && !(r->moment_rms > large_residual)) return;
   if (heavy) {
     (void)snprintf(hint, sizeof hint,
                    "a body of %.1f kg would need their vertical impulse: --mass, --grf-time",
-                   v->model->mass * r->given_vertical_impulse / r->vertical_impulse);
+                   v->model->mass * ratio);
   } else {
-    (void)snprintf(hint, sizeof hint,
-                   "--force-columns, --grf-lengths, --grf-time, --slope; or the axes of the file");
+    (void)snprintf(
+        hint, sizeof hint,
+        ratio > lightest && ratio < heaviest
+            ? "--force-columns, --grf-lengths, --grf-time, --slope; or the axes of the file"
+            : "--force-columns, --grf-time; or the axes, signs and units (N) of the file");
   }
   if (isfinite(r->moment_rms)) {
     ambulo__doubt(&v->doubts, forces, hint,

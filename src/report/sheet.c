@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
 
@@ -52,7 +53,12 @@ ambulo_status ambulo__sheet_read(const char *path, const ambulo_allocator *alloc
   int lines, cells;
   ambulo_status status =
       ambulo__read_file(path, MAX_BYTES, &s.allocator, diagnostics, &s.text, &length);
-  if (status) return status;
+  if (!status)
+    status = ambulo__refuse_foreign(s.text, length, AMBULO__TAKES_CSV, path, diagnostics);
+  if (status) {
+    ambulo__free(&s.allocator, s.text);
+    return status;
+  }
   count(s.text, length, &lines, &cells);
   if (cells > MAX_CELLS) {
     ambulo__free(&s.allocator, s.text);

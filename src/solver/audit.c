@@ -125,17 +125,17 @@ static int mark(ambulo__engine *e, double tolerance) {
   return count;
 }
 
-/* from the engine's scaled multipliers to those of grad J = sum multiplier grad c */
-static void collect_multipliers(ambulo__engine *e, ambulo_result *result) {
+/* from multipliers for a gradient of length 1 to those of grad J = sum multiplier grad c */
+static void collect_multipliers(ambulo__engine *e, double size, ambulo_result *result) {
   const ambulo__rows_split *s = &e->rows;
+  double unit = size / e->objective_scale;
   memset(result->multiplier, 0, (size_t)result->rows * sizeof *result->multiplier);
   for (int i = 0; i < e->inequalities; i++)
-    result->multiplier[s->inequality.row[i]] =
-        -s->inequality.scale[i] * e->lambda[i] / e->objective_scale;
+    result->multiplier[s->inequality.row[i]] = -s->inequality.scale[i] * e->lambda[i] * unit;
   for (int i = 0; i < e->equalities; i++)
-    result->multiplier[s->equality.row[i]] = -e->equality_multiplier[i] / e->objective_scale;
+    result->multiplier[s->equality.row[i]] = -e->equality_multiplier[i] * unit;
   for (int i = 0; i < e->borders; i++)
-    result->multiplier[s->border.row[i]] = -e->border_multiplier[i] / e->objective_scale;
+    result->multiplier[s->border.row[i]] = -e->border_multiplier[i] * unit;
 }
 
 static void audit_complementarity(const ambulo__engine *e, ambulo_result *result) {
@@ -191,18 +191,19 @@ static int take_gradients(ambulo__engine *e) {
          ambulo__engine_gradient(e, NULL, NULL, e->gradient);
 }
 
-/* of the solved cone problem, for a gradient of this size */
+/* of the solved cone problem, for a gradient that had this size */
 static void take_first_order(ambulo__engine *e, double size, ambulo_result *result) {
-  double left = ambulo__largest(e->total, (size_t)e->n);
-  result->audit.kkt = size == 0.0 ? 0.0 : left / fmax(1e-12, size);
+  result->audit.kkt = ambulo__largest(e->total, (size_t)e->n);
   if (!isfinite(result->audit.kkt)) result->audit.kkt = HUGE_VAL;
-  collect_multipliers(e, result);
+  collect_multipliers(e, size, result);
   audit_complementarity(e, result);
 }
 
 static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
                               ambulo_result *result) {
   double size = ambulo__largest(e->gradient, (size_t)e->n);
+  /* the cone does not ask how long g is; its penalty and tolerances do */
+  for (int i = 0; i < e->n && size > 0.0; i++) e->gradient[i] /= size;
   mark(e, active_factor * options->feasibility_tolerance);
   int failed = project(e); /* from the solver's multipliers, if it has any */
   if (failed) {

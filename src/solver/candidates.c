@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double price_of_rows = 1e-5;   /* relative change of the objective */
-static const double start_advantage = 1e-6; /* the same, by which a start has to be better */
+static const double price_of_rows = 1e-5; /* relative change of the objective */
+/* the same, that rows which hold better may cost beside the start */
+static const double start_advantage = 1e-6;
 
 static ambulo_status create_one(ambulo__candidate *c, ambulo__engine *e) {
   c->x = ambulo__pool_doubles(&e->pool, (size_t)e->n);
@@ -56,6 +57,7 @@ int ambulo__candidates_take(const ambulo__candidates *c, double *x) {
   const ambulo__candidate *start = &c->start, *found = &c->found;
   double slack = start_advantage * fabs(start->objective);
   int valid = start->violation <= c->tolerance;
+  if (start->violation <= found->violation) slack = 0.0;
   int start_wins =
       valid && (!ambulo__candidates_solved(c) || start->objective < found->objective - slack);
   const ambulo__candidate *best = start_wins ? start : found;

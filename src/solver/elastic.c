@@ -98,7 +98,8 @@ double ambulo__elastic_excess(const ambulo__elastic *e, int row, double value) {
   return (equal ? fabs(value) : ambulo__worse(0.0, -value)) / e->size[row];
 }
 
-int ambulo__elastic_over(ambulo__elastic *e) {
+/* by the caller or the clock */
+static int is_stopped(ambulo__elastic *e) {
   ambulo__run *run = e->run;
   if (!e->cancelled && run->options->progress) {
     int stopped = run->stopped;
@@ -106,7 +107,11 @@ int ambulo__elastic_over(ambulo__elastic *e) {
     e->cancelled = ambulo__run_progress(run, e->workspace->objective, NAN);
     run->stopped |= stopped;
   }
-  return e->cancelled || e->work >= e->deadline || ambulo__seconds_now() >= e->time_limit;
+  return e->cancelled || ambulo__seconds_now() >= e->time_limit;
+}
+
+int ambulo__elastic_over(ambulo__elastic *e) {
+  return is_stopped(e) || e->work >= e->deadline;
 }
 
 /* ------------------------------------------------------------------- model */
@@ -234,7 +239,7 @@ static int minimize_model(ambulo__elastic *e, double mu, double *phi) {
   (void)mark(e, &e->local, e->linear_local, e->active_local);
   (void)mark(e, &e->border, e->linear_border, e->active_border);
   *phi = model_rows(e, 0.0);
-  for (int k = 0; k < MAX_NEWTON && !done; k++) done = newton(e, mu, phi);
+  for (int k = 0; k < MAX_NEWTON && !done; k++) done = is_stopped(e) ? -1 : newton(e, mu, phi);
   return done < 0;
 }
 

@@ -38,5 +38,5 @@ void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diag
 void ambulo__settle_verdict(const ambulo__run *run, ambulo_result *r) {
   const ambulo_explanation *e = ambulo_result_explanation(r);
   if (r->verdict != AMBULO_LIMIT_REACHED || run->ending != AMBULO_ENDING_ITERATIONS || !e) return;
-  if (e->complete && !e->feasible_point) r->verdict = AMBULO_INFEASIBLE;
+  if (e->complete && !e->feasible_point && e->conflict_count > 0) r->verdict = AMBULO_INFEASIBLE;
 }

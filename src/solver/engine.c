@@ -1,6 +1,8 @@
 /* solver/engine.c - setting up a solve on one grid; shared small steps. */
 #include "solver/engine.h"
+
 #include "base/worst.h"
+#include "nlp/fault.h"
 #include "nlp/user_term.h"
 
 #include "gait/bounds.h"
@@ -9,7 +11,8 @@
 #include <string.h>
 
 static const double adjoint_tolerance = 1e-3, retraction_tolerance = 1e-7;
-static const double usual_cap = 1.0; /* rad, m: unit of ambulo__engine_step_limit */
+static const double retraction_share = 0.3; /* of a feasibility tolerance that is tighter */
+static const double usual_cap = 1.0;        /* rad, m: unit of ambulo__engine_step_limit */
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
 static double cap_of(const ambulo_problem *problem, int i) {
@@ -127,7 +130,8 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
   if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
   e->adjoint_tolerance = adjoint_tolerance;
-  e->retraction_tolerance = retraction_tolerance;
+  e->retraction_tolerance =
+      fmin(retraction_tolerance, retraction_share * e->run->options->feasibility_tolerance);
   e->carried_objective = -1.0;
   e->negligible = negligible_objective(e);
   return AMBULO_OK;
@@ -201,6 +205,16 @@ ambulo_status ambulo__engine_gradient(ambulo__engine *e, const double *p, const 
       ambulo__gradient(e->workspace, e->objective_scale, e->row_weight, gradient);
   if (status) ambulo__run_fault(e->run, &e->workspace->fault);
   return status;
+}
+
+int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
+  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
+  ambulo__band_add_diagonal(&e->base, mu);
+  double largest = ambulo__band_largest(&e->base);
+  if (isfinite(largest)) return 0;
+  ambulo__fault_of_curvature(e->workspace, largest);
+  ambulo__run_fault(e->run, &e->workspace->fault);
+  return 1;
 }
 
 double ambulo__engine_step_limit(const ambulo__engine *e, const double *step, double share) {

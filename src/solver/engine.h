@@ -88,6 +88,8 @@ double ambulo__engine_excess(const ambulo__engine *engine, double *excess);
  * finite, which the run remembers. */
 ambulo_status ambulo__engine_gradient(ambulo__engine *engine, const double *p, const double *l,
                                       double *gradient);
+/* base = metric + mu I at the point held. 1: it is not finite, which is told to the run. */
+int ambulo__engine_fill_metric(ambulo__engine *engine, double mu);
 /* Factor <= 1 that keeps a step below `share` of every coordinate's cap. */
 double ambulo__engine_step_limit(const ambulo__engine *engine, const double *step, double share);
 

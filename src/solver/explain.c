@@ -11,8 +11,11 @@
 #include "solver/audit.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+/* relative to a row's size: what is left below it is the end of a search, no conflict */
+static const double residue = 1e-6;
 static const double steps_per_evaluation = 2.0;
 static const double least_work = 3e9, step_overhead = 1e5; /* operations */
 static const double on_limit_gap = 1e-4;                   /* relative to the row's size */
@@ -80,6 +83,24 @@ static double budget_of(const ambulo__elastic *e, const ambulo__run *run) {
   return fmax(least_work / step, steps_per_evaluation * (double)run->evaluations);
 }
 
+/* Rows that all but hold, under a tolerance tighter than usual, contradict nothing: the tolerance
+ * is what the point returned asks for. */
+static int explain_residue(const ambulo_result *result, ambulo__explanation *out) {
+  double left = ambulo__relative(&result->audit.violation);
+  if (!(left <= residue)) return 0;
+  double unit = pow(10.0, floor(log10(left)));
+  out->view.complete = 1;
+  (void)snprintf(out->suggestion, sizeof out->suggestion,
+                 "every row holds within %.2g of its size, the nearest that this search came: ask "
+                 "for a feasibility tolerance above that",
+                 left);
+  (void)snprintf(out->setting[0], AMBULO__LINE_SIZE, "solver.feasibility_tolerance=%.0e",
+                 2.0 * ceil(left / unit) * unit);
+  out->settings[0] = out->setting[0];
+  out->view.setting_count = 1;
+  return 1;
+}
+
 /* the point to start from: the result, or zero where that has no finite values */
 static ambulo_status start_point(const ambulo__engine *e, const ambulo_result *result, double *x) {
   memcpy(x, result->x, (size_t)e->n * sizeof *x);
@@ -94,6 +115,10 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
   ambulo__remedy remedy = {.conflict = -1, .row = -1};
   double *x = ambulo__pool_doubles(pool, (size_t)e->n);
   if (pool->failed) return AMBULO_E_MEMORY;
+  if (explain_residue(result, out)) {
+    ambulo__explain_lines(e->problem, result, out);
+    return AMBULO_OK;
+  }
   list_contradictions(e, result, out);
   if (e->run->ending == AMBULO_ENDING_TIME || e->run->ending == AMBULO_ENDING_CALLER) {
     ambulo__explain_lines(e->problem, result, out); /* no time is left to look further */

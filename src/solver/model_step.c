@@ -222,8 +222,10 @@ int ambulo__model_minimize(ambulo__engine *e, int roughly, double *phi) {
                .tolerance = roughly ? enough : exact};
   d.start = d.value = value_at(e, 0.0);
   keep(e, &d);
-  for (int k = 0; k < MAX_NEWTON && settled == 0; k++)
+  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) {
+    (void)ambulo__run_poll(e->run); /* one step of a large problem takes seconds */
     settled = ambulo__run_late(e->run) ? -1 : newton(e, k, &d);
+  }
   if (settled < 0) return -1;
   /* never where the minimum itself is wanted: next to it phi is rounding, and d = 0 says that there
    * is nothing left to gain */
@@ -255,8 +257,7 @@ int ambulo__model_step(ambulo__engine *e, double *predicted) {
       ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0))
     return not_finite(e);
   ambulo__engine_excess(e, e->linear);
-  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
-  ambulo__band_add_diagonal(&e->base, e->mu);
+  if (ambulo__engine_fill_metric(e, e->mu)) return 2;
   int failed = ambulo__model_minimize(e, 1, predicted) || finish(e);
   e->warm = !failed && *predicted < 0.0;
   e->run->seconds_linear += ambulo__seconds_now() - begin;

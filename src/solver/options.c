@@ -3,6 +3,10 @@
 
 #include <math.h>
 
+static const double least_tolerance = 1e-14, most_tolerance = 1.0; /* as in problem files */
+
+static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+
 enum { OPTIONS_COOKIE = 0x616d6273, DEFAULT_EVALUATIONS = 20000, DEFAULT_ITERATIONS = 150 };
 
 ambulo_options ambulo_options_default(void) {
@@ -21,9 +25,17 @@ ambulo_options ambulo_options_default(void) {
   return options;
 }
 
+/* below: less than doubles can tell; above: anything would pass */
+static ambulo_status check_tolerance(const char *name, double value,
+                                     ambulo_diagnostics *diagnostics) {
+  if (value >= least_tolerance && value <= most_tolerance) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+                       "solver.%s is %g; expected %g to %g", name, value, least_tolerance,
+                       most_tolerance);
+}
+
 ambulo_status ambulo__options_check(const ambulo_options *options,
                                     ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   if (options->cookie != OPTIONS_COOKIE)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver options did not come from ambulo_options_default()");
@@ -49,10 +61,11 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver.maximum_memory is %g bytes; expected 0 (what is free) or more",
                          options->maximum_memory);
-  if (!(options->feasibility_tolerance > 0.0) || !(options->optimality_tolerance > 0.0))
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
-                         "solver tolerances are %g and %g; expected positive numbers",
-                         options->feasibility_tolerance, options->optimality_tolerance);
+  ambulo_status status =
+      check_tolerance("feasibility_tolerance", options->feasibility_tolerance, diagnostics);
+  if (!status)
+    status = check_tolerance("optimality_tolerance", options->optimality_tolerance, diagnostics);
+  if (status) return status;
   if (options->dense_samples < 1 || options->dense_samples > 1000)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
                          "solver.dense_samples is %d; expected 1 to 1000", options->dense_samples);

@@ -26,8 +26,7 @@ static int step(ambulo__engine *e, double *y) {
   if (ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0) ||
       ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 0))
     return 1;
-  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
-  ambulo__band_add_diagonal(&e->base, e->mu);
+  if (ambulo__engine_fill_metric(e, e->mu)) return 1;
   memset(e->gradient, 0, (size_t)e->n * sizeof *e->gradient);
   ambulo__sparse_rows_add_transpose(&e->rows.inequality, -1.0, e->lambda, e->gradient);
   if (ambulo__model_minimize(e, 0, &decrease)) return 1;

@@ -24,9 +24,8 @@ static int direction(ambulo__engine *e, double *d) {
     ambulo__run_fault(e->run, &e->workspace->fault);
     return 1;
   }
-  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
-  ambulo__band_add_diagonal(&e->base, damping * e->mu);
-  int failed = ambulo__kkt_factor(&e->kkt, &e->base);
+  int failed = ambulo__engine_fill_metric(e, damping * e->mu);
+  if (!failed) failed = ambulo__kkt_factor(&e->kkt, &e->base);
   if (failed && ambulo__kkt_by_row(&e->kkt)) failed = ambulo__kkt_factor(&e->kkt, &e->base);
   if (!failed) {
     for (int i = 0; i < e->equalities; i++) e->h[i] = -e->h[i];

@@ -32,7 +32,7 @@ int ambulo__run_over(ambulo__run *run) {
 
 int ambulo__run_count(ambulo__run *run) {
   run->evaluations++;
-  return ambulo__run_over(run);
+  return ambulo__run_poll(run);
 }
 
 int ambulo__run_progress(ambulo__run *run, double objective, double violation) {

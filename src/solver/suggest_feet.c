@@ -122,9 +122,10 @@ static void strike_pitch(const ambulo__advice *a, int low) {
   const double *pitch = a->problem->definition.strike_pitch;
   double radians = a->problem->keys.radians, wide[2] = {pitch[0], pitch[1]};
   double sine = sin(pitch[!low]) + (low ? -a->room : a->room);
-  if (fabs(sine) < 1.0) wide[!low] = asin(sine);
   ambulo__advice_say(a, "let the foot strike the ground %s, by %.4g (sine of its pitch)",
                      low ? "flatter" : "steeper", a->give);
+  if (!(fabs(sine) < 1.0)) return; /* no pitch has it */
+  wide[!low] = asin(sine);
   if (radians > 0.0)
     ambulo__advice_set(a, "constraints.strike_pitch=[%.6g, %.6g]",
                        ambulo__outward(wide[0] / radians, 0),

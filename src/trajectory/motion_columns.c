@@ -17,7 +17,7 @@ static int is_path(const char *column, const char *name, const char *ending) {
   return at[-1] == '/' && is_joined(at, "", name, ending);
 }
 
-static int names(const char *column, const char *name, ambulo__motion_order order) {
+int ambulo__motion_names(const char *column, const char *name, ambulo__motion_order order) {
   switch (order) {
   case AMBULO__ORDER_VALUE:
     return is_joined(column, "", name, "") || is_joined(column, "q.", name, "") ||
@@ -30,6 +30,13 @@ static int names(const char *column, const char *name, ambulo__motion_order orde
   }
   return is_joined(column, "qdd.", name, "") || is_path(column, name, "/accel") ||
          is_path(column, name, "/acceleration");
+}
+
+int ambulo__motion_is_value(const char *column) {
+  size_t length = strlen(column);
+  if (strncmp(column, "q.", 2) == 0) return 1;
+  return strncmp(column, "/jointset/", 10) == 0 && length > 6 &&
+         strcmp(column + length - 6, "/value") == 0;
 }
 
 /* first row in which two columns differ, or -1 */
@@ -46,7 +53,7 @@ ambulo_status ambulo__motion_find(const ambulo__motion *motion, const char *file
                                   ambulo_diagnostics *diagnostics, int *column) {
   int found = -1;
   for (int c = 0; c < motion->columns; c++) {
-    if (!coordinate[0] || !names(motion->names[c], coordinate, order)) continue;
+    if (!coordinate[0] || !ambulo__motion_names(motion->names[c], coordinate, order)) continue;
     int row = found < 0 ? -1 : first_difference(motion, found, c);
     if (row >= 0) {
       ambulo__place place = {.file = file};

@@ -4,6 +4,7 @@
  * rows. Every fault is reported with line and column, and reading goes on after it. */
 #include "trajectory/motion_file.h"
 #include "trajectory/table_header.h"
+#include "base/foreign_format.h"
 #include "base/numtext.h"
 
 #include <math.h>
@@ -277,7 +278,9 @@ static int looks_like_sto(const table_reader *reader) {
 }
 
 static ambulo_status read_table(table_reader *reader, ambulo__motion_format format) {
-  ambulo_status status = check_bytes(reader);
+  ambulo_status status = ambulo__refuse_foreign(reader->text, reader->length, AMBULO__TAKES_MOTION,
+                                                reader->file, reader->diagnostics);
+  if (!status) status = check_bytes(reader);
   if (status) return status;
   reader->is_sto =
       format == AMBULO__MOTION_AUTO ? looks_like_sto(reader) : format == AMBULO__MOTION_STO;

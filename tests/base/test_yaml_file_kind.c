@@ -28,7 +28,7 @@ static void right_kinds(void **state) {
   assert_int_equal(kind_of("kind: problem\n", either, 2, list, &status), 1);
   assert_int_equal(status, AMBULO_OK);
   /* a model need not say it */
-  assert_int_equal(kind_of("name: x\n", model, 1, list, &status), 0);
+  assert_int_equal(kind_of("ambulo: 1\nname: x\n", model, 1, list, &status), 0);
   assert_int_equal(status, AMBULO_OK);
   assert_int_equal(kind_of("links: []\n", either, 2, list, &status), 0);
   assert_int_equal(status, AMBULO_OK);
@@ -39,13 +39,30 @@ static void missing_kinds(void **state) {
   (void)state;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_status status;
-  assert_int_equal(kind_of("name: x\n", problem, 1, list, &status), 0);
+  assert_int_equal(kind_of("ambulo: 1\n", problem, 1, list, &status), 0);
   assert_message(list, 0, "missing required key 'kind'");
   assert_int_equal(status, AMBULO_E_SCHEMA);
   assert_int_equal(kind_of("objective: none\n", either, 2, list, &status), 1);
   assert_message(list, 0, "missing required key 'kind'");
-  assert_int_equal(kind_of("name: x\n", either, 2, list, &status), 0);
+  assert_int_equal(kind_of("ambulo: 1\n", either, 2, list, &status), 0);
   assert_message(list, 0, "missing required key 'kind'");
+  ambulo_diagnostics_free(list);
+}
+
+/* JSON and YAML of other programs: one line, not every key that they lack */
+static void strange_files(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status;
+  assert_int_equal(kind_of("{\"a\": 1}", problem, 1, list, &status), -1);
+  assert_message(list, 0,
+                 "f.yaml:1:1: error[E_SCHEMA]: no key 'ambulo' and no 'kind': this is no "
+                 "file of Ambulo; expected a problem");
+  assert_message(list, 0, "begins with 'ambulo: 1' and 'kind: problem'");
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_int_equal(status, AMBULO_E_SCHEMA);
+  assert_int_equal(kind_of("name: x\n", model, 1, list, &status), -1);
+  assert_message(list, 0, "expected a skeleton model");
   ambulo_diagnostics_free(list);
 }
 
@@ -85,6 +102,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(right_kinds),
       cmocka_unit_test(missing_kinds),
+      cmocka_unit_test(strange_files),
       cmocka_unit_test(wrong_kinds),
   };
   return cmocka_run_group_tests_name("base/yaml_file_kind", tests, NULL, NULL);

@@ -81,15 +81,21 @@ static void a_file_is_read(void **state) {
 
 static void the_top_level_is_a_mapping(void **state) {
   (void)state;
-  static const char *const empty[] = {"", "# only a comment\n", "---\n", "\n\n", "\xEF\xBB\xBF"};
+  static const char *const empty[] = {"# only a comment\n", "---\n", "\n\n", "\xEF\xBB\xBF"};
   for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
     yaml_case c = yaml_open(empty[i]);
     assert_int_equal(c.status, AMBULO_E_PARSE);
-    expect_message(&c, 0,
-                   "t.yaml:1:1: error[E_PARSE]: got an empty document; expected a mapping at the "
-                   "top level");
+    expect_message(
+        &c, 0,
+        "t.yaml:1:1: error[E_PARSE]: nothing but blank lines and comments; expected YAML: "
+        "lines 'key: value'");
     yaml_shut(&c);
   }
+  yaml_case none = yaml_open("");
+  assert_int_equal(none.status, AMBULO_E_PARSE);
+  expect_message(
+      &none, 0, "t.yaml:1:1: error[E_PARSE]: the file is empty; expected YAML: lines 'key: value'");
+  yaml_shut(&none);
   yaml_case list = yaml_open("- a\n- b\n");
   assert_int_equal(list.status, AMBULO_E_SCHEMA);
   expect_message(&list, 0,

@@ -162,6 +162,11 @@ static void words_name_the_owner(void **state) {
   b = ambulo__bounds_of(&f.definition, 3, AMBULO_LIMITED_POSITION);
   ambulo__bounds_whose(f.model, &b, text);
   assert_string_equal(text, "");
+  set(&f, 0, -0.3, 0.1); /* its own image, turned */
+  b = ambulo__bounds_of(&f.definition, 0, AMBULO_LIMITED_POSITION);
+  ambulo__bounds_whose(f.model, &b, text);
+  assert_string_equal(
+      text, " (the lower end by the upper limit of pelvis_tz, 0.1, in the mirrored half)");
   row_fixture_close(&f);
 }
 

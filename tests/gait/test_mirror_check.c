@@ -1,4 +1,6 @@
 /* What mirrored ends ask of a body and its limits, through ambulo_problem_create. */
+#include "gait/gait.h"
+#include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/planar_walker.h"
 #include "support/test.h"
@@ -145,11 +147,45 @@ static void tubes_are_as_wide_on_both_sides(void **state) {
   }
 }
 
+/* what travels needs room for its two steps: gait/end_check.c says so, once */
+static void room_for_the_travel_is_said_elsewhere(void **state) {
+  (void)state;
+  fixture f;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  open_fixture(&f);
+  f.definition.joint_limits = AMBULO_LIMIT_NODES;
+  f.definition.travel = 0.7;
+  int i = ambulo_model_find_coordinate(f.model, "pelvis_tx");
+  set(f.model->coordinates[i].range, 0.0, 0.5);
+  assert_int_equal(ambulo__mirror_check(&f.definition, NULL, list), AMBULO_OK);
+  assert_int_equal(ambulo_diagnostics_count(list), 0);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(f.model);
+}
+
+/* without memory nothing is said about the body, or its limits */
+static void lack_of_memory_is_no_asymmetry(void **state) {
+  (void)state;
+  fixture f;
+  fail_alloc memory = fail_alloc_at(0);
+  ambulo_allocator allocator = fail_alloc_hook(&memory);
+  open_fixture(&f);
+  f.definition.torque_limits = 1;
+  set(f.model->coordinates[KNEE_R].torque, 0.0, 1.0);
+  set(f.model->coordinates[KNEE_L].torque, 1.5, 2.0);
+  assert_int_equal(ambulo__mirror_check(&f.definition, &allocator, NULL), AMBULO_E_MEMORY);
+  assert_int_equal(memory.live, 0);
+  ambulo_model_free(f.model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_heavier_shank_is_refused), cmocka_unit_test(a_symmetric_body_is_accepted),
+      cmocka_unit_test(a_heavier_shank_is_refused),
+      cmocka_unit_test(a_symmetric_body_is_accepted),
       cmocka_unit_test(limits_with_nothing_in_common_are_refused),
       cmocka_unit_test(a_range_and_its_image_may_have_nothing_in_common),
-      cmocka_unit_test(tubes_are_as_wide_on_both_sides)};
+      cmocka_unit_test(tubes_are_as_wide_on_both_sides),
+      cmocka_unit_test(room_for_the_travel_is_said_elsewhere),
+      cmocka_unit_test(lack_of_memory_is_no_asymmetry)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -139,8 +139,44 @@ static void legs_are_measured_along_their_links(void **state) {
   ambulo_problem_free(p);
 }
 
+/* by hand: feet that hand over, one foot alone, backward, legs of two lengths */
+static void each_figure_has_its_parts(void **state) {
+  (void)state;
+  ambulo_contact contacts[2] = {{.foot = 0, .from = 0.0, .to = 0.2, .place = {0.1, -0.3}},
+                                {.foot = 1, .from = 0.2, .to = 0.5, .place = {0.5, 0.0}}};
+  ambulo_problem *p = walk(NULL, 0);
+  ambulo_problem_definition d = p->definition;
+  ambulo_model *model = (ambulo_model *)d.model;
+  double leg = ambulo__task_of(&d).leg;
+  d.contacts = contacts;
+  d.contact_count = 2;
+  d.travel = -0.68;
+  ambulo__task t = ambulo__task_of(&d);
+  assert_close(t.step, 0.4, 1e-12); /* forward alone, of feet that meet at one time */
+  assert_close(t.speed, 0.68 / 0.54, 1e-12);
+  contacts[1].foot = 0;
+  assert_close(ambulo__task_of(&d).step, 0.0, 0); /* of two feet */
+  contacts[1].foot = 1;
+  contacts[1].from = 0.3;
+  assert_close(ambulo__task_of(&d).step, 0.0, 0); /* between them is flight */
+  double *left = model->points[model->feet[1].heel_center].position;
+  double *right = model->points[model->feet[0].heel_center].position;
+  memset(left, 0, 3 * sizeof *left);
+  assert_close(ambulo__task_of(&d).leg, leg, 1e-12); /* the longer one */
+  memset(right, 0, 3 * sizeof *right);
+  double shank = ambulo__task_of(&d).leg;
+  right[2] = 0.3;
+  assert_close(ambulo__task_of(&d).leg, shank + 0.3, 1e-12);
+  int feet = model->foot_count;
+  model->foot_count = 1;
+  assert_false(ambulo__task_of(&d).is_gait);
+  model->foot_count = feet;
+  ambulo_problem_free(p);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_figures_are_those_of_the_gait),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_figure_has_its_parts),
+                                     cmocka_unit_test(the_figures_are_those_of_the_gait),
                                      cmocka_unit_test(a_slope_has_its_tangent),
                                      cmocka_unit_test(what_is_no_gait_has_none),
                                      cmocka_unit_test(what_is_no_walk_is_told),

@@ -154,9 +154,62 @@ static void no_bound_is_a_bound(void **state) {
   ambulo_model_free(b.model);
 }
 
+/* refused with a message that holds `text` */
+static void expect_message(built *b, const char *text) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(create(b, list), AMBULO_E_PROBLEM);
+  assert_message(list, 0, text);
+  ambulo_diagnostics_free(list);
+}
+
+static void what_is_missing_is_named(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  double breakpoints[11];
+  for (int i = 0; i <= 10; i++) breakpoints[i] = i == 4 ? NAN : 0.1 * i;
+  b.d.breakpoints = breakpoints;
+  b.d.spline_intervals = 10;
+  expect_message(&b, "trajectory.breakpoints[4] is nan");
+  b.d.breakpoints = NULL;
+  b.terms[0] = ambulo_term_default(AMBULO_USER_SQUARE);
+  expect_message(&b, "objective[0] (user_square): no function");
+  ambulo_model_free(b.model);
+}
+
+/* one weight is enough, wherever it stands */
+static void some_weight_is_not_zero(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  b.terms[1].weight = b.terms[2].weight = 0.0;
+  assert_int_equal(create(&b, NULL), AMBULO_OK);
+  b.terms[0].weight = 0.0;
+  expect_message(&b, "every objective weight is 0");
+  ambulo_model_free(b.model);
+}
+
+static void a_line_lies_in_one_link(void **state) {
+  (void)state;
+  ambulo_model *body = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &body),
+                   AMBULO_OK);
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  ambulo_term term = ambulo_term_default(AMBULO_UPRIGHT);
+  term.point[0] = ambulo_model_find_point(body, "heel_r");
+  term.point[1] = ambulo_model_find_point(body, "toe_l");
+  d.model = body;
+  d.terms = &term;
+  d.term_count = 1;
+  built b = {.model = body, .d = d};
+  expect_message(&b, "points heel_r and toe_l; expected two points of one link");
+  ambulo_model_free(body);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_built_is_legal),
-                                     cmocka_unit_test(numbers_have_ranges),
-                                     cmocka_unit_test(no_bound_is_a_bound)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_built_is_legal),  cmocka_unit_test(numbers_have_ranges),
+      cmocka_unit_test(no_bound_is_a_bound),     cmocka_unit_test(what_is_missing_is_named),
+      cmocka_unit_test(some_weight_is_not_zero), cmocka_unit_test(a_line_lies_in_one_link)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

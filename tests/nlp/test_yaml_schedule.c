@@ -89,6 +89,18 @@ static void the_width_defaults_to_the_hips(void **state) {
   ambulo_problem_free(p);
 }
 
+/* one error and no other: nothing is concluded from a value that was refused */
+static void expect_only(const char *text, const char *message) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_problem *problem = NULL;
+  assert_int_not_equal(ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0,
+                                                NULL, list, &problem),
+                       AMBULO_OK);
+  assert_int_equal(ambulo_diagnostics_error_count(list), 1);
+  assert_non_null(strstr(ambulo_diagnostics_get(list, 0)->message, message));
+  ambulo_diagnostics_free(list);
+}
+
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(HEAD "time: {intervals: 4}\n" GAIT "start: 0}\n", AMBULO_E_SCHEMA,
@@ -97,6 +109,10 @@ static void faults_are_placed(void **state) {
                  AMBULO_E_PROBLEM,
                  "p.yaml:6:65: error[E_PROBLEM]: 'step_time' makes a step last 0.6 s; "
                  "expected 0.5 s");
+  expect_only(HEAD "time: {duration: 1, intervals: 4}\n" GAIT "speed: -1.3}\n",
+              "expected a number from 0.001 to 100");
+  expect_only(HEAD "time: {duration: 1, intervals: 4}\n" GAIT "step_time: -1}\n",
+              "expected a number from 0.001 to 1000");
   expect_refusal(HEAD "time: {intervals: 4}\n" GAIT "step_time: 0.5, phases: {heel_off: 0.7}}\n",
                  AMBULO_E_PROBLEM, "phases 0, 0.08, 0.7, 0.62 of a stride");
   expect_refusal(HEAD "time: {intervals: 4}\n"

@@ -232,6 +232,20 @@ static void curves_of_what_changes_its_sign(void **state) {
   }
 }
 
+/* any term may be the odd one, and curves that meet at one angle part at others */
+static void nothing_hides_a_difference(void **state) {
+  (void)state;
+  fixture f;
+  open_fixture(&f, 2, AMBULO_TORQUE_SQUARED);
+  f.scale[0][KNEE_L] = 0.05;
+  expect(&f, "objective[0] (torque_squared): the scale of 'knee_angle_r' is 0.01");
+  static const double right[4] = {1.0, 1.0, 0.0, 0.0}, left[4] = {2.718281828459045, 2.0, 0.0, 0.0};
+  open_with_two(&f, KNEE_R, KNEE_L);
+  set(f.passive[0], KNEE_R, 4, right);
+  set(f.passive[0], KNEE_L, 4, left);
+  expect(&f, "the passive torque of 'knee_angle_r' at -0.5 rad");
+}
+
 static void a_term_without_weight_is_left_alone(void **state) {
   (void)state;
   fixture f;
@@ -318,6 +332,7 @@ int main(void) {
                                      cmocka_unit_test(sides_may_stand_in_different_terms),
                                      cmocka_unit_test(offsets_turn_with_the_sign),
                                      cmocka_unit_test(curves_are_compared_as_functions),
+                                     cmocka_unit_test(nothing_hides_a_difference),
                                      cmocka_unit_test(strength_belongs_to_a_direction),
                                      cmocka_unit_test(curves_of_what_changes_its_sign),
                                      cmocka_unit_test(a_term_without_weight_is_left_alone),

@@ -91,7 +91,7 @@ static void expressions(void **state) {
   int found = 0;
   gait_motion(*state, 0.0, 1);
   gait_summary(*state, "{\"body\": {\"up\": [0, 2, 0]}}");
-  assert_int_equal(open_cycle(state, 0.0, NULL, &c), AMBULO_OK);
+  assert_int_equal(open_cycle(state, 0.1, NULL, &c), AMBULO_OK);
   assert_int_equal(ambulo__cycle_samples(&c, "tau.hip_flexion_l+tau.none+tau.hip_flexion_{side}",
                                          AMBULO__CYCLE_RIGHT, values, &found),
                    AMBULO_OK);

@@ -219,7 +219,8 @@ static void times_must_be_covered(void **state) {
 #define HEAD "time,grf.right.x,grf.right.y,cop.right.x,cop.right.y,free_moment.right\n"
   BAD(HEAD "0,0,5,1,0,0\n0.9,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT,
       "forces from 0 to 0.9 s; expected them from 0 to 1 s", NULL);
-  BAD(HEAD "0,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT, "forces from 0 to 0 s", NULL);
+  BAD(HEAD "0,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT,
+      "forces at one time, 0 s; expected at least 2 rows", NULL);
   BAD(HEAD "500,0,5,1,0,0\n1500,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT,
       "forces from 500 to 1500 s", NULL);
   BAD(HEAD "400,0,5,1,0,0\n900,0,5,1,0,0\n1000,0,5,1,0,0\n", AMBULO_E_SCHEMA, NOTHING_LEFT,

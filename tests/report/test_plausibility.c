@@ -129,6 +129,50 @@ static void rates_that_contradict_are_doubted(void **state) {
   ambulo_model_free(model);
 }
 
+/* accelerations alone that are wrong: none, in degrees, of the other sign */
+static void accelerations_that_contradict_are_doubted(void **state) {
+  static const double factors[] = {1.0, 0.0, 57.3, -1.0};
+  ambulo_model *model = arm_create();
+  const char *path = scratch_path(state, "arm.csv");
+  ambulo_inverse_options mended = ambulo_inverse_options_default();
+  mended.recompute_rates = 1;
+  for (int i = 0; i < 4; i++) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "time,shoulder,elbow,qd.shoulder,qd.elbow,qdd.shoulder,qdd.elbow\n");
+    for (int k = 0; k <= 50; k++) {
+      double t = 0.02 * k, s = sin(6.0 * t), c = 6.0 * cos(6.0 * t), a = -36.0 * s;
+      fprintf(file, "%g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g\n", t, 0.3 * s, 0.2 * s, 0.3 * c,
+              0.2 * c, 0.3 * a, 0.2 * a * factors[i]);
+    }
+    fclose(file);
+    doubted(model, path, NULL, i ? &mended : NULL,
+            i ? "the acceleration of 'elbow' differs from the slope of its rates" : NULL,
+            "--derivatives spline");
+  }
+  ambulo_model_free(model);
+}
+
+/* the motion of a body with more joints */
+static void columns_of_another_model_are_doubted(void **state) {
+  ambulo_model *model = arm_create();
+  const char *path = scratch_path(state, "arm.csv");
+  static const char *const names[] = {"q.wrist", "/jointset/hand/wrist/value", "wrist", "tau.wrist",
+                                      "/forceset/wrist/value"};
+  for (int i = 0; i < 5; i++) {
+    for (int moves = 0; moves < 2; moves++) {
+      FILE *file = fopen(path, "w");
+      assert_non_null(file);
+      fprintf(file, "time,shoulder,elbow,%s\n", names[i]);
+      for (int k = 0; k <= 10; k++) fprintf(file, "%g,0.1,0.2,%d\n", 0.1 * k, moves);
+      fclose(file);
+      doubted(model, path, NULL, NULL, moves && i < 2 ? "is no coordinate of model" : NULL,
+              "1 such column is left out");
+    }
+  }
+  ambulo_model_free(model);
+}
+
 static void another_body_is_doubted(void **state) {
   ambulo_model *model = arm_create(), *heavy = NULL;
   ambulo_conditions conditions = ambulo_conditions_default();
@@ -224,6 +268,10 @@ static void places_and_residuals_are_doubted(void **state) {
   write_forces(&s, 0.75, right, 0.25, left, 1.0, 1.0);
   doubted(s.model, s.motion, &options, NULL,
           "the forces leave over 0.000 body weights and 0.225 body weights m", "--grf-time");
+  write_forces(&s, -0.5, right, 0.0, left, 1.0, 1.0); /* no body is that light */
+  doubted(s.model, s.motion, &options, NULL, "at the root", "signs and units (N)");
+  write_forces(&s, 0.0005, right, 0.0005, left, 1.0, 1.0);
+  doubted(s.model, s.motion, &options, NULL, "at the root", "signs and units (N)");
   write_forces(&s, 0.545, right, 0.545, left, 1.0, 1.0);
   doubted(s.model, s.motion, &options, NULL, NULL, NULL);
   write_forces(&s, 0.5, right, 0.5, left, 1.0, 1000.0);
@@ -236,9 +284,13 @@ static void places_and_residuals_are_doubted(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(units_are_doubted),       SCRATCH_TEST(lengths_at_rest_are_doubted),
-      SCRATCH_TEST(speeds_are_doubted),      SCRATCH_TEST(rates_that_contradict_are_doubted),
-      SCRATCH_TEST(another_body_is_doubted), SCRATCH_TEST(places_and_residuals_are_doubted)};
+  const struct CMUnitTest tests[] = {SCRATCH_TEST(units_are_doubted),
+                                     SCRATCH_TEST(lengths_at_rest_are_doubted),
+                                     SCRATCH_TEST(speeds_are_doubted),
+                                     SCRATCH_TEST(rates_that_contradict_are_doubted),
+                                     SCRATCH_TEST(accelerations_that_contradict_are_doubted),
+                                     SCRATCH_TEST(columns_of_another_model_are_doubted),
+                                     SCRATCH_TEST(another_body_is_doubted),
+                                     SCRATCH_TEST(places_and_residuals_are_doubted)};
   return cmocka_run_group_tests_name("report/plausibility", tests, NULL, NULL);
 }

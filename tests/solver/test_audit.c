@@ -147,6 +147,113 @@ static void audits_keep_no_memory(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* the audit's other numbers, from their definitions */
+static void figures_are_those_of_the_point(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("yardstick_12");
+  for (int t = 0; t < p->definition.term_count; t++)
+    ((ambulo_term *)p->definition.terms)[t].weight *= 100.0;
+  ambulo_result *r = solve(p);
+  const ambulo_audit *a = ambulo_result_audit(r);
+  const double *value = ambulo_result_rows(r), *multiplier = ambulo_result_multipliers(r);
+  double worst = 0.0;
+  int active = 0;
+  for (int k = 0; k < p->rows; k++) {
+    const ambulo__table_row *row = &p->table.rows[k];
+    if (row->relation == AMBULO_EQUAL) {
+      active++;
+      continue;
+    }
+    worst = fmax(worst, fabs(multiplier[k] * value[k]));
+    active += value[k] <= 10.0 * ambulo_options_default().feasibility_tolerance * row->size;
+  }
+  assert_true(fabs(ambulo_result_objective(r)) > 1.5); /* it is divided by */
+  assert_close(a->complementarity, worst / fabs(ambulo_result_objective(r)), 1e-12);
+  assert_int_equal(a->active_rows, active);
+  assert_true(a->rank > 0 && a->rank <= active);
+  ambulo_result_free(r);
+  ambulo_problem_free(p);
+}
+
+/* contradictory and dependent equalities are active, but of no rank */
+static void rank_leaves_out_what_depends(void **state) {
+  (void)state;
+  ambulo_problem *p = NULL;
+  assert_int_equal(
+      ambulo_problem_load("tests/infeasible/equalities_contradict.yaml", NULL, 0, NULL, NULL, &p),
+      AMBULO_OK);
+  double *x = calloc((size_t)p->variables, sizeof *x);
+  ambulo_result *r = audit(p, x);
+  const ambulo_audit *a = ambulo_result_audit(r);
+  assert_true(a->dropped_equalities > 0);
+  assert_int_equal(a->rank, a->active_rows - a->dropped_equalities);
+  free(x);
+  ambulo_result_free(r);
+  ambulo_problem_free(p);
+}
+
+/* rows within ten tolerances of their limit count as active; what is not finite is named */
+static void active_rows_are_near_their_limit(void **state) {
+  (void)state;
+  static const double gaps[2] = {5e-6, 2e-5};
+  ambulo_problem *p = load_problem("two_link_reach"), *free_ends = NULL;
+  ambulo_problem_definition d = p->definition;
+  d.end_value_count = 0;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &free_ends), AMBULO_OK);
+  double *x = calloc((size_t)free_ends->variables, sizeof *x);
+  for (int k = 0; k < 2; k++) {
+    for (int j = 1; j < free_ends->variables; j += free_ends->coordinates)
+      x[j] = p->model->coordinates[1].range[1] - gaps[k];
+    ambulo_result *r = audit(free_ends, x);
+    assert_int_equal(ambulo_result_audit(r)->active_rows, k ? 0 : free_ends->nodes);
+    ambulo_result_free(r);
+  }
+  x[3] = NAN;
+  ambulo_workspace *workspace = NULL;
+  ambulo_result *r = NULL;
+  assert_int_equal(ambulo_workspace_create(free_ends, NULL, &workspace), AMBULO_OK);
+  assert_int_equal(ambulo__result_create(free_ends, NULL, &r), AMBULO_OK);
+  memcpy(r->x, x, (size_t)free_ends->variables * sizeof *x);
+  r->objective = 1.0;
+  assert_int_equal(ambulo__audit_values(workspace, r), AMBULO_E_NUMERIC);
+  assert_int_equal(r->audit.fault.kind, AMBULO_FAULT_UNKNOWN);
+  assert_true(isnan(r->objective) && isnan(r->audit.violation.worst));
+  ambulo_result_free(r);
+  ambulo_workspace_free(workspace);
+  free(x);
+  ambulo_problem_free(free_ends);
+  ambulo_problem_free(p);
+}
+
+/* no value that is not finite is a small violation */
+static void infinite_rows_are_violated(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("two_link_reach");
+  for (int r = 0; r < p->rows; r += 7) {
+    assert_true(isinf(ambulo__row_violation(p, r, NAN)));
+    assert_true(isinf(ambulo__row_violation(p, r, INFINITY)));
+  }
+  ambulo_problem_free(p);
+}
+
+/* where every row holds exactly the worst one still has a name */
+static void the_worst_row_has_a_name(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("two_link_reach"), *free_ends = NULL;
+  ambulo_problem_definition d = p->definition;
+  d.end_value_count = 0;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &free_ends), AMBULO_OK);
+  double *x = calloc((size_t)free_ends->variables, sizeof *x);
+  ambulo_result *r = audit(free_ends, x);
+  assert_true(free_ends->rows > 0);
+  assert_true(ambulo_result_audit(r)->violation.worst == 0.0);
+  assert_true(strlen(ambulo_result_audit(r)->violation.family) > 0);
+  free(x);
+  ambulo_result_free(r);
+  ambulo_problem_free(free_ends);
+  ambulo_problem_free(p);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(spoilt_coordinate_is_found_by_name),
@@ -155,6 +262,11 @@ int main(void) {
       cmocka_unit_test(dense_violation_is_larger_than_the_nodes),
       cmocka_unit_test(families_are_complete),
       cmocka_unit_test(audits_keep_no_memory),
+      cmocka_unit_test(figures_are_those_of_the_point),
+      cmocka_unit_test(rank_leaves_out_what_depends),
+      cmocka_unit_test(the_worst_row_has_a_name),
+      cmocka_unit_test(active_rows_are_near_their_limit),
+      cmocka_unit_test(infinite_rows_are_violated),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,6 +80,29 @@ static void a_valid_start_is_not_made_worse(void **state) {
   close_chosen(&s);
 }
 
+/* by however little, where its rows hold as well */
+static void a_start_that_is_hardly_better_wins(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  double *middle = &s.good[s.f.n / 2], best = s.better[s.f.n / 2], two[2];
+  for (int side = 0; side < 2; side++) {
+    *middle = best + (side ? 1e-5 : -1e-5);
+    assert_true(ambulo__violation_at(s.f.engine, s.good) < 1e-9);
+    two[side] = s.f.engine->workspace->objective;
+  }
+  *middle = best + (two[1] > two[0] ? 1e-5 : -1e-5);
+  ambulo__candidates_offer_start(&s.c, s.f.engine, s.better);
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  assert_true(s.c.found.objective > s.c.start.objective);
+  assert_true(s.c.found.objective < s.c.start.objective * (1.0 + 1e-6));
+  s.c.found.violation = s.c.start.violation;
+  expect(&s, 1, s.better);
+  s.c.found.violation = 0.5 * s.c.start.violation; /* what better rows may cost */
+  expect(&s, s.c.start.violation == 0.0, s.c.start.violation == 0.0 ? s.better : s.good);
+  close_chosen(&s);
+}
+
 static void an_invalid_start_never_wins(void **state) {
   (void)state;
   chosen s;
@@ -148,12 +171,91 @@ static void lack_of_memory_is_said(void **state) {
   close_chosen(&s);
 }
 
+/* a start has to be better by a millionth of either sign than a point whose rows hold better, or at
+ * all where they hold no better; without any point x stays */
+static void ties_go_to_what_was_found(void **state) {
+  (void)state;
+  static const double cases[][3] = {
+      {1.0, 5e-7, 0.0}, {1.0, 2e-6, 1.0}, {-1.0, 5e-7, 0.0}, {-1.0, 2e-6, 1.0}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    double start = 1.0, found = 2.0, x = 0.0;
+    ambulo__candidates c = {.n = 1, .tolerance = 1e-6};
+    c.start = (ambulo__candidate){.x = &start, .objective = cases[i][0]};
+    c.start.violation = 1e-8;
+    c.found = (ambulo__candidate){.x = &found, .objective = cases[i][0] + cases[i][1]};
+    assert_int_equal(ambulo__candidates_take(&c, &x), cases[i][2] > 0.0);
+    assert_true(x == (cases[i][2] > 0.0 ? start : found));
+    c.found.violation = 1e-8;
+    assert_int_equal(ambulo__candidates_take(&c, &x), 1);
+    c.start.violation = c.found.violation = HUGE_VAL;
+    x = 3.0;
+    assert_int_equal(ambulo__candidates_take(&c, &x), 0);
+    assert_true(x == 3.0);
+  }
+}
+
+/* what violates the rows is no better for a lower objective; equalities are rows too */
+static void validity_comes_first(void **state) {
+  (void)state;
+  chosen s;
+  int better = -1;
+  open_chosen(&s);
+  ambulo_options o = ambulo_options_default();
+  ambulo__candidates_offer(&s.c, s.f.engine, s.good);
+  s.c.found.objective = HUGE_VAL;
+  ambulo__candidates_offer(&s.c, s.f.engine, s.invalid);
+  expect(&s, 0, s.good);
+  memset(s.invalid, 0, (size_t)s.f.n * sizeof *s.invalid); /* hangs still: costs nothing */
+  assert_int_equal(ambulo__is_better(s.f.problem, &o, s.invalid, s.better, NULL, &better),
+                   AMBULO_OK);
+  assert_int_equal(better, 1);
+  memcpy(s.x, s.better, (size_t)s.f.n * sizeof *s.x);
+  s.x[0] += 1e-5;
+  assert_true(ambulo__violation_at(s.f.engine, s.x) > 1e-6);
+  close_chosen(&s);
+}
+
+/* rows that hold more closely may cost a hundred-thousandth, no more */
+static void closer_rows_have_a_price(void **state) {
+  (void)state;
+  chosen s;
+  open_chosen(&s);
+  ambulo_options o = ambulo_options_default();
+  o.feasibility_tolerance = 0.1; /* all of these pass */
+  o.optimality_tolerance = 1.0;
+  size_t n = (size_t)s.f.n;
+  double change[2], optimum = 0.0;
+  for (int k = 0; k < 3; k++) { /* objective by the first unknown, which is prescribed */
+    memcpy(s.x, s.better, n * sizeof *s.x);
+    s.x[0] += k == 0 ? 0.0 : k == 1 ? 1e-5 : -1e-5;
+    assert_true(ambulo__violation_at(s.f.engine, s.x) < 0.1);
+    double objective = s.f.engine->workspace->objective;
+    if (k == 0)
+      optimum = objective;
+    else
+      change[k - 1] = objective / optimum - 1.0;
+  }
+  double slope = (change[0] - change[1]) / 2e-5;
+  for (int k = 0; k < 2; k++) {
+    int better = -1;
+    memcpy(s.x, s.better, n * sizeof *s.x);
+    s.x[0] -= (k ? 2e-5 : 5e-6) / slope; /* cheaper by that */
+    assert_int_equal(ambulo__is_better(s.f.problem, &o, s.x, s.better, NULL, &better), AMBULO_OK);
+    assert_int_equal(better, k == 0);
+  }
+  close_chosen(&s);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_valid_point_wins),
                                      cmocka_unit_test(a_valid_start_is_not_made_worse),
+                                     cmocka_unit_test(a_start_that_is_hardly_better_wins),
                                      cmocka_unit_test(an_invalid_start_never_wins),
                                      cmocka_unit_test(points_that_are_not_finite_are_no_candidates),
                                      cmocka_unit_test(audits_decide_between_two),
-                                     cmocka_unit_test(lack_of_memory_is_said)};
+                                     cmocka_unit_test(lack_of_memory_is_said),
+                                     cmocka_unit_test(ties_go_to_what_was_found),
+                                     cmocka_unit_test(validity_comes_first),
+                                     cmocka_unit_test(closer_rows_have_a_price)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,6 +97,27 @@ static void the_caller_can_stop_it(void **state) {
   close_problem(&f);
 }
 
+static int refuse_later(void *user, const ambulo_progress *progress) {
+  (void)progress;
+  return --*(int *)user < 0;
+}
+
+/* before every factorization, which takes seconds for large problems */
+static void the_caller_is_asked_at_every_step(void **state) {
+  (void)state;
+  for (int calls = 1; calls < 8; calls++) {
+    elastic_fixture f;
+    int left = calls;
+    open_problem(&f, "walker_2d_step");
+    f.engine.options.progress = refuse_later;
+    f.engine.options.user = &left;
+    assert_int_equal(ambulo__elastic_minimize(&f.elastic, f.engine.x), 0);
+    assert_true(f.elastic.cancelled);
+    assert_true(f.elastic.work <= (double)calls);
+    close_problem(&f);
+  }
+}
+
 static void stiff_rows_hold_while_others_give_way(void **state) {
   (void)state;
   elastic_fixture f;
@@ -122,6 +143,7 @@ int main(void) {
                                      cmocka_unit_test(forces_balance_where_rows_conflict),
                                      cmocka_unit_test(a_passed_deadline_leaves_x_alone),
                                      cmocka_unit_test(the_caller_can_stop_it),
+                                     cmocka_unit_test(the_caller_is_asked_at_every_step),
                                      cmocka_unit_test(stiff_rows_hold_while_others_give_way)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

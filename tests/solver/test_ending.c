@@ -1,8 +1,11 @@
 /* The ending tells which limit or which test ended a solve, and credits NLopt with nothing that it
  * did not do. */
+#include "solver/ending.h"
+#include "solver/explain.h"
 #include "solver/result.h"
 #include "solver/verdict.h"
 #include "support/engine_fixture.h"
+#include "support/messages.h"
 
 static ambulo_result *solve(const ambulo_problem *problem, const ambulo_options *options) {
   ambulo_result *result = NULL;
@@ -79,6 +82,7 @@ static void nlopt_has_its_own_words(void **state) {
   r = solve(problem, NULL);
   expect(r, AMBULO_ENDING_CONVERGED, "pipeline (inner steps: NLopt's AUGLAG with LBFGS)");
   assert_null(strstr(ambulo_result_ending(r), "its last call"));
+  assert_null(strstr(ambulo_result_ending(r), "contradict")); /* none do */
   ambulo_result_free(r);
   ambulo_problem_free(problem);
 }
@@ -167,8 +171,113 @@ static void endings_have_names(void **state) {
   assert_string_equal(ambulo_ending_name((ambulo_ending)99), "unknown");
 }
 
+/* a method gave up because of what was not finite lately; a limit or a test that ended it did not
+ */
+static void faults_end_what_gave_up(void **state) {
+  (void)state;
+  static const ambulo_ending gave_up[] = {AMBULO_ENDING_STALLED, AMBULO_ENDING_NO_DESCENT,
+                                          AMBULO_ENDING_NOT_RESTORED, AMBULO_ENDING_BREAKDOWN,
+                                          AMBULO_ENDING_NLOPT};
+  for (size_t i = 0; i < sizeof gave_up / sizeof *gave_up; i++) {
+    ambulo__run run = {.ending = gave_up[i], .faults = 3};
+    ambulo__ending_of_faults(&run);
+    assert_int_equal(run.ending, gave_up[i]); /* forgiven since */
+    run.faults_lately = 1;
+    ambulo__ending_of_faults(&run);
+    assert_int_equal(run.ending, AMBULO_ENDING_NOT_FINITE);
+  }
+  ambulo__run run = {.ending = AMBULO_ENDING_CONVERGED, .faults = 1, .faults_lately = 1};
+  ambulo__ending_of_faults(&run);
+  assert_int_equal(run.ending, AMBULO_ENDING_CONVERGED);
+}
+
+/* the last one explains a failure, the first one is told of a success */
+static void faults_are_reported(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__run run = {.faults = 1, .evaluations = 40};
+  ambulo_result r = {.verdict = AMBULO_OPTIMAL};
+  run.first_fault = (ambulo_fault){.kind = AMBULO_FAULT_TERM, .name = "first", .value = NAN};
+  run.fault = (ambulo_fault){.kind = AMBULO_FAULT_TERM, .name = "last", .value = NAN};
+  ambulo__report_faults(&run, &r, list);
+  assert_message(list, 0,
+                 "1 of 40 points were given up; at the first the value of objective term "
+                 "'first'");
+  assert_int_equal(r.audit.fault.kind, AMBULO_FAULT_NONE);
+  r.verdict = AMBULO_NUMERIC_FAILURE;
+  ambulo__report_faults(&run, &r, list);
+  assert_string_equal(r.audit.fault.name, "last");
+  assert_message(list, 1, "'last'");
+  run = (ambulo__run){.faults = 0};
+  r = (ambulo_result){.verdict = AMBULO_OPTIMAL};
+  ambulo__report_faults(&run, &r, list);
+  assert_int_equal(ambulo_diagnostics_count(list), 2);
+  ambulo_diagnostics_free(list);
+}
+
+/* an iteration limit is no answer where the least violation was found, and is more than tolerances
+ * allow */
+static void verdicts_are_settled_by_explanations(void **state) {
+  (void)state;
+  for (int k = 0; k < 32; k++) {
+    int complete = k & 1, feasible = (k >> 1) & 1, iterations = (k >> 2) & 1, said = (k >> 3) & 1;
+    int conflicts = (k >> 4) & 1;
+    ambulo__explanation *e = calloc(1, sizeof *e);
+    ambulo__run run = {.ending = iterations ? AMBULO_ENDING_ITERATIONS : AMBULO_ENDING_TIME};
+    ambulo_result r = {.verdict = AMBULO_LIMIT_REACHED};
+    e->view.complete = complete;
+    e->view.feasible_point = feasible;
+    e->view.conflict_count = conflicts;
+    if (said) r.explanation = e;
+    ambulo__settle_verdict(&run, &r);
+    int changes = complete && !feasible && iterations && said && conflicts > 0;
+    assert_int_equal(r.verdict, changes ? AMBULO_INFEASIBLE : AMBULO_LIMIT_REACHED);
+    free(e);
+  }
+}
+
+/* families by how much they are off in their size */
+static void families_are_reported_by_size(void **state) {
+  (void)state;
+  ambulo_violation families[2] = {
+      {.family = "torque_limit", .subject = "a", .detail = "b", .unit = "N m", .worst = 1e-3},
+      {.family = "joint_limit", .subject = "c", .detail = "d", .unit = "rad", .worst = 1e-3}};
+  families[0].size = 2000.0;
+  families[1].size = 1.0;
+  ambulo_result r = {.verdict = AMBULO_INFEASIBLE, .families = 2, .family = families};
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__report_families(&r, 1e-6, list);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_message(list, 0, "no point was found that satisfies joint_limit: c (d)");
+  r.verdict = AMBULO_OPTIMAL;
+  ambulo__report_families(&r, 1e-6, list);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  ambulo_diagnostics_free(list);
+}
+
+/* SLSQP alone, too, which here would go on */
+static void small_problems_keep_to_the_limit(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(
+      ambulo_problem_load("tests/infeasible/torque_too_weak.yaml", NULL, 0, NULL, NULL, &problem),
+      AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  options.maximum_iterations = 1;
+  options.algorithm = AMBULO_SLSQP;
+  ambulo_result *r = solve(problem, &options);
+  expect(r, AMBULO_ENDING_ITERATIONS, "the iteration limit was met (1); 1 iterations");
+  ambulo_result_free(r);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(faults_end_what_gave_up),
+      cmocka_unit_test(faults_are_reported),
+      cmocka_unit_test(verdicts_are_settled_by_explanations),
+      cmocka_unit_test(families_are_reported_by_size),
+      cmocka_unit_test(small_problems_keep_to_the_limit),
       cmocka_unit_test(limits_are_named),
       cmocka_unit_test(tests_are_named),
       cmocka_unit_test(nlopt_has_its_own_words),

@@ -291,6 +291,30 @@ static void a_missed_solution_is_named(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* rows that hold to 1e-8 of their size are not "in conflict", whatever tolerance was asked for */
+static void what_all_but_holds_is_no_conflict(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("walk_without_reaction");
+  ambulo_options options = ambulo_problem_options(problem);
+  options.feasibility_tolerance = 1e-14;
+  options.maximum_iterations = 20;
+  ambulo_result *result = solve(problem, &options);
+  const ambulo_explanation *e = ambulo_result_explanation(result);
+  double left = ambulo_result_audit(result)->violation.worst, asked = 0.0;
+  if (e && left < 1e-6) {
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_LIMIT_REACHED);
+    assert_int_equal(e->conflict_count, 0);
+    assert_int_equal(e->on_limit_count, 0);
+    assert_int_equal(e->setting_count, 1);
+    assert_int_equal(sscanf(e->settings[0], "solver.feasibility_tolerance=%lf", &asked), 1);
+    assert_true(asked > left && asked < 10.0 * left);
+  } else {
+    assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+  }
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 static void a_spent_time_limit_is_kept(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
@@ -316,6 +340,7 @@ int main(void) {
       cmocka_unit_test(limits_that_the_motion_rests_on_have_the_models_numbers),
       cmocka_unit_test(good_ends_and_audits_need_no_explanation),
       cmocka_unit_test(a_missed_solution_is_named),
+      cmocka_unit_test(what_all_but_holds_is_no_conflict),
       cmocka_unit_test(a_spent_time_limit_is_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,12 @@
 /* Predicted memory against what is taken, counted by an allocator; absurd sizes are refused. */
 #include "solver/memory.h"
+#include "base/free_memory.h"
+#include "nlp/memory.h"
 #include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
 #include "support/messages.h"
+
+#include <limits.h>
 
 typedef struct counter {
   double now, peak;
@@ -112,9 +117,64 @@ static void absurd_problems_are_refused(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* without a limit of its own a solve has what the machine has left */
+static void what_the_machine_has_is_the_limit(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_options options = ambulo_problem_options(problem);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  int variables = problem->variables;
+  if (ambulo__free_megabytes() > 0.0) {
+    assert_int_equal(ambulo__solve_check_memory(problem, &options, list), AMBULO_OK);
+    problem->variables = INT_MAX; /* a few terabytes */
+    assert_int_equal(ambulo__solve_check_memory(problem, &options, list), AMBULO_E_LIMIT);
+    assert_message(list, 0, " GB (free)");
+    problem->variables = variables;
+  }
+  ambulo_diagnostics_free(list);
+  ambulo_problem_free(problem);
+}
+
+/* with and without Jacobians; small arrays are not counted */
+static void workspaces_are_predicted(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("walk_normal");
+  for (int jacobians = 0; jacobians < 2; jacobians++) {
+    counter c = {0.0, 0.0};
+    ambulo_allocator allocator = {count, &c};
+    ambulo_workspace *w = NULL;
+    ambulo_status status = jacobians ? ambulo_workspace_create(problem, &allocator, &w)
+                                     : ambulo__workspace_create_for_values(problem, &allocator, &w);
+    assert_int_equal(status, AMBULO_OK);
+    double ratio = ambulo__workspace_bytes(problem, jacobians) / c.peak;
+    if (!(ratio > 0.9 && ratio < 1.1)) print_error("%d: ratio %g\n", jacobians, ratio);
+    assert_true(ratio > 0.9 && ratio < 1.1);
+    ambulo_workspace_free(w);
+  }
+  ambulo_problem_free(problem);
+}
+
+/* who runs out of memory is told how much it takes */
+static void lack_of_memory_tells_the_figure(void **state) {
+  (void)state;
+  fail_alloc memory = fail_alloc_at(20);
+  ambulo_allocator allocator = fail_alloc_hook(&memory);
+  ambulo_problem *problem = load_problem("pendulum_swing");
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, &allocator, list, &result), AMBULO_E_MEMORY);
+  assert_message(list, 0, "cannot allocate memory to solve the problem; it takes about ");
+  assert_int_equal(memory.live, 0);
+  ambulo_diagnostics_free(list);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(predictions_hold),
+                                     cmocka_unit_test(lack_of_memory_tells_the_figure),
                                      cmocka_unit_test(a_solve_that_does_not_fit_is_refused),
-                                     cmocka_unit_test(absurd_problems_are_refused)};
+                                     cmocka_unit_test(absurd_problems_are_refused),
+                                     cmocka_unit_test(what_the_machine_has_is_the_limit),
+                                     cmocka_unit_test(workspaces_are_predicted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 /* The banded metric is the sum of the nodes' Gauss-Newton matrices. */
+#include "support/problem_fixture.h"
 #include "support/engine_fixture.h"
 
 static void band_is_the_sum_over_nodes(void **state) {
@@ -115,11 +116,39 @@ static void problem_without_objective_has_a_metric(void **state) {
   engine_close(&f);
 }
 
+/* a torque that is not a number leaves a matrix that cannot be factored, not one without it */
+static void nan_reaches_the_factorization(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  ambulo_problem_definition d = arm_definition(f.model);
+  ambulo_term term = ambulo_term_default(AMBULO_TORQUE_ABSOLUTE);
+  d.terms = &term;
+  fixture_open(&f, &d);
+  ambulo__pool pool;
+  ambulo__metric metric;
+  ambulo__band h;
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__metric_create(f.problem, &pool, &metric), AMBULO_OK);
+  assert_int_equal(ambulo__band_create(&pool, f.n, ambulo__metric_diagonals(f.problem), &h),
+                   AMBULO_OK);
+  assert_int_equal(ambulo__evaluate_jacobian(f.workspace, f.x), AMBULO_OK);
+  for (int spoilt = 0; spoilt < 2; spoilt++) {
+    int tau = ambulo__channel_tau(&f.problem->channels, 1);
+    if (spoilt) f.workspace->channel[ambulo__lane_index(4, f.workspace->channel_count, tau)] = NAN;
+    ambulo__metric_fill(&metric, f.workspace, 1.0, &h);
+    ambulo__band_add_diagonal(&h, 1.0);
+    assert_int_equal(ambulo__band_factor(&h) != 0, spoilt);
+  }
+  ambulo__pool_clear(&pool);
+  fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(band_is_the_sum_over_nodes),
                                      cmocka_unit_test(scale_takes_the_unit_away),
                                      cmocka_unit_test(postures_do_not_move_the_scale),
                                      cmocka_unit_test(scale_goes_with_the_mass_squared),
-                                     cmocka_unit_test(problem_without_objective_has_a_metric)};
+                                     cmocka_unit_test(problem_without_objective_has_a_metric),
+                                     cmocka_unit_test(nan_reaches_the_factorization)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

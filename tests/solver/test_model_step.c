@@ -42,10 +42,30 @@ static void multipliers_balance_the_gradient(void **state) {
   engine_close(&f);
 }
 
+static int refuse(void *user, const ambulo_progress *progress) {
+  (void)user;
+  (void)progress;
+  return 1;
+}
+
+static void the_caller_is_asked(void **state) {
+  (void)state;
+  engine_fixture f;
+  double predicted;
+  engine_open_restored(&f, "yardstick_12");
+  f.options.progress = refuse;
+  f.run.polled_at -= 1e9;
+  (void)ambulo__model_step(f.engine, &predicted);
+  assert_true(f.run.stopped);
+  assert_int_equal(f.run.ending, AMBULO_ENDING_CALLER);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(step_keeps_the_equalities_and_descends),
       cmocka_unit_test(multipliers_balance_the_gradient),
+      cmocka_unit_test(the_caller_is_asked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

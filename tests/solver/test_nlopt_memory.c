@@ -158,6 +158,7 @@ static void what_is_promised_is_there(void **state) {
       nlopt_opt local = nlopt_create(NLOPT_LD_LBFGS, n), outer = nlopt_create(NLOPT_AUGLAG, n);
       arm(bytes);
       int can = ambulo__nlopt_can_copy(n);
+      assert_true(in_use == 0);
       int copied = can && nlopt_set_local_optimizer(outer, local) >= 0;
       (void)disarm();
       assert_true(can || refused);

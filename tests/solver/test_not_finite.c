@@ -137,6 +137,34 @@ static void audits(void **state) {
   }
 }
 
+/* a value and a slope that are finite, with a square that is not: no word about the rows */
+static double steep(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  (void)user;
+  if (gradient) gradient->qdd[0] += 1e200;
+  return 1e200 * state->qdd[0];
+}
+
+static void curvature_that_is_not_finite(void **state) {
+  (void)state;
+  swing s;
+  open_swing(&s, 0);
+  fixture_close(&s.f);
+  s.f.model = arm_create();
+  ambulo_problem_definition definition = arm_definition(s.f.model);
+  s.term = ambulo_term_default(AMBULO_USER_SQUARE);
+  s.term.function = steep;
+  definition.terms = &s.term;
+  definition.term_count = 1;
+  fixture_open(&s.f, &definition);
+  outcome o = solve(s.f.problem, 0);
+  assert_int_equal(o.status, AMBULO_OK);
+  assert_int_equal(o.verdict, AMBULO_NUMERIC_FAILURE);
+  assert_non_null(strstr(o.text, "the second derivative of the objective is infinite"));
+  assert_null(strstr(o.text, "no point was found"));
+  free(o.x);
+  fixture_close(&s.f);
+}
+
 /* Values that are not finite at trial points alone: a wall that the solve turns back from. The
  * optimum lies this side of it, so that `optimal` is the truth, and it is said that points were
  * given up. */
@@ -269,9 +297,12 @@ static void every_family(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(functions_of_the_caller),    cmocka_unit_test(audits),
-      cmocka_unit_test(walls_are_turned_back_from), cmocka_unit_test(small_mechanics),
-      cmocka_unit_test(mechanics_of_a_step),        cmocka_unit_test(every_family)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(functions_of_the_caller),
+                                     cmocka_unit_test(audits),
+                                     cmocka_unit_test(curvature_that_is_not_finite),
+                                     cmocka_unit_test(walls_are_turned_back_from),
+                                     cmocka_unit_test(small_mechanics),
+                                     cmocka_unit_test(mechanics_of_a_step),
+                                     cmocka_unit_test(every_family)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

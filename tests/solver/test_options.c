@@ -31,8 +31,15 @@ static void each_fault_is_named(void **state) {
   o.time_limit = NAN;
   refuse(o, "time_limit");
   o = ambulo_options_default();
-  o.feasibility_tolerance = 0.0;
-  refuse(o, "tolerances");
+  static const double no_tolerance[] = {0.0, -1e-6, 1e-300, 1e-15, 1.1, 1e300, INFINITY, NAN};
+  for (size_t i = 0; i < sizeof no_tolerance / sizeof *no_tolerance; i++) {
+    o = ambulo_options_default();
+    o.feasibility_tolerance = no_tolerance[i];
+    refuse(o, "feasibility_tolerance");
+    o = ambulo_options_default();
+    o.optimality_tolerance = no_tolerance[i];
+    refuse(o, "optimality_tolerance");
+  }
   o = ambulo_options_default();
   o.finisher = (ambulo_finisher)7;
   refuse(o, "finisher");

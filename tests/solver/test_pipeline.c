@@ -42,6 +42,28 @@ static void polish_closes_what_is_left(void **state) {
   engine_close(&f);
 }
 
+/* Equalities hold to what is asked: at any tolerance the same walk, never a violation that "the
+ * rows hold" leaves. */
+static void tight_tolerances_are_met(void **state) {
+  (void)state;
+  static const char *const tolerances[] = {"solver.feasibility_tolerance=1e-9",
+                                           "solver.feasibility_tolerance=1e-11",
+                                           "solver.feasibility_tolerance=1e-13"};
+  for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++) {
+    ambulo_problem *problem = load_problem_with("yardstick_12", tolerances[i]);
+    ambulo_result *result = NULL;
+    assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+    if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+      print_error("%s: %s, off by %g\n", tolerances[i],
+                  ambulo_verdict_name(ambulo_result_verdict(result)),
+                  ambulo_result_audit(result)->violation.worst);
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    assert_int_equal(ambulo_result_ending_code(result), AMBULO_ENDING_CONVERGED);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+  }
+}
+
 /* Hermite nodes whose forces can all vanish: the objective goes to zero, the solve ends */
 static void vanishing_objective_ends_the_solve(void **state) {
   (void)state;
@@ -86,6 +108,7 @@ static void tracking_has_no_lower_bound_to_rest_on(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_reaches_its_optimum),
                                      cmocka_unit_test(polish_closes_what_is_left),
+                                     cmocka_unit_test(tight_tolerances_are_met),
                                      cmocka_unit_test(vanishing_objective_ends_the_solve),
                                      cmocka_unit_test(tracking_has_no_lower_bound_to_rest_on)};
   return cmocka_run_group_tests(tests, NULL, NULL);

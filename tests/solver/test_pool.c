@@ -18,6 +18,9 @@ static void failure_is_sticky_and_nothing_leaks(void **state) {
   assert_null(ambulo__pool_doubles(&pool, 10));
   ambulo__pool_clear(&pool);
   assert_int_equal(memory.live, 0);
+  assert_non_null(ambulo__pool_doubles(&pool, 10)); /* as new */
+  assert_int_equal(pool.failed, 0);
+  ambulo__pool_clear(&pool);
 }
 
 static void blocks_are_zero_and_aligned(void **state) {

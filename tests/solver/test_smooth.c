@@ -139,6 +139,7 @@ static void valid_starts_are_not_made_worse(void **state) {
 /* also when there is no time to find anything better, and by every method */
 static void the_start_is_returned_at_least(void **state) {
   (void)state;
+  int said = 0;
   static const char *const names[] = {"two_link_reach", "walker_2d_step"};
   for (size_t i = 0; i < 2; i++) {
     started s;
@@ -151,11 +152,13 @@ static void the_start_is_returned_at_least(void **state) {
         ambulo_result *result = solve_from(&s, &options);
         assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
         assert_true(ambulo_result_objective(result) <= s.objective * (1.0 + 2e-6));
+        said += strstr(ambulo_result_ending(result), "worse than the given start") != NULL;
         ambulo_result_free(result);
       }
     }
     close_started(&s);
   }
+  assert_true(said > 0);
 }
 
 /* a start from which no solution is found: the solver's own is tried, and it is said */
@@ -219,6 +222,28 @@ static void the_filter_has_its_cut_off(void **state) {
   engine_close(&f);
 }
 
+/* unknowns that are rates may move by s sqrt(a / s) = 0.77 rad/s, values by 0.02 rad */
+static void rates_have_their_own_size(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open_with(&f, "two_link_reach", "trajectory={basis: hermite}");
+  double *smooth = calloc((size_t)f.n, sizeof *smooth);
+  const ambulo_problem *p = f.problem;
+  double time = p->definition.duration / ambulo__basis_intervals(p->basis);
+  int rates = 0;
+  assert_int_equal(ambulo__smooth_curve(f.engine, f.x, smooth), 0);
+  for (int j = 0; j < f.n; j++) {
+    int is_value = 1;
+    (void)ambulo__basis_abscissa(p->basis, j / p->coordinates, &is_value);
+    double size = is_value ? 0.02 : 0.02 * sqrt(30.0 / 0.02);
+    assert_close(f.engine->step[j], time / (size * size), 1e-12 * time / (size * size));
+    rates += !is_value;
+  }
+  assert_int_equal(rates, f.n / 2);
+  free(smooth);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(noise_is_smoothed_away),
                                      cmocka_unit_test(lines_over_the_index_are_no_conflict),
@@ -227,6 +252,7 @@ int main(void) {
                                      cmocka_unit_test(the_start_is_returned_at_least),
                                      cmocka_unit_test(the_solver_tries_its_own_start),
                                      cmocka_unit_test(optima_stay),
-                                     cmocka_unit_test(the_filter_has_its_cut_off)};
+                                     cmocka_unit_test(the_filter_has_its_cut_off),
+                                     cmocka_unit_test(rates_have_their_own_size)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

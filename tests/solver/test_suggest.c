@@ -151,9 +151,128 @@ static void new_values_are_rounded_outward(void **state) {
   assert_true(ambulo__outward(0.0, 1) == 0.0 && isinf(ambulo__outward(INFINITY, 1)));
 }
 
+/* partners whose signs differ have their limits at opposite ends */
+static void a_sign_turns_the_partners_limit(void **state) {
+  (void)state;
+  static const miss m = {WALK,    {0},  "joint_limit",    "hip_rotation_l",
+                         "upper", -0.1, "hip_rotation_l", {"model.links[", "model.links["},
+                         1};
+  ambulo_problem *p = load(WALK, NULL, 0);
+  int l = ambulo_model_find_coordinate(p->model, "hip_rotation_l");
+  ambulo_coordinate *c = (ambulo_coordinate *)&p->model->coordinates[l];
+  c->mirror_sign = -1.0;
+  ambulo__explanation *out = suggest(p, find_row(p, &m, 3), m.value);
+  expect_advice(&m, out);
+  assert_non_null(strstr(out->setting[0], "range=[-40, 45."));
+  assert_non_null(strstr(out->setting[1], "range=[-45."));
+  assert_non_null(strstr(out->setting[1], ", 40]"));
+  free(out);
+  ambulo_problem_free(p);
+}
+
+/* what a descent leaves of zero is zero; accelerations are not set */
+static void ends_are_set_where_they_have_a_key(void **state) {
+  (void)state;
+  static const char file[] = "models/two_link_reach.yaml";
+  ambulo_problem *p = load(file, NULL, 0);
+  miss m = {file,    {0}, "final_state",          "elbow",
+            "value", 0.0, "final value of elbow", {"ends.final.elbow=0"},
+            1};
+  int row = find_row(p, &m, -2);
+  m.value = p->table.rows[row].constant + 4e-6;
+  ambulo__explanation *out = suggest(p, row, m.value);
+  expect_advice(&m, out);
+  assert_string_equal(out->setting[0], "ends.final.elbow=0");
+  free(out);
+  m = (miss){file, {0}, "final_state", "elbow", "acceleration", 0.1, "final acceleration", {0}, 1};
+  p->table.rows[row].detail = m.detail;
+  expect_at(p, &m, -2);
+  ambulo_problem_free(p);
+}
+
+/* the travel is that of all steps, and a coordinate may point against it */
+static void travel_is_shared_by_the_steps(void **state) {
+  (void)state;
+  static const miss m = {WALK,    {0},  "mirrored",           "pelvis_tx",
+                         "value", 0.08, "gets 0.6 m forward", {"gait.step_length=0.3"},
+                         1};
+  ambulo_problem *p = load(WALK, NULL, 0);
+  int row = find_row(p, &m, -2);
+  p->keys.steps = 2;
+  p->table.rows[row].constant = -p->table.rows[row].constant;
+  expect_at(p, &m, -2);
+  ambulo_problem_free(p);
+}
+
+/* the width that is there and what is missed; of two tubes it is not known which */
+static void one_tube_is_widened(void **state) {
+  (void)state;
+  static const char file[] = "tests/infeasible/equalities_contradict.yaml";
+  miss m = {file, {0},  "tracking_tube",    "pelvis_tx",
+            "on", 0.15, "leave the motion", {"constraints.tubes[0].coordinates.pelvis_tx=0.2515"},
+            1};
+  ambulo_problem *p = load(file, NULL, 0);
+  const ambulo_tube *kept = p->definition.tubes;
+  int i = ambulo_model_find_coordinate(p->model, "pelvis_tx");
+  ((double *)kept->half_width)[i] = 0.1;
+  expect_at(p, &m, -2);
+  ambulo_tube both[2] = {kept[0], kept[0]};
+  p->definition.tubes = both;
+  p->definition.tube_count = 2;
+  m.setting[0] = NULL;
+  expect_at(p, &m, -2);
+  p->definition.tubes = kept;
+  p->definition.tube_count = 1;
+  ambulo_problem_free(p);
+}
+
+/* rows of the family that have to give way too are told, one by name */
+static void others_are_mentioned(void **state) {
+  (void)state;
+  static const char *const phrases[3] = {NULL, "; likewise knee_angle_r upper by 0.05 rad",
+                                         "; likewise the other rows named under joint_limit"};
+  const miss m = {.family = "joint_limit", .subject = "knee_angle_l", .detail = "upper"};
+  ambulo_problem *p = load(WALK, NULL, 0);
+  double *values = calloc((size_t)p->rows, sizeof *values);
+  for (int single = 0; single < 2; single++) {
+    for (int count = 0; count < 3; count++) {
+      ambulo__explanation *out = calloc(1, sizeof *out);
+      ambulo__remedy remedy = {.row = find_row(p, &m, -2), .value = values, .single = single};
+      values[remedy.row] = -0.1;
+      out->conflict[0].shared.family = "joint_limit";
+      out->conflict[0].other_count = count;
+      out->conflict[0].others[0] = (ambulo_violation){
+          .subject = "knee_angle_r", .detail = "upper", .unit = "rad", .worst = 0.05};
+      ambulo__suggest(p, &remedy, out);
+      assert_int_equal(strstr(out->suggestion, "; likewise") != NULL, count > 0 && !single);
+      if (count > 0 && !single) assert_non_null(strstr(out->suggestion, phrases[count]));
+      free(out);
+    }
+  }
+  free(values);
+  ambulo_problem_free(p);
+}
+
+static void settings_have_room(void **state) {
+  (void)state;
+  ambulo_problem *p = load(WALK, NULL, 0);
+  ambulo__explanation *out = calloc(1, sizeof *out);
+  ambulo__advice a = {.problem = p, .out = out};
+  for (int i = 0; i < AMBULO__MOST_SETTINGS + 3; i++) ambulo__advice_set(&a, "number=%d", i);
+  assert_int_equal(out->view.setting_count, AMBULO__MOST_SETTINGS);
+  free(out);
+  ambulo_problem_free(p);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_row_misses_can_be_set),
                                      cmocka_unit_test(without_a_file_there_are_no_settings),
-                                     cmocka_unit_test(new_values_are_rounded_outward)};
+                                     cmocka_unit_test(new_values_are_rounded_outward),
+                                     cmocka_unit_test(a_sign_turns_the_partners_limit),
+                                     cmocka_unit_test(ends_are_set_where_they_have_a_key),
+                                     cmocka_unit_test(travel_is_shared_by_the_steps),
+                                     cmocka_unit_test(one_tube_is_widened),
+                                     cmocka_unit_test(others_are_mentioned),
+                                     cmocka_unit_test(settings_have_room)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

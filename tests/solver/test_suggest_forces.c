@@ -1,6 +1,8 @@
 /* What is suggested where a force on the ground, its centre or its moment misses its bounds. */
 #include "support/suggest_cases.h"
 
+static const char NARROW[] = "tests/infeasible/support_too_narrow.yaml";
+
 static const miss misses[] = {
     {WALK,
      {0},
@@ -57,6 +59,36 @@ static const miss misses[] = {
      "above the ground",
      {"constraints.contact_tolerance=0.0102"},
      1},
+    {NARROW,
+     {0},
+     "zmp",
+     "support",
+     "front",
+     -0.1,
+     "0.1 m (front) at t = ",
+     {"constraints.zmp_margin=0"},
+     1},
+    {NARROW,
+     {0},
+     "zmp",
+     "support",
+     "front",
+     -0.08,
+     "from 0.08 m to 0 m",
+     {"constraints.zmp_margin=0"},
+     1},
+    {WALK,
+     {0},
+     "pressure",
+     "left",
+     "back",
+     -0.01,
+     "of left go 0.01 m further back",
+     {"ground_reaction.pressure={heel: [-0.02, 0.03], roll: 0.04, flat: [-0.005, 0.02], toe: [-0.03"
+      "02, 0.055], width: 0.035}"},
+     1},
+    /* more than a key may be: the sentence alone */
+    {WALK, {0}, "free_moment", "ground", "to the left", -20.0, "be up to 20.", {0}, 1},
     {"models/yardstick_36.yaml",
      {0},
      "zmp",
@@ -94,6 +126,8 @@ static void friction_is_what_the_pair_of_rows_asks_for(void **state) {
   assert_string_equal(p->table.rows[other].detail, "backward");
   values[row] = mu * normal - along;
   values[other] = mu * normal + along;
+  values[find_row(p, &m, 6)] = -1e-9; /* unloaded: no friction follows from it */
+  values[find_row(p, &m, 6) + other - row] = 1e-9;
   ambulo__explanation *out = calloc(1, sizeof *out);
   ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
   ambulo__suggest(p, &remedy, out);
@@ -104,9 +138,38 @@ static void friction_is_what_the_pair_of_rows_asks_for(void **state) {
   ambulo_problem_free(p);
 }
 
+/* no friction holds where the ground pulls, or is not loaded; nor do rows of two directions make a
+ * pair. `row` is that of mu n - t */
+static void friction_that_does_not_help_is_not_asked_for(void **state) {
+  (void)state;
+  static const double rows[][3] = {{-0.1, 0.1, 0.0},   /* mu n - t, mu n + t, the row after */
+                                   {-0.5, 0.54, 0.0},  /* 0.5 (1 + 2 * 0.5 / 0.04): above 10 */
+                                   {-0.1, -0.2, 0.5}}; /* the row after is of another direction */
+  ambulo_problem *p = load(WALK, NULL, 0);
+  const miss m = {WALK, {0}, "friction", "total", "backward", 0.0, NULL, {0}, 1};
+  int row = find_row(p, &m, 7);
+  assert_string_equal(p->table.rows[row + 1].detail, "forward");
+  p->table.rows[row + 2].subject = "left"; /* three rows next to each other */
+  for (int i = 0; i < 3; i++) {
+    ambulo__explanation *out = calloc(1, sizeof *out);
+    double *values = calloc((size_t)p->rows, sizeof *values);
+    ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
+    for (int k = 0; k < 3; k++) values[row + k] = rows[i][k];
+    ambulo__suggest(p, &remedy, out);
+    if (out->view.setting_count) print_error("case %d: '%s'\n", i, out->setting[0]);
+    assert_int_equal(out->view.setting_count, 0);
+    assert_non_null(strstr(out->suggestion, "more than friction holds"));
+    free(values);
+    free(out);
+  }
+  ambulo_problem_free(p);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_row_misses_can_be_set),
-                                     cmocka_unit_test(without_a_file_there_are_no_settings),
-                                     cmocka_unit_test(friction_is_what_the_pair_of_rows_asks_for)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_a_row_misses_can_be_set),
+      cmocka_unit_test(without_a_file_there_are_no_settings),
+      cmocka_unit_test(friction_is_what_the_pair_of_rows_asks_for),
+      cmocka_unit_test(friction_that_does_not_help_is_not_asked_for)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

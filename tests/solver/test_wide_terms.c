@@ -114,8 +114,49 @@ static void linear_terms_at_every_scale(void **state) {
   ambulo_model_free(model);
 }
 
+/* largest where the joints accelerate most: no curvature of its own, no minimum inside the limits
+ */
+static double sloth(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  const wide *w = user;
+  double sum = 0.0;
+  for (int i = 0; i < ARM_COORDINATES; i++) {
+    sum -= w->factor * state->qdd[i] * state->qdd[i];
+    if (gradient) gradient->qdd[i] -= 2.0 * w->factor * state->qdd[i];
+  }
+  return sum;
+}
+
+/* A point between the limits that is no optimum is called none, whatever the unit. */
+static void no_optimum_at_any_scale(void **state) {
+  (void)state;
+  static const double units[] = {1e-300, 1e-100, 1e-20, 1.0, 1e20, 1e100, 1e300};
+  double kkt = 0.0;
+  for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+    fixture f = {.model = arm_create()};
+    ambulo_problem_definition definition = arm_definition(f.model);
+    wide w = {units[i], 0};
+    ambulo_term term = ambulo_term_default(AMBULO_USER_TERM);
+    term.function = sloth;
+    term.user = &w;
+    definition.terms = &term;
+    definition.term_count = 1;
+    definition.end_value_count = 0;
+    definition.torque_limits = definition.speed_limits = 0;
+    fixture_open(&f, &definition);
+    ambulo_result *result = NULL;
+    assert_int_equal(ambulo_audit_point(f.problem, NULL, f.x, NULL, NULL, &result), AMBULO_OK);
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_FEASIBLE);
+    if (i == 0) kkt = ambulo_result_audit(result)->kkt;
+    assert_true(kkt > 0.1);
+    assert_close(ambulo_result_audit(result)->kkt, kkt, 1e-6);
+    ambulo_result_free(result);
+    fixture_close(&f);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(torque_squared_at_every_scale),
-                                     cmocka_unit_test(linear_terms_at_every_scale)};
+                                     cmocka_unit_test(linear_terms_at_every_scale),
+                                     cmocka_unit_test(no_optimum_at_any_scale)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

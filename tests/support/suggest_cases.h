@@ -77,11 +77,36 @@ static inline void follow(const miss *m, const ambulo_problem *p, int row,
   ambulo_problem_free(cured);
 }
 
+/* the sentence, and the settings, no more */
+static inline void expect_advice(const miss *m, const ambulo__explanation *out) {
+  int settings = 0;
+  if (!strstr(out->suggestion, m->phrase)) print_error("got '%s'\n", out->suggestion);
+  assert_non_null(strstr(out->suggestion, m->phrase));
+  while (settings < 3 && m->setting[settings]) settings++;
+  if (out->view.setting_count != settings) print_error("of '%s'\n", out->suggestion);
+  assert_int_equal(out->view.setting_count, settings);
+  for (int k = 0; k < settings; k++) {
+    int same = !strncmp(out->setting[k], m->setting[k], strlen(m->setting[k]));
+    if (!same) print_error("got '%s'; expected '%s'\n", out->setting[k], m->setting[k]);
+    assert_true(same);
+    assert_ptr_equal(out->settings[k], out->setting[k]);
+  }
+}
+
+/* the same for the row at one node; the problem may have been changed since it was read */
+static inline void expect_at(const ambulo_problem *p, const miss *m, int node) {
+  int row = find_row(p, m, node);
+  assert_true(row >= 0);
+  ambulo__explanation *out = suggest(p, row, m->value);
+  expect_advice(m, out);
+  free(out);
+}
+
 /* each miss: the sentence, the settings, and what becomes of the row with them */
 static inline void try_misses(const miss *misses, int count) {
   for (int i = 0; i < count; i++) {
     const miss *m = &misses[i];
-    int overrides = 0, settings = 0;
+    int overrides = 0;
     while (overrides < 3 && m->overrides[overrides]) overrides++;
     ambulo_problem *p = load(m->file, m->overrides, overrides);
     assert_non_null(p);
@@ -89,18 +114,8 @@ static inline void try_misses(const miss *misses, int count) {
     if (row < 0) print_error("no %s %s %s in %s\n", m->family, m->subject, m->detail, m->file);
     assert_true(row >= 0);
     ambulo__explanation *out = suggest(p, row, m->value);
-    if (!strstr(out->suggestion, m->phrase)) print_error("got '%s'\n", out->suggestion);
-    assert_non_null(strstr(out->suggestion, m->phrase));
-    while (settings < 3 && m->setting[settings]) settings++;
-    if (out->view.setting_count != settings) print_error("case %d\n", i);
-    assert_int_equal(out->view.setting_count, settings);
-    for (int k = 0; k < settings; k++) {
-      int same = !strncmp(out->setting[k], m->setting[k], strlen(m->setting[k]));
-      if (!same) print_error("got '%s'; expected '%s'\n", out->setting[k], m->setting[k]);
-      assert_true(same);
-      assert_ptr_equal(out->settings[k], out->setting[k]);
-    }
-    if (settings > 0) follow(m, p, row, out);
+    expect_advice(m, out);
+    if (m->setting[0]) follow(m, p, row, out);
     free(out);
     ambulo_problem_free(p);
   }

@@ -1,0 +1,54 @@
+#!/bin/sh
+# Writes into the present folder what the pages call files of your own: measured curves, and a
+# motion with forces as other programs write them. Both are made up from a predicted walk, and
+# serve to run the commands, not to judge anything. Needs ambulo on the PATH.
+set -e
+models=$(ambulo --models)
+ambulo solve "$models/walk_normal.yaml" -o of_walk --quiet
+ambulo inverse "$models/walk_normal.yaml" of_walk/motion.csv -o of_walk.csv 2>/dev/null
+
+# curves of a layout that docs/compare.md names
+{
+  echo variable,percent,mean_deg,sd_deg
+  for percent in 0 10 20 30 40 50 60 70 80 90 100; do
+    echo "hip_flexion,$percent,$((35 - percent / 2)),5"
+    echo "knee_flexion,$percent,$((5 + percent / 2)),5"
+  done
+} >adults.csv
+
+cp "$models/lower_body_18.yaml" model.yaml
+table() { # the columns whose names match $1, renamed by $2; angles (q.*) in degrees
+  grep -v '^#' of_walk/motion.csv | awk -F , -v match_="$1" -v rename="$2" -v title="$3" '
+    NR == 1 {
+      for (i = 1; i <= NF; i++) if ($i ~ match_ || $i == "time") { take[++n] = i; name[i] = $i }
+      header = ""
+      for (k = 1; k <= n; k++) {
+        i = take[k]; text = name[i]
+        angle[i] = text ~ /^q\./ && text !~ /_t[xyz]$/
+        if (rename == "q") sub(/^q\./, "", text)
+        else {
+          foot = text ~ /left/ ? "1_" : ""; axis = substr(text, length(text))
+          if (text ~ /^grf/) text = foot "ground_force_v" axis
+          else if (text ~ /^cop/) text = foot "ground_force_p" axis
+        }
+        header = header (k > 1 ? "\t" : "") text
+      }
+      next
+    }
+    {
+      line[++rows] = ""
+      for (k = 1; k <= n; k++) {
+        value = $(take[k])
+        if (angle[take[k]]) value *= 57.29577951308232
+        if (value == "nan") value = 0
+        line[rows] = line[rows] (k > 1 ? "\t" : "") sprintf("%.12g", value)
+      }
+    }
+    END {
+      printf "%s\nversion=1\nnRows=%d\nnColumns=%d\ninDegrees=yes\nendheader\n%s\n", title, rows, n, header
+      for (r = 1; r <= rows; r++) print line[r]
+    }'
+}
+table '^q\.' q Coordinates >ik.mot
+table '^(grf|cop)\.' forces forces >grf.mot
+rm -r of_walk of_walk.csv

@@ -1,0 +1,286 @@
+#!/usr/bin/env bash
+# What the pages say is done: every block of code in README.md, docs/*.md and the --help of each
+# command is run as it stands, twice.
+#
+#   clone      in a copy of the sources with the program in build/, all pages in one folder, in the
+#              order in which the README names them
+#   installed  below a prefix of its own, without the sources: every page in a new folder that
+#              holds nothing but the shipped models
+#
+# The examples of --help run in a new folder, too. Shell blocks are run by bash and end at the first
+# command that fails; C programs are compiled and run by the page's own lines; complete YAML files
+# are checked, fragments in the shipped file that they name. exceptions.txt tells what is not run and
+# why; a block or a line that is neither run nor told there fails, and so does an exception that fits
+# nothing. sbatch and parallel are stand-ins (stand_ins/); make check-slurm has the real ones.
+#
+# Prints "N passed, N failed". Environment: OUT (build folder), CC, CFLAGS, LDFLAGS, MODE as in
+# tests/api/run.sh. DOCS_WHOLE=1: sweep_walk.yaml with all its cases, not a few, and what
+# exceptions.txt calls slow. Arguments: only these pages (README.md, docs/..., help-solve).
+set -u
+[ -z "${DOCS_TEST:-}" ] || { echo 'it runs itself: a page may not ask for make check'; exit 1; }
+export DOCS_TEST=1
+shopt -s nullglob
+here=$(cd "$(dirname "$0")" && pwd)
+top=$(cd "$here/../.." && pwd)
+cd "$top" || exit 1
+out=$(cd "${OUT:-build}" && pwd) || exit 1
+work=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-docs-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+unset MAKEFLAGS MFLAGS MAKELEVEL VARIANT
+export OPENBLAS_NUM_THREADS=1 LC_ALL=C.UTF-8
+passed=0 failed=0
+# shellcheck source=tests/docs/pages.sh
+. "$here/pages.sh"
+
+# count NAME COMMAND...: counts, and shows the output of what failed
+count() {
+  local name=$1
+  shift
+  if "$@" >"$work/log" 2>&1; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $name"
+    tail -n 25 "$work/log" | sed 's/^/  /'
+  fi
+}
+
+# ------------------------------------------------------------ exceptions
+
+# "PAGE | beginning of a line | where | why", where: clone, installed, both, or slow, which is both
+# unless DOCS_WHOLE is 1
+exception() { # PAGE WHERE LINE: is there one?
+  local page start where why number=0 line=${3#"${3%%[! ]*}"}
+  while IFS='|' read -r page start where why; do
+    number=$((number + 1))
+    page=${page%% *} start=${start# } start=${start% } where=${where// /}
+    [ "$page" = "$1" ] || continue
+    case $where in "$2" | both | slow) ;; *) continue ;; esac
+    case $line in "$start"*) ;; *) continue ;; esac
+    echo "$number" >>"$work/used"
+    [ "$where${DOCS_WHOLE:-}" = slow1 ] || return 0
+  done <"$work/exceptions"
+  return 1
+}
+read_exceptions() {
+  grep -v '^ *\(#\|$\)' "$here/exceptions.txt" >"$work/exceptions"
+  ! grep -vE '^[^ |]+ \| [^|]+ \| (clone|installed|both|slow) \| [^|]+$' "$work/exceptions"
+}
+every_exception_fits() {
+  local number
+  sort -un "$work/used" >"$work/used.sorted"
+  for number in $(seq "$(wc -l <"$work/exceptions")"); do
+    grep -qx "$number" "$work/used.sorted" || { sed -n "${number}p" "$work/exceptions"; false; } || return 1
+  done
+}
+
+# ---------------------------------------------------------------- worlds
+
+# what the pages call files of your own
+make_given() { mkdir -p "$work/given" && in_world installed "$work/given" sh "$here/given.sh"; }
+give() { cp "$work/given"/* "$1/"; }
+
+# a sweep of two hundred walks is cut to ten: its table of speeds is kept
+shorten() {
+  [ "${DOCS_WHOLE:-}" = 1 ] ||
+    sed -i 's/values: \[1.60.*/values: [1.75]}/; s/values: \[55.*/values: [65, 75]}/; s/values: \[female.*/values: [male]}/' \
+      "$1/sweep_walk.yaml"
+}
+
+make_clone() {
+  mkdir -p "$work/clone/build/obj" "$work/clone-home"
+  if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
+    git ls-files -coz --exclude-standard
+  else
+    find . -path ./build -prune -o -type f -print0
+  fi | while IFS= read -r -d '' file; do [ -e "$file" ] && printf '%s\0' "$file"; done |
+    tar -c --null -T - | tar -x -C "$work/clone" || return 1
+  cp -a "$out"/ambulo "$out"/libambulo.* "$work/clone/build/" || return 1
+  cp -a "$out"/obj/src "$out"/obj/flags "$out"/obj/sources "$work/clone/build/obj/" || return 1
+  touch "$work/clone/build/.found" "$work/clone/build/.ready-build" "$work/clone/build/.ready-test"
+  shorten "$work/clone/models"
+}
+
+make_prefix() {
+  make --no-print-directory -o all OUT="$out" install PREFIX="$work/prefix" || return 1
+  shorten "$work/prefix/share/ambulo/models"
+  mkdir -p "$work/installed" "$work/installed-home"
+}
+
+# the compiler of the build, with the flags of its variant
+make_tools() {
+  mkdir -p "$work/tools"
+  local compiler=${CC:-cc} # by its path: the tool is called cc as well
+  compiler="$(command -v "${compiler%% *}") ${compiler#"${compiler%% *}"}"
+  printf '#!/bin/sh\nexec %s -std=c11 -Wall -Wextra -Werror %s "$@"\n' "$compiler" \
+    "${MODE:-} ${CFLAGS:-} ${LDFLAGS:-}" >"$work/tools/cc"
+  chmod +x "$work/tools/cc"
+  cp "$here"/stand_ins/* "$work/tools/"
+}
+
+# in_world WHERE FOLDER COMMAND...
+in_world() {
+  local where=$1 folder=$2
+  shift 2
+  case $where in
+  clone) (cd "$folder" && HOME=$work/clone-home PATH=$work/tools:$work/clone/build:$PATH \
+    PKG_CONFIG_PATH=$work/clone-home/.local/lib/pkgconfig "$@") ;;
+  installed) (cd "$folder" && HOME=$work/installed-home PATH=$work/tools:$work/prefix/bin:$PATH \
+    PKG_CONFIG_PATH=$work/prefix/lib/pkgconfig "$@") ;;
+  esac </dev/null
+}
+
+# ---------------------------------------------------------------- blocks
+
+extract() { # NAME FILE HELP
+  mkdir -p "$work/blocks/$1"
+  awk -v PAGE="$1" -v OUT="$work/blocks/$1" -v HELP="$3" -f "$here/blocks.awk" "$2" \
+    >"$work/blocks/$1/list"
+}
+
+is_shell() { # an indented block is one when it begins like a command
+  case $1 in *.sh | *.help) return 0 ;; *.indented) ;; *) return 1 ;; esac
+  head -n 1 "$1" | grep -qE '^(ambulo|make|cc|cp|for|seq|sbatch|sed|git|export|mkdir) '
+}
+
+# the lines of a block that are to be run; those of exceptions are left out with what continues them
+wanted_lines() { # PAGE WHERE FILE
+  local line target skip=0
+  while IFS= read -r line; do
+    [ $skip = 1 ] || ! exception "$1" "$2" "$line" || skip=1
+    [ $skip = 1 ] || printf '%s\n' "$line"
+    # of a target that is not made here, that there is one (make -n would run it: recursion)
+    case $skip$2$line in 1clonemake\ *)
+      target=${line#make } && printf "grep -q '^%s:' Makefile\n" "${target%% *}" ;;
+    esac
+    case $line in *\\) ;; *) skip=0 ;; esac
+  done <"$3"
+}
+
+# the lines of a page that compile and run its C programs
+compile_lines() { # PAGE WHERE
+  local file
+  for file in "$work/blocks/$1"/*.sh "$work/blocks/$1"/*.indented; do
+    grep -q '^cc ' "$file" && wanted_lines "$1" "$2" "$file"
+  done
+}
+
+yaml_block() { # WHERE FOLDER FILE: a whole file is checked; a fragment in place of what it names
+  local models=$2/models kind host key
+  kind=$(sed -n 's/^kind: *\([a-z]*\).*/\1/p' "$3")
+  cp "$3" "$models/block.yaml"
+  if [ -z "$kind" ]; then
+    host=$(sed -n '1s/^# in \([a-z_0-9]*\.yaml\).*/\1/p' "$3")
+    [ -n "$host" ] || { echo 'neither a whole file, nor does it say "# in FILE.yaml"'; return 1; }
+    # the host without these keys and what they hold
+    awk -v keys=" $(sed -n 's/^\([a-z_]*\):.*/\1/p' "$3" | tr '\n' ' ') $(sed -n '1s/.* without //; 1s/,//gp' "$3") " '
+      /^[a-z_]+:/ { key = $1; sub(/:.*/, "", key); out = index(keys, " " key " ") }
+      !out' "$models/$host" >"$models/block.yaml"
+    cat "$3" >>"$models/block.yaml"
+    kind=$(sed -n 's/^kind: *\([a-z]*\).*/\1/p' "$models/block.yaml")
+  fi
+  case $kind in
+  sweep) in_world "$1" "$2" ambulo batch models/block.yaml --dry-run ;;
+  *) in_world "$1" "$2" ambulo check models/block.yaml ;;
+  esac
+}
+
+c_block() { # WHERE FOLDER FILE: as the page's own lines compile and run it
+  local name
+  name=$(sed -n 's/^cc \([a-z]*\.c\) .*/\1/p' "$work/compile" | head -n 1)
+  [ -n "$name" ] || { echo 'the page has no line that compiles it'; return 1; }
+  cp "$3" "$2/$name"
+  (echo 'set -eE'; cat "$work/compile") >"$work/compile.sh"
+  in_world "$1" "$2" bash "$work/compile.sh"
+}
+
+# the shell blocks of a page are one session; says where it ended
+session() { # WHERE FOLDER
+  local status=0
+  in_world "$1" "$2" timeout 300 bash "$work/session.sh" || status=$?
+  [ $status = 0 ] || echo "exit code $status"
+  return $status
+}
+
+# run_page PAGE WHERE FOLDER: its session, then its programs and YAML
+run_page() {
+  local page=$1 where=$2 folder=$3 file place path first rest=()
+  printf 'set -eE -o pipefail\ntrap '\''echo "at $place: $BASH_COMMAND"'\'' ERR\n' >"$work/session.sh"
+  compile_lines "$page" "$where" >"$work/compile"
+  while IFS=$'\t' read -r file place; do
+    path=$work/blocks/$page/$file
+    first=$(head -n 1 "$path")
+    if is_shell "$path"; then
+      grep -q '^cc ' "$path" && continue # run with the programs
+      { echo "place='$place'"; wanted_lines "$page" "$where" "$path"; } >>"$work/session.sh"
+    elif [ "$first" = '#!/bin/sh' ]; then # the script of docs/cluster.md
+      count "$place: the same as tests/batch/slurm_array.sh" \
+        diff "$path" <(sed '/^# sbatch/d' tests/batch/slurm_array.sh)
+      cp "$path" "$folder/slurm_array.sh"
+    elif ! exception "$page" "$where" "$first"; then
+      case $file in
+      *.c) rest+=("C program" c_block "$place" "$path") ;;
+      *.yaml) rest+=("YAML" yaml_block "$place" "$path") ;;
+      *) count "$place: a block that is neither run nor in exceptions.txt: $first" false ;;
+      esac
+    fi
+  done <"$work/blocks/$page/list"
+  [ "$(grep -vc '^\(set\|trap\|place=\)' "$work/session.sh")" = 0 ] ||
+    count "$where: $page: commands" session "$where" "$folder"
+  set -- "${rest[@]}"
+  while [ $# -gt 0 ]; do
+    count "$where: $3: $1" "$2" "$where" "$folder" "$4"
+    shift 4
+  done
+}
+
+pages() { # in the order of the README
+  echo README.md
+  sed -n '/^## Read on/,$s/.*](\(docs\/[a-z-]*\.md\)).*/\1/p' README.md
+}
+
+# ------------------------------------------------------------------ main
+
+count 'exceptions.txt has four fields a line' read_exceptions
+count 'a clone' make_clone
+count 'make install' make_prefix
+make_tools
+count 'files of your own' make_given
+give "$work/clone"
+for page in $(pages); do extract "$page" "$page" 0; done
+"$out/ambulo" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p' >"$work/commands"
+"$out/ambulo" --help >"$work/help"
+extract help "$work/help" 1
+while read -r command; do
+  "$out/ambulo" "$command" --help >"$work/help"
+  count "ambulo $command --help: has an example" grep -q '^examples\?:' "$work/help"
+  extract "help-$command" "$work/help" 1
+done <"$work/commands"
+
+for page in $(pages); do
+  case " ${*:-$page} " in *" $page "*) ;; *) continue ;; esac
+  run_page "$page" clone "$work/clone"
+  fresh=$work/installed/${page//\//_}
+  mkdir -p "$fresh"
+  # what the README says to do first
+  in_world installed "$fresh" sh -c 'cp -r "$(ambulo --models)" .'
+  give "$fresh"
+  run_page "$page" installed "$fresh"
+done
+for where in clone installed; do
+  mkdir -p "$work/$where-help" "$work/$where-overview"
+  in_world $where "$work/$where-overview" sh -c 'cp -r "$(ambulo --models)" .'
+  run_page help $where "$work/$where-overview"
+  in_world $where "$work/$where-help" sh -c 'cp -r "$(ambulo --models)" .'
+  give "$work/$where-help"
+  while read -r command; do
+    case " ${*:-help-$command} " in *" help-$command "*) ;; *) continue ;; esac
+    run_page "help-$command" $where "$work/$where-help"
+  done <"$work/commands"
+done
+if [ $# = 0 ]; then
+  count 'every exception fits something' every_exception_fits
+  judge_pages
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
