@@ -16,9 +16,6 @@
 #include <string.h>
 
 static const double acceleration_weight = 1e-3;
-/* least curvature of the objective along every q, per rad^2 and s, for the metric alone: motions
- * that nothing asks for are not worth long steps */
-static const double least_curvature = 2e-3;
 static const double pi = 3.14159265358979323846;
 /* mean curvature of an objective along qdd, per second, for which mu and rho were tuned */
 static const double reference_curvature = 0.5;
@@ -199,8 +196,6 @@ static int add_node(const ambulo__metric *metric, const ambulo_workspace *worksp
                     double scale, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
   int width = ambulo__node_width(p, node), count = 0, light = 0;
-  for (int i = 0; i < p->coordinates; i++)
-    add_light(metric, workspace, node, i, least_curvature * p->quadrature[node], h);
   for (int c = 0; c < metric->channels; c++) {
     double curvature = scale * curvature_of(workspace, node, metric->channel[c]);
     if (curvature <= 0.0) continue; /* not NaN, which the factorization meets */

@@ -81,12 +81,14 @@ static double slope_at(const ambulo__engine *e, const double smooth[2], double t
   return smooth[0] + smooth[1] * t + slope;
 }
 
-/* the minimum of phi along the step, by Newton's method within a bracket */
+/* the minimum of phi along the step, at most the whole of it: by Newton's method within a bracket.
+ * Beyond there is nothing but the rounding of a step that is next to none */
 static double exact_step(const ambulo__engine *e) {
   double smooth[2] = {dot(e->step, e->gradient, e->n) + dot(e->step, e->curved_total, e->n),
                       dot(e->step, e->curved, e->n)};
-  double low = 0.0, high = HUGE_VAL, t = 1.0, curvature;
+  double low = 0.0, high = 1.0, t = 1.0, curvature;
   double zero = level * fabs(slope_at(e, smooth, 0.0, &curvature));
+  if (slope_at(e, smooth, 1.0, &curvature) <= zero) return 1.0;
   for (int k = 0; k < MAX_SEARCH; k++) {
     double slope = slope_at(e, smooth, t, &curvature);
     if (fabs(slope) <= zero) break;
@@ -96,7 +98,7 @@ static double exact_step(const ambulo__engine *e) {
       low = t;
     }
     t -= slope / curvature;
-    if (!(t > low && t < high)) t = high < HUGE_VAL ? 0.5 * (low + high) : 2.0 * low;
+    if (!(t > low && t < high)) t = 0.5 * (low + high);
   }
   return t;
 }

@@ -30,6 +30,8 @@
 
 enum { MAX_CHORD = 16, MAX_ADJOINT = 14 };
 static const double wild_step = 3.0; /* rad, m */
+static const double rounding =
+    1e-11; /* error, relative to the sizes of the rows, that may be all of it */
 static const double adjoint_floor = 1e-7;
 
 static void chord(ambulo__engine *e, double *y) {
@@ -57,6 +59,7 @@ int ambulo__retract(ambulo__engine *e, double *y) {
     }
     double error = ambulo__engine_equality_error(e);
     if (error <= e->retraction_tolerance) return 1;
+    if (least <= rounding && error > 0.5 * least) return 1; /* as near as rounding lets it */
     if (isnan(error) || (k >= 4 && error > 10.0 * least)) return 0;
     least = fmin(least, error);
     chord(e, y);

@@ -16,7 +16,8 @@ static void point_nearby_is_carried_to_the_surface(void **state) {
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   assert_true(ambulo__engine_equality_error(f.engine) > 1e-4);
   assert_int_equal(ambulo__retract(f.engine, f.x), 1);
-  assert_true(ambulo__engine_equality_error(f.engine) <= 1e-8);
+  assert_true(ambulo__engine_equality_error(f.engine) <= f.engine->retraction_tolerance);
+  assert_true(f.engine->retraction_tolerance <= 1e-7);
   engine_close(&f);
 }
 

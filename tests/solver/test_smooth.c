@@ -100,7 +100,8 @@ static void starts_from_another_grid(void **state) {
     memcpy(fine.x + point * fine.d, coarse.optimum + from * coarse.d,
            (size_t)fine.d * sizeof *fine.x);
   }
-  expect_optimal(&fine, 1.1 * fine.objective, "steps");
+  /* local optima beside: 1.0590, 1.1370 */
+  expect_optimal(&fine, 1.12 * fine.objective, "steps");
   close_started(&coarse);
   close_started(&fine);
 }
@@ -145,9 +146,10 @@ static void the_start_is_returned_at_least(void **state) {
     started s;
     open_started(&s, names[i]);
     for (int presolve = 0; presolve < 2; presolve++) {
-      for (int evaluations = 1; evaluations < 40; evaluations += 6) {
+      for (int evaluations = 1; evaluations < 100; evaluations += 9) {
         ambulo_options options = ambulo_problem_options(s.problem);
         options.presolve = presolve;
+        if (!presolve) options.algorithm = AMBULO_AUGLAG; /* lets go of the rows at first */
         options.maximum_evaluations = evaluations;
         ambulo_result *result = solve_from(&s, &options);
         assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
