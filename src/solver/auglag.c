@@ -17,15 +17,15 @@
  *              point where it ended: the metric there, whose rows with a force are those that the
  *              model step foresees. NLopt's point does not move by that, and its L-BFGS starts
  *              afresh at every inner solve.
- *   gradients  NLopt adds the rows' gradients, times what it makes of mu, rho and c, to the
- *              objective's. The sum is one reverse sweep, each alone would be one too. So the sum
- *              comes with the objective, from mu and rho as mirror.h knows them, and the rows' own
- *              gradients are zero.
- *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
- *              walks stand (left alone rho runs to 1e9, and stops the solve 0.6 to 7 % too high).
- *              S is lowered in the same moment, for objective and rows alike: then lambda stays,
- * and R grows by 2. sigma      where a call has to be repeated, it starts with the lambda that the
- * last one reached. ending     stopping.h, by nlopt_force_stop.
+ *   gradients  NLopt adds to the objective's gradient each row's, times rho c + mu. That sum is one
+ *              reverse sweep, each gradient alone would be one too. So NLopt is given the sum in
+ * the place of one row, the one with the largest force, divided by the force that NLopt is going to
+ * multiply it with, and zeros elsewhere; with the objective when no row has a force. Forces by mu
+ * and rho as mirror.h knows them. scale S    NLopt multiplies rho by 10 where a row does not give
+ * way; 2, up to a bound, is what walks stand (left alone rho runs to 1e9, and stops the solve 0.6
+ * to 7 % too high). S is lowered in the same moment, for objective and rows alike: then lambda
+ * stays, and R grows by 2. sigma      where a call has to be repeated, it starts with the lambda
+ * that the last one reached. ending     stopping.h, by nlopt_force_stop.
  *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
  * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
@@ -73,6 +73,9 @@ struct session {
   double *row, *shift; /* c, sigma: [inequalities] */
   double *x;           /* where the last inner solve ended; the caller's */
   double *gradient;    /* [n]: where NLopt asks for none */
+  double *share;       /* [n]: of row `bearer`, the sum of all */
+  int bearer;          /* -1: the objective */
+  int dirty;           /* slot of NLopt's one buffer for all blocks that is not zero; -1: none */
   double scale, constant;
   double damping;   /* the engine's mu at the beginning */
   double predicted; /* by the model step */
@@ -193,6 +196,22 @@ static double value_of(const session *s, double merit) {
   return s->scale * (e->held.value < HUGE_VAL ? e->held.objective : merit) + s->constant;
 }
 
+/* moves the sum to the row whose force is largest */
+static void give_to_bearer(session *s, unsigned n, double *gradient) {
+  const ambulo__mirror *m = &s->mirror;
+  double largest = 0.0;
+  s->bearer = -1;
+  for (int i = 0; i < m->rows; i++) {
+    double force = s->row[i] + m->multiplier[i] / m->penalty;
+    if (!(force > largest)) continue;
+    largest = force;
+    s->bearer = i;
+  }
+  if (s->bearer < 0) return;
+  for (unsigned j = 0; j < n; j++) s->share[j] = gradient[j] / (m->penalty * largest);
+  memset(gradient, 0, n * sizeof *gradient);
+}
+
 /* a trial of L-BFGS */
 static double trial(session *s, unsigned n, const double *w, double *gradient) {
   ambulo__engine *e = s->engine;
@@ -207,6 +226,7 @@ static double trial(session *s, unsigned n, const double *w, double *gradient) {
   if (e->held.value < HUGE_VAL && e->held.gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);
   take_rows(s);
+  give_to_bearer(s, n, gradient);
   return value_of(s, merit);
 }
 
@@ -244,8 +264,18 @@ static double objective(unsigned n, const double *w, double *gradient, void *dat
 static void rows(unsigned m, double *result, unsigned n, const double *w, double *gradient,
                  void *data) {
   const block *b = data;
-  (void)n, (void)w, (void)gradient; /* NLopt has set it to zero, once, and so it stays */
-  memcpy(result, b->session->row + b->first, m * sizeof *result);
+  session *s = b->session;
+  int slot = s->bearer - b->first;
+  (void)w;
+  memcpy(result, s->row + b->first, m * sizeof *result);
+  if (!gradient) return;
+  if (s->dirty >= 0 && s->dirty < (int)m) { /* of another block; NLopt clears it once, at first */
+    memset(gradient + (size_t)s->dirty * n, 0, n * sizeof *gradient);
+    s->dirty = -1;
+  }
+  if (s->bearer < 0 || slot < 0 || slot >= (int)m) return;
+  memcpy(gradient + (size_t)slot * n, s->share, n * sizeof *gradient);
+  s->dirty = slot;
 }
 
 /* -------------------------------------------------------------------- one call */
@@ -289,6 +319,7 @@ static ambulo_ending prepare(session *s) {
   memset(e->iterate, 0, (size_t)e->n * sizeof *e->iterate);
   s->started = e->inequalities == 0; /* NLopt does not ask then */
   s->again = 0;
+  s->bearer = s->dirty = -1;
   s->scale = e->rho / penalty;
   ambulo_ending failed = lay_chart(s, e->iterate);
   if (failed) return failed;
@@ -316,6 +347,7 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
   s->row = ambulo__pool_doubles(pool, m);
   s->shift = ambulo__pool_doubles(pool, m);
   s->gradient = ambulo__pool_doubles(pool, n);
+  s->share = ambulo__pool_doubles(pool, n);
   ambulo_status status = ambulo__chart_create(e->n, pool, &s->chart);
   if (!status) status = ambulo__mirror_create(e->inequalities, pool, &s->mirror);
   if (status || pool->failed) return AMBULO_E_MEMORY;
@@ -337,7 +369,11 @@ static ambulo_status run(session *s) {
     if (s->ending) break;
     int result = call(s);
     if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
-    if (result >= 0 || is_over(s)) continue;
+    if (is_over(s) || (result >= 0 && s->mirror.measure == 0.0)) continue;
+    if (result >= 0) { /* of its own accord only where the mirror says so: else it is no mirror */
+      s->ending = AMBULO_ENDING_NLOPT;
+      break;
+    }
     if (e->adjoint_tolerance > least_adjoint_tolerance) {
       e->adjoint_tolerance *= 0.1;
     } else if (r->nlopt.outer == before) {

@@ -1,0 +1,174 @@
+/* NLopt's AUGLAG runs the solve: its multipliers are those that the engine works with, it iterates
+ * itself, and without its update nothing is solved. */
+#define _GNU_SOURCE /* dlsym's RTLD_NEXT */
+#include "support/engine_fixture.h"
+
+#include <dlfcn.h>
+#include <nlopt.h>
+#include <unistd.h>
+
+/* -------------------------------------------------------- NLopt with its update defeated */
+
+static int defeated; /* rows say that they hold by far where an inner solve has ended */
+static struct {
+  nlopt_mfunc rows;
+  void *data;
+  int asked;
+} behind[4096];
+static size_t used;
+
+static void rows_in_disguise(unsigned m, double *row, unsigned n, const double *w, double *gradient,
+                             void *data) {
+  size_t k = (size_t)(uintptr_t)data;
+  behind[k].rows(m, row, n, w, gradient, behind[k].data);
+  if (gradient || behind[k].asked++ == 0) return;
+  for (unsigned i = 0; i < m; i++) row[i] = -1e30;
+}
+
+/* stands before NLopt's own */
+nlopt_result nlopt_add_inequality_mconstraint(nlopt_opt opt, unsigned m, nlopt_mfunc rows,
+                                              void *data, const double *tolerance) {
+  typedef nlopt_result (*add)(nlopt_opt, unsigned, nlopt_mfunc, void *, const double *);
+  union {
+    void *object;
+    add function;
+  } next = {dlsym(RTLD_NEXT, "nlopt_add_inequality_mconstraint")};
+  if (!next.object) return NLOPT_FAILURE;
+  if (!defeated) return next.function(opt, m, rows, data, tolerance);
+  behind[used].rows = rows;
+  behind[used].data = data;
+  behind[used].asked = 0;
+  used = (used + 1) % (sizeof behind / sizeof *behind);
+  return next.function(opt, m, rows_in_disguise,
+                       (void *)(uintptr_t)((used + sizeof behind / sizeof *behind - 1) %
+                                           (sizeof behind / sizeof *behind)),
+                       tolerance);
+}
+
+static const char *const walks[] = {
+    "yardstick_12", "yardstick_36",  "walk_normal",  "walk_fast",      "walk_loaded",
+    "walk_slow",    "walk_tracking", "walk_uphill",  "walker_2d_step", "walk_without_reaction",
+    "fig5b_torque"};
+enum { WALKS = sizeof walks / sizeof *walks };
+
+static void without_nlopts_update_nothing_is_solved(void **state) {
+  (void)state;
+  defeated = 1;
+  for (int i = 0; i < WALKS; i++) {
+    ambulo_problem *problem = load_problem(walks[i]);
+    ambulo_options options = ambulo_problem_options(problem);
+    ambulo_result *result = NULL;
+    options.maximum_iterations = 60; /* far more than NLopt needs */
+    assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+    if (ambulo_result_verdict(result) == AMBULO_OPTIMAL)
+      print_error("%s: %s\n", walks[i], ambulo_result_ending(result));
+    assert_int_not_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+  }
+  defeated = 0;
+}
+
+/* --------------------------------------------------------------------- NLopt as it is */
+
+static void nlopt_iterates(void **state) {
+  (void)state;
+  for (int i = 0; i < WALKS; i++) {
+    ambulo_problem *problem = load_problem(walks[i]);
+    ambulo_result *result = NULL;
+    assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+    const ambulo_nlopt_work *work = ambulo_result_nlopt(result);
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    if (work->outer < 5) print_error("%s: %d outer iterations\n", walks[i], work->outer);
+    assert_true(work->outer >= 5 && work->inner >= work->outer && work->calls >= 1);
+    assert_int_equal(work->outer, ambulo_result_iterations(result));
+    assert_true(work->calls <= 2 + work->outer / 4); /* a grid is a call, or few */
+    assert_string_equal(work->result_name, "FORCED_STOP");
+    assert_int_equal(work->result, NLOPT_FORCED_STOP);
+    assert_true(work->seconds > 0.0 && work->seconds < ambulo_result_timing(result)->total);
+    ambulo_result_free(result);
+    ambulo_problem_free(problem);
+  }
+}
+
+typedef struct heard {
+  const ambulo__engine *engine;
+  FILE *file; /* the engine's multipliers, as NLopt would print them */
+  int count;
+} heard;
+
+static int write_multipliers(void *user, const ambulo_progress *progress) {
+  heard *h = user;
+  if (isnan(progress->objective)) return 0;
+  fprintf(h->file, "mu = ");
+  for (int i = 0; i < h->engine->inequalities; i++) fprintf(h->file, " %g", h->engine->lambda[i]);
+  fputc('\n', h->file);
+  h->count++;
+  return 0;
+}
+
+/* a line of at most `size`, without its end; 0 at the end of the file */
+static int next_line(FILE *file, char *line, size_t size) {
+  if (!fgets(line, (int)size, file)) return 0;
+  line[strcspn(line, "\n")] = '\0';
+  return 1;
+}
+
+/* "auglag 7: mu = ..." lines of NLopt beside ours, all of them */
+static int compare(FILE *theirs, FILE *ours) {
+  enum { LONG = 1 << 18 };
+  char *line = malloc(LONG), *own = malloc(LONG);
+  int same = 0;
+  rewind(theirs);
+  rewind(ours);
+  while (next_line(theirs, line, LONG)) {
+    char *mu = strstr(line, ": mu = ");
+    if (!mu) continue;
+    assert_true(next_line(ours, own, LONG));
+    if (strcmp(mu + 2, own) != 0) print_error("NLopt %.200s\nours  %.200s\n", mu + 2, own);
+    assert_string_equal(mu + 2, own);
+    same++;
+  }
+  assert_false(next_line(ours, own, LONG));
+  free(line);
+  free(own);
+  return same;
+}
+
+static void multipliers_are_nlopts(void **state) {
+  (void)state;
+  static const char *const names[] = {"yardstick_12", "walker_2d_step", "walk_normal"};
+  int *verbose = dlsym(RTLD_DEFAULT, "auglag_verbose");
+  if (!verbose) skip(); /* an NLopt that keeps it to itself */
+  for (int i = 0; i < 3; i++) {
+    engine_fixture f;
+    engine_open(&f, names[i]);
+    heard h = {f.engine, tmpfile(), 0};
+    FILE *printed = tmpfile();
+    assert_true(h.file && printed);
+    f.options.progress = write_multipliers;
+    f.options.user = &h;
+    (void)fflush(stdout);
+    int kept = dup(STDOUT_FILENO);
+    assert_true(dup2(fileno(printed), STDOUT_FILENO) >= 0);
+    *verbose = 1;
+    ambulo_status status = ambulo__pipeline(f.engine, AMBULO__FAR, f.x);
+    *verbose = 0;
+    (void)fflush(stdout);
+    assert_true(dup2(kept, STDOUT_FILENO) >= 0);
+    (void)close(kept);
+    assert_int_equal(status, AMBULO_OK);
+    assert_int_equal(compare(printed, h.file), h.count);
+    assert_true(h.count >= 5);
+    (void)fclose(h.file);
+    (void)fclose(printed);
+    engine_close(&f);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(without_nlopts_update_nothing_is_solved),
+                                     cmocka_unit_test(nlopt_iterates),
+                                     cmocka_unit_test(multipliers_are_nlopts)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
