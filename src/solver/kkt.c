@@ -24,8 +24,7 @@
 #include <string.h>
 
 enum { MAX_PASSES = 8 };
-static const double stiffness_start = 1e4, stiffness_largest = 1e8,
-                    stiffness_factor = 100.0;
+static const double stiffness_start = 1e4, stiffness_largest = 1e8, stiffness_factor = 100.0;
 static const double pass_tolerance = 1e-11;
 static const double slow = 1e-7; /* error after all passes that asks for more stiffness */
 

@@ -20,8 +20,8 @@ typedef struct ambulo__stopping {
   double objective, least_violation; /* at the last point; so far */
   double first;                      /* f after the first inner solve */
   int settled, since_better, points;
-  int since_halved;      /* points since the violation had fallen by half */
-  double halved;         /* violation then */
+  int since_halved;     /* points since the violation had fallen by half */
+  double halved;        /* violation then */
   double penalty_limit; /* bound on the penalty that the engine's rho does not pass */
 } ambulo__stopping;
 

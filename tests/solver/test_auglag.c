@@ -46,8 +46,8 @@ nlopt_result nlopt_add_inequality_mconstraint(nlopt_opt opt, unsigned m, nlopt_m
 }
 
 static const char *const walks[] = {
-    "yardstick_12", "yardstick_36",  "walk_normal",  "walk_fast",      "walk_loaded",
-    "walk_slow",    "walk_tracking", "walk_uphill",  "walker_2d_step", "walk_without_reaction",
+    "yardstick_12", "yardstick_36",  "walk_normal", "walk_fast",      "walk_loaded",
+    "walk_slow",    "walk_tracking", "walk_uphill", "walker_2d_step", "walk_without_reaction",
     "fig5b_torque"};
 enum { WALKS = sizeof walks / sizeof *walks };
 

@@ -1,5 +1,5 @@
-/* The mirror is NLopt's own update: beside what NLopt prints of itself, on a small problem whose rows
- * come and go. */
+/* The mirror is NLopt's own update: beside what NLopt prints of itself, on a small problem whose
+ * rows come and go. */
 #define _GNU_SOURCE /* dlsym's RTLD_DEFAULT */
 #include "solver/mirror.h"
 #include "support/test.h"
