@@ -251,13 +251,15 @@ static ambulo_status read_rows(table_reader *reader) {
 
 /* ------------------------------------------------------------------ the whole */
 
-static ambulo_status check_bytes(table_reader *reader) {
+static ambulo_status check_size(table_reader *reader) {
   ambulo__place start = {.file = reader->file};
-  if (reader->length > AMBULO__MOTION_MAX_BYTES) {
-    return ambulo__error(reader->diagnostics, AMBULO_E_LIMIT, start, NULL,
-                         "text too large (got %zu bytes); expected at most %zu", reader->length,
-                         AMBULO__MOTION_MAX_BYTES);
-  }
+  if (reader->length <= AMBULO__MOTION_MAX_BYTES) return AMBULO_OK;
+  return ambulo__error(reader->diagnostics, AMBULO_E_LIMIT, start, NULL,
+                       "text too large (got %zu bytes); expected at most %zu", reader->length,
+                       AMBULO__MOTION_MAX_BYTES);
+}
+
+static ambulo_status check_bytes(table_reader *reader) {
   ambulo__table_line line = {0};
   while (ambulo__table_next_line(reader->text, reader->length, &line)) {
     const char *nul = memchr(line.start, '\0', line.length);
@@ -278,8 +280,10 @@ static int looks_like_sto(const table_reader *reader) {
 }
 
 static ambulo_status read_table(table_reader *reader, ambulo__motion_format format) {
-  ambulo_status status = ambulo__refuse_foreign(reader->text, reader->length, AMBULO__TAKES_MOTION,
-                                                reader->file, reader->diagnostics);
+  ambulo_status status = check_size(reader); /* before anything looks at the text */
+  if (!status)
+    status = ambulo__refuse_foreign(reader->text, reader->length, AMBULO__TAKES_MOTION,
+                                    reader->file, reader->diagnostics);
   if (!status) status = check_bytes(reader);
   if (status) return status;
   reader->is_sto =
