@@ -66,12 +66,12 @@ AMBULO_API const char *ambulo_ending_name(ambulo_ending ending);
 AMBULO_API const char *ambulo_ending_text(ambulo_ending ending);
 
 typedef enum ambulo_algorithm {
-  AMBULO_AUTO,  /* the whitened pipeline of docs/equations.md around NLopt's AUGLAG or SLSQP */
+  AMBULO_AUTO,  /* the NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
   AMBULO_SLSQP, /* NLopt's SLSQP */
   AMBULO_AUGLAG /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
 
-/* What follows the pipeline. */
+/* What follows AUGLAG. */
 typedef enum ambulo_finisher {
   AMBULO_FINISHER_NONE,
   AMBULO_FINISHER_SLSQP /* a short run of NLopt's SLSQP; its point is kept if the audit finds it
@@ -95,7 +95,7 @@ typedef struct ambulo_options {
   int presolve;            /* 1: drop dependent equalities, whiten, restore, retract, screen;
                               0: every row handed straight to NLopt */
   int maximum_evaluations; /* of the objective and the rows; 20000 */
-  int maximum_iterations;  /* refreshes of the pipeline, calls of NLopt otherwise; 150 */
+  int maximum_iterations;  /* inner solves of AUGLAG a grid, calls of NLopt otherwise; 150 */
   double time_limit;       /* s of wall time; 0: none. It holds from set-up to explanation; what
                               it takes to judge the last point may add a tenth of it */
   double maximum_memory;   /* bytes that a solve may be predicted to take; 0: what is free */

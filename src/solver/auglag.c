@@ -51,7 +51,7 @@ static const double least_penalty = 1e-6, plain_penalty = 10.0; /* NLopt's rho a
 static const double penalty_growth = 2.0;
 static const double nlopt_growth = 10.0;
 static const double least_scale = 1e-11; /* S: below, L-BFGS's absolute tests come near */
-static const double no_gradient = 1e-5;  /* of max(1, |f|): below the gradient's own accuracy */
+static const double no_gradient = 5e-6;  /* of max(1, |f|): below the gradient's own accuracy */
 static const double least_adjoint_tolerance = 1e-6;
 static const double mu_least = 0.03, mu_largest = 3.0; /* times mu at the beginning */
 

@@ -2,7 +2,7 @@
  *
  *   presolve off     NLopt's SLSQP or AUGLAG on the rows as they are     (nlopt_plain.c)
  *   small problems   SLSQP in whitened coordinates                       (nlopt_whitened.c)
- *   otherwise        the pipeline around NLopt's AUGLAG                  (pipeline.c),
+ *   otherwise        NLopt's AUGLAG on the equalities' surface           (pipeline.c),
  *                    from coarser grids when it starts at zero           (refine.c)
  *
  * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no

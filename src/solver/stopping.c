@@ -13,7 +13,7 @@ static const double vanished = 1e-3;     /* of the first f: an objective that go
 static const double nothing = 1e-6;      /* of f for the motionless body: the same, of terms without
                                             a measure of their own (engine.c) */
 static const double moving = 1e-3;       /* relative change of f that is progress */
-static const double gradient_small = 1e-4;
+static const double gradient_small = 3e-5;
 static const double polishable = 1e-5;    /* violation, relative to the sizes of the rows */
 static const double polish_reach = 1e-5;  /* the same, where polishing may start */
 static const double stalled_reach = 1e-2; /* the same, where nothing else helps */

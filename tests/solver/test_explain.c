@@ -297,7 +297,7 @@ static void what_all_but_holds_is_no_conflict(void **state) {
   ambulo_problem *problem = load_problem("walk_without_reaction");
   ambulo_options options = ambulo_problem_options(problem);
   options.feasibility_tolerance = 1e-14;
-  options.maximum_iterations = 20;
+  options.maximum_iterations = 60;
   ambulo_result *result = solve(problem, &options);
   const ambulo_explanation *e = ambulo_result_explanation(result);
   double left = ambulo_result_audit(result)->violation.worst, asked = 0.0;
