@@ -16,6 +16,8 @@
  */
 #include "solver/audit.h"
 #include "base/worst.h"
+#include "solver/presolve_rank.h"
+#include "solver/verdict.h"
 
 #include <math.h>
 #include <string.h>

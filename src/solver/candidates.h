@@ -33,10 +33,4 @@ int ambulo__candidates_take(const ambulo__candidates *candidates, double *x);
 /* Worst row at x relative to its size; HUGE_VAL where something is not finite. */
 double ambulo__violation_at(ambulo__engine *engine, const double *x);
 
-/* *better: 1 when the audit finds x better than `before`, with fewer faults and no dearer for it.
- * E_MEMORY and other failures of the audit: *better is 0. */
-ambulo_status ambulo__is_better(const ambulo_problem *problem, const ambulo_options *options,
-                                const double *before, const double *x,
-                                const ambulo_allocator *allocator, int *better);
-
 #endif

@@ -44,9 +44,10 @@ static ambulo_status create_rows(ambulo__elastic *e, ambulo__pool *pool) {
     }
   }
   if (e->borders > MAX_BORDERS) return AMBULO_E_LIMIT;
-  ambulo_status status = ambulo__sparse_rows_create(p, local, e->locals, e->run, pool, &e->local);
+  ambulo__poll poll = ambulo__run_poller(e->run);
+  ambulo_status status = ambulo__sparse_rows_create(p, local, e->locals, &poll, pool, &e->local);
   if (status) return status;
-  return ambulo__sparse_rows_create(p, border, e->borders, e->run, pool, &e->border);
+  return ambulo__sparse_rows_create(p, border, e->borders, &poll, pool, &e->border);
 }
 
 static ambulo_status create_vectors(ambulo__elastic *e, ambulo__pool *pool) {

@@ -1,5 +1,6 @@
 /* solver/ending.c - see ending.h */
 #include "solver/ending.h"
+#include "solver/verdict.h"
 
 static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 

@@ -5,6 +5,7 @@
  * explained too. Steps and not seconds, so that the same problem gets the same explanation on a
  * busy machine; but never past the time limit of the solve.
  */
+#include "solver/verdict.h"
 #include "solver/explain.h"
 
 #include "gait/bounds.h"

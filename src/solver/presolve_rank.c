@@ -263,7 +263,8 @@ ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *w
     rank[r] = AMBULO__ROW_INDEPENDENT;
     if (p->table.rows[r].relation == AMBULO_EQUAL) list[count++] = r;
   }
-  ambulo_status status = ambulo__sparse_rows_create(p, list, count, run, pool, &s);
+  ambulo__poll poll = ambulo__run_poller(run);
+  ambulo_status status = ambulo__sparse_rows_create(p, list, count, &poll, pool, &s);
   if (status) return status;
   double *x0 = x + p->variables;
   generic_point(p, start, x0);

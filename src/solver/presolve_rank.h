@@ -3,6 +3,7 @@
 #define AMBULO_SOLVER_PRESOLVE_RANK_H
 
 #include "nlp/nlp.h"
+#include "solver/run.h"
 #include "solver/sparse_rows.h"
 
 typedef enum ambulo__row_rank {

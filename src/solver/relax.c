@@ -10,6 +10,7 @@
  * 3. Of the family that gives way most easily, only one limit, or only the travel of periodic
  *    and mirrored ends, is tried: one number is better advice than three.
  */
+#include "solver/verdict.h"
 #include "solver/explain.h"
 #include "solver/audit.h"
 #include "base/worst.h"

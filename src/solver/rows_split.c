@@ -57,11 +57,13 @@ ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspac
       ambulo__presolve_rank(p, workspace, start, run, pool, diagnostics, out->rank);
   if (status) return status;
   classify(p, out->rank, &l, out);
-  status = ambulo__sparse_rows_create(p, l.equality, l.equalities, run, pool, &out->equality);
-  if (!status) status = ambulo__sparse_rows_create(p, l.border, l.borders, run, pool, &out->border);
+  ambulo__poll poll = ambulo__run_poller(run);
+  status = ambulo__sparse_rows_create(p, l.equality, l.equalities, &poll, pool, &out->equality);
+  if (!status)
+    status = ambulo__sparse_rows_create(p, l.border, l.borders, &poll, pool, &out->border);
   if (!status)
     status =
-        ambulo__sparse_rows_create(p, l.inequality, l.inequalities, run, pool, &out->inequality);
+        ambulo__sparse_rows_create(p, l.inequality, l.inequalities, &poll, pool, &out->inequality);
   if (!status) status = ambulo__evaluate_jacobian(workspace, start);
   if (status) return status;
   /* gradients that are not finite here are met again, and named, by whoever works with them */

@@ -82,6 +82,14 @@ int ambulo__run_poll(ambulo__run *run) {
   return ambulo__run_over(run);
 }
 
+static int ask(void *run) {
+  return ambulo__run_poll(run);
+}
+
+ambulo__poll ambulo__run_poller(ambulo__run *run) {
+  return (ambulo__poll){ask, run};
+}
+
 int ambulo__run_late(const ambulo__run *run) {
   if (run->ending != AMBULO_ENDING_TIME && run->ending != AMBULO_ENDING_CALLER) return 0;
   double grace = grace_share * (run->stopped_at - run->started);

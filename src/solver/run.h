@@ -3,7 +3,8 @@
 #define AMBULO_SOLVER_RUN_H
 
 #include "nlp/states.h"
-#include "solver/verdict.h"
+#include "ambulo/solve.h"
+#include "solver/poll.h"
 
 typedef struct ambulo__run {
   const ambulo_options *options;
@@ -30,6 +31,8 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation);
 /* The same from work that has no numbers to show, at most every tenth of a second; also looks at
  * the clock. 1 when the work is to end. `run` may be NULL: never. */
 int ambulo__run_poll(ambulo__run *run);
+/* The same question, for work that knows nothing of runs. */
+ambulo__poll ambulo__run_poller(ambulo__run *run);
 /* 1 when a run that was stopped by the clock or the caller has also used up its grace: what it
  * takes to say what it found, a tenth of the time it had, and at least a quarter of a second. */
 int ambulo__run_late(const ambulo__run *run);

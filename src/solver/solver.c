@@ -14,6 +14,7 @@
  * the damping and the penalty of a start, and often sees further.
  */
 #include "solver/audit.h"
+#include "solver/better.h"
 #include "solver/candidates.h"
 #include "solver/dense_audit.h"
 #include "solver/ending.h"
@@ -24,6 +25,7 @@
 #include "solver/options.h"
 #include "solver/refine.h"
 #include "solver/smooth.h"
+#include "solver/verdict.h"
 
 #include <limits.h>
 #include <math.h>

@@ -124,12 +124,12 @@ void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
 }
 
 /* asked every few thousand rows */
-static int is_over(ambulo__run *run, int i) {
-  return i % POLL_ROWS == POLL_ROWS - 1 && ambulo__run_poll(run);
+static int is_over(const ambulo__poll *poll, int i) {
+  return poll && poll->ask && i % POLL_ROWS == POLL_ROWS - 1 && poll->ask(poll->user);
 }
 
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *rows, int count,
-                                         ambulo__run *run, ambulo__pool *pool,
+                                         const ambulo__poll *poll, ambulo__pool *pool,
                                          ambulo__sparse_rows *s) {
   size_t n = (size_t)count;
   s->problem = p;
@@ -144,7 +144,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     const ambulo__table_row *row = &p->table.rows[rows[i]];
-    if (is_over(run, i)) return AMBULO_E_LIMIT;
+    if (is_over(poll, i)) return AMBULO_E_LIMIT;
     s->row[i] = rows[i];
     s->host[i] = ambulo__row_host(p, rows[i]);
     s->constant[i] = is_linear(p, row);
@@ -157,7 +157,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->value = ambulo__pool_doubles(pool, (size_t)s->start[count]);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
-    if (is_over(run, i)) return AMBULO_E_LIMIT;
+    if (is_over(poll, i)) return AMBULO_E_LIMIT;
     mark_row(p, &p->table.rows[rows[i]], s->host[i], s->dense);
     list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
   }

@@ -15,7 +15,8 @@
 
 #include "nlp/nlp.h"
 #include "solver/pool.h"
-#include "solver/run.h"
+#include "nlp/states.h"
+#include "solver/poll.h"
 
 typedef struct ambulo__sparse_rows {
   const ambulo_problem *problem;
@@ -32,10 +33,10 @@ typedef struct ambulo__sparse_rows {
 /* The node whose window holds every unknown that the row depends on; -1: none. */
 int ambulo__row_host(const ambulo_problem *problem, int row);
 
-/* rows[count] with scale 1. Constant gradients are filled by the first fill. `run` may be NULL.
- * E_MEMORY; E_LIMIT: the run was stopped meanwhile. */
+/* rows[count] with scale 1. Constant gradients are filled by the first fill. `poll` may be NULL.
+ * E_MEMORY; E_LIMIT: it said that the work is to end. */
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *problem, const int *rows, int count,
-                                         ambulo__run *run, ambulo__pool *pool,
+                                         const ambulo__poll *poll, ambulo__pool *pool,
                                          ambulo__sparse_rows *out);
 /* Writes run_end from start and column. */
 void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *rows);

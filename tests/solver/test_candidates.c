@@ -1,42 +1,9 @@
 /* Of all points the best is returned: valid before invalid, lower before higher, the start where
  * nothing better was found. */
 #include "solver/candidates.h"
-#include "support/engine_fixture.h"
+#include "solver/better.h"
+#include "support/chosen_points.h"
 #include "support/fail_alloc.h"
-
-typedef struct chosen {
-  engine_fixture f;
-  ambulo__candidates c;
-  double *good, *better, *invalid, *x;
-} chosen;
-
-/* points of the swing of the pendulum: its optimum, a valid point beside it, and one that is not */
-static void open_chosen(chosen *s) {
-  ambulo_result *result = NULL;
-  memset(s, 0, sizeof *s);
-  engine_open(&s->f, "pendulum_swing");
-  size_t n = (size_t)s->f.n;
-  s->good = calloc(n, sizeof *s->good);
-  s->better = calloc(n, sizeof *s->better);
-  s->invalid = calloc(n, sizeof *s->invalid);
-  s->x = calloc(n, sizeof *s->x);
-  assert_int_equal(ambulo_solve(s->f.problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  memcpy(s->better, ambulo_result_x(result), n * sizeof *s->x);
-  memcpy(s->good, s->better, n * sizeof *s->x);
-  s->good[n / 2] += 0.01; /* control points in the middle are free */
-  memcpy(s->invalid, s->better, n * sizeof *s->x);
-  s->invalid[0] += 0.2; /* the first is prescribed */
-  ambulo_result_free(result);
-  assert_int_equal(ambulo__candidates_create(&s->c, s->f.engine), AMBULO_OK);
-}
-
-static void close_chosen(chosen *s) {
-  free(s->good);
-  free(s->better);
-  free(s->invalid);
-  free(s->x);
-  engine_close(&s->f);
-}
 
 static void expect(chosen *s, int start_wins, const double *want) {
   assert_int_equal(ambulo__candidates_take(&s->c, s->x), start_wins);
@@ -128,49 +95,6 @@ static void points_that_are_not_finite_are_no_candidates(void **state) {
   close_chosen(&s);
 }
 
-static void audits_decide_between_two(void **state) {
-  (void)state;
-  chosen s;
-  int better = -1;
-  open_chosen(&s);
-  ambulo_options o = ambulo_options_default();
-  const ambulo_problem *p = s.f.problem;
-  assert_int_equal(ambulo__is_better(p, &o, s.good, s.better, NULL, &better), AMBULO_OK);
-  assert_int_equal(better, 1);
-  assert_int_equal(ambulo__is_better(p, &o, s.better, s.good, NULL, &better), AMBULO_OK);
-  assert_int_equal(better, 0);
-  assert_int_equal(ambulo__is_better(p, &o, s.invalid, s.good, NULL, &better), AMBULO_OK);
-  assert_int_equal(better, 1);
-  close_chosen(&s);
-}
-
-/* "not better" is no answer to a lack of memory */
-static void lack_of_memory_is_said(void **state) {
-  (void)state;
-  chosen s;
-  open_chosen(&s);
-  ambulo_options o = ambulo_options_default();
-  int refused = 0;
-  for (long k = 0; k < 2000; k++) {
-    fail_alloc memory = fail_alloc_at(k);
-    ambulo_allocator allocator = fail_alloc_hook(&memory);
-    int better = -1;
-    ambulo_status status =
-        ambulo__is_better(s.f.problem, &o, s.good, s.better, &allocator, &better);
-    assert_int_equal(memory.live, 0);
-    if (!memory.failed) {
-      assert_int_equal(status, AMBULO_OK);
-      assert_int_equal(better, 1);
-      break;
-    }
-    refused++;
-    assert_int_equal(status, AMBULO_E_MEMORY);
-    assert_int_equal(better, 0);
-  }
-  assert_true(refused > 20);
-  close_chosen(&s);
-}
-
 /* a start has to be better by a millionth of either sign than a point whose rows hold better, or at
  * all where they hold no better; without any point x stays */
 static void ties_go_to_what_was_found(void **state) {
@@ -215,47 +139,13 @@ static void validity_comes_first(void **state) {
   close_chosen(&s);
 }
 
-/* rows that hold more closely may cost a hundred-thousandth, no more */
-static void closer_rows_have_a_price(void **state) {
-  (void)state;
-  chosen s;
-  open_chosen(&s);
-  ambulo_options o = ambulo_options_default();
-  o.feasibility_tolerance = 0.1; /* all of these pass */
-  o.optimality_tolerance = 1.0;
-  size_t n = (size_t)s.f.n;
-  double change[2], optimum = 0.0;
-  for (int k = 0; k < 3; k++) { /* objective by the first unknown, which is prescribed */
-    memcpy(s.x, s.better, n * sizeof *s.x);
-    s.x[0] += k == 0 ? 0.0 : k == 1 ? 1e-5 : -1e-5;
-    assert_true(ambulo__violation_at(s.f.engine, s.x) < 0.1);
-    double objective = s.f.engine->workspace->objective;
-    if (k == 0)
-      optimum = objective;
-    else
-      change[k - 1] = objective / optimum - 1.0;
-  }
-  double slope = (change[0] - change[1]) / 2e-5;
-  for (int k = 0; k < 2; k++) {
-    int better = -1;
-    memcpy(s.x, s.better, n * sizeof *s.x);
-    s.x[0] -= (k ? 2e-5 : 5e-6) / slope; /* cheaper by that */
-    assert_int_equal(ambulo__is_better(s.f.problem, &o, s.x, s.better, NULL, &better), AMBULO_OK);
-    assert_int_equal(better, k == 0);
-  }
-  close_chosen(&s);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_lowest_valid_point_wins),
                                      cmocka_unit_test(a_valid_start_is_not_made_worse),
                                      cmocka_unit_test(a_start_that_is_hardly_better_wins),
                                      cmocka_unit_test(an_invalid_start_never_wins),
                                      cmocka_unit_test(points_that_are_not_finite_are_no_candidates),
-                                     cmocka_unit_test(audits_decide_between_two),
-                                     cmocka_unit_test(lack_of_memory_is_said),
                                      cmocka_unit_test(ties_go_to_what_was_found),
-                                     cmocka_unit_test(validity_comes_first),
-                                     cmocka_unit_test(closer_rows_have_a_price)};
+                                     cmocka_unit_test(validity_comes_first)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
