@@ -83,7 +83,7 @@ ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
 SOURCES := $(sort $(wildcard src/*/*.c))
 ifeq ($(X86),)
-  SOURCES := $(filter-out src/mechanics/kernels_avx%.c src/solver/band_kernels_avx%.c,$(SOURCES))
+  SOURCES := $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
 LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES)))
@@ -151,7 +151,7 @@ define compile_kernel
 endef
 $(OUT)/obj/src/mechanics/kernels_%.o: src/mechanics/kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
-$(OUT)/obj/src/solver/band_kernels_%.o: src/solver/band_kernels_%.c $(OUT)/obj/flags
+$(OUT)/obj/src/linear/band_kernels_%.o: src/linear/band_kernels_%.c $(OUT)/obj/flags
 	$(compile_kernel)
 
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
@@ -252,7 +252,7 @@ coverage: build/.ready-test
 LINT := format static order size symbols mirror headers equations keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
-TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/solver/band_kernels_avx%.c,$(SOURCES))
+TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
 
 lint: build/.ready-lint
 	+@failed=; for part in $(LINT); do echo "lint-$$part"; \

@@ -2,12 +2,12 @@
  *
  * The metric of a problem with d coordinates on N intervals is a symmetric band matrix of order
  * d (N + 3) and half-bandwidth 4 d - 1 (a node touches four neighbouring control points). Times of
- * its Cholesky factor and of one solve with it (solver/band.h) for d = 6 ... 55 at N = 72 and for
+ * its Cholesky factor and of one solve with it (linear/band.h) for d = 6 ... 55 at N = 72 and for
  * N = 12 ... 576 at d = 18, the powers of d and of N they grow with, the rate of the
  * factorization (about order * (half-bandwidth)^2 operations), and how many times as long LAPACK
  * takes (dpbtrf, and dtbsv twice), in turns. */
 #include "bench_csv.h"
-#include "solver/band.h"
+#include "linear/band.h"
 
 enum { repeats = 15 };
 

@@ -1,8 +1,8 @@
 /* solver/better.c - see better.h */
 #include "solver/better.h"
 #include "base/worst.h"
-#include "solver/result.h"
-#include "solver/verdict.h"
+#include "judge/result.h"
+#include "judge/verdict.h"
 
 #include <math.h>
 

@@ -13,8 +13,8 @@
  */
 #include "solver/memory.h"
 #include "base/free_memory.h"
-#include "solver/dense.h"
-#include "solver/metric.h"
+#include "judge/dense.h"
+#include "method/metric.h"
 
 static const double gigabyte = 1073741824.0;
 static const double coarse_share = 0.5;

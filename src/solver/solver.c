@@ -13,19 +13,19 @@
  * the rows and is not shown to be optimal is gone on from: the pipeline starts afresh there, with
  * the damping and the penalty of a start, and often sees further.
  */
-#include "solver/audit.h"
+#include "judge/audit.h"
 #include "solver/better.h"
-#include "solver/candidates.h"
-#include "solver/dense_audit.h"
-#include "solver/ending.h"
-#include "solver/explain.h"
-#include "solver/finisher.h"
+#include "judge/candidates.h"
+#include "judge/dense_audit.h"
+#include "judge/ending.h"
+#include "judge/explain.h"
+#include "method/finisher.h"
 #include "solver/memory.h"
-#include "solver/nlopt_direct.h"
+#include "method/nlopt_direct.h"
 #include "solver/options.h"
-#include "solver/refine.h"
-#include "solver/smooth.h"
-#include "solver/verdict.h"
+#include "method/refine.h"
+#include "method/smooth.h"
+#include "judge/verdict.h"
 
 #include <limits.h>
 #include <math.h>

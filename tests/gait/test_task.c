@@ -2,7 +2,7 @@
 #include "gait/task.h"
 #include "model/model.h"
 #include "nlp/nlp.h"
-#include "solver/explain.h"
+#include "judge/explain.h"
 #include "support/test.h"
 
 static ambulo_problem *walk(const char *const *overrides, int count) {

@@ -1,6 +1,6 @@
 /* gait.svg of a grounded walk: two more panels, one curve a foot in each. */
 #include "report/gait_svg.h"
-#include "solver/result.h"
+#include "judge/result.h"
 #include "support/test.h"
 #include "support/wellformed.h"
 

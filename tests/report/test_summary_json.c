@@ -1,7 +1,7 @@
 /* summary.json: well-formed, complete, and the same through both doors. */
 #include "report/summary_json.h"
 #include "support/fail_alloc.h"
-#include "solver/dense_audit.h"
+#include "judge/dense_audit.h"
 #include "support/walker_result.h"
 #include "support/wellformed.h"
 

@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_ENGINE_FIXTURE_H
 #define AMBULO_TESTS_ENGINE_FIXTURE_H
 
-#include "solver/engine.h"
+#include "method/engine.h"
 #include "support/test.h"
 
 typedef struct engine_fixture {

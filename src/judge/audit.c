@@ -1,0 +1,251 @@
+/* judge/audit.c - see audit.h.
+ *
+ * First-order conditions. With g = grad J, the rows with |c| within the active tolerance
+ * or below count as active, A. The nearest direction to -g that keeps the active rows to first
+ * order,
+ *
+ *     minimize |d + g|^2 / 2   subject to   J_e d = 0, C d = 0, J_A d >= 0
+ *
+ * is zero exactly at a KKT point, and its multipliers are the least-squares multipliers
+ * with the right signs (Moreau's decomposition of -g by the cone of feasible directions).
+ * kkt = |d| / |g| in infinity norms. It is solved by the piecewise quadratic model of
+ * model_step.c with H0 = I, a large penalty, and the method of multipliers.
+ *
+ * kkt is relative to g, which vanishes where the objective reaches zero, its lower bound: there
+ * the bound itself is the proof (engine.c, negligible_objective).
+ */
+#include "judge/audit.h"
+#include "base/worst.h"
+#include "method/presolve_rank.h"
+#include "judge/verdict.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MULTIPLIER_PASSES = 12 };
+static const double active_factor = 10.0; /* times the feasibility tolerance */
+static const double cone_penalty = 1e4;
+static const double far_away = -1e30; /* excess of a row that is not active */
+static const double cone_tolerance = 1e-9;
+
+double ambulo__row_violation(const ambulo_problem *p, int row, double value) {
+  if (!isfinite(value)) return HUGE_VAL;
+  return p->table.rows[row].relation == AMBULO_EQUAL ? fabs(value) : fmax(0.0, -value);
+}
+
+ambulo_violation ambulo__violation_of(const ambulo_problem *p, int row, double value) {
+  const ambulo__table_row *r = &p->table.rows[row];
+  ambulo_violation v = {.family = r->family,
+                        .subject = r->subject,
+                        .detail = r->detail,
+                        .unit = r->unit,
+                        .time = r->time,
+                        .worst = ambulo__row_violation(p, row, value),
+                        .size = r->size};
+  return v;
+}
+
+/* -------------------------------------------------------------- violations */
+
+static ambulo_violation no_violation(double worst) {
+  ambulo_violation none = {.family = "", .subject = "", .detail = "", .unit = "", .size = 1.0};
+  none.worst = worst;
+  return none;
+}
+
+static void keep_worse(ambulo_violation v, ambulo_violation *worst) {
+  if (!worst->family[0] || ambulo__is_worse(ambulo__relative(worst), ambulo__relative(&v)))
+    *worst = v;
+}
+
+static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
+  int families = 0;
+  result->audit.violation = no_violation(0.0);
+  for (int r = 0; r < p->rows; r++) {
+    ambulo_violation v = ambulo__violation_of(p, r, result->row[r]);
+    int f = 0;
+    while (f < families && strcmp(result->family[f].family, v.family) != 0) f++;
+    if (f == families) result->family[families++] = v;
+    keep_worse(v, &result->family[f]);
+    keep_worse(v, &result->audit.violation);
+  }
+}
+
+/* ------------------------------------------------------- first-order conditions */
+
+/* solves the cone problem; the direction stays in engine->total; 0 on success */
+static int project(ambulo__engine *e) {
+  double decrease, bound = cone_tolerance * ambulo__largest(e->gradient, (size_t)e->n);
+  ambulo__band_clear(&e->base);
+  ambulo__band_add_diagonal(&e->base, 1.0);
+  e->rho = cone_penalty;
+  for (int pass = 0; pass < MULTIPLIER_PASSES; pass++) {
+    for (int i = 0; i < e->inequalities; i++)
+      e->linear[i] = e->held.excess[i] < 0.0 ? far_away : 0.0;
+    if (ambulo__model_minimize(e, 0, &decrease)) return 1;
+    double worst = 0.0;
+    for (int i = 0; i < e->inequalities; i++) {
+      double balance = ambulo__worse(e->linear[i], -e->lambda[i] / e->rho);
+      worst = ambulo__worse(worst, fabs(balance));
+      e->lambda[i] = ambulo__worse(0.0, e->lambda[i] + e->rho * e->linear[i]);
+    }
+    if (worst <= bound) break;
+  }
+  return 0;
+}
+
+/* the scales that the solver gave the rows */
+static void restore_scales(ambulo__engine *e) {
+  ambulo__sparse_rows *rows = &e->rows.inequality;
+  for (int i = 0; i < rows->count; i++)
+    ambulo__sparse_rows_set_scale(rows, i, -1.0 / e->rows.size[i]);
+}
+
+/* gradients of length 1, which neither the cone nor the tolerance of a row notices: on fine
+ * grids rows on accelerations are so much longer than others that the penalty of some would
+ * drown the rest */
+static void normalize(ambulo__sparse_rows *rows) {
+  for (int i = 0; i < rows->count; i++) {
+    double norm = ambulo__sparse_rows_norm(rows, i);
+    if (norm > 0.0) ambulo__sparse_rows_set_scale(rows, i, rows->scale[i] / norm);
+  }
+}
+
+/* marks active rows in held.excess: 0 active, -1 not; returns their number. The tolerance is
+ * relative to the sizes of the rows. */
+static int mark(ambulo__engine *e, double tolerance) {
+  const ambulo__sparse_rows *rows = &e->rows.inequality;
+  const ambulo__table_row *table = e->problem->table.rows;
+  int count = 0;
+  ambulo__engine_excess(e, e->held.excess);
+  for (int i = 0; i < e->inequalities; i++) {
+    double least = tolerance * table[rows->row[i]].size * rows->scale[i]; /* scale < 0 */
+    int active = e->held.excess[i] >= least;
+    e->held.excess[i] = active ? 0.0 : -1.0;
+    count += active;
+  }
+  return count;
+}
+
+/* from multipliers for a gradient of length 1 to those of grad J = sum multiplier grad c */
+static void collect_multipliers(ambulo__engine *e, double size, ambulo_result *result) {
+  const ambulo__rows_split *s = &e->rows;
+  double unit = size / e->objective_scale;
+  memset(result->multiplier, 0, (size_t)result->rows * sizeof *result->multiplier);
+  for (int i = 0; i < e->inequalities; i++)
+    result->multiplier[s->inequality.row[i]] = -s->inequality.scale[i] * e->lambda[i] * unit;
+  for (int i = 0; i < e->equalities; i++)
+    result->multiplier[s->equality.row[i]] = -e->equality_multiplier[i] * unit;
+  for (int i = 0; i < e->borders; i++)
+    result->multiplier[s->border.row[i]] = -e->border_multiplier[i] * unit;
+}
+
+static void audit_complementarity(const ambulo__engine *e, ambulo_result *result) {
+  const ambulo__sparse_rows *rows = &e->rows.inequality;
+  for (int i = 0; i < e->inequalities; i++) {
+    int r = rows->row[i];
+    result->audit.complementarity =
+        ambulo__worse(result->audit.complementarity, fabs(result->multiplier[r] * result->row[r]));
+  }
+  result->audit.complementarity /= fmax(1.0, fabs(result->objective));
+}
+
+static ambulo_status find_rank(ambulo__engine *e, ambulo__pool *pool, ambulo_result *result) {
+  const ambulo_problem *p = e->problem;
+  ambulo__sparse_rows rows;
+  int count = 0;
+  int *list = ambulo__pool_ints(pool, (size_t)p->rows);
+  int *rank = ambulo__pool_ints(pool, (size_t)p->rows);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int r = 0; r < p->rows; r++) {
+    if (p->table.rows[r].relation == AMBULO_EQUAL) list[count++] = r;
+  }
+  for (int i = 0; i < e->inequalities; i++) {
+    if (e->held.excess[i] >= 0.0) list[count++] = e->rows.inequality.row[i];
+  }
+  double *value = ambulo__pool_doubles(pool, (size_t)count);
+  ambulo_status status = ambulo__sparse_rows_create(p, list, count, NULL, pool, &rows);
+  if (status) return status;
+  ambulo__sparse_rows_fill(&rows, e->workspace, 1);
+  ambulo__sparse_rows_values(&rows, e->workspace, value);
+  status = ambulo__rank_sort(&rows, value, NULL, pool, rank);
+  if (status) return status;
+  result->audit.active_rows = count;
+  result->audit.rank = 0;
+  for (int i = 0; i < count; i++) result->audit.rank += rank[list[i]] == AMBULO__ROW_INDEPENDENT;
+  return AMBULO_OK;
+}
+
+/* rank of all equalities together with the active inequalities */
+static ambulo_status audit_rank(ambulo__engine *e, ambulo_result *result) {
+  ambulo__pool pool; /* audits are many, their memory is not kept */
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  ambulo_status status = find_rank(e, &pool, result);
+  ambulo__pool_clear(&pool);
+  return status;
+}
+
+/* every gradient at the point; 1 when one is not finite */
+static int take_gradients(ambulo__engine *e) {
+  return ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 1) ||
+         ambulo__sparse_rows_fill(&e->rows.border, e->workspace, 1) ||
+         ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 1) ||
+         ambulo__engine_gradient(e, NULL, NULL, e->gradient);
+}
+
+/* of the solved cone problem, for a gradient that had this size */
+static void take_first_order(ambulo__engine *e, double size, ambulo_result *result) {
+  result->audit.kkt = ambulo__largest(e->total, (size_t)e->n);
+  if (!isfinite(result->audit.kkt)) result->audit.kkt = HUGE_VAL;
+  collect_multipliers(e, size, result);
+  audit_complementarity(e, result);
+}
+
+static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
+                              ambulo_result *result) {
+  double size = ambulo__largest(e->gradient, (size_t)e->n);
+  /* the cone does not ask how long g is; its penalty and tolerances do */
+  for (int i = 0; i < e->n && size > 0.0; i++) e->gradient[i] /= size;
+  mark(e, active_factor * options->feasibility_tolerance);
+  int failed = project(e); /* from the solver's multipliers, if it has any */
+  if (failed) {
+    normalize(&e->rows.inequality);
+    memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
+    memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
+    failed = project(e);
+  }
+  if (!failed) take_first_order(e, size, result);
+  restore_scales(e);
+}
+
+ambulo_status ambulo__audit_values(ambulo_workspace *w, ambulo_result *result) {
+  memset(&result->audit, 0, sizeof result->audit);
+  result->audit.kkt = HUGE_VAL;
+  result->audit.active_rows = result->audit.rank = -1;
+  result->audit.violation = result->audit.dense_violation = no_violation(NAN);
+  if (ambulo__evaluate(w, result->x)) {
+    result->audit.fault = w->fault;
+    result->objective = NAN;
+    return AMBULO_E_NUMERIC;
+  }
+  result->objective = w->objective;
+  memcpy(result->term, w->term_value, (size_t)result->terms * sizeof *result->term);
+  memcpy(result->row, w->row_value, (size_t)result->rows * sizeof *result->row);
+  audit_violations(w->problem, result);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
+                            ambulo_result *result) {
+  if (ambulo__audit_values(e->workspace, result)) return AMBULO_OK; /* the fault tells */
+  result->audit.dropped_equalities = e->rows.dropped;
+  result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
+  if (ambulo__run_late(e->run)) return AMBULO_OK;
+  if (ambulo__evaluate_jacobian(e->workspace, result->x) || take_gradients(e)) {
+    result->audit.fault = e->workspace->fault;
+    return AMBULO_OK;
+  }
+  audit_first_order(e, options, result);
+  if (ambulo__run_late(e->run)) return AMBULO_OK;
+  return audit_rank(e, result);
+}

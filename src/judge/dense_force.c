@@ -1,0 +1,64 @@
+/* judge/dense_force.c - the ground's normal force between the nodes.
+ *
+ *     | n.F(t) - ((1 - s) n.F(a) + s n.F(b)) | / m g,   a <= t <= b neighbouring nodes,
+ *     s = (t - a) / (b - a)                                              body weights
+ *
+ * The straight line, because that is what motion.csv says: it has the nodes, and who draws it,
+ * integrates it by trapezoids or compares it with a force plate joins them so. (A denser table,
+ * --samples, has the true force; the accelerations behind it are just as free between the nodes.)
+ * Of all contacts together, from the root wrench, and with ground reaction of each foot.
+ */
+#include "judge/dense.h"
+
+#include <math.h>
+
+typedef struct force {
+  const ambulo__dense *dense;
+  const char *subject;
+  int channel; /* first of three */
+  double weight;
+} force;
+
+static double normal_at(const force *f, int node) {
+  const double *up = f->dense->problem->model->up;
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; axis++)
+    sum += up[axis] * ambulo__dense_channel(f->dense, node, f->channel + axis);
+  return sum / f->weight;
+}
+
+static void visit_force(const force *f, ambulo__dense_visitor visit, void *user) {
+  const ambulo__dense *dense = f->dense;
+  int index = ambulo__dense_rule_of_force(), samples = dense->samples;
+  const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
+  ambulo__dense_sample sample = {.rule = index,
+                                 .family = rule->family,
+                                 .subject = f->subject,
+                                 .detail = "normal",
+                                 .unit = rule->unit,
+                                 .tolerance = rule->tolerance};
+  for (int k = 0; k < dense->problem->nodes; k++) {
+    double a = normal_at(f, k * samples);
+    double b = k + 1 < dense->problem->nodes ? normal_at(f, (k + 1) * samples) : a;
+    for (int i = 0; i < samples && k * samples + i < dense->fine->nodes; i++) {
+      double line = a + (b - a) * i / samples;
+      sample.time = dense->fine->times[k * samples + i];
+      sample.value = fabs(normal_at(f, k * samples + i) - line);
+      visit(user, &sample);
+    }
+  }
+}
+
+void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
+  const ambulo_problem *p = dense->problem;
+  force f = {.dense = dense, .weight = ambulo__dense_body_weight(p->model)};
+  if (p->definition.contact_count == 0 || !(f.weight > 0.0)) return;
+  f.subject = "total";
+  f.channel = ambulo__channel_force(&p->channels, 0);
+  visit_force(&f, visit, user);
+  for (int foot = 0; foot < p->channels.feet; foot++) {
+    f.subject = p->model->feet[foot].name;
+    f.channel = ambulo__channel_foot_force(&p->channels, foot, 0);
+    visit_force(&f, visit, user);
+  }
+}

@@ -1,0 +1,106 @@
+/* judge/dense_grid.c - the same motion and the same rows on a finer grid of time nodes.
+ *
+ * The finer problem has the trajectory's own grid, hence the same unknowns, and no objective. User
+ * rows and terms may count nodes; they are not asked off the nodes. Events are moved with their
+ * contacts, except those at 0 and T, which are nodes on every grid.
+ */
+#include "nlp/problem.h"
+#include "judge/dense.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_INTERVALS = 100000 }; /* of a problem */
+
+static const double time_tolerance = 1e-9; /* s */
+
+static double moved(double time, double shift, double duration) {
+  if (time <= time_tolerance || time >= duration - time_tolerance) return time;
+  return fmin(duration, fmax(0.0, time + shift));
+}
+
+/* copies of the contacts, moved; NULL without memory */
+static ambulo_contact *moved_contacts(const ambulo_problem_definition *d, double shift,
+                                      const ambulo_allocator *allocator) {
+  ambulo_contact *contacts = ambulo__alloc(allocator, (size_t)d->contact_count, sizeof *contacts);
+  for (int i = 0; contacts && i < d->contact_count; i++) {
+    contacts[i] = d->contacts[i];
+    contacts[i].from = moved(contacts[i].from, shift, d->duration);
+    contacts[i].to = moved(contacts[i].to, shift, d->duration);
+  }
+  return contacts;
+}
+
+static ambulo_status create_fine(const ambulo_problem *p, double shift,
+                                 ambulo_diagnostics *diagnostics, ambulo__dense *dense) {
+  ambulo_problem_definition d = p->definition;
+  ambulo_contact *contacts = moved_contacts(&d, shift, &dense->allocator);
+  if (!contacts) return AMBULO_E_MEMORY;
+  d.contacts = contacts;
+  d.spline_intervals = ambulo__basis_intervals(p->basis);
+  d.intervals = p->definition.intervals * dense->samples;
+  d.terms = NULL;
+  d.term_count = 0;
+  d.user_rows = NULL;
+  d.user_row_count = 0;
+  ambulo_status status =
+      ambulo__problem_create_unnamed(&d, &dense->allocator, diagnostics, &dense->fine);
+  ambulo__free(&dense->allocator, contacts);
+  return status;
+}
+
+/* as nlp/evaluate.c does, without what gradients need */
+static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
+  const ambulo_problem *p = dense->fine;
+  const ambulo_allocator *a = &dense->allocator;
+  size_t stride = (size_t)ambulo__channel_count(&p->channels) * AMBULO__LANES;
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  double *scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof *scratch);
+  dense->channel = ambulo__alloc_aligned(a, stride * (size_t)p->blocks, sizeof *dense->channel);
+  dense->row_value = ambulo__alloc_aligned(a, (size_t)p->rows, sizeof *dense->row_value);
+  ambulo_status status = AMBULO_E_MEMORY;
+  if (scratch && dense->channel && dense->row_value) {
+    double *c = dense->channel;
+    ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
+    for (int b = 0; b < p->blocks; b++, c += stride) {
+      p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
+                          c + 3 * d8, scratch);
+    }
+    ambulo__row_runs_values(&p->row_runs, dense->channel, dense->row_value);
+    status = AMBULO_OK;
+  }
+  ambulo__free_aligned(a, scratch);
+  return status;
+}
+
+int ambulo__dense_samples(const ambulo_problem *p, int samples) {
+  int most = MOST_INTERVALS / p->definition.intervals;
+  return samples < most ? samples : most;
+}
+
+ambulo_status ambulo__dense_open(const ambulo_problem *p, const double *x, int samples,
+                                 double shift, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo__dense *dense) {
+  memset(dense, 0, sizeof *dense);
+  dense->allocator = ambulo__allocator_or_default(allocator);
+  dense->problem = p;
+  dense->samples = ambulo__dense_samples(p, samples);
+  ambulo_status status = create_fine(p, shift, diagnostics, dense);
+  if (!status) status = evaluate(dense, x);
+  if (status) ambulo__dense_close(dense);
+  return status;
+}
+
+void ambulo__dense_close(ambulo__dense *dense) {
+  const ambulo_allocator *a = &dense->allocator;
+  ambulo__free_aligned(a, dense->channel);
+  ambulo__free_aligned(a, dense->row_value);
+  ambulo_problem_free(dense->fine);
+  dense->channel = dense->row_value = NULL;
+  dense->fine = NULL;
+}
+
+double ambulo__dense_body_weight(const ambulo_model *model) {
+  const double *g = model->gravity;
+  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}

@@ -1,0 +1,49 @@
+/* judge/dense_rows.c - violations of rows between the nodes, as samples.
+ *
+ * Rows on unknowns and rows that join the two ends are the same on every grid and left out. The
+ * centre of pressure of a foot counts by the share a of the load that it carries: a times the row.
+ */
+#include "judge/audit.h"
+#include "judge/dense.h"
+
+#include <math.h>
+
+/* of the foot that the row is about, from what the kernels are told (nlp/ground.c) */
+static double load_share(const ambulo_problem *fine, const ambulo__table_row *row) {
+  if (!fine->ground) return 1.0;
+  double first = fine->ground[ambulo__lane_index(row->node, AMBULO__GROUND_ENTRIES, 0)];
+  return row->subject == fine->model->feet[0].name ? first : 1.0 - first;
+}
+
+static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dense_visitor visit,
+                      void *user) {
+  const ambulo_problem *fine = dense->fine;
+  const ambulo__table_row *row = &fine->table.rows[r];
+  const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
+  ambulo__dense_sample sample = {.rule = index,
+                                 .family = row->family,
+                                 .subject = row->subject,
+                                 .detail = row->detail,
+                                 .unit = row->unit,
+                                 .time = row->time,
+                                 .value = ambulo__row_violation(fine, r, dense->row_value[r]),
+                                 .tolerance = rule->tolerance};
+  if (rule->of_limit) sample.tolerance *= ambulo__dense_limit_size(fine, row);
+  if (rule->by_load) sample.value *= load_share(fine, row);
+  visit(user, &sample);
+}
+
+void ambulo__dense_rows(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
+  const ambulo__row_table *table = &dense->fine->table;
+  const char *family = NULL, *unit = NULL;
+  int rule = -1;
+  for (int r = 0; r < table->row_count; r++) {
+    const ambulo__table_row *row = &table->rows[r];
+    if (row->node < 0) continue;
+    /* names are static texts: neighbouring rows mostly share theirs */
+    if (row->family != family || row->unit != unit) rule = ambulo__dense_rule_of_row(row);
+    family = row->family;
+    unit = row->unit;
+    if (rule >= 0) visit_row(dense, r, rule, visit, user);
+  }
+}

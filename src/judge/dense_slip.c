@@ -1,0 +1,127 @@
+/* judge/dense_slip.c - how far loaded points of a foot move along the ground between nodes.
+ *
+ * A corner is loaded while a contact of its foot has it down (gait/foot_outline.h). With a and b
+ * the nodes before and after t at which the corner stands loaded on the same foothold,
+ *
+ *     slip(t) = | t-part of  r(t) - ((1 - s) r(a) + s r(b)) |,   s = (t - a) / (b - a)        m
+ *
+ * the part along the ground of the distance from where the nodes have it. Before the first such
+ * node, and after the last one until the contact ends, that node's place stands for the line: rows
+ * hold for from <= t < to, so a toe is free from its last loaded node until toe-off. Movements
+ * from node to node are not slip: rows hold those, exactly or within contact_tolerance. A corner
+ * that has no node while it is loaded moves away from where it came down.
+ */
+#include "gait/foot_outline.h"
+#include "judge/dense.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { SEARCH = 2 }; /* nodes to either side: moved events lie up to one interval away */
+
+typedef struct corner {
+  const ambulo__dense *dense;
+  int foot, point, is_heel;
+  ambulo__dense_visitor visit;
+  void *user;
+} corner;
+
+static const ambulo_contact *contact_at(const ambulo_problem *p, const corner *c, int node) {
+  int index = p->active[node * p->model->foot_count + c->foot];
+  if (index < 0) return NULL;
+  const ambulo_contact *contact = &p->definition.contacts[index];
+  return ambulo__corner_in_contact(contact->mode, c->is_heel) ? contact : NULL;
+}
+
+/* r of the corner at a time between nodes of the finer grid */
+static void place_at(const corner *c, double time, double r[3]) {
+  const ambulo__dense *dense = c->dense;
+  const ambulo_problem *fine = dense->fine;
+  double position = time / fine->definition.duration * fine->definition.intervals;
+  int left = (int)floor(position + 1e-9);
+  if (left > fine->nodes - 2) left = fine->nodes - 2;
+  double s = position - left;
+  for (int axis = 0; axis < 3; axis++) {
+    int channel = ambulo__channel_point(&fine->channels, c->point, axis);
+    double a = ambulo__dense_channel(dense, left, channel);
+    double b = ambulo__dense_channel(dense, left + 1, channel);
+    r[axis] = s == 0.0 ? a : a + s * (b - a);
+  }
+}
+
+/* the nearest node from `node` on in direction `step` that has the corner on that foothold; -1 */
+static int holding_node(const corner *c, int node, int step, const ambulo_contact *there) {
+  const ambulo_problem *p = c->dense->problem;
+  for (int k = node; k >= 0 && k < p->nodes && abs(k - node) < SEARCH; k += step) {
+    const ambulo_contact *contact = contact_at(p, c, k);
+    if (contact &&
+        hypot(contact->place[0] - there->place[0], contact->place[1] - there->place[1]) < 1e-9)
+      return k;
+  }
+  return -1;
+}
+
+/* where the nodes have the corner at `time`; 0 if no node does */
+static int held_place(const corner *c, double time, const ambulo_contact *contact, double r[3]) {
+  const ambulo_problem *p = c->dense->problem;
+  double position = time / p->definition.duration * p->definition.intervals;
+  int a = holding_node(c, (int)floor(position + 1e-9), -1, contact);
+  int b = holding_node(c, (int)ceil(position - 1e-9), 1, contact);
+  double ra[3], rb[3];
+  if (a < 0 && b < 0) return 0;
+  place_at(c, p->times[a < 0 ? b : a], ra);
+  place_at(c, p->times[b < 0 ? a : b], rb);
+  double s = a >= 0 && b > a ? (position - a) / (b - a) : 0.0;
+  for (int axis = 0; axis < 3; axis++) r[axis] = ra[axis] + s * (rb[axis] - ra[axis]);
+  return 1;
+}
+
+static void visit_time(const corner *c, double time, const ambulo_contact *contact,
+                       const double first[3]) {
+  const ambulo_model *model = c->dense->problem->model;
+  double r[3], held[3], normal = 0.0, square = 0.0;
+  place_at(c, time, r);
+  if (!held_place(c, time, contact, held))
+    for (int i = 0; i < 3; i++) held[i] = first[i];
+  for (int i = 0; i < 3; i++) normal += (r[i] - held[i]) * model->up[i];
+  for (int i = 0; i < 3; i++) {
+    double along = r[i] - held[i] - normal * model->up[i];
+    square += along * along;
+  }
+  int rule = ambulo__dense_rule_of_slip();
+  ambulo__dense_sample sample = {.rule = rule,
+                                 .family = ambulo__dense_rule_at(rule)->family,
+                                 .subject = model->points[c->point].name,
+                                 .detail = "along the ground",
+                                 .unit = ambulo__dense_rule_at(rule)->unit,
+                                 .time = time,
+                                 .value = sqrt(square),
+                                 .tolerance = ambulo__dense_rule_at(rule)->tolerance};
+  c->visit(c->user, &sample);
+}
+
+/* one uninterrupted loading, from finer node `j` on; returns the first node after it */
+static int visit_loading(const corner *c, int j) {
+  const ambulo_problem *fine = c->dense->fine;
+  const ambulo_contact *contact = contact_at(fine, c, j), *last = contact;
+  double first[3];
+  place_at(c, fmax(contact->from, j > 0 ? fine->times[j - 1] : 0.0), first);
+  if (contact->from < fine->times[j]) visit_time(c, contact->from, contact, first);
+  for (; j < fine->nodes && (contact = contact_at(fine, c, j)) != NULL; j++) {
+    visit_time(c, fine->times[j], contact, first);
+    last = contact;
+  }
+  if (j < fine->nodes && last->to <= fine->times[j] + 1e-9) visit_time(c, last->to, last, first);
+  return j;
+}
+
+void ambulo__dense_slip(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
+  const ambulo_problem *fine = dense->fine;
+  for (int foot = 0; fine->definition.contact_count && foot < fine->model->foot_count; foot++) {
+    ambulo__foot_outline outline = ambulo__foot_outline_of(fine->model, foot);
+    for (int i = 0; i < outline.count; i++) {
+      corner c = {dense, foot, outline.point[i], outline.is_heel[i], visit, user};
+      for (int j = 0; j < fine->nodes;) j = contact_at(fine, &c, j) ? visit_loading(&c, j) : j + 1;
+    }
+  }
+}

@@ -1,0 +1,37 @@
+/* judge/result.h - what a solve leaves behind. */
+#ifndef AMBULO_JUDGE_RESULT_H
+#define AMBULO_JUDGE_RESULT_H
+
+#include "nlp/nlp.h"
+
+#define AMBULO__ENDING_SIZE 400
+
+struct ambulo__explanation;  /* judge/explain.h */
+struct ambulo__dense_report; /* judge/dense_audit.h */
+
+struct ambulo_result {
+  ambulo_allocator allocator;
+  ambulo_verdict verdict;
+  ambulo_ending ending_code;
+  int variables, rows, terms, families;
+  double objective;
+  double *x;                /* [variables] */
+  double *term;             /* [terms], weighted */
+  double *row;              /* [rows], physical units */
+  double *multiplier;       /* [rows]: stationarity is grad J = sum multiplier grad c */
+  ambulo_violation *family; /* [families], in the order in which they first appear */
+  ambulo_audit audit;
+  ambulo_timing timing;
+  ambulo_nlopt_work nlopt;
+  int iterations, evaluations;
+  struct ambulo__explanation *explanation; /* NULL: none */
+  struct ambulo__dense_report *dense;      /* NULL: not audited */
+  char ending[AMBULO__ENDING_SIZE];
+};
+
+/* Sized for `problem`; not judged, the audit that of a point of which nothing is known. E_MEMORY.
+ */
+ambulo_status ambulo__result_create(const ambulo_problem *problem,
+                                    const ambulo_allocator *allocator, ambulo_result **result);
+
+#endif

@@ -1,0 +1,223 @@
+/* judge/suggest.c - one suggestion (suggest.h): limits, ends, tubes, and the choice among rooms.
+ */
+#include "judge/suggest.h"
+
+#include "gait/bounds.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double settled = 1e-5; /* of a value: what is left of zero after a descent */
+static const double travels = 1e-9; /* m: a row whose two ends are that far apart has the travel */
+
+static double degrees(double angle) {
+  return angle * 57.29577951308232;
+}
+
+double ambulo__outward(double value, int up) {
+  if (value == 0.0 || !isfinite(value)) return value;
+  double scale = pow(10.0, 3.0 - floor(log10(fabs(value))));
+  double steps = value * scale;
+  return (up ? ceil(steps - 1e-6) : floor(steps + 1e-6)) / scale;
+}
+
+void ambulo__advice_say(const ambulo__advice *a, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(a->out->suggestion, AMBULO__LINE_SIZE, format, arguments);
+  va_end(arguments);
+}
+
+void ambulo__advice_set(const ambulo__advice *a, const char *format, ...) {
+  ambulo__explanation *out = a->out;
+  int i = out->view.setting_count;
+  if (!a->problem->keys.file || i >= AMBULO__MOST_SETTINGS) return;
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(out->setting[i], AMBULO__LINE_SIZE, format, arguments);
+  va_end(arguments);
+  out->settings[i] = out->setting[i];
+  out->view.setting_count++;
+}
+
+/* " (12 deg)" after angles */
+static const char *in_degrees(const ambulo__advice *a, double angle, char buffer[32]) {
+  buffer[0] = '\0';
+  if (!strcmp(a->row->unit, "rad")) (void)snprintf(buffer, 32, " (%.3g deg)", degrees(angle));
+  return buffer;
+}
+
+/* --------------------------------------------------------------------- limits */
+
+/* "model.links[shank_l].coordinate.range=[0, 70]" with one of the two limits of coordinate i
+ * replaced; units of the model's file */
+static void set_limit(const ambulo__advice *a, int i, const char *key, const double limits[2],
+                      int upper, double value, double unit) {
+  const ambulo_model *model = a->problem->model;
+  char text[2][32];
+  if (!(unit > 0.0)) return;
+  for (int k = 0; k < 2; k++) {
+    double bound = (k == upper ? value : limits[k]) / unit;
+    if (isfinite(bound))
+      (void)snprintf(text[k], sizeof text[k], "%.6g",
+                     k == upper ? ambulo__outward(bound, upper) : bound);
+    else
+      (void)snprintf(text[k], sizeof text[k], "none");
+  }
+  ambulo__advice_set(a, "model.links[%s].coordinate.%s=[%s, %s]",
+                     model->links[model->coordinate_link[i]].name, key, text[0], text[1]);
+}
+
+/* the partner's limit binds in the mirrored half of the stride: both have to move */
+static void set_both(const ambulo__advice *a, const char *key, ambulo_limited what, int upper,
+                     double value) {
+  const ambulo_model *model = a->problem->model;
+  int i = ambulo_model_find_coordinate(model, a->row->subject);
+  if (i < 0) return;
+  const ambulo_coordinate *c = &model->coordinates[i];
+  int m = a->problem->definition.ends == AMBULO_ENDS_MIRRORED && c->mirror >= 0 ? c->mirror : i;
+  int angle = c->type == AMBULO_REVOLUTE;
+  const ambulo__model_units *u = &model->units;
+  double unit = angle ? u->angle : u->length;
+  if (what == AMBULO_LIMITED_TORQUE) unit = angle ? u->moment : u->force;
+  set_limit(a, i, key, ambulo__limits_of(c, what), upper, value, unit);
+  if (m == i) return;
+  int turned = c->mirror_sign < 0 ? !upper : upper;
+  const double *limits = ambulo__limits_of(&model->coordinates[m], what);
+  double mirrored = c->mirror_sign < 0 ? -value : value;
+  if (turned ? limits[1] < mirrored : limits[0] > mirrored)
+    set_limit(a, m, key, limits, turned, mirrored, unit);
+}
+
+static void limit(const ambulo__advice *a, const char *what, const char *key, ambulo_limited kind) {
+  char from[32], to[32];
+  int upper = !strcmp(a->row->detail, "upper");
+  double bound = ambulo__limit_given(a->problem->model, a->row);
+  double enough = ambulo__outward(upper ? bound + a->room : bound - a->room, upper);
+  ambulo__advice_say(a, "%s the %s %s of %s by %.4g %s: from %.4g%s to %.4g %s%s",
+                     upper ? "raise" : "lower", a->row->detail, what, a->row->subject, a->give,
+                     a->row->unit, bound, in_degrees(a, bound, from), enough, a->row->unit,
+                     in_degrees(a, enough, to));
+  set_both(a, key, kind, upper, enough);
+}
+
+/* ----------------------------------------------------------------------- ends */
+
+static void end_value(const ambulo__advice *a) {
+  char from[32], to[32];
+  double asked = -a->row->constant, reached = asked + a->value;
+  if (fabs(reached) < settled) reached = 0.0;
+  int final = ambulo__advice_is(a, "final_state", NULL);
+  const char *end = final ? "final" : "initial";
+  ambulo__advice_say(a,
+                     "ask for another %s %s of %s at t = %.4g s: %.4g %s%s instead of %.4g %s%s, "
+                     "or give the motion more time",
+                     end, a->row->detail, a->row->subject, a->row->time, reached, a->row->unit,
+                     in_degrees(a, reached, from), asked, a->row->unit, in_degrees(a, asked, to));
+  const ambulo_model *model = a->problem->model;
+  int i = ambulo_model_find_coordinate(model, a->row->subject);
+  int value = !strcmp(a->row->detail, "value"), rate = !strcmp(a->row->detail, "rate");
+  if (i < 0 || (!value && !rate)) return; /* accelerations have no key */
+  double unit = model->coordinates[i].type == AMBULO_REVOLUTE ? a->problem->keys.radians : 1.0;
+  if (unit > 0.0)
+    ambulo__advice_set(a, "ends.%s%s.%s=%.7g", end, rate ? "_speed" : "", a->row->subject,
+                       reached / unit);
+}
+
+static void free_ends(const ambulo__advice *a) {
+  ambulo__advice_say(a,
+                     "the two ends of %s (%s) stay %.4g %s apart: leave the ends free, or drop "
+                     "what else fixes its state there",
+                     a->row->subject, a->row->detail, a->give, a->row->unit);
+  ambulo__advice_set(a, "ends.kind=free");
+}
+
+static void matching_ends(const ambulo__advice *a) {
+  const ambulo_problem_definition *d = &a->problem->definition;
+  if (strcmp(a->row->detail, "value") != 0 || !(fabs(a->row->constant) > travels)) {
+    free_ends(a);
+    return;
+  }
+  double sign = -a->row->constant / d->travel, reached = d->travel + sign * a->value;
+  if (fabs(reached) < settled) reached = 0.0;
+  if (d->contact_count > 0) {
+    ambulo__advice_say(a,
+                       "%s gets %.4g m forward where %.4g m are asked for: shorter steps, whose "
+                       "footholds go with it, or more time",
+                       a->row->subject, reached, d->travel);
+    ambulo__advice_set_step(a, reached / fmax(1.0, (double)a->problem->keys.steps));
+    return;
+  }
+  ambulo__advice_say(a, "change the travel from %.4g m to %.4g m, which the other rows allow (%s)",
+                     d->travel, reached, a->row->subject);
+  ambulo__advice_set(a, "ends.travel=%.7g", reached);
+}
+
+/* ----------------------------------------------------------------------- tubes */
+
+static void tube(const ambulo__advice *a) {
+  const ambulo_problem_definition *d = &a->problem->definition;
+  const ambulo_model *model = a->problem->model;
+  int i = ambulo_model_find_coordinate(model, a->row->subject), only = -1;
+  for (int t = 0; t < d->tube_count && i >= 0; t++) {
+    if (isfinite(d->tubes[t].half_width[i])) only = only < 0 ? t : d->tube_count;
+  }
+  ambulo__advice_say(a,
+                     "let %s leave the motion that it follows by %.4g %s more (t = %.4g s), as a "
+                     "wider tube does",
+                     a->row->subject, a->give, a->row->unit, a->row->time);
+  if (only < 0 || only >= d->tube_count) return;
+  double unit = model->coordinates[i].type == AMBULO_REVOLUTE ? a->problem->keys.radians : 1.0;
+  double width = d->tubes[only].half_width[i] + a->room;
+  if (unit > 0.0)
+    ambulo__advice_set(a, "constraints.tubes[%d].coordinates.%s=%.6g", only, a->row->subject,
+                       ambulo__outward(width / unit, 1));
+}
+
+/* ------------------------------------------------------------------------ all */
+
+static void other(const ambulo__advice *a) {
+  ambulo__advice_say(a, "let %s of %s (%s) give way by %.4g %s at t = %.4g s", a->row->family,
+                     a->row->subject, a->row->detail, a->give, a->row->unit, a->row->time);
+}
+
+/* the rest of the family that has to give way with it */
+static void mention_others(const ambulo_conflict *c, char *text) {
+  size_t used = strlen(text), room = AMBULO__LINE_SIZE - used;
+  if (c->other_count == 0) return;
+  const ambulo_violation *v = &c->others[0];
+  if (c->other_count == 1) {
+    (void)snprintf(text + used, room, "; likewise %s %s by %.4g %s", v->subject, v->detail,
+                   v->worst, v->unit);
+  } else {
+    (void)snprintf(text + used, room, "; likewise the other rows named under %s", c->shared.family);
+  }
+}
+
+void ambulo__suggest(const ambulo_problem *p, const ambulo__remedy *remedy,
+                     ambulo__explanation *out) {
+  if (remedy->conflict < 0) return;
+  const ambulo__table_row *row = &p->table.rows[remedy->row];
+  double value = remedy->value[remedy->row];
+  double give = fabs(value), room = give + fmax(0.01 * give, 2.0 * AMBULO__HOLDS * row->size);
+  ambulo__advice a = {p, row, value, give, room, remedy->value, out};
+  if (ambulo__advice_is(&a, "torque_limit", NULL)) {
+    limit(&a, "torque limit", "torque", AMBULO_LIMITED_TORQUE);
+  } else if (ambulo__advice_is(&a, "speed_limit", NULL)) {
+    limit(&a, "speed limit", "speed", AMBULO_LIMITED_SPEED);
+  } else if (ambulo__advice_is(&a, "joint_limit", NULL)) {
+    limit(&a, "end of the range", "range", AMBULO_LIMITED_POSITION);
+  } else if (ambulo__advice_is(&a, "initial_state", NULL) ||
+             ambulo__advice_is(&a, "final_state", NULL)) {
+    end_value(&a);
+  } else if (ambulo__advice_is(&a, "periodic", NULL) || ambulo__advice_is(&a, "mirrored", NULL)) {
+    matching_ends(&a);
+  } else if (ambulo__advice_is(&a, "tracking_tube", NULL)) {
+    tube(&a);
+  } else if (!ambulo__advise_feet(&a) && !ambulo__advise_forces(&a)) {
+    other(&a);
+  }
+  if (!remedy->single) mention_others(&out->conflict[remedy->conflict], out->suggestion);
+}

@@ -1,0 +1,131 @@
+/* judge/suggest_forces.c - what helps rows on the ground's force: where it acts, how it points,
+ * how large it is. */
+#include "judge/suggest.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double steepest = 10.0; /* most that ground_reaction.friction may be */
+
+static void zmp(const ambulo__advice *a) {
+  double margin = a->problem->definition.support_margin;
+  double enough = ambulo__outward(margin - a->room, 0);
+  if (margin >= a->give) {
+    ambulo__advice_say(a,
+                       "lower the margin of the zero-moment point by %.4g m: from %.4g m to %.4g m "
+                       "(worst: %s at t = %.4g s)",
+                       a->give, margin, fmax(0.0, enough), a->row->detail, a->row->time);
+    ambulo__advice_set(a, "constraints.zmp_margin=%.6g", fmax(0.0, enough));
+    return;
+  }
+  ambulo__advice_say(a,
+                     "the zero-moment point leaves the support by %.4g m (%s) at t = %.4g s: give "
+                     "the motion more time there, or widen the support%s",
+                     a->give, a->row->detail, a->row->time,
+                     margin > 0.0 ? "; no margin helps in part" : "");
+  if (margin > 0.0) ambulo__advice_set(a, "constraints.zmp_margin=0");
+}
+
+static void normal_force(const ambulo__advice *a) {
+  const ambulo_problem_definition *d = &a->problem->definition;
+  double enough = ambulo__outward(d->minimum_force - a->room, 0);
+  if (enough < 0.0) {
+    ambulo__advice_say(a,
+                       "the ground would have to pull with %.4g body weights at t = %.4g s: give "
+                       "the motion more time, or shorten the steps",
+                       a->give - d->minimum_force, a->row->time);
+    return;
+  }
+  ambulo__advice_say(a,
+                     "let the vertical force fall to %.4g body weights instead of %.4g (t = %.4g "
+                     "s)",
+                     enough, d->minimum_force, a->row->time);
+  ambulo__advice_set(
+      a, "%s.minimum_force=%.6g",
+      d->ground_reaction.kind == AMBULO_REACTION_NONE ? "constraints" : "ground_reaction", enough);
+}
+
+/* the friction that every pair of rows, mu n - t and mu n + t, asks for at the point */
+static double friction_needed(const ambulo__advice *a, double mu) {
+  const ambulo_problem *p = a->problem;
+  double needed = mu;
+  for (int r = 0; r + 1 < p->rows; r++) {
+    const ambulo__table_row *one = &p->table.rows[r], *next = one + 1;
+    int pair = !strcmp(one->family, "friction") && !strcmp(next->family, "friction") &&
+               one->node == next->node && !strcmp(one->subject, next->subject);
+    double least = fmin(a->values[r], a->values[r + 1]), sum = a->values[r] + a->values[r + 1];
+    if (pair && least < 0.0 && sum > 0.0) needed = fmax(needed, mu * (1.0 - 2.02 * least / sum));
+  }
+  return needed;
+}
+
+static void friction(const ambulo__advice *a) {
+  double mu = a->problem->definition.ground_reaction.friction;
+  double needed = ambulo__outward(friction_needed(a, mu), 1);
+  if (needed > mu && needed <= steepest) {
+    ambulo__advice_say(a,
+                       "raise the friction from %.4g to %.4g (worst: %s %s by %.4g body weights at "
+                       "t = %.4g s)",
+                       mu, needed, a->row->subject, a->row->detail, a->give, a->row->time);
+    ambulo__advice_set(a, "ground_reaction.friction=%.6g", needed);
+  } else {
+    ambulo__advice_say(a,
+                       "%s pushes %s by %.4g body weights more than friction holds at t = %.4g s: "
+                       "give the motion more time",
+                       a->row->subject, a->row->detail, a->give, a->row->time);
+  }
+}
+
+static void free_moment(const ambulo__advice *a) {
+  double bound = a->problem->definition.ground_reaction.free_moment;
+  double enough = ambulo__outward(bound + a->room, 1);
+  ambulo__advice_say(a,
+                     "let the free moment be up to %.4g body weights m instead of %.4g (t = %.4g "
+                     "s)",
+                     enough, bound, a->row->time);
+  if (enough <= 10.0) ambulo__advice_set(a, "ground_reaction.free_moment=%.6g", enough);
+}
+
+/* a box with the side moved that the row is about */
+static void pressure(const ambulo__advice *a) {
+  const ambulo_problem *p = a->problem;
+  ambulo_ground_reaction r = p->definition.ground_reaction;
+  const ambulo_contact *contact = NULL;
+  for (int f = 0; f < p->model->foot_count && a->row->node >= 0; f++) {
+    int index = p->active[a->row->node * p->model->foot_count + f];
+    if (index >= 0 && !strcmp(p->model->feet[f].name, a->row->subject))
+      contact = &p->definition.contacts[index];
+  }
+  ambulo__advice_say(a, "let the centre of pressure of %s go %.4g m further %s (t = %.4g s)",
+                     a->row->subject, a->give, a->row->detail, a->row->time);
+  if (!contact) return;
+  int front = !strcmp(a->row->detail, "front"), back = !strcmp(a->row->detail, "back");
+  double *box = contact->mode == AMBULO_CONTACT_FLAT  ? r.flat_pressure
+                : contact->mode == AMBULO_CONTACT_TOE ? r.toe_pressure
+                                                      : r.heel_pressure;
+  if (front) box[1] = ambulo__outward(box[1] + a->room, 1);
+  if (back) box[0] = ambulo__outward(box[0] - a->room, 0);
+  if (!front && !back) r.pressure_width = ambulo__outward(r.pressure_width + a->room, 1);
+  ambulo__advice_set(a,
+                     "ground_reaction.pressure={heel: [%.6g, %.6g], roll: %.6g, flat: [%.6g, "
+                     "%.6g], toe: [%.6g, %.6g], width: %.6g}",
+                     r.heel_pressure[0], r.heel_pressure[1], r.heel_roll, r.flat_pressure[0],
+                     r.flat_pressure[1], r.toe_pressure[0], r.toe_pressure[1], r.pressure_width);
+}
+
+int ambulo__advise_forces(const ambulo__advice *a) {
+  if (ambulo__advice_is(a, "zmp", NULL)) {
+    zmp(a);
+  } else if (ambulo__advice_is(a, "normal_force", NULL)) {
+    normal_force(a);
+  } else if (ambulo__advice_is(a, "friction", NULL)) {
+    friction(a);
+  } else if (ambulo__advice_is(a, "free_moment", NULL)) {
+    free_moment(a);
+  } else if (ambulo__advice_is(a, "pressure", NULL)) {
+    pressure(a);
+  } else {
+    return 0;
+  }
+  return 1;
+}

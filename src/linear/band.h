@@ -1,0 +1,55 @@
+/* linear/band.h - symmetric banded matrices, lower triangle in LAPACK's band storage.
+ *
+ *     element (i, j), j <= i <= j + kd, stands at a[j * ld + i - j]
+ *
+ * Read with leading dimension ld - 1, a square diagonal block of at most kd + 1 unknowns
+ * is an ordinary column-major lower triangle: rank-k updates go straight into the band. The
+ * rows of a[] below the band stay zero, so that rectangles that reach past it can be read;
+ * ld - 1 is a multiple of 8, so that aligned tiles can (band_kernels.h).
+ */
+#ifndef AMBULO_LINEAR_BAND_H
+#define AMBULO_LINEAR_BAND_H
+
+#include "linear/band_kernels.h"
+#include "linear/sparse_rows.h"
+
+typedef struct ambulo__band {
+  int n, kd, ld;
+  const ambulo__band_kernels *kernels; /* NULL: LAPACK */
+  double *a;                           /* [n rounded up to 8][ld] */
+  double *corner;                      /* with kernels: inverses of the factor's corners */
+  double *work;                        /* [n rounded up to 8]: a right-hand side */
+} ambulo__band;
+
+/* n unknowns, kd diagonals below the main one, zero. */
+ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band);
+void ambulo__band_clear(ambulo__band *band);
+void ambulo__band_copy(const ambulo__band *from, ambulo__band *to);
+/* The same of a factor. */
+void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to);
+void ambulo__band_add_diagonal(ambulo__band *band, double value);
+/* Adds G'G of rows G [count][stride] (row-major) on the `width` unknowns from `first` on. G is
+ * 64-byte aligned, its stride whole tiles, and what lies beyond the width zero. */
+void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, int stride,
+                           const double *g);
+/* Adds weight * g'g of a row with `count` entries, `stride` unknowns (and places in g) apart from
+ * `first` on. */
+void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride, double weight,
+                            const double *g);
+/* Adds weight * g'g of row i of a set of hosted rows. */
+void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
+                             double weight);
+/* Largest diagonal element. */
+double ambulo__band_largest(const ambulo__band *band);
+/* y = A x, y apart from x */
+void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y);
+/* A = L L' in place. 0, or 1 when A is not positive definite. */
+int ambulo__band_factor(ambulo__band *band);
+/* With the factor: x = L^-1 x, L^-T x, L' x; and L^-1 of right-hand sides that stand side by side,
+ * x [n rounded up to 8][width], width a multiple of 8, aligned to 64 bytes. */
+void ambulo__band_forward(const ambulo__band *factor, double *x);
+void ambulo__band_backward(const ambulo__band *factor, double *x);
+void ambulo__band_upper_multiply(const ambulo__band *factor, double *x);
+void ambulo__band_forward_many(const ambulo__band *factor, int width, double *x);
+
+#endif

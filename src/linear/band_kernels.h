@@ -1,0 +1,51 @@
+/* linear/band_kernels.h - the inner loops of band.c, one set per wide instruction set.
+ *
+ * Matrices as in band.h, cut into tiles of 8 x 8: a is 64-byte aligned, ld - 1 a multiple of 8
+ * and at least kd + 24, and there is room for n rounded up to 8 columns; what lies outside of
+ * the band is zero. Vectors have room for n rounded up to 8, and zeros there.
+ *
+ * LAPACK takes these matrices column by column (dtbsv, and dpbtrf up to 64 diagonals), which
+ * costs two to four times as much: bench/bench_factor.c.
+ */
+#ifndef AMBULO_LINEAR_BAND_KERNELS_H
+#define AMBULO_LINEAR_BAND_KERNELS_H
+
+enum { AMBULO__TILE = 8, AMBULO__CORNER = 2 * AMBULO__TILE * AMBULO__TILE };
+
+typedef struct ambulo__band_kernels {
+  const char *name; /* as ambulo_instruction_set() */
+  int largest_kd;   /* beyond this LAPACK factors faster */
+  /* A = L L' in place; the inverses of the corners of L into corner [n / 8][AMBULO__CORNER].
+   * 0, or 1 when A is not positive definite. */
+  int (*factor)(int n, int kd, int ld, double *a, double *corner);
+  /* x = L^-1 x and x = L^-T x */
+  void (*forward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
+  void (*backward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
+  /* Of rows W [n][width], aligned, width whole tiles: W = L^-1 W, with room for n rounded up */
+  void (*forward_many)(int n, int kd, int ld, const double *a, const double *corner, int width,
+                       double *w);
+  /* a = W'W, a full triangle of `width` unknowns in band storage */
+  void (*gram)(int n, int width, const double *w, int ld, double *a);
+  /* a += G'G for the first `width` unknowns of `a` in band storage, which need not be aligned, of
+   * `count` rows G, aligned, `stride` whole tiles apart and zero from `width` on */
+  void (*add_gram)(int count, int width, int stride, const double *g, int ld, double *a);
+  /* y = W'x, y [width] aligned; x -= W y */
+  void (*gather)(int n, int width, const double *w, const double *x, double *y);
+  void (*scatter)(int n, int width, const double *w, const double *y, double *x);
+} ambulo__band_kernels;
+
+/* A count rounded up to whole tiles. */
+static inline int ambulo__whole_tiles(int count) {
+  return (count + AMBULO__TILE - 1) / AMBULO__TILE * AMBULO__TILE;
+}
+
+/* A set without functions was not compiled in. */
+#if defined(__x86_64__)
+extern const ambulo__band_kernels ambulo__band_kernels_avx2;
+extern const ambulo__band_kernels ambulo__band_kernels_avx512;
+#endif
+
+/* The set for the instruction set that the mechanics run on; NULL: LAPACK's routines. */
+const ambulo__band_kernels *ambulo__band_kernels_select(void);
+
+#endif

@@ -1,0 +1,76 @@
+/* linear/border.c - see border.h. */
+#include "linear/border.h"
+#include "base/lapack.h"
+
+#include <string.h>
+
+ambulo_status ambulo__border_create(const ambulo__sparse_rows *rows, ambulo__pool *pool,
+                                    ambulo__border *border) {
+  memset(border, 0, sizeof *border);
+  border->rows = rows;
+  border->n = rows->problem->variables;
+  border->count = rows->count;
+  border->width = ambulo__whole_tiles(rows->count);
+  border->kernels = ambulo__band_kernels_select();
+  if (border->count == 0) return AMBULO_OK;
+  size_t n = (size_t)ambulo__whole_tiles(border->n), width = (size_t)border->width;
+  border->wing = ambulo__pool_doubles(pool, n * width);
+  border->rest = ambulo__pool_doubles(pool, width);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  return ambulo__band_create(pool, border->count, border->count - 1, &border->schur);
+}
+
+/* W = L^-1 C' */
+static void fill_wing(ambulo__border *border, const ambulo__band *factor, const int *active) {
+  const ambulo__sparse_rows *rows = border->rows;
+  size_t width = (size_t)border->width;
+  memset(border->wing, 0, (size_t)border->n * width * sizeof *border->wing);
+  for (int i = 0; i < border->count; i++) {
+    if (active && !active[i]) continue;
+    for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
+      border->wing[(size_t)rows->column[e] * width + (size_t)i] += rows->value[e];
+  }
+  ambulo__band_forward_many(factor, border->width, border->wing);
+}
+
+static void fill_schur(ambulo__border *border) {
+  ambulo__band *schur = &border->schur;
+  double one = 1.0, zero = 0.0;
+  int ld = schur->ld - 1;
+  if (border->kernels) {
+    border->kernels->gram(border->n, border->width, border->wing, schur->ld, schur->a);
+  } else {
+    dsyrk_("L", "N", &border->count, &border->n, &one, border->wing, &border->width, &zero,
+           schur->a, &ld);
+  }
+}
+
+int ambulo__border_factor(ambulo__border *border, const ambulo__band *factor, const int *active,
+                          double shift, double relative) {
+  if (border->count == 0) return 0;
+  fill_wing(border, factor, active);
+  fill_schur(border);
+  ambulo__band_add_diagonal(&border->schur,
+                            shift + relative * ambulo__band_largest(&border->schur));
+  return ambulo__band_factor(&border->schur);
+}
+
+void ambulo__border_eliminate(ambulo__border *border, const double *b, double *z) {
+  if (border->count == 0) return;
+  double one = 1.0, zero = 0.0, minus = -1.0, *rest = border->rest;
+  int width = border->width, n = border->n, step = 1;
+  const ambulo__band_kernels *kernels = border->kernels;
+  if (kernels) {
+    kernels->gather(n, width, border->wing, z, rest);
+  } else {
+    dgemv_("N", &width, &n, &one, border->wing, &width, z, &step, &zero, rest, &step);
+  }
+  for (int i = 0; b && i < border->count; i++) rest[i] -= b[i];
+  ambulo__band_forward(&border->schur, rest);
+  ambulo__band_backward(&border->schur, rest);
+  if (kernels) {
+    kernels->scatter(n, width, border->wing, rest, z);
+  } else {
+    dgemv_("T", &width, &n, &minus, border->wing, &width, rest, &step, &one, z, &step);
+  }
+}

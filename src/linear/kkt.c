@@ -1,0 +1,133 @@
+/* linear/kkt.c - see kkt.h.
+ *
+ * With a diagonal S > 0, M = H + J'SJ and any l_0, the method of multipliers
+ *
+ *     M d_i + C' m_i = a + J' (S h - l_i),   C d_i = b,   l_{i+1} = l_i + S (J d_i - h)
+ *
+ * converges to the solution of (K): the error of the multipliers shrinks each pass by
+ * 1 / (1 + s) or more, s the smallest eigenvalue of S^1/2 J H^-1 J' S^1/2. With S large three
+ * passes reach rounding, and M stays banded and positive definite: a Cholesky factor of the
+ * band of H replaces the LU factor of the interleaved, indefinite and wider KKT matrix.
+ * Dependent rows do no harm: M does not notice them. Rows that nearly depend on each other
+ * make s small: S is then raised for the next factorization.
+ *
+ * Border rows by their Schur complement (border.h).
+ *
+ * Every pass moves d by M^-1 J'(...) only, that is within H^-1 range(J', C'): retractions
+ * built from single passes stay on the same curved surface as exact solves would
+ * (retraction.c).
+ */
+#include "linear/kkt.h"
+#include "base/worst.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_PASSES = 8 };
+static const double stiffness_start = 1e4, stiffness_largest = 1e8, stiffness_factor = 100.0;
+static const double pass_tolerance = 1e-11;
+static const double slow = 1e-7; /* error after all passes that asks for more stiffness */
+
+ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
+                                 const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
+                                 ambulo__kkt *kkt) {
+  kkt->stiffness = stiffness_start;
+  kkt->equality = equality;
+  kkt->n = equality->problem->variables;
+  kkt->equalities = equality->count;
+  size_t e = (size_t)kkt->equalities;
+  ambulo_status status = ambulo__band_create(pool, kkt->n, kd, &kkt->factor);
+  if (!status) status = ambulo__border_create(border, pool, &kkt->border);
+  if (status) return status;
+  kkt->penalty = ambulo__pool_doubles(pool, e);
+  kkt->residual = ambulo__pool_doubles(pool, e);
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+/* S_i for unit |J_i|: stiffness times the largest curvature of H; where that drowns H (fine grids,
+ * whose rows and metric are uneven), times the curvature of H along the row. */
+static void set_penalties(ambulo__kkt *kkt, const ambulo__band *h) {
+  const ambulo__sparse_rows *rows = kkt->equality;
+  double largest = ambulo__band_largest(h);
+  for (int i = 0; i < kkt->equalities; i++) {
+    double square = 0.0, along = 0.0;
+    for (int e = rows->start[i]; e < rows->start[i + 1]; e++) {
+      double part = rows->value[e] * rows->value[e];
+      square += part;
+      along += part * h->a[(size_t)rows->column[e] * (size_t)h->ld];
+    }
+    double curvature = kkt->by_row && square > 0.0 ? along / square : largest;
+    kkt->penalty[i] = square > 0.0 ? kkt->stiffness * curvature / square : 0.0;
+  }
+}
+
+static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
+  ambulo__band_copy(h, &kkt->factor);
+  set_penalties(kkt, h);
+  for (int i = 0; i < kkt->equalities; i++)
+    ambulo__band_add_sparse(&kkt->factor, kkt->equality, i, kkt->penalty[i]);
+  if (ambulo__band_factor(&kkt->factor)) return 1;
+  /* a border row that the local rows imply would make the complement singular */
+  return ambulo__border_factor(&kkt->border, &kkt->factor, NULL, 0.0, 1e-14);
+}
+
+int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
+  int failed = factor(kkt, h);
+  if (!failed || kkt->stiffness <= stiffness_start) return failed;
+  kkt->stiffness = stiffness_start;
+  return factor(kkt, h);
+}
+
+int ambulo__kkt_by_row(ambulo__kkt *kkt) {
+  int was = kkt->by_row;
+  kkt->by_row = 1;
+  return !was;
+}
+
+void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m) {
+  const ambulo__border *border = &kkt->border;
+  ambulo__band_forward(&kkt->factor, right);
+  ambulo__border_eliminate(&kkt->border, b, right);
+  if (m && border->count) memcpy(m, border->rest, (size_t)border->count * sizeof *m);
+  ambulo__band_backward(&kkt->factor, right);
+}
+
+/* residual = J d - h; returns the size of what is left, relative to the size of the parts */
+static double equality_error(ambulo__kkt *kkt, const double *h, const double *d) {
+  const ambulo__sparse_rows *rows = kkt->equality;
+  double worst = 0.0, size = 0.0;
+  for (int i = 0; i < kkt->equalities; i++) {
+    double sum = h ? -h[i] : 0.0, parts = fabs(sum);
+    for (int e = rows->start[i]; e < rows->start[i + 1]; e++) {
+      double part = rows->value[e] * d[rows->column[e]];
+      sum += part;
+      parts += fabs(part);
+    }
+    kkt->residual[i] = sum;
+    worst = ambulo__worse(worst, fabs(sum));
+    size = ambulo__worse(size, parts);
+  }
+  return size == 0.0 ? 0.0 : worst / size;
+}
+
+void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
+                       double *d, double *l, double *m) {
+  size_t n = (size_t)kkt->n;
+  double before = HUGE_VAL, error = 0.0;
+  for (int pass = 0; pass < MAX_PASSES; pass++) {
+    for (int i = 0; i < kkt->equalities; i++)
+      kkt->residual[i] = (h ? kkt->penalty[i] * h[i] : 0.0) - l[i];
+    if (a) {
+      memcpy(d, a, n * sizeof *d);
+    } else {
+      memset(d, 0, n * sizeof *d);
+    }
+    ambulo__sparse_rows_add_transpose(kkt->equality, 1.0, kkt->residual, d);
+    ambulo__kkt_pass(kkt, d, b, m);
+    error = equality_error(kkt, h, d);
+    for (int i = 0; i < kkt->equalities; i++) l[i] += kkt->penalty[i] * kkt->residual[i];
+    if (error <= pass_tolerance || !(error <= 0.5 * before)) break;
+    before = error;
+  }
+  if (error > slow) kkt->stiffness = fmin(stiffness_largest, stiffness_factor * kkt->stiffness);
+}

@@ -1,0 +1,251 @@
+/* linear/sparse_rows.c - see sparse_rows.h. */
+#include "linear/sparse_rows.h"
+#include "base/worst.h"
+#include "nlp/fault.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { POLL_ROWS = 4096 };
+
+static const ambulo__basis_point *point_of(const ambulo_problem *p, int node) {
+  return &ambulo__lane_map_points(p->map)[node];
+}
+
+/* -------------------------------------------------------------------- hosts */
+
+/* control points [first, last] that a row depends on */
+static void support(const ambulo_problem *p, const ambulo__table_row *row, int *first, int *last) {
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  *first = p->control_points;
+  *last = -1;
+  for (int t = 0; t < row->term_count; t++) {
+    int from = term[t].channel / p->coordinates, to = from;
+    if (term[t].node >= 0) {
+      from = point_of(p, term[t].node)->first;
+      to = from + point_of(p, term[t].node)->span - 1;
+    }
+    if (from < *first) *first = from;
+    if (to > *last) *last = to;
+  }
+}
+
+int ambulo__row_host(const ambulo_problem *p, int row) {
+  const ambulo__table_row *r = &p->table.rows[row];
+  if (r->node >= 0) return r->node;
+  int first, last;
+  support(p, r, &first, &last);
+  for (int k = 0; k < p->nodes; k++) {
+    const ambulo__basis_point *point = point_of(p, k);
+    if (first >= point->first && last < point->first + point->span) return k;
+  }
+  return -1;
+}
+
+/* ------------------------------------------------------------------ pattern */
+
+static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
+  if (row->user >= 0) return 0;
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  for (int t = 0; t < row->term_count; t++) {
+    if (term[t].node >= 0 && term[t].channel >= ambulo__channel_outputs(&p->channels)) return 0;
+  }
+  return 1;
+}
+
+static void mark_coordinate(const ambulo_problem *p, int node, int i, double *mark) {
+  const ambulo__basis_point *point = point_of(p, node);
+  for (int c = 0; c < point->span; c++) mark[(point->first + c) * p->coordinates + i] = 1.0;
+}
+
+/* marks the unknowns through which a channel of a node depends on x */
+static void mark_channel(const ambulo_problem *p, int node, int channel, double *mark) {
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
+  ambulo__row_part part[AMBULO__MOST_PARTS];
+  int output = channel - ambulo__channel_outputs(&p->channels);
+  if (output < 0) {
+    mark_coordinate(p, node, channel % p->coordinates, mark);
+    return;
+  }
+  int parts = ambulo__plan_parts(p->plan, output, part);
+  for (int k = 0; k < parts; k++) {
+    for (int e = pattern.start[part[k].row]; e < pattern.start[part[k].row + 1]; e++) {
+      mark_coordinate(p, node, pattern.column[e], mark);
+    }
+  }
+}
+
+/* the unknowns among which a row's columns lie: the window of its host, or all */
+static void window_of(const ambulo_problem *p, int host, int *from, int *to) {
+  *from = host < 0 ? 0 : ambulo__node_first(p, host);
+  *to = host < 0 ? p->variables : *from + ambulo__node_width(p, host);
+}
+
+/* marks the unknowns that a row depends on; only its window is written */
+static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, int host,
+                     double *mark) {
+  int from, to;
+  window_of(p, host, &from, &to);
+  memset(mark + from, 0, (size_t)(to - from) * sizeof *mark);
+  if (row->user >= 0) {
+    for (int j = from; j < to; j++) mark[j] = 1.0;
+    return;
+  }
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  for (int t = 0; t < row->term_count; t++) {
+    if (term[t].node < 0) {
+      mark[term[t].channel] = 1.0;
+    } else {
+      mark_channel(p, term[t].node, term[t].channel, mark);
+    }
+  }
+}
+
+/* columns of a row into `column` (NULL: only counted) */
+static int list_columns(const ambulo_problem *p, int host, const double *mark, int *column) {
+  int count = 0, from, to;
+  window_of(p, host, &from, &to);
+  for (int j = from; j < to; j++) {
+    if (mark[j] == 0.0) continue;
+    if (column) column[count] = j;
+    count++;
+  }
+  return count;
+}
+
+void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
+  for (int i = 0; i < s->count; i++) {
+    int last = s->start[i + 1] - 1, end = last + 1;
+    for (int e = last; e >= s->start[i]; e--) {
+      if (e < last && s->column[e + 1] != s->column[e] + 1) end = e + 1;
+      s->run_end[e] = end;
+    }
+  }
+}
+
+/* asked every few thousand rows */
+static int is_over(const ambulo__poll *poll, int i) {
+  return poll && poll->ask && i % POLL_ROWS == POLL_ROWS - 1 && poll->ask(poll->user);
+}
+
+ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *rows, int count,
+                                         const ambulo__poll *poll, ambulo__pool *pool,
+                                         ambulo__sparse_rows *s) {
+  size_t n = (size_t)count;
+  s->problem = p;
+  s->count = count;
+  s->row = ambulo__pool_ints(pool, n);
+  s->host = ambulo__pool_ints(pool, n);
+  s->constant = ambulo__pool_ints(pool, n);
+  s->start = ambulo__pool_ints(pool, n + 1);
+  s->scale = ambulo__pool_doubles(pool, n);
+  size_t widest = (size_t)ambulo__basis_span(p->basis) * (size_t)p->coordinates;
+  s->dense = ambulo__pool_doubles(pool, (size_t)p->variables + widest);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < count; i++) {
+    const ambulo__table_row *row = &p->table.rows[rows[i]];
+    if (is_over(poll, i)) return AMBULO_E_LIMIT;
+    s->row[i] = rows[i];
+    s->host[i] = ambulo__row_host(p, rows[i]);
+    s->constant[i] = is_linear(p, row);
+    s->scale[i] = 1.0;
+    mark_row(p, row, s->host[i], s->dense);
+    s->start[i + 1] = s->start[i] + list_columns(p, s->host[i], s->dense, NULL);
+  }
+  s->column = ambulo__pool_ints(pool, (size_t)s->start[count]);
+  s->run_end = ambulo__pool_ints(pool, (size_t)s->start[count]);
+  s->value = ambulo__pool_doubles(pool, (size_t)s->start[count]);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < count; i++) {
+    if (is_over(poll, i)) return AMBULO_E_LIMIT;
+    mark_row(p, &p->table.rows[rows[i]], s->host[i], s->dense);
+    list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
+  }
+  ambulo__sparse_rows_find_runs(s);
+  return AMBULO_OK;
+}
+
+/* ------------------------------------------------------------------- values */
+
+static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
+  const ambulo_problem *p = s->problem;
+  int from = 0;
+  if (ambulo__row_is_local(p, s->row[i])) {
+    from = ambulo__node_first(p, s->host[i]);
+    ambulo__row_local_gradient(workspace, s->row[i], s->dense);
+  } else {
+    memset(s->dense, 0, (size_t)p->variables * sizeof *s->dense);
+    ambulo__row_add_gradient(workspace, s->row[i], 1.0, s->dense);
+  }
+  for (int e = s->start[i]; e < s->start[i + 1]; e++) {
+    s->value[e] = s->scale[i] * s->dense[s->column[e] - from];
+  }
+}
+
+/* names the first entry that is not finite */
+static void find_fault(const ambulo__sparse_rows *s, ambulo_workspace *workspace) {
+  for (int i = 0; i < s->count; i++) {
+    for (int e = s->start[i]; e < s->start[i + 1]; e++) {
+      if (isfinite(s->value[e])) continue;
+      ambulo__fault_of_row(workspace, s->row[i], s->column[e], s->value[e]);
+      return;
+    }
+  }
+}
+
+ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *s, ambulo_workspace *workspace,
+                                       int all) {
+  for (int i = 0; i < s->count; i++) {
+    if (all || !s->constant[i]) fill_row(s, workspace, i);
+  }
+  if (ambulo__all_finite(s->value, (size_t)s->start[s->count])) return AMBULO_OK;
+  find_fault(s, workspace);
+  return AMBULO_E_NUMERIC;
+}
+
+void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *s, int i, double scale) {
+  double ratio = scale / s->scale[i];
+  for (int e = s->start[i]; e < s->start[i + 1]; e++) s->value[e] *= ratio;
+  s->scale[i] = scale;
+}
+
+void ambulo__sparse_rows_values(const ambulo__sparse_rows *s, const ambulo_workspace *workspace,
+                                double *value) {
+  for (int i = 0; i < s->count; i++) value[i] = s->scale[i] * workspace->row_value[s->row[i]];
+}
+
+/* three sums side by side, since one waits for itself */
+static double product(const ambulo__sparse_rows *s, int i, const double *d) {
+  const double *value = s->value;
+  const int *column = s->column;
+  double sum[3] = {0.0};
+  int e = s->start[i], end = s->start[i + 1];
+  for (; e + 3 <= end; e += 3) {
+    for (int l = 0; l < 3; l++) sum[l] += value[e + l] * d[column[e + l]];
+  }
+  for (; e < end; e++) sum[0] += value[e] * d[column[e]];
+  return sum[0] + sum[1] + sum[2];
+}
+
+void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d, double *out) {
+  for (int i = 0; i < s->count; i++) out[i] = product(s, i, d);
+}
+
+void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor, const double *w,
+                                       double *restrict y) {
+  const double *restrict value = s->value;
+  for (int i = 0; i < s->count; i++) {
+    double f = factor * w[i];
+    if (f == 0.0) continue;
+    for (int e = s->start[i]; e < s->start[i + 1]; e = s->run_end[e]) {
+      double *restrict to = y + s->column[e];
+      for (int k = 0; k < s->run_end[e] - e; k++) to[k] += f * value[e + k];
+    }
+  }
+}
+
+double ambulo__sparse_rows_norm(const ambulo__sparse_rows *s, int i) {
+  double sum = 0.0;
+  for (int e = s->start[i]; e < s->start[i + 1]; e++) sum += s->value[e] * s->value[e];
+  return sqrt(sum);
+}

@@ -1,0 +1,60 @@
+/* linear/sparse_rows.h - gradients of a set of rows, compressed.
+ *
+ * Row i of the set is row[i] of the problem times scale[i] (a negative scale turns
+ * "c >= 0" into "excess <= 0"). Its columns all lie in the window of unknowns of one
+ * node, host[i], so that J'WJ is banded; border rows have no host (-1).
+ *
+ *     value of row i    s_i c_row[i](x)
+ *     gradient          s_i dc/dx, entries start[i] .. start[i + 1) of column and value
+ *
+ * The pattern is structural (mechanics/plan.h and the basis), fixed at creation. Rows on
+ * q, qd, qdd and unknowns alone have constant gradients and are filled once.
+ */
+#ifndef AMBULO_LINEAR_SPARSE_ROWS_H
+#define AMBULO_LINEAR_SPARSE_ROWS_H
+
+#include "nlp/nlp.h"
+#include "linear/pool.h"
+#include "nlp/states.h"
+#include "linear/poll.h"
+
+typedef struct ambulo__sparse_rows {
+  const ambulo_problem *problem;
+  int count;
+  int *row, *host, *constant;
+  double *scale;
+  int *start; /* [count + 1] */
+  int *column;
+  int *run_end; /* of each entry: where the run of consecutive columns that it is in ends */
+  double *value;
+  double *dense; /* [variables + one window]: scratch for one gradient */
+} ambulo__sparse_rows;
+
+/* The node whose window holds every unknown that the row depends on; -1: none. */
+int ambulo__row_host(const ambulo_problem *problem, int row);
+
+/* rows[count] with scale 1. Constant gradients are filled by the first fill. `poll` may be NULL.
+ * E_MEMORY; E_LIMIT: it said that the work is to end. */
+ambulo_status ambulo__sparse_rows_create(const ambulo_problem *problem, const int *rows, int count,
+                                         const ambulo__poll *poll, ambulo__pool *pool,
+                                         ambulo__sparse_rows *out);
+/* Writes run_end from start and column. */
+void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *rows);
+/* Gradients at the point held (ambulo__evaluate_jacobian); `all` includes constant ones.
+ * E_NUMERIC: an entry is not finite (workspace->fault). */
+ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *rows, ambulo_workspace *workspace,
+                                       int all);
+/* Sets scale[i] and rescales the gradients held. */
+void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *rows, int i, double scale);
+/* value[count] at the point held. */
+void ambulo__sparse_rows_values(const ambulo__sparse_rows *rows, const ambulo_workspace *workspace,
+                                double *value);
+/* out = J d */
+void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *rows, const double *d, double *out);
+/* y += factor J' w */
+void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *rows, double factor,
+                                       const double *w, double *y);
+/* Euclidean norm of gradient i. */
+double ambulo__sparse_rows_norm(const ambulo__sparse_rows *rows, int i);
+
+#endif

@@ -1,0 +1,398 @@
+/* method/auglag.c - see auglag.h.
+ *
+ * The problem on the equalities' surface, minimize f(x) subject to v_i(x) <= 0, is NLopt's: AUGLAG
+ * (Birgin & Martinez 2008) around its L-BFGS is given
+ *
+ *     S f(w) + constant,   c_i(w) = S v_i(w) + sigma_i <= 0,   each row a constraint
+ *
+ * and holds multipliers mu, penalty rho and the outer loop. In NLopt's inner problem
+ *
+ *     S f + rho/2 sum max(0, c + mu/rho)^2 = S F + constant,
+ *     F = f + 1/(2 R) sum ( max(0, lambda + R v)^2 - lambda^2 ),   lambda = mu + rho sigma,  R =
+ * rho S
+ *
+ * F is augmented.c's. What is ours:
+ *
+ *   variables  w is a chart of the surface (chart.h), laid anew after each inner solve around the
+ *              point where it ended: the metric there, whose rows with a force are those that the
+ *              model step foresees. NLopt's point does not move by that, and its L-BFGS starts
+ *              afresh at every inner solve.
+ *   gradients  NLopt adds to the objective's gradient each row's, times rho c + mu. That sum is one
+ *              reverse sweep, each gradient alone would be one too. So NLopt is given the sum in
+ * the place of one row, the one with the largest force, divided by the force that NLopt is going to
+ * multiply it with, and zeros elsewhere; with the objective when no row has a force. Forces by mu
+ * and rho as mirror.h knows them. scale S    NLopt multiplies rho by 10 where a row does not give
+ * way; 2, up to a bound, is what walks stand (left alone rho runs to 1e9, and stops the solve 0.6
+ * to 7 % too high). S is lowered in the same moment, for objective and rows alike: then lambda
+ * stays, and R grows by 2. sigma      where a call has to be repeated, it starts with the lambda
+ * that the last one reached. ending     stopping.h, by nlopt_force_stop.
+ *
+ * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
+ * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
+ * row is violated, with 10 where none is and f > 0: S makes R of it.
+ */
+#include "method/auglag.h"
+#include "method/chart.h"
+#include "method/mirror.h"
+#include "method/nlopt_direct.h"
+#include "method/nlopt_memory.h"
+
+#include <math.h>
+#include <nlopt.h>
+#include <string.h>
+
+enum {
+  BLOCK = 8, /* rows that NLopt is given as one vector: it keeps n doubles for each of a block */
+  INNER_EVALUATIONS = 8,
+  STORED_VECTORS = 20, /* of L-BFGS: as many as there are evaluations, and to spare */
+  MAX_DAMPINGS = 6
+};
+static const double least_penalty = 1e-6, plain_penalty = 10.0; /* NLopt's rho at its start */
+static const double penalty_growth = 2.0;
+static const double nlopt_growth = 10.0;
+static const double least_scale = 1e-11; /* S: below, L-BFGS's absolute tests come near */
+static const double no_gradient = 5e-6;  /* of max(1, |f|): below the gradient's own accuracy */
+static const double least_adjoint_tolerance = 1e-6;
+static const double mu_least = 0.03, mu_largest = 3.0; /* times mu at the beginning */
+
+typedef struct session session;
+
+typedef struct block {
+  session *session;
+  int first, count;
+} block;
+
+struct session {
+  ambulo__engine *engine;
+  ambulo__stopping *stopping;
+  ambulo__mirror mirror;
+  ambulo__chart chart;
+  nlopt_opt outer;
+  block *blocks;
+  int block_count;
+  double *row, *shift; /* c, sigma: [inequalities] */
+  double *x;           /* where the last inner solve ended; the caller's */
+  double *gradient;    /* [n]: where NLopt asks for none */
+  double *share;       /* [n]: of row `bearer`, the sum of all */
+  int bearer;          /* -1: the objective */
+  int dirty;           /* slot of NLopt's one buffer for all blocks that is not zero; -1: none */
+  double scale, constant;
+  double damping;   /* the engine's mu at the beginning */
+  double predicted; /* by the model step */
+  double tried;     /* F at the model step, NLopt's first trial */
+  int trials;       /* with gradient, since the chart was laid */
+  int started, lay; /* NLopt knows rho; the chart is to be laid at NLopt's next point */
+  int again;        /* the call has to be repeated */
+  ambulo_ending ending;
+  double seconds; /* spent in callbacks */
+};
+
+/* ------------------------------------------------------------------ the chart */
+
+/* the model step, mu raised until it can be factored; why it could not be, or none */
+static ambulo_ending model(session *s) {
+  ambulo__engine *e = s->engine;
+  double mu = e->mu;
+  do {
+    e->mu = mu;
+    for (int trial = 0; trial < MAX_DAMPINGS; trial++) {
+      int failed = ambulo__model_step(e, &s->predicted);
+      if (failed == 0) return AMBULO_ENDING_NONE;
+      if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
+      e->mu *= 10.0;
+    }
+  } while (ambulo__kkt_by_row(&e->kkt));
+  return AMBULO_ENDING_BREAKDOWN;
+}
+
+static ambulo_ending lay_chart(session *s, const double *w) {
+  ambulo__engine *e = s->engine;
+  memcpy(e->center, s->x, (size_t)e->n * sizeof *w);
+  ambulo_ending failed = model(s);
+  if (failed) return failed;
+  s->trials = 0;
+  s->lay = 0;
+  if (!ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale))) return AMBULO_ENDING_NOT_FINITE;
+  s->tried = s->chart.start;
+  return AMBULO_ENDING_NONE;
+}
+
+/* how well the model foretold the descent says whether it is damped too much */
+static void update_damping(session *s, double reached) {
+  ambulo__engine *e = s->engine;
+  double promised = fmin(s->predicted, -1e-14);
+  double by_step = (s->tried - s->chart.start) / promised;
+  double in_all = (reached - s->chart.start) / promised;
+  if (in_all > 1.5 && by_step > 0.5) e->mu = fmax(mu_least * s->damping, 0.5 * e->mu);
+  if (by_step < 0.1) e->mu = fmax(e->mu, fmin(mu_largest * s->damping, 2.0 * e->mu));
+}
+
+/* -------------------------------------------------------- after an inner solve */
+
+/* the engine's lambda and R are NLopt's */
+static void take_multipliers(session *s) {
+  ambulo__engine *e = s->engine;
+  e->rho = s->scale * s->mirror.penalty;
+  for (int i = 0; i < e->inequalities; i++)
+    e->lambda[i] = s->mirror.multiplier[i] + s->mirror.penalty * s->shift[i];
+}
+
+/* NLopt's update, and the growth of R that it leads to */
+static void update_multipliers(session *s) {
+  ambulo__engine *e = s->engine;
+  if (ambulo__mirror_update(&s->mirror, s->row)) {
+    double room = s->stopping->penalty_limit / e->rho;
+    s->scale *= fmax(1.0, fmin(penalty_growth, room)) / nlopt_growth;
+  }
+  memset(s->shift, 0, (size_t)e->inequalities * sizeof *s->shift);
+  take_multipliers(s);
+}
+
+/* an inner solve has ended at the point held, where F is `value` */
+static void inner_ended(session *s, double value) {
+  ambulo__engine *e = s->engine;
+  ambulo__run *run = e->run;
+  ambulo__trial_copy(e, &e->held, &e->reached);
+  memcpy(s->x, e->held.x, (size_t)e->n * sizeof *s->x);
+  update_damping(s, value);
+  update_multipliers(s);
+  ambulo__run_forgive(run);
+  run->iterations++;
+  run->nlopt.outer++;
+  int stop =
+      ambulo__run_progress(run, e->reached.objective / e->objective_scale, e->reached.violation);
+  s->ending = ambulo__stopping_test(s->stopping, e, s->x);
+  if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
+  if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
+    s->ending = AMBULO_ENDING_ITERATIONS;
+  s->again = s->scale < least_scale;
+  s->lay = 1;
+}
+
+/* ---------------------------------------------------------------- what NLopt asks */
+
+static int is_over(const session *s) {
+  return s->ending != AMBULO_ENDING_NONE || s->again || s->engine->run->stopped;
+}
+
+/* ends NLopt's line search and then NLopt */
+static double give_up(session *s, unsigned n, double *gradient) {
+  nlopt_force_stop(s->outer);
+  if (gradient) memset(gradient, 0, n * sizeof *gradient);
+  return -HUGE_VAL;
+}
+
+/* what the rows are at the point held; where there is none, far from any bound: then F, which has
+ * the objective's place, is high enough */
+static void take_rows(session *s) {
+  const ambulo__engine *e = s->engine;
+  int none = !(e->held.value < HUGE_VAL);
+  for (int i = 0; i < e->inequalities; i++)
+    s->row[i] = none ? -HUGE_VAL : s->scale * e->held.excess[i] + s->shift[i];
+}
+
+static double value_of(const session *s, double merit) {
+  const ambulo__engine *e = s->engine;
+  return s->scale * (e->held.value < HUGE_VAL ? e->held.objective : merit) + s->constant;
+}
+
+/* moves the sum to the row whose force is largest */
+static void give_to_bearer(session *s, unsigned n, double *gradient) {
+  const ambulo__mirror *m = &s->mirror;
+  double largest = 0.0;
+  s->bearer = -1;
+  for (int i = 0; i < m->rows; i++) {
+    double force = s->row[i] + m->multiplier[i] / m->penalty;
+    if (!(force > largest)) continue;
+    largest = force;
+    s->bearer = i;
+  }
+  if (s->bearer < 0) return;
+  for (unsigned j = 0; j < n; j++) s->share[j] = gradient[j] / (m->penalty * largest);
+  memset(gradient, 0, n * sizeof *gradient);
+}
+
+/* a trial of L-BFGS */
+static double trial(session *s, unsigned n, const double *w, double *gradient) {
+  ambulo__engine *e = s->engine;
+  if (s->lay && !is_over(s)) s->ending = lay_chart(s, w);
+  if (is_over(s)) return give_up(s, n, gradient);
+  double merit = ambulo__chart_value(&s->chart, e, w, gradient);
+  e->run->nlopt.inner++;
+  if (e->run->stopped) return give_up(s, n, gradient);
+  for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
+  if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
+  double least = no_gradient * fmax(1.0, fabs(e->held.objective));
+  if (e->held.value < HUGE_VAL && e->held.gradient_norm <= least)
+    memset(gradient, 0, n * sizeof *gradient);
+  take_rows(s);
+  give_to_bearer(s, n, gradient);
+  return value_of(s, merit);
+}
+
+/* NLopt starts, or an inner solve has ended */
+static double between(session *s, unsigned n, const double *w) {
+  ambulo__engine *e = s->engine;
+  if (is_over(s)) return give_up(s, n, NULL);
+  double merit = ambulo__chart_value(&s->chart, e, w, s->gradient);
+  if (e->run->stopped) return give_up(s, n, NULL);
+  if (!(e->held.value < HUGE_VAL)) {
+    s->ending = AMBULO_ENDING_NO_DESCENT;
+    return give_up(s, n, NULL);
+  }
+  take_rows(s);
+  double value = value_of(s, merit);
+  if (!s->started) {
+    ambulo__mirror_start(&s->mirror, value, s->row);
+    take_multipliers(s);
+    s->started = 1;
+  } else {
+    inner_ended(s, merit);
+  }
+  return value;
+}
+
+static double objective(unsigned n, const double *w, double *gradient, void *data) {
+  session *s = data;
+  double begin = ambulo__seconds_now();
+  double value = gradient ? trial(s, n, w, gradient) : between(s, n, w);
+  s->seconds += ambulo__seconds_now() - begin;
+  return value;
+}
+
+/* NLopt asks for the rows right after the objective, at the same point */
+static void rows(unsigned m, double *result, unsigned n, const double *w, double *gradient,
+                 void *data) {
+  const block *b = data;
+  session *s = b->session;
+  int slot = s->bearer - b->first;
+  (void)w;
+  memcpy(result, s->row + b->first, m * sizeof *result);
+  if (!gradient) return;
+  if (s->dirty >= 0 && s->dirty < (int)m) { /* of another block; NLopt clears it once, at first */
+    memset(gradient + (size_t)s->dirty * n, 0, n * sizeof *gradient);
+    s->dirty = -1;
+  }
+  if (s->bearer < 0 || slot < 0 || slot >= (int)m) return;
+  memcpy(gradient + (size_t)slot * n, s->share, n * sizeof *gradient);
+  s->dirty = slot;
+}
+
+/* -------------------------------------------------------------------- one call */
+
+static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
+  static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
+  int failed = nlopt_set_maxeval(local, INNER_EVALUATIONS) < 0 ||
+               nlopt_set_ftol_rel(local, 1e-12) < 0 || nlopt_set_xtol_rel(local, 1e-14) < 0 ||
+               nlopt_set_vector_storage(local, STORED_VECTORS) < 0 ||
+               !ambulo__nlopt_can_copy((unsigned)s->engine->n) ||
+               nlopt_set_local_optimizer(outer, local) < 0 ||
+               nlopt_set_min_objective(outer, objective, s) < 0;
+  for (int i = 0; i < s->block_count && !failed; i++)
+    failed = nlopt_add_inequality_mconstraint(outer, (unsigned)s->blocks[i].count, rows,
+                                              &s->blocks[i], tolerance) < 0;
+  return failed;
+}
+
+/* NLopt from w = 0; its result */
+static int call(session *s) {
+  ambulo__engine *e = s->engine;
+  unsigned n = (unsigned)e->n;
+  double least, begin = ambulo__seconds_now(), inside = s->seconds;
+  nlopt_opt local = nlopt_create(NLOPT_LD_LBFGS, n), outer = nlopt_create(NLOPT_AUGLAG, n);
+  int result = NLOPT_OUT_OF_MEMORY;
+  if (local && outer && !set_up(s, outer, local)) {
+    s->outer = outer;
+    result = nlopt_optimize(outer, e->iterate, &least);
+  }
+  nlopt_destroy(outer);
+  nlopt_destroy(local);
+  ambulo__run_nlopt(e->run, result, ambulo__nlopt_name(result),
+                    ambulo__seconds_now() - begin - (s->seconds - inside));
+  return result;
+}
+
+/* S, sigma and the constant for which NLopt starts with the engine's lambda and R; the chart */
+static ambulo_ending prepare(session *s) {
+  ambulo__engine *e = s->engine;
+  double penalty = least_penalty, violated = 0.0;
+  memset(e->iterate, 0, (size_t)e->n * sizeof *e->iterate);
+  s->started = e->inequalities == 0; /* NLopt does not ask then */
+  s->again = 0;
+  s->bearer = s->dirty = -1;
+  s->scale = e->rho / penalty;
+  ambulo_ending failed = lay_chart(s, e->iterate);
+  if (failed) return failed;
+  for (int i = 0; i < e->inequalities; i++) {
+    double c = s->scale * e->held.excess[i] + e->lambda[i] / penalty;
+    if (c > 0.0) violated = c;
+  }
+  s->constant = -s->scale * e->held.objective;
+  if (violated == 0.0) {
+    penalty = plain_penalty;
+    s->scale = e->rho / penalty;
+    s->chart.stretch = sqrt(s->scale);
+    s->constant = 1.0 - s->scale * e->held.objective;
+  }
+  for (int i = 0; i < e->inequalities; i++) s->shift[i] = e->lambda[i] / penalty;
+  if (e->inequalities == 0) ambulo__mirror_start(&s->mirror, 0.0, s->row);
+  return AMBULO_ENDING_NONE;
+}
+
+static ambulo_status create(session *s, ambulo__pool *pool) {
+  ambulo__engine *e = s->engine;
+  size_t n = (size_t)e->n, m = (size_t)e->inequalities;
+  s->block_count = (e->inequalities + BLOCK - 1) / BLOCK;
+  s->blocks = ambulo__pool_blocks(pool, (size_t)s->block_count, sizeof *s->blocks);
+  s->row = ambulo__pool_doubles(pool, m);
+  s->shift = ambulo__pool_doubles(pool, m);
+  s->gradient = ambulo__pool_doubles(pool, n);
+  s->share = ambulo__pool_doubles(pool, n);
+  ambulo_status status = ambulo__chart_create(e->n, pool, &s->chart);
+  if (!status) status = ambulo__mirror_create(e->inequalities, pool, &s->mirror);
+  if (status || pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < s->block_count; i++) {
+    int left = e->inequalities - i * BLOCK;
+    s->blocks[i] = (block){s, i * BLOCK, left < BLOCK ? left : BLOCK};
+  }
+  return AMBULO_OK;
+}
+
+/* calls until something ends it: more than one where NLopt ended by a test of its own: all rows
+ * hold without a multiplier; or its line search found nothing, which asks for better gradients */
+static ambulo_status run(session *s) {
+  ambulo__engine *e = s->engine;
+  ambulo__run *r = e->run;
+  while (!s->ending && !ambulo__run_over(r)) {
+    int before = r->nlopt.outer;
+    s->ending = prepare(s);
+    if (s->ending) break;
+    int result = call(s);
+    if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
+    if (is_over(s) || (result >= 0 && s->mirror.measure == 0.0)) continue;
+    if (result >= 0) { /* of its own accord only where the mirror says so: else it is no mirror */
+      s->ending = AMBULO_ENDING_NLOPT;
+      break;
+    }
+    if (e->adjoint_tolerance > least_adjoint_tolerance) {
+      e->adjoint_tolerance *= 0.1;
+    } else if (r->nlopt.outer == before) {
+      s->ending = AMBULO_ENDING_NLOPT;
+    }
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, double *x,
+                             ambulo_ending *ending) {
+  session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->mu};
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  double accuracy = e->adjoint_tolerance;
+  ambulo_status status = create(&s, &pool);
+  if (!status) status = run(&s);
+  e->adjoint_tolerance = accuracy;
+  ambulo__pool_clear(&pool);
+  *ending = s.ending;
+  return status;
+}

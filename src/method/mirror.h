@@ -1,0 +1,33 @@
+/* method/mirror.h - what NLopt's AUGLAG makes of the rows that it is given.
+ *
+ * NLopt keeps multipliers and penalty to itself. Both follow from the values that it was given
+ * (Birgin & Martinez 2008, algorithm 3.1; NLopt 2.7.1, algs/auglag/auglag.c), for rows c <= 0:
+ *
+ *     at the start             rho = max(1e-6, min(10, 2 |f| / sum max(0, c)^2)),  mu = 0,  I = inf
+ *     after every inner solve  I' = max |max(c, -mu / rho)|,  mu <- max(0, mu + rho c),
+ *                              rho <- 10 rho where I' > I / 2
+ *
+ * Every operation in NLopt's order, so that the numbers are NLopt's to the last bit. They are
+ * needed to whiten with the rows that are going to be active, and to put the gradients of all rows
+ * into one reverse sweep. Nothing here acts on NLopt.
+ */
+#ifndef AMBULO_METHOD_MIRROR_H
+#define AMBULO_METHOD_MIRROR_H
+
+#include "linear/pool.h"
+
+typedef struct ambulo__mirror {
+  int rows;
+  double *multiplier; /* mu, [rows] */
+  double penalty;     /* rho */
+  double measure;     /* I, infeasibility and complementarity in one */
+  int updates;        /* inner solves since the start */
+} ambulo__mirror;
+
+ambulo_status ambulo__mirror_create(int rows, ambulo__pool *pool, ambulo__mirror *mirror);
+/* f and the rows [rows] as NLopt sees them where it starts. */
+void ambulo__mirror_start(ambulo__mirror *mirror, double f, const double *row);
+/* The rows where an inner solve ended. 1 when the penalty has grown. */
+int ambulo__mirror_update(ambulo__mirror *mirror, const double *row);
+
+#endif

@@ -1,0 +1,93 @@
+/* method/nlopt_whitened.c - small problems: SLSQP (or AUGLAG) on independent rows in
+ * whitened coordinates.
+ *
+ * Rounds of: metric at the point (model_step.c), NLopt from there in w. SLSQP's quadratic
+ * model starts as the identity, which in w is the metric; a few rounds settle to rounding.
+ * run->ending says why they ended.
+ */
+#include "method/nlopt_direct.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ROUND_EVALUATIONS = 300, STALL = 5 };
+static const double mu_factor = 0.3; /* times T/K, as in pipeline.c */
+static const double settled = 1e-8;  /* relative change of the objective */
+static const double progress = 0.9;  /* share of a violation that is left where it falls */
+
+static ambulo_status prepare(ambulo__engine *e, ambulo__direct *d) {
+  d->problem = e->problem;
+  d->workspace = e->workspace;
+  d->run = e->run;
+  d->whitener = &e->whitener;
+  d->set[0] = &e->rows.equality;
+  d->set[1] = &e->rows.border;
+  d->set[2] = &e->rows.inequality;
+  d->is_equality[0] = d->is_equality[1] = 1;
+  d->sets = AMBULO__DIRECT_SETS;
+  d->objective_scale = e->objective_scale;
+  return ambulo__direct_create(d, &e->pool);
+}
+
+/* one round from x; *ending when the objective has settled at a feasible point, or when the
+ * violation has not fallen for `*idle` rounds */
+static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_algorithm algorithm,
+                                const double *x, int *idle, ambulo_ending *ending) {
+  double predicted, before = d->best_objective, violation = d->best_violation;
+  memcpy(e->center, x, (size_t)e->n * sizeof *x);
+  int failed = ambulo__model_step(e, &predicted);
+  if (failed) {
+    *ending = failed == 2 ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_BREAKDOWN;
+    return AMBULO_OK;
+  }
+  memcpy(d->center, x, (size_t)e->n * sizeof *x);
+  ambulo_status status = ambulo__direct_minimize(d, algorithm, ROUND_EVALUATIONS);
+  if (status) return status;
+  double change = fabs(d->best_objective - before);
+  int feasible = d->best_violation <= e->run->options->feasibility_tolerance;
+  e->run->iterations++;
+  *idle = feasible || d->best_violation < progress * violation ? 0 : *idle + 1;
+  if (*idle == STALL) *ending = AMBULO_ENDING_STALLED;
+  if (!(d->best_violation < HUGE_VAL)) *ending = AMBULO_ENDING_NO_DESCENT;
+  if (feasible && change <= settled * (fabs(before) + 1e-12)) *ending = AMBULO_ENDING_SETTLED;
+  (void)ambulo__run_progress(e->run, d->best_objective, d->best_violation);
+  return AMBULO_OK;
+}
+
+/* rounds until one of them, or the run, ends them */
+static ambulo_status rounds(ambulo__engine *e, ambulo__direct *d, ambulo_algorithm algorithm,
+                            int most, const double *x) {
+  ambulo_status status = AMBULO_OK;
+  ambulo_ending ending = AMBULO_ENDING_NONE;
+  int idle = 0;
+  for (int k = 0; !status && !ending && !e->run->stopped; k++) {
+    if (k == most) {
+      ending = AMBULO_ENDING_ITERATIONS;
+    } else {
+      status = round_from(e, d, algorithm, k == 0 ? x : d->best_x, &idle, &ending);
+    }
+  }
+  if (ending) ambulo__run_end(e->run, ending);
+  return status;
+}
+
+ambulo_status ambulo__solve_whitened(ambulo__engine *e, ambulo_algorithm algorithm, int most,
+                                     ambulo_diagnostics *diagnostics, double *x,
+                                     const char **message) {
+  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+  ambulo__direct d = {.message = "not called"};
+  double error;
+  e->mu = mu_factor * e->problem->definition.duration /
+          (double)ambulo__basis_intervals(e->problem->basis);
+  e->rho = 10.0;
+  ambulo_status status = ambulo__restore(e, x, &error);
+  if (!status) status = prepare(e, &d);
+  if (!status) status = rounds(e, &d, algorithm, most, x);
+  if (status == AMBULO_E_LIMIT)
+    (void)ambulo__error(diagnostics, status, nowhere, "use solver.algorithm: auto",
+                        "%d unknowns and %d rows need more memory than 4 GB in dense form", e->n,
+                        e->problem->rows);
+  if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->n * sizeof *x);
+  *message = d.message;
+  return status;
+}

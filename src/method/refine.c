@@ -1,0 +1,103 @@
+/* method/refine.c - see refine.h.
+ *
+ * Local minima dominate gait problems; a coarse grid has fewer, and knot insertion carries
+ * its solution over exactly. Grids go by halves while at least 24 intervals remain, then by
+ * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones.
+ */
+#include "nlp/problem.h"
+#include "nlp/user_term.h"
+#include "method/carry.h"
+#include "method/refine.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_LEVELS = 16, FINEST_COARSE = 24, COARSEST = 8 };
+
+/* intervals of the next coarser grid; 0: none */
+static int coarser(int intervals) {
+  if (intervals < FINEST_COARSE) return 0;
+  if (intervals % 2 == 0 && intervals / 2 >= FINEST_COARSE) return intervals / 2;
+  if (intervals % 3 == 0 && intervals / 3 >= COARSEST) return intervals / 3;
+  return intervals / 2 >= COARSEST ? intervals / 2 : 0;
+}
+
+static int has_callbacks(const ambulo_problem *p) {
+  for (int t = 0; t < p->definition.term_count; t++) {
+    if (ambulo__is_user_term(&p->definition.terms[t])) return 1;
+  }
+  return p->definition.user_row_count > 0;
+}
+
+/* a solved grid: its problem, solution and multipliers */
+typedef struct level {
+  ambulo_problem *problem; /* NULL: none yet */
+  double *x;
+  ambulo__carried carried;
+} level;
+
+static void free_level(const ambulo_allocator *a, level *l) {
+  ambulo_problem_free(l->problem);
+  ambulo__free(a, l->x);
+  ambulo__carry_clear(a, &l->carried);
+  memset(l, 0, sizeof *l);
+}
+
+static ambulo_status create_level(const ambulo_problem *problem, int intervals, int spline,
+                                  const ambulo_allocator *a, const level *before, level *l) {
+  ambulo_status status = ambulo__problem_with_grid(problem, intervals, spline, a, &l->problem);
+  if (status) return status;
+  l->x = ambulo__alloc(a, (size_t)l->problem->variables, sizeof *l->x);
+  if (!l->x) return AMBULO_E_MEMORY;
+  return before->problem ? ambulo_problem_transfer(before->problem, before->x, l->problem, l->x)
+                         : AMBULO_OK;
+}
+
+/* solves one level from the last one, which it replaces */
+static ambulo_status solve_level(const ambulo_problem *problem, int intervals, int spline,
+                                 const ambulo_allocator *a, ambulo__run *run, level *before) {
+  level new = {0};
+  ambulo__engine *engine = NULL;
+  int useful = 0;
+  ambulo_status status = create_level(problem, intervals, spline, a, before, &new);
+  if (!status) status = ambulo__engine_create(new.problem, new.x, a, run, NULL, &engine);
+  if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
+  if (!status && engine && engine->rows.regular) {
+    if (before->problem) ambulo__carry_to(&before->carried, engine);
+    status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
+    useful = !status && engine->reached.value < HUGE_VAL;
+  }
+  if (useful) status = ambulo__carry_from(engine, a, &new.carried);
+  ambulo__engine_free(engine);
+  if (useful && !status) {
+    free_level(a, before);
+    *before = new;
+    return AMBULO_OK;
+  }
+  free_level(a, &new);
+  return status == AMBULO_E_MEMORY ? status : AMBULO_OK;
+}
+
+ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocator, double *x,
+                             int *levels) {
+  const ambulo_problem *p = e->problem;
+  ambulo_allocator a = ambulo__allocator_or_default(allocator);
+  int grid[MAX_LEVELS], count = 0, nodes = p->definition.intervals;
+  int spline = ambulo__basis_intervals(p->basis);
+  level last = {0};
+  *levels = 0;
+  if (has_callbacks(p)) return AMBULO_OK;
+  for (int n = coarser(nodes); n > 0 && count < MAX_LEVELS; n = coarser(n)) grid[count++] = n;
+  ambulo_status status = AMBULO_OK;
+  while (count-- > 0 && !status && !ambulo__run_over(e->run)) {
+    int coarse_spline = (int)((long long)spline * grid[count] / nodes);
+    if (coarse_spline < 1) continue;
+    status = solve_level(p, grid[count], coarse_spline, &a, e->run, &last);
+  }
+  if (!status && last.problem && ambulo_problem_transfer(last.problem, last.x, p, x) == AMBULO_OK) {
+    ambulo__carry_to(&last.carried, e);
+    *levels = 1;
+  }
+  free_level(&a, &last);
+  return status;
+}

@@ -1,0 +1,124 @@
+/* The one table of tolerances: every row of every shipped problem has a line of its own in it, and
+ * docs/results.md says the same. */
+#include "judge/dense.h"
+#include "support/engine_fixture.h"
+
+static const char *const names[] = {"walk_normal",    "walk_normal_21", "walk_slow",
+                                    "walk_fast",      "walk_loaded",    "walk_uphill",
+                                    "walk_tracking",  "yardstick_12",   "walk_asymmetric",
+                                    "fig5b_torque",   "walker_2d_step", "walk_without_reaction",
+                                    "two_link_reach", "fig5a_feasible", "pendulum_swing"};
+
+static void check_rows(const char *name, const char *override) {
+  ambulo_problem *p = load_problem_with(name, override);
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    int rule = ambulo__dense_rule_of_row(row);
+    if (rule < 0) {
+      assert_null(strstr("contact clearance zmp pressure joint_limit slip", row->family));
+      continue;
+    }
+    const ambulo__dense_rule *found = ambulo__dense_rule_at(rule);
+    if (!found->family || (!found->unit && !found->of_limit))
+      print_error("%s: no rule for %s in %s\n", name, row->family, row->unit);
+    assert_non_null(found->family);
+    assert_string_equal(found->family, row->family);
+    if (found->unit) assert_string_equal(found->unit, row->unit);
+    assert_true(found->unit || found->of_limit);
+  }
+  ambulo_problem_free(p);
+}
+
+static void every_shipped_row_has_a_rule(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) check_rows(names[i], NULL);
+  check_rows("two_link_reach", "constraints.speed_limits=true");
+  check_rows("two_link_reach", "constraints.torque_limits=true");
+}
+
+static void rows_on_the_ends_have_none(void **state) {
+  (void)state;
+  static const char *const ends[] = {"initial_state", "final_state", "periodic", "mirrored"};
+  for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+    ambulo__table_row row = {.family = ends[i], .unit = "m"};
+    assert_int_equal(ambulo__dense_rule_of_row(&row), -1);
+  }
+}
+
+static void a_family_without_a_rule_goes_by_its_unit(void **state) {
+  (void)state;
+  static const struct {
+    const char *unit;
+    double tolerance;
+  } want[] = {{"m", 0.001}, {"rad", 0.005}, {"body weights", 0.02}, {"apples", 1e-6}};
+  for (size_t i = 0; i < sizeof want / sizeof *want; i++) {
+    ambulo__table_row row = {.family = "no such family", .unit = want[i].unit};
+    int rule = ambulo__dense_rule_of_row(&row);
+    assert_in_range(rule, 0, AMBULO__DENSE_RULES - 1);
+    assert_close(ambulo__dense_rule_at(rule)->tolerance, want[i].tolerance, 0.0);
+  }
+}
+
+/* the larger of a coordinate's two bounds, by hand for two_link's own limits */
+static void limits_are_compared_with_the_larger_bound(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo_coordinate *shoulder = &((ambulo_model *)p->model)->coordinates[0];
+  const ambulo__table_row *row = NULL;
+  for (int r = 0; r < p->rows && !row; r++) {
+    const ambulo__table_row *one = &p->table.rows[r];
+    if (!strcmp(one->family, "torque_limit") && !strcmp(one->subject, shoulder->name)) row = one;
+  }
+  assert_non_null(row);
+  double keep[2] = {shoulder->torque[0], shoulder->torque[1]};
+  shoulder->torque[0] = -30.0;
+  shoulder->torque[1] = 20.0;
+  assert_close(ambulo__dense_limit_size(p, row), 30.0, 0.0);
+  shoulder->torque[0] = -INFINITY;
+  assert_close(ambulo__dense_limit_size(p, row), 20.0, 0.0);
+  shoulder->torque[0] = shoulder->torque[1] = 0.0;
+  assert_close(ambulo__dense_limit_size(p, row), 0.1 * ambulo__dense_body_weight(p->model), 1e-12);
+  memcpy(shoulder->torque, keep, sizeof keep);
+  ambulo_problem_free(p);
+}
+
+static char *read_all(const char *path) {
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  fseek(file, 0, SEEK_END);
+  size_t size = (size_t)ftell(file);
+  rewind(file);
+  char *text = calloc(size + 1, 1);
+  assert_non_null(text);
+  assert_int_equal(fread(text, 1, size, file), size);
+  fclose(file);
+  return text;
+}
+
+/* "| `slip` | m | 0.001 |" */
+static void the_documentation_says_the_same(void **state) {
+  (void)state;
+  char *text = read_all("docs/results.md");
+  for (int i = 0; i < AMBULO__DENSE_RULES; i++) {
+    const ambulo__dense_rule *rule = ambulo__dense_rule_at(i);
+    char line[120];
+    if (!rule->family) continue;
+    (void)snprintf(line, sizeof line, "| `%s` | %s | %g%s |", rule->family,
+                   rule->unit ? rule->unit : "of the limit", rule->tolerance,
+                   rule->by_load ? ", by load" : "");
+    if (!strstr(text, line)) print_error("docs/results.md has no line '%s'\n", line);
+    assert_non_null(strstr(text, line));
+  }
+  free(text);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_shipped_row_has_a_rule),
+      cmocka_unit_test(rows_on_the_ends_have_none),
+      cmocka_unit_test(a_family_without_a_rule_goes_by_its_unit),
+      cmocka_unit_test(limits_are_compared_with_the_larger_bound),
+      cmocka_unit_test(the_documentation_says_the_same),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

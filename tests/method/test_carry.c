@@ -1,0 +1,73 @@
+/* Multipliers of one grid for another: densities over time, by the rows' labels. */
+#include "method/carry.h"
+#include "support/engine_fixture.h"
+
+static const ambulo__table_row *row_of(const ambulo__engine *e, int i) {
+  return &e->problem->table.rows[e->rows.inequality.row[i]];
+}
+
+/* to the same grid: as they are */
+static void on_the_same_grid_nothing_changes(void **state) {
+  (void)state;
+  engine_fixture f;
+  ambulo__carried carried = {0};
+  const ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  engine_open(&f, "walk_normal");
+  ambulo__engine *e = f.engine;
+  double *was = calloc((size_t)e->inequalities, sizeof *was);
+  for (int i = 0; i < e->inequalities; i++) e->lambda[i] = was[i] = i % 3 ? 0.0 : 0.01 * i;
+  e->reached.objective = 3.0 * e->objective_scale;
+  assert_int_equal(ambulo__carry_from(e, &a, &carried), AMBULO_OK);
+  for (int i = 0; i < e->inequalities; i++) e->lambda[i] = -1.0;
+  assert_true(e->carried_objective < 0.0);
+  ambulo__carry_to(&carried, e);
+  assert_close(e->carried_objective, 3.0, 1e-12);
+  for (int i = 0; i < e->inequalities; i++) assert_close(e->lambda[i], was[i], 1e-12);
+  ambulo__carry_clear(&a, &carried);
+  assert_null(carried.row);
+  free(was);
+  engine_close(&f);
+}
+
+/* A density that is linear in time, of one family: on a grid of twice the nodes the same density,
+ * so half the multipliers. */
+static void densities_are_linear_between_nodes(void **state) {
+  (void)state;
+  engine_fixture coarse, fine;
+  ambulo__carried carried = {0};
+  const ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  engine_open_with(&coarse, "walk_normal", "time.intervals=24");
+  engine_open_with(&fine, "walk_normal", "time.intervals=48");
+  ambulo__engine *c = coarse.engine, *e = fine.engine;
+  for (int i = 0; i < c->inequalities; i++) {
+    const ambulo__table_row *row = row_of(c, i);
+    if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) continue;
+    double density = 2.0 + row->time, scale = -c->rows.inequality.scale[i];
+    c->lambda[i] = density * coarse.problem->quadrature[row->node] * c->objective_scale / scale;
+  }
+  assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
+  ambulo__carry_to(&carried, e);
+  int seen = 0;
+  for (int i = 0; i < e->inequalities; i++) {
+    const ambulo__table_row *row = row_of(e, i);
+    if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) {
+      assert_true(e->lambda[i] == 0.0);
+      continue;
+    }
+    double scale = -e->rows.inequality.scale[i];
+    double density =
+        e->lambda[i] * scale / (e->objective_scale * fine.problem->quadrature[row->node]);
+    assert_close(density, 2.0 + row->time, 1e-9);
+    seen++;
+  }
+  assert_true(seen > 100);
+  ambulo__carry_clear(&a, &carried);
+  engine_close(&coarse);
+  engine_close(&fine);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(on_the_same_grid_nothing_changes),
+                                     cmocka_unit_test(densities_are_linear_between_nodes)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
