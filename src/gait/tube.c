@@ -55,9 +55,9 @@ static void tube_row(const ambulo__gait_frame *frame, int node, int i, const cha
                      ambulo_relation relation, double sign, double bound,
                      ambulo__row_table *table) {
   const ambulo_coordinate *c = &frame->model->coordinates[i];
-  ambulo__row_begin(table, "tracking_tube", c->name, detail,
-                    c->type == AMBULO_REVOLUTE ? "rad" : "m", relation, node, frame->times[node],
-                    -sign * bound);
+  ambulo__row_begin(table, AMBULO__KIND_TRACKING_TUBE, c->name, detail,
+                    ambulo__row_measure(AMBULO__KIND_TRACKING_TUBE, c->type, 0), relation, node,
+                    frame->times[node], -sign * bound);
   ambulo__row_term_add(table, node, ambulo__channel_q(&frame->channels, i), sign);
 }
 

@@ -29,13 +29,13 @@ static double body_weight(const ambulo_model *model) {
   return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
-void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char *family,
+void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   double a = side->normal[0], b = side->normal[1], c = side->offset;
   double h = frame->definition->ground_height, mg = body_weight(model);
-  ambulo__row_begin(table, family, subject, side->detail, "m", AMBULO_NOT_NEGATIVE, node,
+  ambulo__row_begin(table, kind, subject, side->detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node,
                     frame->times[node], 0.0);
   for (int i = 0; i < 3; i++) {
     double f = model->forward[i], l = model->left[i], n = model->up[i];
@@ -48,7 +48,7 @@ void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char 
 
 static void force_row(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
   double mg = body_weight(frame->model);
-  ambulo__row_begin(table, "normal_force", "ground", "vertical", "body weights",
+  ambulo__row_begin(table, AMBULO__KIND_NORMAL_FORCE, "ground", "vertical", AMBULO__BODY_WEIGHTS,
                     AMBULO_NOT_NEGATIVE, node, frame->times[node],
                     -frame->definition->minimum_force);
   for (int i = 0; i < 3; i++) {
@@ -126,7 +126,7 @@ ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_tabl
         if (status) return status;
       }
       for (int k = 0; k < region.count; k++)
-        ambulo__zmp_side_row(frame, node, "zmp", "support", &region.side[k], table);
+        ambulo__zmp_side_row(frame, node, AMBULO__KIND_ZMP, "support", &region.side[k], table);
     }
     if (frame->definition->minimum_force >= 0.0) force_row(frame, node, table);
   }

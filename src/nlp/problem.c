@@ -86,9 +86,7 @@ static void add_user_rows(ambulo_problem *p) {
     const ambulo_user_row *user = &p->definition.user_rows[u];
     for (int k = 0; k < p->nodes; k++) {
       if (p->times[k] < user->from - 1e-9 || p->times[k] > user->to + 1e-9) continue;
-      ambulo__row_begin(&p->table, user->name, "", "", user->unit, user->relation, k, p->times[k],
-                        0.0);
-      if (!p->table.status) p->table.rows[p->table.row_count - 1].user = u;
+      ambulo__row_user(&p->table, user, u, k, p->times[k]);
     }
   }
 }

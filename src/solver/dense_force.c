@@ -32,10 +32,10 @@ static void visit_force(const force *f, ambulo__dense_visitor visit, void *user)
   int index = ambulo__dense_rule_of_force(), samples = dense->samples;
   const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
   ambulo__dense_sample sample = {.rule = index,
-                                 .family = rule->family,
+                                 .family = ambulo__row_family(rule->kind),
                                  .subject = f->subject,
                                  .detail = "normal",
-                                 .unit = rule->unit,
+                                 .unit = ambulo__measure_text(rule->measure),
                                  .tolerance = rule->tolerance};
   for (int k = 0; k < dense->problem->nodes; k++) {
     double a = normal_at(f, k * samples);

@@ -88,15 +88,16 @@ static void visit_time(const corner *c, double time, const ambulo_contact *conta
     double along = r[i] - held[i] - normal * model->up[i];
     square += along * along;
   }
-  int rule = ambulo__dense_rule_of_slip();
-  ambulo__dense_sample sample = {.rule = rule,
-                                 .family = ambulo__dense_rule_at(rule)->family,
+  int index = ambulo__dense_rule_of_slip();
+  const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
+  ambulo__dense_sample sample = {.rule = index,
+                                 .family = ambulo__row_family(rule->kind),
                                  .subject = model->points[c->point].name,
                                  .detail = "along the ground",
-                                 .unit = ambulo__dense_rule_at(rule)->unit,
+                                 .unit = ambulo__measure_text(rule->measure),
                                  .time = time,
                                  .value = sqrt(square),
-                                 .tolerance = ambulo__dense_rule_at(rule)->tolerance};
+                                 .tolerance = rule->tolerance};
   c->visit(c->user, &sample);
 }
 
