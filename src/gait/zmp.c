@@ -61,7 +61,6 @@ static const char *const mode_words[] = {"on its heel", "flat", "on its toes"};
 
 static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, double size,
                                   int planar, ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   const ambulo_problem_definition *definition = frame->definition;
   const int *active = frame->active + node * frame->model->foot_count;
   const char *foot = "no foot", *mode = "loaded";
@@ -80,7 +79,7 @@ static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, dou
                          ? "the hull of the corners in contact is a line while only heels or toes "
                            "of one foot touch; 'zmp: box' counts the whole foot"
                          : "lower constraints.zmp_margin";
-  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, hint,
+  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, hint,
                        "constraints.zmp: the support polygon is empty at t = %.6g s (%s %s, margin "
                        "%.6g m, %s %.3g %s); expected a positive %s",
                        frame->times[node], foot, mode, definition->support_margin,
@@ -94,9 +93,8 @@ static ambulo_status region_at(const ambulo__gait_frame *frame, int node, int pl
   const int *active = frame->active + node * frame->model->foot_count;
   ambulo_status status = ambulo__support_region_of(frame->definition, active, planar, region);
   if (status) {
-    static const ambulo__place nowhere = {NULL, 0, 0, NULL};
     return ambulo__error(
-        diagnostics, status, nowhere, NULL,
+        diagnostics, status, ambulo__nowhere, NULL,
         "constraints.zmp: too many foot corners at t = %.6g s; expected at most %d",
         frame->times[node], AMBULO__POLYGON_CAPACITY - 1);
   }

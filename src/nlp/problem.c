@@ -5,6 +5,7 @@
  * and hash. After that nothing changes.
  */
 #include "nlp/problem.h"
+#include "base/instant.h"
 #include "nlp/memory.h"
 #include "objective/mirror_terms.h"
 
@@ -48,10 +49,8 @@ ambulo_term ambulo_term_default(ambulo_term_kind kind) {
   return term;
 }
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 #define REFUSE(diagnostics, ...)                                                                   \
-  ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, __VA_ARGS__)
+  ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL, __VA_ARGS__)
 
 /* ------------------------------------------------------------ construction */
 
@@ -85,7 +84,8 @@ static void add_user_rows(ambulo_problem *p) {
   for (int u = 0; u < p->definition.user_row_count; u++) {
     const ambulo_user_row *user = &p->definition.user_rows[u];
     for (int k = 0; k < p->nodes; k++) {
-      if (p->times[k] < user->from - 1e-9 || p->times[k] > user->to + 1e-9) continue;
+      if (p->times[k] < user->from - AMBULO__INSTANT || p->times[k] > user->to + AMBULO__INSTANT)
+        continue;
       ambulo__row_user(&p->table, user, u, k, p->times[k]);
     }
   }
@@ -112,7 +112,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   ambulo__end_rows(&frame, &p->table);
   add_user_rows(p);
   if (p->table.status == AMBULO_E_INTERNAL)
-    return ambulo__error(diagnostics, AMBULO_E_INTERNAL, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_INTERNAL, ambulo__nowhere, NULL,
                          "a constraint row has more terms than its form holds");
   if (p->table.status) return p->table.status;
   p->rows = p->table.row_count;

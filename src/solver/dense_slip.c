@@ -12,6 +12,7 @@
  * that has no node while it is loaded moves away from where it came down.
  */
 #include "gait/foot_outline.h"
+#include "base/instant.h"
 #include "solver/dense.h"
 
 #include <math.h>
@@ -112,7 +113,8 @@ static int visit_loading(const corner *c, int j) {
     visit_time(c, fine->times[j], contact, first);
     last = contact;
   }
-  if (j < fine->nodes && last->to <= fine->times[j] + 1e-9) visit_time(c, last->to, last, first);
+  if (j < fine->nodes && last->to <= fine->times[j] + AMBULO__INSTANT)
+    visit_time(c, last->to, last, first);
   return j;
 }
 
