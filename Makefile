@@ -99,7 +99,8 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm coverage \
-  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-headers \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
+  lint-headers \
   lint-equations lint-keys lint-leftovers format \
   install uninstall clean force
 
@@ -249,7 +250,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols mirror headers equations keys leftovers
+LINT := format static order size symbols callers mirror headers equations keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/solver/band_kernels_avx%.c,$(SOURCES))
@@ -272,6 +273,9 @@ lint-size:
 lint-symbols: build/.ready-build
 	$(submake) $(OUT)/libambulo.so $(OUT)/libambulo.a
 	@.setup/lint_symbols.sh $(OUT)/libambulo.so $(OUT)/libambulo.a
+lint-callers: build/.ready-build
+	$(submake) $(OUT)/libambulo.a $(OUT)/ambulo
+	@.setup/lint_callers.sh $(OUT)/obj/src
 lint-mirror:
 	@.setup/lint_mirror.sh
 lint-headers:

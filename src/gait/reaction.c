@@ -136,10 +136,9 @@ void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *t
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  const double *g = model->gravity;
   node_frame n = {.frame = frame, .outlines = outlines, .table = table};
   n.planar = !ambulo__model_moves_sideways(model);
-  n.weight = model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  n.weight = ambulo__model_weight(model);
   for (n.node = 0; n.node < ambulo__distinct_nodes(frame, AMBULO__OF_FORCES); n.node++) {
     n.load = ambulo__load_at(frame->definition, outlines, frame->times[n.node]);
     node_rows(&n);

@@ -24,17 +24,12 @@
 /* a region smaller than this (m^2, planar: m) is empty */
 static const double smallest_region = 1e-9;
 
-static double body_weight(const ambulo_model *model) {
-  const double *g = model->gravity;
-  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-}
-
 void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   double a = side->normal[0], b = side->normal[1], c = side->offset;
-  double h = frame->definition->ground_height, mg = body_weight(model);
+  double h = frame->definition->ground_height, mg = ambulo__model_weight(model);
   ambulo__row_begin(table, kind, subject, side->detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node,
                     frame->times[node], 0.0);
   for (int i = 0; i < 3; i++) {
@@ -47,7 +42,7 @@ void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row
 }
 
 static void force_row(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
-  double mg = body_weight(frame->model);
+  double mg = ambulo__model_weight(frame->model);
   ambulo__row_begin(table, AMBULO__KIND_NORMAL_FORCE, "ground", "vertical", AMBULO__BODY_WEIGHTS,
                     AMBULO_NOT_NEGATIVE, node, frame->times[node],
                     -frame->definition->minimum_force);

@@ -95,8 +95,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   const ambulo_problem_definition *d = &p->definition;
   ambulo__gait_frame frame = {d, p->model, p->basis, p->channels, p->times, p->nodes, p->active};
   ambulo_status status = AMBULO_OK;
-  const double *g = p->model->gravity;
-  p->table.weight = p->model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  p->table.weight = ambulo__model_weight(p->model);
   if (d->ground_penetration) ambulo__ground_rows(&frame, &p->table);
   if (d->contact_tolerance > 0.0) {
     ambulo__contact_tube_rows(&frame, &p->table);

@@ -51,7 +51,7 @@ static void visit_force(const force *f, ambulo__dense_visitor visit, void *user)
 
 void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo_problem *p = dense->problem;
-  force f = {.dense = dense, .weight = ambulo__dense_body_weight(p->model)};
+  force f = {.dense = dense, .weight = ambulo__model_weight(p->model)};
   if (p->definition.contact_count == 0 || !(f.weight > 0.0)) return;
   f.subject = "total";
   f.channel = ambulo__channel_force(&p->channels, 0);

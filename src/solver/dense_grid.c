@@ -98,8 +98,3 @@ void ambulo__dense_close(ambulo__dense *dense) {
   dense->channel = dense->row_value = NULL;
   dense->fine = NULL;
 }
-
-double ambulo__dense_body_weight(const ambulo_model *model) {
-  const double *g = model->gravity;
-  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-}

@@ -72,8 +72,7 @@ int ambulo__dense_rule_of_force(void) {
 /* of a limit on a quantity that may not be anything but zero */
 static double size_of_none(const ambulo_model *model, const ambulo_coordinate *c, int is_torque) {
   if (!is_torque) return 1.0;
-  const double *g = model->gravity;
-  double weight = model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  double weight = ambulo__model_weight(model);
   double size = c->type == AMBULO_REVOLUTE ? 0.1 * weight : weight;
   return size > 0.0 ? size : 1.0;
 }

@@ -64,7 +64,7 @@ static void limits_are_compared_with_the_larger_bound(void **state) {
   shoulder->torque[0] = -INFINITY;
   assert_close(ambulo__dense_limit_size(p, row), 20.0, 0.0);
   shoulder->torque[0] = shoulder->torque[1] = 0.0;
-  assert_close(ambulo__dense_limit_size(p, row), 0.1 * ambulo__dense_body_weight(p->model), 1e-12);
+  assert_close(ambulo__dense_limit_size(p, row), 0.1 * ambulo__model_weight(p->model), 1e-12);
   memcpy(shoulder->torque, keep, sizeof keep);
   ambulo_problem_free(p);
 }
