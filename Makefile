@@ -117,7 +117,7 @@ help:
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
-	@echo 'make lint         format, static analysis, folder order, sizes, symbols, test mirror'
+	@echo 'make lint         format, static analysis, folder order, sizes, symbols, callers, test mirror'
 	@echo 'make format       clang-format everything'
 	@echo 'make bench        time every layer; results and changes in bench/results'
 	@echo 'make bench-table4 the nine cells of Table 4 of the source paper'
