@@ -99,7 +99,8 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm coverage \
-  lint lint-format lint-static lint-order lint-size lint-symbols lint-mirror lint-headers \
+  lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
+  lint-headers \
   lint-equations lint-keys lint-leftovers format \
   install uninstall clean force
 
@@ -116,7 +117,7 @@ help:
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
-	@echo 'make lint         format, static analysis, folder order, sizes, symbols, test mirror'
+	@echo 'make lint         format, static analysis, folder order, sizes, symbols, callers, test mirror'
 	@echo 'make format       clang-format everything'
 	@echo 'make bench        time every layer; results and changes in bench/results'
 	@echo 'make bench-table4 the nine cells of Table 4 of the source paper'
@@ -249,7 +250,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols mirror headers equations keys leftovers
+LINT := format static order size symbols callers mirror headers equations keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
@@ -272,6 +273,9 @@ lint-size:
 lint-symbols: build/.ready-build
 	$(submake) $(OUT)/libambulo.so $(OUT)/libambulo.a
 	@.setup/lint_symbols.sh $(OUT)/libambulo.so $(OUT)/libambulo.a
+lint-callers: build/.ready-build
+	$(submake) $(OUT)/libambulo.a $(OUT)/ambulo
+	@.setup/lint_callers.sh $(OUT)/obj/src
 lint-mirror:
 	@.setup/lint_mirror.sh
 lint-headers:

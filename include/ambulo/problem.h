@@ -181,7 +181,7 @@ typedef struct ambulo_term {
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */
 typedef struct ambulo_user_row {
-  const char *name; /* its family in reports */
+  const char *name; /* its family in reports, apart from one of the engine under the same name */
   const char *unit;
   ambulo_relation relation;
   double from, to; /* s */

@@ -36,8 +36,6 @@ typedef struct ambulo__folder_mark {
 ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *mark,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, ambulo__folder **folder);
-/* Path of the temporary folder, for writers that need one. */
-const char *ambulo__folder_path(const ambulo__folder *folder);
 /* Writes and flushes one file in it; `name` without '/'. Errors: E_ARGUMENT, E_IO, E_MEMORY. */
 ambulo_status ambulo__folder_write(ambulo__folder *folder, const char *name, const char *data,
                                    size_t length, ambulo_diagnostics *diagnostics);

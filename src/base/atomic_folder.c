@@ -183,10 +183,6 @@ ambulo_status ambulo__folder_begin(const char *path, const ambulo__folder_mark *
   return AMBULO_OK;
 }
 
-const char *ambulo__folder_path(const ambulo__folder *folder) {
-  return folder->temporary;
-}
-
 static int write_and_flush(const char *path, const char *data, size_t length) {
   int file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) return -1;

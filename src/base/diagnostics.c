@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+const ambulo__place ambulo__nowhere = {NULL, 0, 0, NULL};
+
 enum { MAX_ERRORS = 20, MAX_MESSAGES = 64, MAX_TEXT = 1024, MAX_WORD = 64, MAX_FILE = 512 };
 
 /* Room for an error that finds no memory. There is one for the error that says so, which is often

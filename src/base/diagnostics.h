@@ -11,6 +11,9 @@ typedef struct ambulo__place {
   const char *path;
 } ambulo__place;
 
+/* Of what stands in no file. */
+extern const ambulo__place ambulo__nowhere;
+
 /* Adds an error and returns `status`, so that a caller can `return` it. A NULL
  * list drops the message, never the status. `hint` may be NULL. The text is
  * printf-formatted. Without memory the first error of E_MEMORY and the first of

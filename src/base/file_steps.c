@@ -22,9 +22,8 @@ ambulo_status ambulo__io_memory_error(ambulo_diagnostics *diagnostics, const cha
 
 ambulo_status ambulo__expect_path(const char *path, const char *what,
                                   ambulo_diagnostics *diagnostics) {
-  ambulo__place nowhere = {.file = NULL};
   if (!path || path[0]) return AMBULO_OK;
-  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                        "the name of the %s is empty; expected a path", what);
 }
 

@@ -208,7 +208,7 @@ static const char *write_path(const ambulo__yaml_node *node, char buffer[MAX_PAT
 
 ambulo__place ambulo__yaml_place(const ambulo__yaml_node *node) {
   char buffer[MAX_PATH];
-  if (!node) return (ambulo__place){NULL, 0, 0, NULL};
+  if (!node) return ambulo__nowhere;
   const char *path = write_path(node, buffer);
   ambulo__place place = {node->file, node->line, node->column, NULL};
   if (path[0] != '\0') place.path = ambulo__yaml_copy(node->document, path, strlen(path));

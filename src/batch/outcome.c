@@ -4,6 +4,7 @@
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
  * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
 #include "base/read_file.h"
+#include "base/clock.h"
 #include "batch/paths.h"
 #include "batch/run.h"
 
@@ -22,7 +23,7 @@ static int from_outside(int number) {
 }
 
 /* first line of the worker's log in the message */
-static ambulo_status disk_trouble(ambulo__run *run, const char *id) {
+static ambulo_status disk_trouble(ambulo__batch_run *run, const char *id) {
   if (run->status) return run->status; /* said once */
   char *path = ambulo__case_path(run->allocator, run->directory, id, ".log"), *text = NULL;
   size_t length = 0;
@@ -77,7 +78,7 @@ static judgement judge(const ambulo__slot *slot, int wait_status, int taken,
 }
 
 /* an empty log says nothing; one of a case that was solved is kept when it has warnings */
-static ambulo_status drop_empty_log(const ambulo__run *run, const char *id) {
+static ambulo_status drop_empty_log(const ambulo__batch_run *run, const char *id) {
   struct stat entry;
   char *path = ambulo__case_path(run->allocator, run->directory, id, ".log");
   if (!path) return AMBULO_E_MEMORY;
@@ -86,7 +87,7 @@ static ambulo_status drop_empty_log(const ambulo__run *run, const char *id) {
   return AMBULO_OK;
 }
 
-static ambulo_status keep(ambulo__run *run, int index, const ambulo__record *record) {
+static ambulo_status keep(ambulo__batch_run *run, int index, const ambulo__record *record) {
   const ambulo__sweep_case *one = &run->sweep->cases[index];
   ambulo_status status =
       ambulo__record_write(run->directory, one->id, record, run->allocator, run->diagnostics);
@@ -107,7 +108,8 @@ static ambulo_status keep(ambulo__run *run, int index, const ambulo__record *rec
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot, int wait_status) {
+ambulo_status ambulo__outcome_record(ambulo__batch_run *run, const ambulo__slot *slot,
+                                     int wait_status) {
   const ambulo__sweep_case *one = &run->sweep->cases[slot->index];
   ambulo__record record;
   memset(&record, 0, sizeof record);
@@ -117,7 +119,7 @@ ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot,
   record.origin = ambulo__schedule_origin(run, slot->index);
   if (slot->from >= 0)
     (void)snprintf(record.start, sizeof record.start, "%s", run->sweep->cases[slot->from].id);
-  record.seconds = ambulo__run_clock() - slot->begin;
+  record.seconds = ambulo__seconds_now() - slot->begin;
   record.limit_seconds = run->case_seconds;
   record.limit_megabytes = run->case_megabytes;
   int taken = 0;

@@ -4,6 +4,7 @@
  * five times a second, what the caller wants. A case counts once its record is on disk, and is
  * computed again otherwise, so the supervisor may be killed anywhere. */
 #include "batch/run.h"
+#include "base/clock.h"
 #include "base/file_steps.h"
 #include "batch/clean.h"
 #include "batch/listing.h"
@@ -21,12 +22,6 @@
 enum { COOKIE = 0x62617463, MOST_WORKERS = 4096 };
 static const double report_seconds = 0.2;
 
-double ambulo__run_clock(void) {
-  struct timespec now = {0, 0};
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 ambulo_batch_options ambulo_batch_options_default(void) {
   ambulo_batch_options options;
   memset(&options, 0, sizeof options);
@@ -38,7 +33,7 @@ ambulo_batch_options ambulo_batch_options_default(void) {
 
 /* -------------------------------------------------------------------- slots */
 
-static ambulo_status make_fan(ambulo__run *run, const char *id) {
+static ambulo_status make_fan(ambulo__batch_run *run, const char *id) {
   char *path = ambulo__case_path(run->allocator, run->directory, id, "");
   if (!path) return AMBULO_E_MEMORY;
   *strrchr(path, '/') = '\0';
@@ -49,7 +44,7 @@ static ambulo_status make_fan(ambulo__run *run, const char *id) {
   return status;
 }
 
-static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
+static ambulo_status start(ambulo__batch_run *run, ambulo__slot *slot, int index) {
   ambulo_case one;
   ambulo_status status = ambulo_sweep_case(run->sweep, index, &one);
   if (!status) status = make_fan(run, one.id);
@@ -70,7 +65,7 @@ static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
   slot->index = index;
   slot->from = from;
   slot->cut = 0;
-  slot->begin = ambulo__run_clock();
+  slot->begin = ambulo__seconds_now();
   run->state[index] = AMBULO__CASE_RUNNING;
   run->progress.running++;
   return AMBULO_OK;
@@ -82,7 +77,7 @@ static void kill_slot(ambulo__slot *slot, int cut) {
   (void)kill(slot->process, SIGKILL);
 }
 
-static ambulo_status take_in(ambulo__run *run, const ambulo__slot *ended, int wait_status) {
+static ambulo_status take_in(ambulo__batch_run *run, const ambulo__slot *ended, int wait_status) {
   if (!(WIFEXITED(wait_status) && WEXITSTATUS(wait_status) <= 3))
     ambulo__clean_case(run->directory, run->sweep->cases[ended->index].id, (long)ended->process,
                        run->allocator);
@@ -91,11 +86,11 @@ static ambulo_status take_in(ambulo__run *run, const ambulo__slot *ended, int wa
 
 /* Takes in what ended. A slot without a chain starts the next case before the record is
  * flushed, so that processors do not wait for the disk; a chain goes on in its slot. */
-static void reap(ambulo__run *run, ambulo__slot *slot, int stopping) {
+static void reap(ambulo__batch_run *run, ambulo__slot *slot, int stopping) {
   int wait_status = 0;
   pid_t process = waitpid(slot->process, &wait_status, WNOHANG);
   if (process == 0 || (process < 0 && errno == EINTR)) {
-    if (run->case_seconds > 0.0 && ambulo__run_clock() - slot->begin > run->case_seconds)
+    if (run->case_seconds > 0.0 && ambulo__seconds_now() - slot->begin > run->case_seconds)
       kill_slot(slot, 1);
     return;
   }
@@ -118,16 +113,16 @@ static void reap(ambulo__run *run, ambulo__slot *slot, int stopping) {
 
 /* ---------------------------------------------------------------- the loop */
 
-static int ask(ambulo__run *run, int always) {
+static int ask(ambulo__batch_run *run, int always) {
   ambulo_batch_progress *p = &run->progress;
-  double now = ambulo__run_clock() - run->begin;
+  double now = ambulo__seconds_now() - run->begin;
   if (!always && now - p->seconds < report_seconds) return 0;
   p->seconds = now;
   p->seconds_left = run->finished_now > 0 ? now / run->finished_now * (p->cases - p->done) : -1.0;
   return run->options.progress ? run->options.progress(run->options.user, p) : 0;
 }
 
-static void supervise(ambulo__run *run) {
+static void supervise(ambulo__batch_run *run) {
   int stop = ask(run, 1);
   double stopped = 0.0;
   for (;;) {
@@ -143,8 +138,8 @@ static void supervise(ambulo__run *run) {
     if (run->progress.running == 0 && (stop || run->progress.done >= run->progress.cases)) break;
     if (run->progress.running == 0 && ambulo__schedule_next(run) < 0) break; /* given up */
     if (run->progress.running == 0) run->cursor = 0;
-    if (stop && stopped == 0.0) stopped = ambulo__run_clock();
-    int late = stop && ambulo__run_clock() - stopped > run->options.grace;
+    if (stop && stopped == 0.0) stopped = ambulo__seconds_now();
+    int late = stop && ambulo__seconds_now() - stopped > run->options.grace;
     for (int i = 0; i < run->workers && (stop > 1 || late); i++) kill_slot(&run->slot[i], 2);
     struct timespec pause = {0, 2000000};
     (void)nanosleep(&pause, NULL);
@@ -158,12 +153,12 @@ static int acceptable(const ambulo_batch_options *o) {
          o->case_megabytes >= 0 && o->grace >= 0.0;
 }
 
-static ambulo_status run_locked(ambulo__run *run) {
+static ambulo_status run_locked(ambulo__batch_run *run) {
   ambulo_status status = ambulo__listing_prepare(run->sweep, run->directory, run->options.force,
                                                  run->allocator, run->diagnostics);
   if (status) return status;
   if (run->options.shards == 1) ambulo__clean_all(run->directory, run->allocator);
-  run->begin = ambulo__run_clock();
+  run->begin = ambulo__seconds_now();
   status = ambulo__schedule_open(run);
   if (status) return status;
   supervise(run);
@@ -177,7 +172,7 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!sweep || !directory) return AMBULO_E_ARGUMENT;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  ambulo__run run;
+  ambulo__batch_run run;
   memset(&run, 0, sizeof run);
   run.options = options ? *options : ambulo_batch_options_default();
   if (!acceptable(&run.options)) return AMBULO_E_ARGUMENT;

@@ -24,7 +24,7 @@ typedef struct ambulo__slot {
   double begin;  /* s */
 } ambulo__slot;
 
-typedef struct ambulo__run {
+typedef struct ambulo__batch_run {
   const ambulo_sweep *sweep;
   const char *directory;
   ambulo_batch_options options;
@@ -42,25 +42,23 @@ typedef struct ambulo__run {
   int case_megabytes;
   ambulo_batch_progress progress;
   ambulo_status status; /* of the run: E_IO once a worker could not write */
-} ambulo__run;
-
-/* Seconds of a clock that only goes forward. */
-double ambulo__run_clock(void);
+} ambulo__batch_run;
 
 /* schedule.c: reads the records of this shard's cases and fills the tables. */
-ambulo_status ambulo__schedule_open(ambulo__run *run);
-void ambulo__schedule_free(ambulo__run *run);
+ambulo_status ambulo__schedule_open(ambulo__batch_run *run);
+void ambulo__schedule_free(ambulo__batch_run *run);
 /* The next case that may start, or -1. A case that continues another is taken from its record
  * only once that one is done, since only then it is known what it has to start from. */
-int ambulo__schedule_next(ambulo__run *run);
+int ambulo__schedule_next(ambulo__batch_run *run);
 /* The case to go on with in the same slot, or -1. */
-int ambulo__schedule_follower(ambulo__run *run, int index);
+int ambulo__schedule_follower(ambulo__batch_run *run, int index);
 /* The nearest case before it in its chain with a solution; -1: none. */
-int ambulo__schedule_start_of(const ambulo__run *run, int index);
+int ambulo__schedule_start_of(const ambulo__batch_run *run, int index);
 /* Hash of the cases whose solutions lead to this start, one from another; 0: from zero. */
-unsigned long long ambulo__schedule_origin(const ambulo__run *run, int index);
+unsigned long long ambulo__schedule_origin(const ambulo__batch_run *run, int index);
 
 /* outcome.c: judges an ended worker and records the case. */
-ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot, int wait_status);
+ambulo_status ambulo__outcome_record(ambulo__batch_run *run, const ambulo__slot *slot,
+                                     int wait_status);
 
 #endif

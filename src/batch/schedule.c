@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* every k-th chain, counted over the whole list, is ours */
-static ambulo_status assign(ambulo__run *run) {
+static ambulo_status assign(ambulo__batch_run *run) {
   const ambulo_sweep *s = run->sweep;
   int *root = ambulo__alloc(run->allocator, (size_t)s->case_count, sizeof *root), roots = 0;
   if (!root) return AMBULO_E_MEMORY;
@@ -25,13 +25,14 @@ static ambulo_status assign(ambulo__run *run) {
   return AMBULO_OK;
 }
 
-static int may_start(const ambulo__run *run, int k) {
+static int may_start(const ambulo__batch_run *run, int k) {
   int previous = run->sweep->cases[k].previous;
   return run->state[k] == AMBULO__CASE_WAITING &&
          (previous < 0 || run->state[previous] == AMBULO__CASE_DONE);
 }
 
-static void tell_damage(const ambulo__run *run, const char *id, const ambulo__damage *damage) {
+static void tell_damage(const ambulo__batch_run *run, const char *id,
+                        const ambulo__damage *damage) {
   char *path = ambulo__case_path(run->allocator, run->directory, id, damage->ending);
   ambulo__place place = {path ? path : run->directory, 0, 0, NULL};
   ambulo__warning(run->diagnostics, place, NULL, "damaged: %s; the case is computed again",
@@ -41,7 +42,7 @@ static void tell_damage(const ambulo__run *run, const char *id, const ambulo__da
 
 /* Takes a waiting case as done when its record is what this run would compute: same key, same
  * origin, limits no tighter than now; and all files of its result are what they were. */
-static ambulo_status take_record(ambulo__run *run, int k) {
+static ambulo_status take_record(ambulo__batch_run *run, int k) {
   const ambulo__sweep_case *one = &run->sweep->cases[k];
   ambulo__finding finding;
   ambulo__record record;
@@ -64,7 +65,7 @@ static ambulo_status take_record(ambulo__run *run, int k) {
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__schedule_open(ambulo__run *run) {
+ambulo_status ambulo__schedule_open(ambulo__batch_run *run) {
   const ambulo_allocator *a = run->allocator;
   size_t cases = (size_t)run->sweep->case_count;
   run->state = ambulo__alloc(a, cases, 1);
@@ -84,7 +85,7 @@ ambulo_status ambulo__schedule_open(ambulo__run *run) {
   return status;
 }
 
-void ambulo__schedule_free(ambulo__run *run) {
+void ambulo__schedule_free(ambulo__batch_run *run) {
   const ambulo_allocator *a = run->allocator;
   ambulo__free(a, run->state);
   ambulo__free(a, run->solved);
@@ -96,13 +97,13 @@ void ambulo__schedule_free(ambulo__run *run) {
 }
 
 /* 1: the case has to be computed, and may be now; never after a failure, which is in run->status */
-static int is_due(ambulo__run *run, int k) {
+static int is_due(ambulo__batch_run *run, int k) {
   if (run->status || !may_start(run, k)) return 0;
   if (run->sweep->cases[k].previous >= 0) run->status = take_record(run, k);
   return !run->status && run->state[k] == AMBULO__CASE_WAITING;
 }
 
-int ambulo__schedule_next(ambulo__run *run) {
+int ambulo__schedule_next(ambulo__batch_run *run) {
   /* once more from the front when all is quiet: a second case may continue the same one */
   for (int pass = 0; pass < 2; pass++) {
     for (; run->cursor < run->sweep->case_count; run->cursor++)
@@ -113,7 +114,7 @@ int ambulo__schedule_next(ambulo__run *run) {
   return -1;
 }
 
-int ambulo__schedule_follower(ambulo__run *run, int index) {
+int ambulo__schedule_follower(ambulo__batch_run *run, int index) {
   if (run->state[index] == AMBULO__CASE_WAITING) return index; /* to be tried again */
   int next = run->next[index];
   while (next >= 0 && !is_due(run, next)) {
@@ -123,14 +124,14 @@ int ambulo__schedule_follower(ambulo__run *run, int index) {
   return next;
 }
 
-unsigned long long ambulo__schedule_origin(const ambulo__run *run, int index) {
+unsigned long long ambulo__schedule_origin(const ambulo__batch_run *run, int index) {
   int from = ambulo__schedule_start_of(run, index);
   if (from < 0) return 0;
   unsigned long long hash = ambulo__hash_text(AMBULO__HASH_START, run->sweep->cases[from].id);
   return ambulo__hash_word(hash, run->origin[from]);
 }
 
-int ambulo__schedule_start_of(const ambulo__run *run, int index) {
+int ambulo__schedule_start_of(const ambulo__batch_run *run, int index) {
   int k = run->sweep->cases[index].previous;
   while (k >= 0 && !run->solved[k]) k = run->sweep->cases[k].previous;
   return k;

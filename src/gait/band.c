@@ -18,8 +18,8 @@ void ambulo__linear_add(ambulo__linear *form, int first, const double direction[
 static void side(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
                  const ambulo__linear *form, double sign, double bound, ambulo__row_table *table) {
   if (!isfinite(bound)) return;
-  ambulo__row_begin(table, name->family, name->subject, sign > 0.0 ? name->lower : name->upper,
-                    name->unit, AMBULO_NOT_NEGATIVE, node, frame->times[node],
+  ambulo__row_begin(table, name->kind, name->subject, sign > 0.0 ? name->lower : name->upper,
+                    name->measure, AMBULO_NOT_NEGATIVE, node, frame->times[node],
                     sign * (form->constant - bound));
   for (int t = 0; t < form->count; t++)
     ambulo__row_term_add(table, node, form->channel[t], sign * form->coefficient[t]);

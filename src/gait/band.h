@@ -15,9 +15,11 @@ typedef struct ambulo__linear {
   double coefficient[AMBULO__FORM_TERMS];
 } ambulo__linear;
 
-/* What a pair of rows is called. All static text, except the subject, which lives in the model. */
+/* What a pair of rows is about. Static text, except the subject, which lives in the model. */
 typedef struct ambulo__band_name {
-  const char *family, *subject, *lower, *upper, *unit;
+  ambulo__row_kind kind;
+  const char *subject, *lower, *upper;
+  ambulo__measure measure;
 } ambulo__band_name;
 
 /* Adds factor times the components first, first + 1, first + 2 along `direction`. */

@@ -46,11 +46,9 @@ ambulo__bounds ambulo__bounds_of(const ambulo_problem_definition *d, int i, ambu
 double ambulo__limit_given(const ambulo_model *model, const ambulo__table_row *row) {
   int i = ambulo_model_find_coordinate(model, row->subject);
   int is_upper = !strcmp(row->detail, "upper");
-  ambulo_limited what = !strcmp(row->family, "speed_limit")    ? AMBULO_LIMITED_SPEED
-                        : !strcmp(row->family, "torque_limit") ? AMBULO_LIMITED_TORQUE
-                                                               : AMBULO_LIMITED_POSITION;
-  if (i < 0) return is_upper ? row->constant : -row->constant;
-  return ambulo__limits_of(&model->coordinates[i], what)[is_upper];
+  int what = ambulo__row_kind_entry_of(row->kind)->limited;
+  if (i < 0 || what == AMBULO__NOT_LIMITED) return is_upper ? row->constant : -row->constant;
+  return ambulo__limits_of(&model->coordinates[i], (ambulo_limited)what)[is_upper];
 }
 
 void ambulo__bounds_whose(const ambulo_model *model, const ambulo__bounds *bounds,

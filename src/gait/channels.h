@@ -56,9 +56,6 @@ static inline int ambulo__channel_foot_force(const ambulo__channels *c, int foot
 static inline int ambulo__channel_free_moment(const ambulo__channels *c, int foot) {
   return ambulo__channel_foot_force(c, foot, 3);
 }
-static inline int ambulo__channel_center_of_mass(const ambulo__channels *c, int axis) {
-  return ambulo__channel_foot_force(c, c->feet, axis);
-}
 static inline int ambulo__channel_count(const ambulo__channels *c) {
   return 4 * c->coordinates + 6 + 3 * c->points + (c->feet ? 4 * c->feet + 3 : 0);
 }

@@ -27,7 +27,8 @@ static void height_band(const swing *w, int point, double low) {
   ambulo__linear form = {.constant = -frame->definition->ground_height};
   ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), frame->model->up,
                      1.0);
-  ambulo__band_name name = {"clearance", frame->model->points[point].name, "low", "high", "m"};
+  ambulo__band_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[point].name, "low", "high",
+                            AMBULO__METRES};
   double ceiling = frame->definition->clearance.ceiling;
   ambulo__band_rows(frame, w->node, &name, &form, low, ceiling, w->table);
 }
@@ -36,7 +37,8 @@ static void turn_band(const swing *w, const ambulo__linear *form, const char *lo
                       const char *upper) {
   if (form->count == 0) return;
   double turn = w->frame->definition->clearance.turn;
-  ambulo__band_name name = {"clearance", w->frame->model->feet[w->foot].name, lower, upper, "rad"};
+  ambulo__band_name name = {AMBULO__KIND_CLEARANCE, w->frame->model->feet[w->foot].name, lower,
+                            upper, AMBULO__RADIANS};
   ambulo__band_rows(w->frame, w->node, &name, form, -turn, turn, w->table);
 }
 
@@ -68,8 +70,8 @@ static void track_band(const swing *w) {
   ambulo__linear form = {.constant = -track};
   ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, heel, 0), frame->model->left,
                      1.0);
-  ambulo__band_name name = {"clearance", frame->model->points[heel].name, "to the right",
-                            "to the left", "m"};
+  ambulo__band_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[heel].name, "to the right",
+                            "to the left", AMBULO__METRES};
   ambulo__band_rows(frame, w->node, &name, &form, is_left ? -c->inward : -c->outward,
                     is_left ? c->outward : c->inward, w->table);
 }

@@ -33,7 +33,8 @@ static void place_band(const tube *t, int point, const double direction[3], doub
   double e = frame->definition->contact_tolerance;
   ambulo__linear form = {.constant = -place};
   ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), direction, 1.0);
-  ambulo__band_name name = {"contact", frame->model->points[point].name, lower, upper, "m"};
+  ambulo__band_name name = {AMBULO__KIND_CONTACT, frame->model->points[point].name, lower, upper,
+                            AMBULO__METRES};
   ambulo__band_rows(frame, t->node, &name, &form, -e, e, t->table);
 }
 
@@ -41,7 +42,7 @@ static void angle_band(const tube *t, const ambulo__linear *form, const char *lo
                        const char *upper, double low, double high) {
   if (form->count == 0) return;
   const char *foot = t->frame->model->feet[t->contact->foot].name;
-  ambulo__band_name name = {"contact", foot, lower, upper, "rad"};
+  ambulo__band_name name = {AMBULO__KIND_CONTACT, foot, lower, upper, AMBULO__RADIANS};
   ambulo__band_rows(t->frame, t->node, &name, form, low, high, t->table);
 }
 

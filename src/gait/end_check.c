@@ -20,15 +20,14 @@
 #include <string.h>
 
 static const double tolerance = 1e-6; /* rad, m and their rates */
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 static const char *const end_words[] = {"initial", "final"};
 static const char *const order_words[] = {"value", "rate", "acceleration"};
 
-#define REFUSE(list, hint, ...) ambulo__error(list, AMBULO_E_PROBLEM, nowhere, hint, __VA_ARGS__)
+#define REFUSE(list, hint, ...)                                                                    \
+  ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, hint, __VA_ARGS__)
 
 static const char *unit_of(const ambulo_coordinate *c, int order) {
-  static const char *const units[2][3] = {{"m", "m/s", "m/s^2"}, {"rad", "rad/s", "rad/s^2"}};
-  return units[c->type == AMBULO_REVOLUTE][order];
+  return ambulo__measure_text(ambulo__row_measure(AMBULO__KIND_INITIAL_STATE, c->type, order));
 }
 
 /* the prescribed value; 0 when there is none */

@@ -25,12 +25,12 @@ static const char *const order_words[] = {"value", "rate", "acceleration"};
 
 static void prescribed_row(const ambulo__gait_frame *frame, const ambulo_end_value *end,
                            ambulo__row_table *table) {
-  static const char *const units[2][3] = {{"m", "m/s", "m/s^2"}, {"rad", "rad/s", "rad/s^2"}};
   const ambulo_coordinate *c = &frame->model->coordinates[end->coordinate];
+  ambulo__row_kind kind = end->final ? AMBULO__KIND_FINAL_STATE : AMBULO__KIND_INITIAL_STATE;
   int node = end->final ? frame->nodes - 1 : 0;
-  ambulo__row_begin(table, end->final ? "final_state" : "initial_state", c->name,
-                    order_words[end->order], units[c->type == AMBULO_REVOLUTE][end->order],
-                    AMBULO_EQUAL, node, frame->times[node], -end->value);
+  ambulo__row_begin(table, kind, c->name, order_words[end->order],
+                    ambulo__row_measure(kind, c->type, end->order), AMBULO_EQUAL, node,
+                    frame->times[node], -end->value);
   ambulo__row_term_add(table, node, channel_of(&frame->channels, end->order, end->coordinate), 1.0);
 }
 
@@ -61,8 +61,9 @@ static void matching_row(const ambulo__gait_frame *frame, int i, int order, int 
   double shift = order == 0 ? ambulo__end_shift(frame->definition, target) : 0.0;
   const ambulo_coordinate *to = &frame->model->coordinates[target];
   int last = frame->nodes - 1;
-  ambulo__row_begin(table, mirrored ? "mirrored" : "periodic", to->name, order_words[order],
-                    to->type == AMBULO_REVOLUTE ? "rad" : "m", AMBULO_EQUAL, -1, frame->times[last],
+  ambulo__row_kind kind = mirrored ? AMBULO__KIND_MIRRORED : AMBULO__KIND_PERIODIC;
+  ambulo__row_begin(table, kind, to->name, order_words[order],
+                    ambulo__row_measure(kind, to->type, 0), AMBULO_EQUAL, -1, frame->times[last],
                     -shift);
   ambulo__row_term_add(table, last, channel_of(&frame->channels, order, target), scale);
   ambulo__row_term_add(table, 0, channel_of(&frame->channels, order, i), -sign * scale);

@@ -15,11 +15,10 @@
  * down exactly at the end is in contact at that instant.
  */
 #include "gait/gait.h"
+#include "base/instant.h"
 #include "gait/neutral_pose.h"
 
 #include <math.h>
-
-static const double shortest_span = 1e-9; /* s */
 
 enum { MOST_STEPS = 1000 };
 
@@ -70,13 +69,13 @@ typedef struct writer {
 } writer;
 
 static void write_span(writer *w, ambulo_contact contact) {
-  int lands_at_end = fabs(contact.from - w->duration) <= shortest_span;
-  if (contact.to <= shortest_span || contact.from > w->duration + shortest_span) return;
+  int lands_at_end = fabs(contact.from - w->duration) <= AMBULO__INSTANT;
+  if (contact.to <= AMBULO__INSTANT || contact.from > w->duration + AMBULO__INSTANT) return;
   contact.from = fmax(contact.from, 0.0);
   contact.to = fmin(contact.to, w->duration);
-  if (lands_at_end && contact.to > w->duration - shortest_span) {
+  if (lands_at_end && contact.to > w->duration - AMBULO__INSTANT) {
     contact.from = contact.to = w->duration;
-  } else if (contact.to - contact.from <= shortest_span) {
+  } else if (contact.to - contact.from <= AMBULO__INSTANT) {
     return;
   }
   if (w->count < w->capacity) w->contacts[w->count] = contact;
@@ -103,7 +102,7 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
           .from = strike + fraction[mode] * stride,
           .to = strike + fraction[mode + 1] * stride,
           .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width}};
-      if (contact.to - contact.from > shortest_span) write_span(&w, contact);
+      if (contact.to - contact.from > AMBULO__INSTANT) write_span(&w, contact);
     }
   }
   *count = w.count;

@@ -11,8 +11,8 @@
 
 static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,
                       const double direction[3], double place, ambulo__row_table *table) {
-  ambulo__row_begin(table, "foot_strike", frame->model->points[point].name, detail, "m",
-                    AMBULO_EQUAL, node, frame->times[node], -place);
+  ambulo__row_begin(table, AMBULO__KIND_FOOT_STRIKE, frame->model->points[point].name, detail,
+                    AMBULO__METRES, AMBULO_EQUAL, node, frame->times[node], -place);
   for (int axis = 0; axis < 3; axis++) {
     ambulo__row_term_add(table, node, ambulo__channel_point(&frame->channels, point, axis),
                          direction[axis]);

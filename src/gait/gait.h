@@ -78,7 +78,7 @@ ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_tabl
                                ambulo_diagnostics *diagnostics);
 /* One side of a region of the ZMP, or of a point that is the ZMP shifted by a constant (m). */
 typedef struct ambulo__half_plane ambulo__half_plane;
-void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char *family,
+void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table);
 /* "contact": a loaded foot within the tolerances of its place and direction (m, rad). */

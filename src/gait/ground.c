@@ -11,8 +11,9 @@
 
 static void height_row(const ambulo__gait_frame *frame, int node, int point,
                        ambulo_relation relation, ambulo__row_table *table) {
-  ambulo__row_begin(table, "ground_penetration", frame->model->points[point].name, "height", "m",
-                    relation, node, frame->times[node], -frame->definition->ground_height);
+  ambulo__row_begin(table, AMBULO__KIND_GROUND_PENETRATION, frame->model->points[point].name,
+                    "height", AMBULO__METRES, relation, node, frame->times[node],
+                    -frame->definition->ground_height);
   for (int axis = 0; axis < 3; axis++) {
     ambulo__row_term_add(table, node, ambulo__channel_point(&frame->channels, point, axis),
                          frame->model->up[axis]);

@@ -17,7 +17,8 @@
 #include <math.h>
 
 typedef struct limit {
-  const char *family, *unit;
+  ambulo__row_kind kind;
+  ambulo__measure measure;
   ambulo__bounds bounds;
   int coordinate;
   int node; /* -1: on an unknown */
@@ -28,8 +29,8 @@ typedef struct limit {
 static void limit_row(const ambulo__gait_frame *frame, const limit *l, const ambulo__bound *bound,
                       const char *detail, ambulo_relation relation, double sign,
                       ambulo__row_table *table) {
-  ambulo__row_begin(table, l->family, frame->model->coordinates[bound->owner].name, detail, l->unit,
-                    relation, l->node, l->time + bound->later, -sign * bound->value);
+  ambulo__row_begin(table, l->kind, frame->model->coordinates[bound->owner].name, detail,
+                    l->measure, relation, l->node, l->time + bound->later, -sign * bound->value);
   ambulo__row_term_add(table, l->node, l->channel, sign);
 }
 
@@ -47,18 +48,12 @@ static void add_limit(const ambulo__gait_frame *frame, const limit *l, ambulo__r
     limit_row(frame, l, high, details[high->is_upper], AMBULO_NOT_NEGATIVE, -1.0, table);
 }
 
-static int revolute(const ambulo_coordinate *coordinate) {
-  return coordinate->type == AMBULO_REVOLUTE;
-}
-
 static int fixed_by_points(const ambulo__gait_frame *frame, int i) {
   ambulo__bounds b = ambulo__bounds_of(frame->definition, i, AMBULO_LIMITED_POSITION);
   return b.low.value == b.high.value && ambulo__basis_get_kind(frame->basis) == AMBULO__BSPLINE;
 }
 
 static void node_limits(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
-  static const char *const families[] = {"joint_limit", "speed_limit", "torque_limit"};
-  static const char *const units[3][2] = {{"m", "rad"}, {"m/s", "rad/s"}, {"N", "N m"}};
   const ambulo_problem_definition *definition = frame->definition;
   const ambulo__channels *channels = &frame->channels;
   for (int i = 0; i < frame->model->coordinate_count; i++) {
@@ -68,8 +63,9 @@ static void node_limits(const ambulo__gait_frame *frame, int node, ambulo__row_t
                       ambulo__channel_tau(channels, i)};
     for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
       if (!asked[what]) continue;
-      limit l = {families[what],
-                 units[what][revolute(&frame->model->coordinates[i])],
+      ambulo__row_kind kind = ambulo__row_kind_of_limit((ambulo_limited)what);
+      limit l = {kind,
+                 ambulo__row_measure(kind, frame->model->coordinates[i].type, 0),
                  ambulo__bounds_of(definition, i, (ambulo_limited)what),
                  i,
                  node,
@@ -90,8 +86,9 @@ static void control_point_limits(const ambulo__gait_frame *frame, int fixed_only
     if (!is_value) continue;
     for (int i = 0; i < coordinates; i++) {
       if (fixed_only && !fixed_by_points(frame, i)) continue;
-      limit l = {"joint_limit",
-                 revolute(&frame->model->coordinates[i]) ? "rad" : "m",
+      ambulo__row_kind kind = AMBULO__KIND_JOINT_LIMIT;
+      limit l = {kind,
+                 ambulo__row_measure(kind, frame->model->coordinates[i].type, 0),
                  ambulo__bounds_of(frame->definition, i, AMBULO_LIMITED_POSITION),
                  i,
                  -1,

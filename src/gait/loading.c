@@ -12,13 +12,13 @@
  * 0.02 m ahead of the toe centre (ball) of the rear foot; D is their difference.
  */
 #include "gait/loading.h"
+#include "base/instant.h"
 
 #include "gait/gait.h"
 
 #include <math.h>
 
-static const double time_tolerance = 1e-9; /* s */
-static const double rear_ahead = 0.02;     /* m */
+static const double rear_ahead = 0.02; /* m */
 
 enum { PERIODS = 2 };
 
@@ -54,9 +54,9 @@ static int grow(const ambulo_problem_definition *d, int foot, ambulo__span *span
       ambulo__span image;
       if (!image_of(d, i, period, foot, &image)) continue;
       int touches =
-          image.from <= span->to + time_tolerance && image.to >= span->from - time_tolerance;
+          image.from <= span->to + AMBULO__INSTANT && image.to >= span->from - AMBULO__INSTANT;
       int reaches =
-          image.from < span->from - time_tolerance || image.to > span->to + time_tolerance;
+          image.from < span->from - AMBULO__INSTANT || image.to > span->to + AMBULO__INSTANT;
       if (!touches || !reaches) continue;
       span->from = fmin(span->from, image.from);
       span->to = fmax(span->to, image.to);
@@ -84,8 +84,8 @@ ambulo__span ambulo__air_span(const ambulo_problem_definition *d, int foot, doub
     for (int period = -last; period <= last; period++) {
       ambulo__span image;
       if (!image_of(d, i, period, foot, &image)) continue;
-      if (image.to <= time + time_tolerance) air.from = fmax(air.from, image.to);
-      if (image.from >= time - time_tolerance) air.to = fmin(air.to, image.from);
+      if (image.to <= time + AMBULO__INSTANT) air.from = fmax(air.from, image.to);
+      if (image.from >= time - AMBULO__INSTANT) air.to = fmin(air.to, image.from);
     }
   }
   return air;
@@ -109,7 +109,7 @@ static int front_foot(const ambulo__span span[2], const ambulo_contact *const co
   double keys[3] = {span[1].from - span[0].from, span[1].to - span[0].to,
                     contact[1]->place[0] - contact[0]->place[0]};
   for (int i = 0; i < 3; i++) {
-    if (fabs(keys[i]) > time_tolerance) return keys[i] > 0.0;
+    if (fabs(keys[i]) > AMBULO__INSTANT) return keys[i] > 0.0;
   }
   return 0;
 }
@@ -121,7 +121,7 @@ static ambulo__load double_support(const ambulo_problem_definition *d,
   ambulo__load load;
   int front = front_foot(span, contact), rear = 1 - front;
   double length = span[rear].to - span[front].from;
-  double u = length > time_tolerance ? (time - span[front].from) / length : 1.0;
+  double u = length > AMBULO__INSTANT ? (time - span[front].from) / length : 1.0;
   load.share[front] = share_of_front(&d->ground_reaction, u);
   load.share[rear] = 1.0 - load.share[front];
   double sign = front == 0 ? 1.0 : -1.0;

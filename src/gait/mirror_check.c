@@ -14,14 +14,15 @@
 
 #include <math.h>
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 #define REFUSE(list, ...)                                                                          \
-  ambulo__error(list, AMBULO_E_PROBLEM, nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
+  ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
 
 static const char *const keys[3] = {"joint_limits", "speed_limits", "torque_limits"};
 static const char *const words[3] = {"range", "speed limits", "torque limits"};
-static const char *const units[2][3] = {{"m", "m/s", "N"}, {"rad", "rad/s", "N m"}};
+
+static const char *unit_of(const ambulo_coordinate *c, ambulo_limited what) {
+  return ambulo__measure_text(ambulo__row_measure(ambulo__row_kind_of_limit(what), c->type, 0));
+}
 
 static ambulo_status check_limits(const ambulo_problem_definition *d, int i, ambulo_limited what,
                                   ambulo_diagnostics *list) {
@@ -31,7 +32,7 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int i, amb
   int travels = what == AMBULO_LIMITED_POSITION && fabs(ambulo__end_shift(d, i)) > 1e-9;
   /* too little room for the travel: gait/end_check.c says so */
   if (!(b.low.value > b.high.value) || travels) return AMBULO_OK;
-  const char *unit = units[c->type == AMBULO_REVOLUTE][what];
+  const char *unit = unit_of(c, what);
   const double *own = ambulo__limits_of(c, what), *other = ambulo__limits_of(m, what);
   if (m == c)
     return REFUSE(list,
@@ -54,7 +55,7 @@ static ambulo_status check_tubes(const ambulo_problem_definition *d, int i,
     if (!isfinite(own) || !isfinite(other)) continue;
     if (fabs(own - other) <= AMBULO__MIRROR_TOLERANCE * fmax(own, other)) continue;
     int digits = ambulo__digits_apart(own, other);
-    const char *unit = units[c->type == AMBULO_REVOLUTE][0];
+    const char *unit = unit_of(c, AMBULO_LIMITED_POSITION);
     status = REFUSE(list,
                     "constraints.tubes[%d]: the half width of '%s' is %.*g %s, that of its mirror "
                     "partner '%s' %.*g %s; expected the same with mirrored ends, or none on one "

@@ -13,12 +13,12 @@
  * each point may stand off its place by that much in every direction.
  */
 #include "gait/foot_outline.h"
+#include "base/instant.h"
 #include "gait/gait.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double time_tolerance = 1e-9;   /* s */
 static const double length_tolerance = 1e-9; /* m */
 
 static int depth_of(const ambulo_model *model, int link) {
@@ -68,7 +68,6 @@ static double common_time(const double *times, int nodes, int feet, const int *a
 
 static ambulo_status check_pair(const ambulo_problem_definition *definition, int i, int j,
                                 double time, ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   const ambulo_model *model = definition->model;
   const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
   double place_a[2], place_b[2];
@@ -82,7 +81,7 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
   if (distance <= reach + length_tolerance) return AMBULO_OK;
   char hint[80];
   (void)snprintf(hint, sizeof hint, "shorten the step by %.3g m or more", distance - reach);
-  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, hint,
+  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, hint,
                        "contacts[%d] (foot '%s') and contacts[%d] (foot '%s') are out of reach at "
                        "t = %.6g s: %.4g m apart; expected at most %.4g m, the legs' length",
                        i, model->feet[a->foot].name, j, model->feet[b->foot].name, time, distance,
@@ -99,7 +98,7 @@ ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *defi
     for (int j = i + 1; j < definition->contact_count; j++) {
       const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
       if (a->foot == b->foot) continue;
-      if (fmin(a->to, b->to) < fmax(a->from, b->from) - time_tolerance) continue;
+      if (fmin(a->to, b->to) < fmax(a->from, b->from) - AMBULO__INSTANT) continue;
       double time = common_time(times, nodes, feet, active, i, a, j, b);
       ambulo_status one = check_pair(definition, i, j, time, diagnostics);
       if (one) status = one;

@@ -73,7 +73,7 @@ static void pressure_rows(const node_frame *n, int foot) {
                                  {{0.0, -1.0}, -(y + width), "left"}};
   const char *name = frame->model->feet[foot].name;
   for (int k = 0; k < (n->planar ? 2 : 4); k++)
-    ambulo__zmp_side_row(frame, n->node, "pressure", name, &sides[k], n->table);
+    ambulo__zmp_side_row(frame, n->node, AMBULO__KIND_PRESSURE, name, &sides[k], n->table);
 }
 
 /* ------------------------------------------------------------------- friction */
@@ -82,7 +82,7 @@ static void friction_band(const node_frame *n, int first, const char *subject,
                           const double direction[3], const char *lower, const char *upper) {
   const ambulo_model *model = n->frame->model;
   double mu = n->frame->definition->ground_reaction.friction;
-  ambulo__band_name name = {"friction", subject, lower, upper, "body weights"};
+  ambulo__band_name name = {AMBULO__KIND_FRICTION, subject, lower, upper, AMBULO__BODY_WEIGHTS};
   for (int sign = -1; sign <= 1; sign += 2) {
     ambulo__linear form = {.count = 0};
     ambulo__linear_add(&form, first, model->up, mu / n->weight);
@@ -108,7 +108,8 @@ static void free_moment_rows(const node_frame *n) {
     form.channel[foot] = ambulo__channel_free_moment(&n->frame->channels, foot);
     form.coefficient[foot] = 1.0 / n->weight;
   }
-  ambulo__band_name name = {"free_moment", "ground", "to the right", "to the left", "m"};
+  ambulo__band_name name = {AMBULO__KIND_FREE_MOMENT, "ground", "to the right", "to the left",
+                            AMBULO__METRES};
   ambulo__band_rows(n->frame, n->node, &name, &form, -bound, bound, n->table);
 }
 
@@ -135,10 +136,9 @@ void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *t
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  const double *g = model->gravity;
   node_frame n = {.frame = frame, .outlines = outlines, .table = table};
   n.planar = !ambulo__model_moves_sideways(model);
-  n.weight = model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  n.weight = ambulo__model_weight(model);
   for (n.node = 0; n.node < ambulo__distinct_nodes(frame, AMBULO__OF_FORCES); n.node++) {
     n.load = ambulo__load_at(frame->definition, outlines, frame->times[n.node]);
     node_rows(&n);

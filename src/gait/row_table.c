@@ -1,7 +1,8 @@
-/* gait/row_table.c - two growing arrays: rows, and the terms they consist of. */
+/* gait/row_table.c - growing arrays: rows, the terms they consist of, families. */
 #include "gait/row_table.h"
 
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 
 void ambulo__row_table_init(ambulo__row_table *table, const ambulo_allocator *allocator) {
@@ -13,6 +14,7 @@ void ambulo__row_table_clear(ambulo__row_table *table) {
   if (!table) return;
   ambulo__free(&table->allocator, table->rows);
   ambulo__free(&table->allocator, table->terms);
+  ambulo__free(&table->allocator, table->group_row);
   ambulo__row_table_init(table, &table->allocator);
 }
 
@@ -29,42 +31,82 @@ static int grow(const ambulo_allocator *allocator, void **array, int count, int 
   return 1;
 }
 
-double ambulo__unit_size(const ambulo__row_table *table, const char *unit) {
-  const struct {
-    const char *unit;
-    double size;
-  } sizes[] = {{"N", table->weight}, {"N m", table->weight}, {"m/s", 10.0},
-               {"rad/s", 10.0},      {"m/s^2", 100.0},       {"rad/s^2", 100.0}};
-  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-    if (strcmp(unit, sizes[i].unit) == 0) return sizes[i].size;
-  }
-  return 1.0;
+static int same_family(const ambulo__table_row *a, const ambulo__table_row *b) {
+  if (a->kind != b->kind) return 0;
+  return a->kind != AMBULO__KIND_USER || strcmp(a->family, b->family) == 0;
 }
 
-void ambulo__row_begin(ambulo__row_table *table, const char *family, const char *subject,
-                       const char *detail, const char *unit, ambulo_relation relation, int node,
-                       double time, double constant) {
+/* The number of the family of the row that comes next, which begins one if need be; -1 without
+ * memory. Neighbours mostly share theirs, and there are few. */
+static int group_of(ambulo__row_table *table, const ambulo__table_row *row) {
+  for (int g = table->group_count - 1; g >= 0; g--) {
+    if (same_family(&table->rows[table->group_row[g]], row)) return g;
+  }
+  void *groups = table->group_row;
+  int grown = grow(&table->allocator, &groups, table->group_count, &table->group_capacity,
+                   sizeof *table->group_row);
+  table->group_row = groups;
+  if (!grown) return -1;
+  table->group_row[table->group_count] = table->row_count;
+  return table->group_count++;
+}
+
+static void append(ambulo__row_table *table, ambulo__table_row row) {
   if (table->status) return;
   void *rows = table->rows;
   int grown =
       grow(&table->allocator, &rows, table->row_count, &table->row_capacity, sizeof *table->rows);
   table->rows = rows;
-  if (!grown) {
+  row.group = grown ? group_of(table, &row) : -1;
+  if (row.group < 0) {
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  ambulo__table_row row = {.family = family,
+  row.size = ambulo__measure_size(row.measure, table->weight);
+  row.first_term = table->term_count;
+  table->rows[table->row_count++] = row;
+}
+
+void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                       const char *detail, ambulo__measure measure, ambulo_relation relation,
+                       int node, double time, double constant) {
+  ambulo__table_row row = {.kind = (unsigned char)kind,
+                           .measure = (unsigned char)measure,
+                           .family = ambulo__row_family(kind),
                            .subject = subject,
                            .detail = detail,
-                           .unit = unit,
-                           .relation = relation,
+                           .unit = ambulo__measure_text(measure),
+                           .relation = (unsigned char)relation,
                            .node = node,
                            .time = time,
                            .constant = constant,
-                           .size = ambulo__unit_size(table, unit),
-                           .first_term = table->term_count,
                            .user = -1};
-  table->rows[table->row_count++] = row;
+  append(table, row);
+}
+
+void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int index, int node,
+                      double time) {
+  ambulo__table_row row = {.kind = AMBULO__KIND_USER,
+                           .measure = (unsigned char)ambulo__measure_of_text(user->unit),
+                           .family = user->name,
+                           .subject = "",
+                           .detail = "",
+                           .unit = user->unit,
+                           .relation = (unsigned char)user->relation,
+                           .node = node,
+                           .time = time,
+                           .user = index};
+  append(table, row);
+}
+
+double ambulo__row_missed(const ambulo__table_row *row, double value) {
+  if (!isfinite(value)) return HUGE_VAL;
+  return row->relation == AMBULO_EQUAL ? fabs(value) : fmax(0.0, -value);
+}
+
+int ambulo__rows_alike(const ambulo__table_row *a, const ambulo__table_row *b) {
+  return a->group == b->group && strcmp(a->subject, b->subject) == 0 &&
+         strcmp(a->detail, b->detail) == 0;
 }
 
 void ambulo__row_term_add(ambulo__row_table *table, int node, int channel, double coefficient) {

@@ -13,6 +13,7 @@
 
 #include "ambulo/problem.h"
 #include "base/alloc.h"
+#include "gait/row_kind.h"
 
 typedef struct ambulo__row_term {
   int node; /* -1: `channel` is the index of an unknown */
@@ -21,18 +22,20 @@ typedef struct ambulo__row_term {
 } ambulo__row_term;
 
 typedef struct ambulo__table_row {
-  const char *family;  /* static text */
+  const char *family;  /* text of the kind, or the caller's name */
   const char *subject; /* a name that lives in the model (or static text) */
   const char *detail;  /* static text */
-  const char *unit;    /* static text */
-  ambulo_relation relation;
-  int node; /* the node whose channels it uses; -1: several, or none */
+  const char *unit;    /* text of the measure, or the caller's */
+  /* small ambulo__row_kind, ambulo__measure, ambulo_relation: rows are many */
+  unsigned char kind, measure, relation;
+  int group; /* rows of one family have the same; 0 .. group_count - 1 */
+  int node;  /* the node whose channels it uses; -1: several, or none */
+  int user;  /* index of the caller's user row, whose value and coefficients come
+                from its function at every evaluation; -1: linear, as above */
   double time;
   double constant;
   double size; /* in unit: what counts as one; violations are judged relative to it */
   int first_term, term_count;
-  int user; /* index of the caller's user row, whose value and coefficients come
-               from its function at every evaluation; -1: linear, as above */
 } ambulo__table_row;
 
 typedef struct ambulo__row_table {
@@ -41,6 +44,8 @@ typedef struct ambulo__row_table {
   int row_count, row_capacity;
   ambulo__row_term *terms;
   int term_count, term_capacity;
+  int *group_row; /* the first row of each group, in the order in which groups begin */
+  int group_count, group_capacity;
   double weight;        /* of the body, N: what forces are measured by; 1 after init */
   ambulo_status status; /* sticky: E_MEMORY once an append failed, E_INTERNAL for a form that
                            overflowed */
@@ -49,15 +54,19 @@ typedef struct ambulo__row_table {
 void ambulo__row_table_init(ambulo__row_table *table, const ambulo_allocator *allocator);
 void ambulo__row_table_clear(ambulo__row_table *table);
 /* Starts a row (its terms follow by ambulo__row_term_add). */
-void ambulo__row_begin(ambulo__row_table *table, const char *family, const char *subject,
-                       const char *detail, const char *unit, ambulo_relation relation, int node,
-                       double time, double constant);
-/* The size of a row of this unit, which ambulo__row_begin gives it: 1 m (a leg is .9), 1 rad, 1
- * body weight; the body weight of N, times 1 m of N m (what a step asks of the hips and ankles
- * together); 10 m/s and rad/s (a swinging knee turns at 7); 100 m/s^2 and rad/s^2; 1 of anything
- * else. */
-double ambulo__unit_size(const ambulo__row_table *table, const char *unit);
+void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                       const char *detail, ambulo__measure measure, ambulo_relation relation,
+                       int node, double time, double constant);
+/* Adds the caller's own row number `index` at a node, under the caller's name and unit. Names may
+ * be those of the table: the row is of AMBULO__KIND_USER all the same. */
+void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int index, int node,
+                      double time);
 /* Adds a term to the row begun last. Zero coefficients are skipped. */
 void ambulo__row_term_add(ambulo__row_table *table, int node, int channel, double coefficient);
+
+/* What is missed at `value`, in the row's unit; infinite where that is not finite. */
+double ambulo__row_missed(const ambulo__table_row *row, double value);
+/* 1: the two rows of one table say the same of different times. */
+int ambulo__rows_alike(const ambulo__table_row *a, const ambulo__table_row *b);
 
 #endif

@@ -5,19 +5,17 @@
  * not only at the nodes: a finer grid must not turn a legal schedule into an illegal one.
  */
 #include "gait/gait.h"
+#include "base/instant.h"
 
 #include <math.h>
 
-static const double time_tolerance = 1e-9; /* s */
-
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
-#define REFUSE(list, hint, ...) ambulo__error(list, AMBULO_E_PROBLEM, nowhere, hint, __VA_ARGS__)
+#define REFUSE(list, hint, ...)                                                                    \
+  ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, hint, __VA_ARGS__)
 
 int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time) {
-  if (time < contact->from - time_tolerance) return 0;
-  if (time < contact->to - time_tolerance) return 1;
-  return contact->to >= duration - time_tolerance && time <= duration + time_tolerance;
+  if (time < contact->from - AMBULO__INSTANT) return 0;
+  if (time < contact->to - AMBULO__INSTANT) return 1;
+  return contact->to >= duration - AMBULO__INSTANT && time <= duration + AMBULO__INSTANT;
 }
 
 static ambulo_status check_contact(const ambulo_problem_definition *definition, int index,
@@ -41,13 +39,13 @@ static ambulo_status check_contact(const ambulo_problem_definition *definition, 
                   "lengths",
                   index, foot, c->place[0], c->place[1]);
   }
-  if (!(c->from >= -time_tolerance) || !(c->to <= duration + time_tolerance)) {
+  if (!(c->from >= -AMBULO__INSTANT) || !(c->to <= duration + AMBULO__INSTANT)) {
     return REFUSE(list, NULL,
                   "contacts[%d]: foot '%s' from %.6g s to %.6g s; expected times in 0 to "
                   "%.6g s",
                   index, foot, c->from, c->to, duration);
   }
-  int at_end = c->from == c->to && c->to >= duration - time_tolerance;
+  int at_end = c->from == c->to && c->to >= duration - AMBULO__INSTANT;
   if (!(c->from < c->to) && !at_end) {
     return REFUSE(list, NULL, "contacts[%d]: foot '%s' from %.6g s to %.6g s; expected from < to",
                   index, foot, c->from, c->to);
@@ -64,7 +62,7 @@ static ambulo_status check_overlaps(const ambulo_problem_definition *definition,
       if (a->foot != b->foot) continue;
       double common = fmin(a->to, b->to) - fmax(a->from, b->from);
       int both_at_end = common == 0.0 && a->to == b->to && (a->from == a->to || b->from == b->to);
-      if (common <= time_tolerance && !both_at_end) continue;
+      if (common <= AMBULO__INSTANT && !both_at_end) continue;
       status = REFUSE(list, NULL,
                       "contacts[%d] and contacts[%d] overlap on foot '%s': %.6g s to %.6g s and "
                       "%.6g s to %.6g s; expected one contact of a foot at a time",
@@ -80,7 +78,7 @@ static double support_after(const ambulo_problem_definition *definition, double 
   double end = time;
   for (int i = 0; i < definition->contact_count; i++) {
     const ambulo_contact *c = &definition->contacts[i];
-    if (c->from <= time + time_tolerance && c->to > end) end = c->to;
+    if (c->from <= time + AMBULO__INSTANT && c->to > end) end = c->to;
   }
   return end;
 }
@@ -98,13 +96,13 @@ static ambulo_status check_gaps(const ambulo_problem_definition *definition,
                                 ambulo_diagnostics *list) {
   ambulo_status status = AMBULO_OK;
   double time = 0.0;
-  while (time < definition->duration - time_tolerance) {
+  while (time < definition->duration - AMBULO__INSTANT) {
     double end = support_after(definition, time);
     if (end > time) {
       time = end;
       continue;
     }
-    double next = next_contact(definition, time + time_tolerance);
+    double next = next_contact(definition, time + AMBULO__INSTANT);
     status = REFUSE(list, "rows on contacts, zmp and ground_reaction need support at all times",
                     "contacts: no foot touches the ground from %.6g s to %.6g s; "
                     "expected at least one contact at every time",

@@ -12,12 +12,11 @@
  * steps the same foot strikes again, after one the other one does.
  */
 #include "gait/gait.h"
+#include "base/instant.h"
 
 #include <math.h>
 
-static const double time_tolerance = 1e-9; /* s */
-static const double tolerance = 1e-6;      /* m */
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
+static const double tolerance = 1e-6; /* m */
 
 /* do places enter the rows at all? */
 static int uses_places(const ambulo_problem_definition *d) {
@@ -34,7 +33,7 @@ static ambulo_status check_pair(const ambulo_problem_definition *d, const ambulo
     return AMBULO_OK;
   const char *kind = mirrored ? "mirrored" : "periodic";
   return ambulo__error(
-      list, AMBULO_E_PROBLEM, nowhere,
+      list, AMBULO_E_PROBLEM, ambulo__nowhere,
       "mirrored ends go with an odd number of equal steps, periodic ends with an even number; or "
       "change the travel",
       "ends.travel: foot '%s' stands at (%.6g, %.6g) m at t = %.6g s, but %s ends with a travel of "
@@ -49,12 +48,12 @@ ambulo_status ambulo__schedule_check_ends(const ambulo_problem_definition *d,
   if (d->ends == AMBULO_ENDS_FREE || !uses_places(d)) return AMBULO_OK;
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *last = &d->contacts[i];
-    if (last->to < d->duration - time_tolerance) continue;
+    if (last->to < d->duration - AMBULO__INSTANT) continue;
     int mirror = d->model->feet[last->foot].mirror;
     int foot = d->ends == AMBULO_ENDS_MIRRORED ? mirror : last->foot;
     for (int k = 0; k < d->contact_count; k++) {
       const ambulo_contact *first = &d->contacts[k];
-      if (first->foot != foot || first->from > time_tolerance) continue;
+      if (first->foot != foot || first->from > AMBULO__INSTANT) continue;
       ambulo_status status = check_pair(d, first, last, list);
       if (status) return status; /* one is enough: the others follow */
     }

@@ -17,7 +17,6 @@
 #include <math.h>
 
 static const double step = 1e-5; /* rad, m */
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
 typedef struct standing {
   const ambulo_model *model;
@@ -77,12 +76,14 @@ static ambulo_status stand(standing *s, int *over) {
 static void compare(const standing *s, ambulo_diagnostics *list) {
   for (int i = 0; i < s->model->coordinate_count; i++) {
     const ambulo_coordinate *c = &s->model->coordinates[i];
-    const char *unit = c->type == AMBULO_REVOLUTE ? "N m" : "N";
+    const char *unit =
+        ambulo__measure_text(ambulo__row_measure(AMBULO__KIND_TORQUE_LIMIT, c->type, 0));
     double tolerance = 1e-3 * fmax(1.0, fabs(s->torque[i]));
     double needed = fabs(s->torque[i]) < 1e-6 ? 0.0 : s->torque[i];
     if (s->torque[i] >= c->torque[0] - tolerance && s->torque[i] <= c->torque[1] + tolerance)
       continue;
-    ambulo__warning(list, nowhere, "widen the torque limits in the model, or torque_limits: false",
+    ambulo__warning(list, ambulo__nowhere,
+                    "widen the torque limits in the model, or torque_limits: false",
                     "%s needs %.4g %s to carry the body standing still; its torque limits are %.4g "
                     "to %.4g %s",
                     c->name, needed, unit, c->torque[0], c->torque[1], unit);

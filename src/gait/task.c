@@ -1,11 +1,10 @@
 /* gait/task.c - see task.h. */
 #include "gait/task.h"
+#include "base/instant.h"
 
 #include "model/model.h"
 
 #include <math.h>
-
-static const double time_tolerance = 1e-9; /* s */
 
 /* the links from the foot to the first one that another foot hangs on too, not included */
 static int is_shared(const ambulo_model *model, int link) {
@@ -38,7 +37,7 @@ static double longest_step(const ambulo_problem_definition *d) {
   for (int i = 0; i < d->contact_count; i++) {
     for (int j = 0; j < i; j++) {
       const ambulo_contact *a = &d->contacts[i], *b = &d->contacts[j];
-      if (a->foot == b->foot || fmin(a->to, b->to) < fmax(a->from, b->from) - time_tolerance)
+      if (a->foot == b->foot || fmin(a->to, b->to) < fmax(a->from, b->from) - AMBULO__INSTANT)
         continue;
       longest = fmax(longest, fabs(a->place[0] - b->place[0]));
     }

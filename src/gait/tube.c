@@ -13,18 +13,17 @@ static const double furthest = 1e6; /* rad, m: of a reference */
 
 ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                                   ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   size_t coordinates = (size_t)ambulo_model_coordinate_count(definition->model);
   for (int t = 0; t < definition->tube_count; t++) {
     const ambulo_tube *tube = &definition->tubes[t];
     if (tube->samples < 2 || !tube->reference || !tube->half_width)
-      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
+      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
                            "constraints.tubes[%d]: %d samples, %s reference; expected at least 2 "
                            "and half widths",
                            t, tube->samples, tube->reference ? "a" : "no");
     for (size_t i = 0; i < coordinates; i++) {
       if (tube->half_width[i] >= 0.0) continue;
-      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
+      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
                            "constraints.tubes[%d]: half width %g of '%s'; expected at least 0", t,
                            tube->half_width[i],
                            ambulo_model_coordinate(definition->model, (int)i)->name);
@@ -32,7 +31,7 @@ ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
     for (size_t i = 0; i < (size_t)tube->samples * coordinates; i++) {
       if (fabs(tube->reference[i]) <= furthest || !isfinite(tube->half_width[i % coordinates]))
         continue;
-      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL,
+      return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
                            "constraints.tubes[%d]: the reference of '%s' is %g; expected -%g to %g",
                            t,
                            ambulo_model_coordinate(definition->model, (int)(i % coordinates))->name,
@@ -55,9 +54,9 @@ static void tube_row(const ambulo__gait_frame *frame, int node, int i, const cha
                      ambulo_relation relation, double sign, double bound,
                      ambulo__row_table *table) {
   const ambulo_coordinate *c = &frame->model->coordinates[i];
-  ambulo__row_begin(table, "tracking_tube", c->name, detail,
-                    c->type == AMBULO_REVOLUTE ? "rad" : "m", relation, node, frame->times[node],
-                    -sign * bound);
+  ambulo__row_begin(table, AMBULO__KIND_TRACKING_TUBE, c->name, detail,
+                    ambulo__row_measure(AMBULO__KIND_TRACKING_TUBE, c->type, 0), relation, node,
+                    frame->times[node], -sign * bound);
   ambulo__row_term_add(table, node, ambulo__channel_q(&frame->channels, i), sign);
 }
 

@@ -24,18 +24,13 @@
 /* a region smaller than this (m^2, planar: m) is empty */
 static const double smallest_region = 1e-9;
 
-static double body_weight(const ambulo_model *model) {
-  const double *g = model->gravity;
-  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-}
-
-void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char *family,
+void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   double a = side->normal[0], b = side->normal[1], c = side->offset;
-  double h = frame->definition->ground_height, mg = body_weight(model);
-  ambulo__row_begin(table, family, subject, side->detail, "m", AMBULO_NOT_NEGATIVE, node,
+  double h = frame->definition->ground_height, mg = ambulo__model_weight(model);
+  ambulo__row_begin(table, kind, subject, side->detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node,
                     frame->times[node], 0.0);
   for (int i = 0; i < 3; i++) {
     double f = model->forward[i], l = model->left[i], n = model->up[i];
@@ -47,8 +42,8 @@ void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, const char 
 }
 
 static void force_row(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
-  double mg = body_weight(frame->model);
-  ambulo__row_begin(table, "normal_force", "ground", "vertical", "body weights",
+  double mg = ambulo__model_weight(frame->model);
+  ambulo__row_begin(table, AMBULO__KIND_NORMAL_FORCE, "ground", "vertical", AMBULO__BODY_WEIGHTS,
                     AMBULO_NOT_NEGATIVE, node, frame->times[node],
                     -frame->definition->minimum_force);
   for (int i = 0; i < 3; i++) {
@@ -61,7 +56,6 @@ static const char *const mode_words[] = {"on its heel", "flat", "on its toes"};
 
 static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, double size,
                                   int planar, ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   const ambulo_problem_definition *definition = frame->definition;
   const int *active = frame->active + node * frame->model->foot_count;
   const char *foot = "no foot", *mode = "loaded";
@@ -80,7 +74,7 @@ static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, dou
                          ? "the hull of the corners in contact is a line while only heels or toes "
                            "of one foot touch; 'zmp: box' counts the whole foot"
                          : "lower constraints.zmp_margin";
-  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, hint,
+  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, hint,
                        "constraints.zmp: the support polygon is empty at t = %.6g s (%s %s, margin "
                        "%.6g m, %s %.3g %s); expected a positive %s",
                        frame->times[node], foot, mode, definition->support_margin,
@@ -94,9 +88,8 @@ static ambulo_status region_at(const ambulo__gait_frame *frame, int node, int pl
   const int *active = frame->active + node * frame->model->foot_count;
   ambulo_status status = ambulo__support_region_of(frame->definition, active, planar, region);
   if (status) {
-    static const ambulo__place nowhere = {NULL, 0, 0, NULL};
     return ambulo__error(
-        diagnostics, status, nowhere, NULL,
+        diagnostics, status, ambulo__nowhere, NULL,
         "constraints.zmp: too many foot corners at t = %.6g s; expected at most %d",
         frame->times[node], AMBULO__POLYGON_CAPACITY - 1);
   }
@@ -126,7 +119,7 @@ ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_tabl
         if (status) return status;
       }
       for (int k = 0; k < region.count; k++)
-        ambulo__zmp_side_row(frame, node, "zmp", "support", &region.side[k], table);
+        ambulo__zmp_side_row(frame, node, AMBULO__KIND_ZMP, "support", &region.side[k], table);
     }
     if (frame->definition->minimum_force >= 0.0) force_row(frame, node, table);
   }

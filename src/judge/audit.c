@@ -29,8 +29,7 @@ static const double far_away = -1e30; /* excess of a row that is not active */
 static const double cone_tolerance = 1e-9;
 
 double ambulo__row_violation(const ambulo_problem *p, int row, double value) {
-  if (!isfinite(value)) return HUGE_VAL;
-  return p->table.rows[row].relation == AMBULO_EQUAL ? fabs(value) : fmax(0.0, -value);
+  return ambulo__row_missed(&p->table.rows[row], value);
 }
 
 ambulo_violation ambulo__violation_of(const ambulo_problem *p, int row, double value) {
@@ -59,14 +58,11 @@ static void keep_worse(ambulo_violation v, ambulo_violation *worst) {
 }
 
 static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
-  int families = 0;
   result->audit.violation = no_violation(0.0);
+  for (int g = 0; g < p->table.group_count; g++) result->family[g] = no_violation(0.0);
   for (int r = 0; r < p->rows; r++) {
     ambulo_violation v = ambulo__violation_of(p, r, result->row[r]);
-    int f = 0;
-    while (f < families && strcmp(result->family[f].family, v.family) != 0) f++;
-    if (f == families) result->family[families++] = v;
-    keep_worse(v, &result->family[f]);
+    keep_worse(v, &result->family[p->table.rows[r].group]);
     keep_worse(v, &result->audit.violation);
   }
 }

@@ -52,8 +52,6 @@ static inline double ambulo__dense_channel(const ambulo__dense *dense, int node,
   int channels = ambulo__channel_count(&dense->problem->channels);
   return dense->channel[ambulo__lane_index(node, channels, channel)];
 }
-/* m g, N */
-double ambulo__dense_body_weight(const ambulo_model *model);
 
 /* One value at one time. Names are static or live in the model. */
 typedef struct ambulo__dense_sample {

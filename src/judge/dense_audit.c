@@ -7,8 +7,6 @@
 
 enum { MANY = 20000 }; /* intervals: a tenth of a second */
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 /* ---------------------------------------------------------------- families */
 
 /* NaN first, then the larger ratio */
@@ -152,7 +150,8 @@ ambulo_status ambulo__dense_advise(const ambulo_problem *p, int in_time,
     report->view.spline_intervals = cure.spline_intervals;
   }
   ambulo__dense_words(p, result->verdict, forecast ? &cure : NULL, report);
-  if (report->summary[0]) ambulo__warning(diagnostics, nowhere, NULL, "%s", report->summary);
+  if (report->summary[0])
+    ambulo__warning(diagnostics, ambulo__nowhere, NULL, "%s", report->summary);
   return AMBULO_OK;
 }
 

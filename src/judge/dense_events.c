@@ -6,29 +6,28 @@
  * (gait/clearance.c) and counts as an event too.
  */
 #include "gait/loading.h"
+#include "base/instant.h"
 #include "judge/dense.h"
 
 #include <math.h>
 
-static const double time_tolerance = 1e-9; /* s */
-
 double ambulo__dense_gap_before(double event, double duration, int intervals) {
-  double position = event / duration * intervals, slack = time_tolerance / duration * intervals;
+  double position = event / duration * intervals, slack = AMBULO__INSTANT / duration * intervals;
   double node = ceil(position - slack) - 1.0;
   return (position - node) * duration / intervals;
 }
 
 double ambulo__dense_gap_after(double event, double duration, int intervals) {
-  double position = event / duration * intervals, slack = time_tolerance / duration * intervals;
+  double position = event / duration * intervals, slack = AMBULO__INSTANT / duration * intervals;
   return fmax(0.0, ceil(position - slack) - position) * duration / intervals;
 }
 
 /* keeps the list rising and without doubles */
 static void insert(ambulo__dense_events *events, double time, double duration) {
-  if (!(time > time_tolerance && time < duration - time_tolerance)) return;
+  if (!(time > AMBULO__INSTANT && time < duration - AMBULO__INSTANT)) return;
   int at = 0;
-  while (at < events->count && events->time[at] < time - time_tolerance) at++;
-  if (at < events->count && events->time[at] <= time + time_tolerance) return;
+  while (at < events->count && events->time[at] < time - AMBULO__INSTANT) at++;
+  if (at < events->count && events->time[at] <= time + AMBULO__INSTANT) return;
   for (int i = events->count++; i > at; i--) events->time[i] = events->time[i - 1];
   events->time[at] = time;
 }
@@ -64,7 +63,8 @@ int ambulo__dense_near_event(const ambulo__dense_events *events, double time, do
     double event = events->time[i];
     double before = ambulo__dense_gap_before(event, duration, intervals);
     double after = ambulo__dense_gap_after(event, duration, intervals);
-    if (time >= event - before - time_tolerance && time <= event + after + time_tolerance) return 1;
+    if (time >= event - before - AMBULO__INSTANT && time <= event + after + AMBULO__INSTANT)
+      return 1;
   }
   return 0;
 }

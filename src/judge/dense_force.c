@@ -32,10 +32,10 @@ static void visit_force(const force *f, ambulo__dense_visitor visit, void *user)
   int index = ambulo__dense_rule_of_force(), samples = dense->samples;
   const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
   ambulo__dense_sample sample = {.rule = index,
-                                 .family = rule->family,
+                                 .family = ambulo__row_family(rule->kind),
                                  .subject = f->subject,
                                  .detail = "normal",
-                                 .unit = rule->unit,
+                                 .unit = ambulo__measure_text(rule->measure),
                                  .tolerance = rule->tolerance};
   for (int k = 0; k < dense->problem->nodes; k++) {
     double a = normal_at(f, k * samples);
@@ -51,7 +51,7 @@ static void visit_force(const force *f, ambulo__dense_visitor visit, void *user)
 
 void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo_problem *p = dense->problem;
-  force f = {.dense = dense, .weight = ambulo__dense_body_weight(p->model)};
+  force f = {.dense = dense, .weight = ambulo__model_weight(p->model)};
   if (p->definition.contact_count == 0 || !(f.weight > 0.0)) return;
   f.subject = "total";
   f.channel = ambulo__channel_force(&p->channels, 0);

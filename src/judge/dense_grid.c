@@ -5,6 +5,7 @@
  * contacts, except those at 0 and T, which are nodes on every grid.
  */
 #include "nlp/problem.h"
+#include "base/instant.h"
 #include "judge/dense.h"
 
 #include <math.h>
@@ -12,10 +13,8 @@
 
 enum { MOST_INTERVALS = 100000 }; /* of a problem */
 
-static const double time_tolerance = 1e-9; /* s */
-
 static double moved(double time, double shift, double duration) {
-  if (time <= time_tolerance || time >= duration - time_tolerance) return time;
+  if (time <= AMBULO__INSTANT || time >= duration - AMBULO__INSTANT) return time;
   return fmin(duration, fmax(0.0, time + shift));
 }
 
@@ -98,9 +97,4 @@ void ambulo__dense_close(ambulo__dense *dense) {
   ambulo_problem_free(dense->fine);
   dense->channel = dense->row_value = NULL;
   dense->fine = NULL;
-}
-
-double ambulo__dense_body_weight(const ambulo_model *model) {
-  const double *g = model->gravity;
-  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }

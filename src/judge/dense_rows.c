@@ -35,15 +35,8 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
 
 void ambulo__dense_rows(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo__row_table *table = &dense->fine->table;
-  const char *family = NULL, *unit = NULL;
-  int rule = -1;
   for (int r = 0; r < table->row_count; r++) {
-    const ambulo__table_row *row = &table->rows[r];
-    if (row->node < 0) continue;
-    /* names are static texts: neighbouring rows mostly share theirs */
-    if (row->family != family || row->unit != unit) rule = ambulo__dense_rule_of_row(row);
-    family = row->family;
-    unit = row->unit;
+    int rule = table->rows[r].node < 0 ? -1 : ambulo__dense_rule_of_row(&table->rows[r]);
     if (rule >= 0) visit_row(dense, r, rule, visit, user);
   }
 }

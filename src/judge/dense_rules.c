@@ -11,58 +11,55 @@
 #include "judge/dense_rules.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { SLIP, FORCE };
 
 #define REMEDY(name) AMBULO__REMEDY_##name
 
 static const ambulo__dense_rule rules[AMBULO__DENSE_RULES] = {
-    /* family, unit, tolerance; order_alone, order_both, order_landing; of_limit, by_load, at_events
+    /* kind, measure, tolerance; order_alone, order_both, order_landing; of_limit, by_load,
+     * at_events
      */
-    {"slip", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {"ground_force", "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 0, REMEDY(TOLERANCE)},
-    {"ground_penetration", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {"foot_strike", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {"contact", "m", 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
-    {"contact", "rad", 0.005, 1.5, 1.5, 1.5, 0, 0, 1, REMEDY(NONE)},
-    {"clearance", "m", 0.001, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {"clearance", "rad", 0.005, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {"zmp", "m", 0.001, 0.0, 0.0, 1.0, 0, 0, 1, REMEDY(TRANSFER)},
-    {"normal_force", "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
-    {"pressure", "m", 0.001, 1.0, 0.0, 0.75, 0, 1, 1, REMEDY(TOLERANCE)},
-    {"friction", "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
-    {"free_moment", "m", 0.001, 1.5, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
-    {"joint_limit", "rad", 0.005, 1.5, 0.0, 1.0, 0, 0, 0, REMEDY(CONTROL_POINTS)},
-    {"joint_limit", "m", 0.001, 1.5, 0.0, 1.0, 0, 0, 0, REMEDY(CONTROL_POINTS)},
-    {"speed_limit", NULL, 0.02, 1.5, 0.0, 1.0, 1, 0, 0, REMEDY(TOLERANCE)},
-    {"torque_limit", NULL, 0.02, 1.0, 0.0, 1.0, 1, 0, 0, REMEDY(TOLERANCE)},
-    {"tracking_tube", "rad", 0.005, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
-    {"tracking_tube", "m", 0.001, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
-    /* families that are not named above, by their unit */
-    {NULL, "m", 0.001, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {NULL, "rad", 0.005, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {NULL, "body weights", 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
-    {NULL, NULL, 1e-6, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_SLIP, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 0,
+     REMEDY(TOLERANCE)},
+    {AMBULO__KIND_GROUND_PENETRATION, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_FOOT_STRIKE, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CONTACT, AMBULO__METRES, 0.001, 1.5, 1.5, 2.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CONTACT, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.5, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CLEARANCE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_CLEARANCE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 0, 1, REMEDY(NONE)},
+    {AMBULO__KIND_ZMP, AMBULO__METRES, 0.001, 0.0, 0.0, 1.0, 0, 0, 1, REMEDY(TRANSFER)},
+    {AMBULO__KIND_NORMAL_FORCE, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 1,
+     REMEDY(TOLERANCE)},
+    {AMBULO__KIND_PRESSURE, AMBULO__METRES, 0.001, 1.0, 0.0, 0.75, 0, 1, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FRICTION, AMBULO__BODY_WEIGHTS, 0.02, 1.0, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_FREE_MOMENT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 0, 1, REMEDY(TOLERANCE)},
+    {AMBULO__KIND_JOINT_LIMIT, AMBULO__RADIANS, 0.005, 1.5, 0.0, 1.0, 0, 0, 0,
+     REMEDY(CONTROL_POINTS)},
+    {AMBULO__KIND_JOINT_LIMIT, AMBULO__METRES, 0.001, 1.5, 0.0, 1.0, 0, 0, 0,
+     REMEDY(CONTROL_POINTS)},
+    {AMBULO__KIND_SPEED_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.5, 0.0, 1.0, 1, 0, 0,
+     REMEDY(TOLERANCE)},
+    {AMBULO__KIND_TORQUE_LIMIT, AMBULO__OTHER_MEASURE, 0.02, 1.0, 0.0, 1.0, 1, 0, 0,
+     REMEDY(TOLERANCE)},
+    {AMBULO__KIND_TRACKING_TUBE, AMBULO__RADIANS, 0.005, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
+    {AMBULO__KIND_TRACKING_TUBE, AMBULO__METRES, 0.001, 1.5, 1.5, 1.0, 0, 0, 0, REMEDY(NONE)},
 };
-
-static const char *const on_ends[] = {"initial_state", "final_state", "periodic", "mirrored"};
 
 const ambulo__dense_rule *ambulo__dense_rule_at(int index) {
   return &rules[index];
 }
 
-static int matches(const char *wanted, const char *name) {
-  return !wanted || strcmp(wanted, name) == 0;
+static int covers(const ambulo__dense_rule *rule, const ambulo__table_row *row) {
+  return rule->kind == row->kind &&
+         (rule->measure == AMBULO__OTHER_MEASURE || rule->measure == row->measure);
 }
 
 int ambulo__dense_rule_of_row(const ambulo__table_row *row) {
-  for (size_t i = 0; i < sizeof on_ends / sizeof *on_ends; i++) {
-    if (strcmp(row->family, on_ends[i]) == 0) return -1;
-  }
   int i = 0;
-  while (!matches(rules[i].family, row->family) || !matches(rules[i].unit, row->unit)) i++;
-  return i;
+  while (i < AMBULO__DENSE_RULES && !covers(&rules[i], row)) i++;
+  return i < AMBULO__DENSE_RULES ? i : -1;
 }
 
 int ambulo__dense_rule_of_slip(void) {
@@ -75,8 +72,7 @@ int ambulo__dense_rule_of_force(void) {
 /* of a limit on a quantity that may not be anything but zero */
 static double size_of_none(const ambulo_model *model, const ambulo_coordinate *c, int is_torque) {
   if (!is_torque) return 1.0;
-  const double *g = model->gravity;
-  double weight = model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  double weight = ambulo__model_weight(model);
   double size = c->type == AMBULO_REVOLUTE ? 0.1 * weight : weight;
   return size > 0.0 ? size : 1.0;
 }

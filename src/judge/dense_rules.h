@@ -5,7 +5,7 @@
 
 #include "nlp/nlp.h"
 
-enum { AMBULO__DENSE_RULES = 23 };
+enum { AMBULO__DENSE_RULES = 19 };
 
 /* What helps where more intervals do not. */
 typedef enum ambulo__dense_remedy {
@@ -16,9 +16,9 @@ typedef enum ambulo__dense_remedy {
 } ambulo__dense_remedy;
 
 typedef struct ambulo__dense_rule {
-  const char *family; /* NULL: any family that is not in the table */
-  const char *unit;   /* NULL: any */
-  double tolerance;   /* in unit, or a share of the limit */
+  ambulo__row_kind kind;
+  ambulo__measure measure; /* AMBULO__OTHER_MEASURE: any */
+  double tolerance;        /* in that, or a share of the limit */
   /* Where two nodes hold a row its ratio goes down with this power of the number of time intervals,
    * at least: with the trajectory's kept; with the trajectory's in proportion. 0: it need not go
    * down at all. */
@@ -34,7 +34,8 @@ typedef struct ambulo__dense_rule {
 
 /* 0 <= index < AMBULO__DENSE_RULES */
 const ambulo__dense_rule *ambulo__dense_rule_at(int index);
-/* The rule of a row; -1: rows on the ends, the same on every grid. */
+/* The rule of a row; -1: rows on the ends, the same on every grid, and rows of the caller, which
+ * are not asked between the nodes. */
 int ambulo__dense_rule_of_row(const ambulo__table_row *row);
 /* The rules of what no row covers. */
 int ambulo__dense_rule_of_slip(void);

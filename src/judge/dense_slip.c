@@ -12,6 +12,7 @@
  * that has no node while it is loaded moves away from where it came down.
  */
 #include "gait/foot_outline.h"
+#include "base/instant.h"
 #include "judge/dense.h"
 
 #include <math.h>
@@ -88,15 +89,16 @@ static void visit_time(const corner *c, double time, const ambulo_contact *conta
     double along = r[i] - held[i] - normal * model->up[i];
     square += along * along;
   }
-  int rule = ambulo__dense_rule_of_slip();
-  ambulo__dense_sample sample = {.rule = rule,
-                                 .family = ambulo__dense_rule_at(rule)->family,
+  int index = ambulo__dense_rule_of_slip();
+  const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
+  ambulo__dense_sample sample = {.rule = index,
+                                 .family = ambulo__row_family(rule->kind),
                                  .subject = model->points[c->point].name,
                                  .detail = "along the ground",
-                                 .unit = ambulo__dense_rule_at(rule)->unit,
+                                 .unit = ambulo__measure_text(rule->measure),
                                  .time = time,
                                  .value = sqrt(square),
-                                 .tolerance = ambulo__dense_rule_at(rule)->tolerance};
+                                 .tolerance = rule->tolerance};
   c->visit(c->user, &sample);
 }
 
@@ -111,7 +113,8 @@ static int visit_loading(const corner *c, int j) {
     visit_time(c, fine->times[j], contact, first);
     last = contact;
   }
-  if (j < fine->nodes && last->to <= fine->times[j] + 1e-9) visit_time(c, last->to, last, first);
+  if (j < fine->nodes && last->to <= fine->times[j] + AMBULO__INSTANT)
+    visit_time(c, last->to, last, first);
   return j;
 }
 

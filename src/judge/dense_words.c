@@ -130,19 +130,21 @@ static int is_alike(const wording *w, int a, int b) {
   return w->brief[a] == w->brief[b] && strcmp(w->report->settings[a], w->report->settings[b]) == 0;
 }
 
+static int kind_of(const wording *w, int i) {
+  return (int)ambulo__dense_rule_at(w->report->family_rule[i])->kind;
+}
+
 /* "slip, contact: again with --set time.intervals=50", of family i and those after it */
 static void append_group(const wording *w, int i, char *text) {
   ambulo__dense_report *report = w->report;
   const char *last = NULL;
   for (int k = i; k < report->view.family_count; k++) {
-    const char *name = report->family[k].violation.family;
-    int named = 0;
+    int kind = kind_of(w, k), named = 0;
     if (report->family[k].holds || !is_alike(w, i, k)) continue;
-    for (int j = i; j < k; j++)
-      named |= is_alike(w, i, j) && strcmp(report->family[j].violation.family, name) == 0;
+    for (int j = i; j < k; j++) named |= is_alike(w, i, j) && kind_of(w, j) == kind;
     if (named) continue;
     if (last) append(text, AMBULO__DENSE_SUMMARY_SIZE, ", ");
-    append(text, AMBULO__DENSE_SUMMARY_SIZE, last = name);
+    append(text, AMBULO__DENSE_SUMMARY_SIZE, last = report->family[k].violation.family);
   }
   append(text, AMBULO__DENSE_SUMMARY_SIZE, ": ");
   append(text, AMBULO__DENSE_SUMMARY_SIZE, w->brief[i]);

@@ -95,8 +95,7 @@ ambulo_status ambulo__elastic_create(const ambulo_problem *problem, ambulo_works
 }
 
 double ambulo__elastic_excess(const ambulo__elastic *e, int row, double value) {
-  int equal = e->problem->table.rows[row].relation == AMBULO_EQUAL;
-  return (equal ? fabs(value) : ambulo__worse(0.0, -value)) / e->size[row];
+  return ambulo__row_missed(&e->problem->table.rows[row], value) / e->size[row];
 }
 
 /* by the caller or the clock */

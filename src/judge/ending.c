@@ -2,14 +2,12 @@
 #include "judge/ending.h"
 #include "judge/verdict.h"
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 void ambulo__report_families(const ambulo_result *r, double tolerance, ambulo_diagnostics *list) {
   if (r->verdict != AMBULO_INFEASIBLE) return;
   for (int f = 0; f < r->families; f++) {
     const ambulo_violation *v = &r->family[f];
     if (!(ambulo__relative(v) > tolerance)) continue;
-    ambulo__warning(list, nowhere, NULL,
+    ambulo__warning(list, ambulo__nowhere, NULL,
                     "no point was found that satisfies %s: %s (%s) at t = %.6g s is off by %.3g %s",
                     v->family, v->subject, v->detail, v->time, v->worst, v->unit);
   }
@@ -28,11 +26,11 @@ void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diag
     r->audit.fault = run->fault;
   if (r->audit.fault.kind != AMBULO_FAULT_NONE) {
     ambulo_fault_text(&r->audit.fault, text, sizeof text);
-    ambulo__warning(list, nowhere, NULL, "%s", text);
+    ambulo__warning(list, ambulo__nowhere, NULL, "%s", text);
   } else if (run->faults > 0) {
     ambulo_fault_text(&run->first_fault, text, sizeof text);
-    ambulo__note(list, nowhere, "%d of %d points were given up; at the first %s", run->faults,
-                 run->evaluations, text);
+    ambulo__note(list, ambulo__nowhere, "%d of %d points were given up; at the first %s",
+                 run->faults, run->evaluations, text);
   }
 }
 

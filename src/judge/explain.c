@@ -35,21 +35,14 @@ static void list_contradictions(const ambulo__engine *e, const ambulo_result *re
 
 /* ----------------------------------------------------------------- on limits */
 
-static int is_limit(const char *family) {
-  return !strcmp(family, "joint_limit") || !strcmp(family, "speed_limit") ||
-         !strcmp(family, "torque_limit");
-}
-
 /* entry of the row's limit, made if need be; NULL when there is no room */
 static ambulo_on_limit *entry_of(const ambulo_model *model, const ambulo__table_row *row,
                                  ambulo__explanation *out) {
   for (int i = 0; i < out->view.on_limit_count; i++) {
-    ambulo_on_limit *l = &out->on_limit[i];
-    if (!strcmp(l->family, row->family) && !strcmp(l->subject, row->subject) &&
-        !strcmp(l->detail, row->detail))
-      return l;
+    if (ambulo__rows_alike(out->on_limit_row[i], row)) return &out->on_limit[i];
   }
   if (out->view.on_limit_count >= AMBULO__MOST_ON_LIMITS) return NULL;
+  out->on_limit_row[out->view.on_limit_count] = row;
   ambulo_on_limit *l = &out->on_limit[out->view.on_limit_count++];
   l->family = row->family;
   l->subject = row->subject;
@@ -66,7 +59,8 @@ static void list_on_limits(const ambulo__elastic *e, ambulo__explanation *out) {
   const ambulo_problem *p = e->problem;
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
-    if (row->relation != AMBULO_NOT_NEGATIVE || !is_limit(row->family)) continue;
+    int limited = ambulo__row_kind_entry_of(row->kind)->limited;
+    if (row->relation != AMBULO_NOT_NEGATIVE || limited == AMBULO__NOT_LIMITED) continue;
     if (!(e->workspace->row_value[r] <= on_limit_gap * e->size[r])) continue;
     ambulo_on_limit *l = entry_of(p->model, row, out);
     if (!l) continue;

@@ -27,7 +27,9 @@ typedef struct ambulo__explanation {
   ambulo_explanation view;
   ambulo_violation contradictory[AMBULO__MOST_CONTRADICTIONS];
   ambulo_conflict conflict[AMBULO__MOST_CONFLICTS];
+  int conflict_row[AMBULO__MOST_CONFLICTS]; /* a row of the family in conflict */
   ambulo_on_limit on_limit[AMBULO__MOST_ON_LIMITS];
+  const ambulo__table_row *on_limit_row[AMBULO__MOST_ON_LIMITS]; /* one that each stands for */
   const char *line[AMBULO__MOST_LINES];
   char text[AMBULO__MOST_LINES][AMBULO__LINE_SIZE];
   char suggestion[AMBULO__LINE_SIZE];

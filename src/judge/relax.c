@@ -27,7 +27,7 @@ static const double main_part = 0.5;     /* of the time, for the first solve */
 
 typedef struct relaxing {
   ambulo__elastic *elastic;
-  const char *family;            /* that gives way */
+  int group;                     /* the family that gives way */
   const ambulo__table_row *only; /* NULL, or: only rows that say the same of another time */
   double *x, *candidate;         /* [n] */
   double *value;                 /* [rows] of the best point so far */
@@ -36,21 +36,22 @@ typedef struct relaxing {
   int row;
 } relaxing;
 
-static const char *family_of(const ambulo__elastic *e, int row) {
-  return e->problem->table.rows[row].family;
+static const ambulo__row_kind_entry *kind_of(const ambulo_problem *p, int row) {
+  return ambulo__row_kind_entry_of(p->table.rows[row].kind);
 }
 
-static int is_ends(const char *family) {
-  return !strcmp(family, "periodic") || !strcmp(family, "mirrored");
+static int joins_ends(const ambulo__row_kind_entry *kind) {
+  return kind->place == AMBULO__ACROSS_ENDS;
 }
 
 /* does row r give way? */
 static int gives(const relaxing *s, int r) {
   const ambulo__table_row *row = &s->elastic->problem->table.rows[r], *only = s->only;
-  if (strcmp(row->family, s->family) != 0) return 0;
+  if (row->group != s->group) return 0;
   if (!only) return 1;
-  if (is_ends(s->family)) return fabs(row->constant) > 1e-9; /* the travel, m */
-  return !strcmp(row->subject, only->subject) && !strcmp(row->detail, only->detail);
+  if (joins_ends(kind_of(s->elastic->problem, r)))
+    return fabs(row->constant) > 1e-9; /* the travel, m */
+  return ambulo__rows_alike(row, only);
 }
 
 /* worst row that gives way at `value`; -1 when all hold */
@@ -79,9 +80,9 @@ static double worst_outside(const relaxing *s, const double *value) {
 
 /* ------------------------------------------------------------- all give way */
 
-static int known(const ambulo__explanation *out, const char *family) {
+static int known(const ambulo_problem *p, const ambulo__explanation *out, int row) {
   for (int i = 0; i < out->view.conflict_count; i++) {
-    if (!strcmp(out->conflict[i].shared.family, family)) return 1;
+    if (p->table.rows[out->conflict_row[i]].group == p->table.rows[row].group) return 1;
   }
   return 0;
 }
@@ -94,11 +95,12 @@ static void list_conflicts(const ambulo__elastic *e, double floor, ambulo__expla
     double worst = limit;
     for (int r = 0; r < e->problem->rows; r++) {
       double excess = ambulo__elastic_excess(e, r, value[r]);
-      if (!(excess > worst) || known(out, family_of(e, r))) continue;
+      if (!(excess > worst) || known(e->problem, out, r)) continue;
       worst = excess;
       next = r;
     }
     if (next < 0) return;
+    out->conflict_row[out->view.conflict_count] = next;
     ambulo_conflict *c = &out->conflict[out->view.conflict_count++];
     c->shared = ambulo__violation_of(e->problem, next, value[next]);
     c->alone = -1;
@@ -180,7 +182,7 @@ static void list_others(const relaxing *s, ambulo_conflict *c) {
   for (int r = 0; r < e->problem->rows; r++) {
     const ambulo__table_row *row = &e->problem->table.rows[r];
     double excess = ambulo__elastic_excess(e, r, s->value[r]);
-    if (strcmp(row->family, s->family) != 0 || excess <= 0.01 * s->worst) continue;
+    if (row->group != s->group || excess <= 0.01 * s->worst) continue;
     ambulo_violation v = ambulo__violation_of(e->problem, r, s->value[r]), *place = NULL;
     if (!strcmp(v.subject, c->relaxation.subject) && !strcmp(v.detail, c->relaxation.detail))
       continue;
@@ -196,17 +198,6 @@ static void list_others(const relaxing *s, ambulo_conflict *c) {
   }
 }
 
-/* how hard it is for a person to change what the family stands for */
-static double reluctance(const char *family) {
-  static const char *const choices[] = {"foot_strike", "initial_state", "final_state",
-                                        "periodic",    "mirrored",      "contact"};
-  if (!strcmp(family, "ground_penetration") || !strcmp(family, "normal_force")) return 30.0;
-  for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
-    if (!strcmp(family, choices[i])) return 3.0;
-  }
-  return 1.0;
-}
-
 /* keeps what the remedy needs of the best point */
 static void take_remedy(const relaxing *s, int conflict, ambulo__remedy *remedy) {
   remedy->conflict = conflict;
@@ -214,12 +205,12 @@ static void take_remedy(const relaxing *s, int conflict, ambulo__remedy *remedy)
   memcpy(remedy->value, s->value, (size_t)s->elastic->problem->rows * sizeof *s->value);
 }
 
-/* a row that stands for subject and detail of v */
-static const ambulo__table_row *row_like(const ambulo_problem *p, const ambulo_violation *v) {
+/* a row of the group that stands for subject and detail of v */
+static const ambulo__table_row *row_like(const ambulo_problem *p, int group,
+                                         const ambulo_violation *v) {
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
-    if (!strcmp(row->family, v->family) && !strcmp(row->subject, v->subject) &&
-        !strcmp(row->detail, v->detail))
+    if (row->group == group && !strcmp(row->subject, v->subject) && !strcmp(row->detail, v->detail))
       return row;
   }
   return NULL;
@@ -230,14 +221,16 @@ static void narrow(relaxing *s, double deadline, const ambulo__explanation *out,
                    ambulo__remedy *remedy) {
   if (remedy->conflict < 0) return;
   const ambulo_conflict *c = &out->conflict[remedy->conflict];
-  int tries = c->other_count == 0 ? 0 : is_ends(c->shared.family) ? 1 : 1 + c->other_count;
-  double most = is_ends(c->shared.family) ? HUGE_VAL : narrowed_most * s->family_worst;
-  s->family = c->shared.family;
+  const ambulo_problem *p = s->elastic->problem;
+  int row = out->conflict_row[remedy->conflict], ends = joins_ends(kind_of(p, row));
+  int tries = c->other_count == 0 ? 0 : ends ? 1 : 1 + c->other_count;
+  double most = ends ? HUGE_VAL : narrowed_most * s->family_worst;
+  s->group = p->table.rows[row].group;
   for (int i = 0; i < tries && !s->elastic->cancelled; i++) {
     double now = s->elastic->work;
     if (now >= deadline) break;
     s->elastic->deadline = now + (deadline - now) / (double)(tries - i);
-    s->only = row_like(s->elastic->problem, i == 0 ? &c->relaxation : &c->others[i - 1]);
+    s->only = row_like(p, s->group, i == 0 ? &c->relaxation : &c->others[i - 1]);
     if (relax_alone(s) != 1 || s->row < 0 || s->worst >= most) continue;
     most = s->worst;
     remedy->single = 1;
@@ -254,13 +247,15 @@ static void try_families(relaxing *s, double deadline, ambulo__explanation *out,
     double now = s->elastic->work;
     if (now >= deadline || s->elastic->cancelled) break;
     s->elastic->deadline = now + (deadline - now) / (double)(count - i + 1);
-    s->family = c->shared.family;
+    const ambulo_problem *p = s->elastic->problem;
+    const ambulo__row_kind_entry *kind = kind_of(p, out->conflict_row[i]);
+    s->group = p->table.rows[out->conflict_row[i]].group;
     c->alone = relax_alone(s);
     if (c->alone != 1 || s->row < 0) continue;
-    c->relaxation = ambulo__violation_of(s->elastic->problem, s->row, s->value[s->row]);
+    c->relaxation = ambulo__violation_of(p, s->row, s->value[s->row]);
     list_others(s, c);
-    double cost = s->worst * reluctance(s->family);
-    if (strstr(s->family, "_limit")) cost *= (double)(1 + c->other_count);
+    double cost = s->worst * kind->reluctance;
+    if (kind->limited != AMBULO__NOT_LIMITED) cost *= (double)(1 + c->other_count);
     if (cost >= least) continue;
     s->family_worst = s->worst;
     least = cost;

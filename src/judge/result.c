@@ -4,18 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static int count_families(const ambulo_problem *p) {
-  int count = 0;
-  for (int r = 0; r < p->rows; r++) {
-    int known = 0;
-    for (int s = r - 1; s >= 0 && !known; s--) {
-      known = strcmp(p->table.rows[s].family, p->table.rows[r].family) == 0;
-    }
-    count += !known;
-  }
-  return count;
-}
-
 ambulo_status ambulo__result_create(const ambulo_problem *p, const ambulo_allocator *allocator,
                                     ambulo_result **result) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
@@ -25,7 +13,7 @@ ambulo_status ambulo__result_create(const ambulo_problem *p, const ambulo_alloca
   r->variables = p->variables;
   r->rows = p->rows;
   r->terms = p->definition.term_count;
-  r->families = count_families(p);
+  r->families = p->table.group_count;
   r->x = ambulo__alloc(&own, (size_t)r->variables, sizeof *r->x);
   r->term = ambulo__alloc(&own, (size_t)r->terms, sizeof *r->term);
   r->row = ambulo__alloc(&own, (size_t)r->rows, sizeof *r->row);

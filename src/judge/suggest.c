@@ -45,7 +45,7 @@ void ambulo__advice_set(const ambulo__advice *a, const char *format, ...) {
 /* " (12 deg)" after angles */
 static const char *in_degrees(const ambulo__advice *a, double angle, char buffer[32]) {
   buffer[0] = '\0';
-  if (!strcmp(a->row->unit, "rad")) (void)snprintf(buffer, 32, " (%.3g deg)", degrees(angle));
+  if (a->row->measure == AMBULO__RADIANS) (void)snprintf(buffer, 32, " (%.3g deg)", degrees(angle));
   return buffer;
 }
 
@@ -91,16 +91,18 @@ static void set_both(const ambulo__advice *a, const char *key, ambulo_limited wh
     set_limit(a, m, key, limits, turned, mirrored, unit);
 }
 
-static void limit(const ambulo__advice *a, const char *what, const char *key, ambulo_limited kind) {
+static void limit(const ambulo__advice *a, ambulo_limited what) {
+  static const char *const words[] = {"end of the range", "speed limit", "torque limit"};
+  static const char *const keys[] = {"range", "speed", "torque"};
   char from[32], to[32];
   int upper = !strcmp(a->row->detail, "upper");
   double bound = ambulo__limit_given(a->problem->model, a->row);
   double enough = ambulo__outward(upper ? bound + a->room : bound - a->room, upper);
   ambulo__advice_say(a, "%s the %s %s of %s by %.4g %s: from %.4g%s to %.4g %s%s",
-                     upper ? "raise" : "lower", a->row->detail, what, a->row->subject, a->give,
-                     a->row->unit, bound, in_degrees(a, bound, from), enough, a->row->unit,
+                     upper ? "raise" : "lower", a->row->detail, words[what], a->row->subject,
+                     a->give, a->row->unit, bound, in_degrees(a, bound, from), enough, a->row->unit,
                      in_degrees(a, enough, to));
-  set_both(a, key, kind, upper, enough);
+  set_both(a, keys[what], what, upper, enough);
 }
 
 /* ----------------------------------------------------------------------- ends */
@@ -109,7 +111,7 @@ static void end_value(const ambulo__advice *a) {
   char from[32], to[32];
   double asked = -a->row->constant, reached = asked + a->value;
   if (fabs(reached) < settled) reached = 0.0;
-  int final = ambulo__advice_is(a, "final_state", NULL);
+  int final = a->row->kind == AMBULO__KIND_FINAL_STATE;
   const char *end = final ? "final" : "initial";
   ambulo__advice_say(a,
                      "ask for another %s %s of %s at t = %.4g s: %.4g %s%s instead of %.4g %s%s, "
@@ -203,18 +205,14 @@ void ambulo__suggest(const ambulo_problem *p, const ambulo__remedy *remedy,
   double value = remedy->value[remedy->row];
   double give = fabs(value), room = give + fmax(0.01 * give, 2.0 * AMBULO__HOLDS * row->size);
   ambulo__advice a = {p, row, value, give, room, remedy->value, out};
-  if (ambulo__advice_is(&a, "torque_limit", NULL)) {
-    limit(&a, "torque limit", "torque", AMBULO_LIMITED_TORQUE);
-  } else if (ambulo__advice_is(&a, "speed_limit", NULL)) {
-    limit(&a, "speed limit", "speed", AMBULO_LIMITED_SPEED);
-  } else if (ambulo__advice_is(&a, "joint_limit", NULL)) {
-    limit(&a, "end of the range", "range", AMBULO_LIMITED_POSITION);
-  } else if (ambulo__advice_is(&a, "initial_state", NULL) ||
-             ambulo__advice_is(&a, "final_state", NULL)) {
+  const ambulo__row_kind_entry *kind = ambulo__row_kind_entry_of(row->kind);
+  if (kind->limited != AMBULO__NOT_LIMITED) {
+    limit(&a, (ambulo_limited)kind->limited);
+  } else if (kind->place == AMBULO__AT_AN_END) {
     end_value(&a);
-  } else if (ambulo__advice_is(&a, "periodic", NULL) || ambulo__advice_is(&a, "mirrored", NULL)) {
+  } else if (kind->place == AMBULO__ACROSS_ENDS) {
     matching_ends(&a);
-  } else if (ambulo__advice_is(&a, "tracking_tube", NULL)) {
+  } else if (row->kind == AMBULO__KIND_TRACKING_TUBE) {
     tube(&a);
   } else if (!ambulo__advise_feet(&a) && !ambulo__advise_forces(&a)) {
     other(&a);

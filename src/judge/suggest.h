@@ -32,11 +32,6 @@ typedef struct ambulo__advice {
   ambulo__explanation *out;
 } ambulo__advice;
 
-static inline int ambulo__advice_is(const ambulo__advice *a, const char *family,
-                                    const char *detail) {
-  return !strcmp(a->row->family, family) && (!detail || !strcmp(a->row->detail, detail));
-}
-
 /* Writes the sentence. */
 void ambulo__advice_say(const ambulo__advice *a, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -49,7 +44,7 @@ double ambulo__outward(double value, int up);
 /* The settings of a regular gait with steps of `length` m that take as long as they do now. */
 void ambulo__advice_set_step(const ambulo__advice *a, double length);
 
-/* Each says what helps a row of its families; 0: the row is of none of them. */
+/* Each says what helps a row of its kinds; 0: the row is of none of them. */
 int ambulo__advise_feet(const ambulo__advice *a);   /* suggest_feet.c */
 int ambulo__advise_forces(const ambulo__advice *a); /* suggest_forces.c */
 

@@ -52,7 +52,7 @@ static int offset_of(const ambulo__advice *a, int node, int index, double *offse
   int link = model->points[foot->heel_center].link;
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
-    int is_strike = !strcmp(row->family, "foot_strike") && !strcmp(row->detail, "forward");
+    int is_strike = row->kind == AMBULO__KIND_FOOT_STRIKE && !strcmp(row->detail, "forward");
     if (row->node != node || !is_strike) continue;
     int point = ambulo_model_find_point(model, row->subject);
     if (point < 0 || model->points[point].link != link) continue;
@@ -238,20 +238,23 @@ static void clearance(const ambulo__advice *a) {
 }
 
 int ambulo__advise_feet(const ambulo__advice *a) {
-  if (ambulo__advice_is(a, "foot_strike", NULL)) {
+  switch (a->row->kind) {
+  case AMBULO__KIND_FOOT_STRIKE:
     foothold(a);
-  } else if (ambulo__advice_is(a, "contact", NULL)) {
-    if (!strcmp(a->row->unit, "m")) {
+    return 1;
+  case AMBULO__KIND_CONTACT:
+    if (a->row->measure == AMBULO__METRES)
       contact_place(a);
-    } else {
+    else
       contact_angle(a);
-    }
-  } else if (ambulo__advice_is(a, "ground_penetration", NULL)) {
+    return 1;
+  case AMBULO__KIND_GROUND_PENETRATION:
     penetration(a);
-  } else if (ambulo__advice_is(a, "clearance", NULL)) {
+    return 1;
+  case AMBULO__KIND_CLEARANCE:
     clearance(a);
-  } else {
+    return 1;
+  default:
     return 0;
   }
-  return 1;
 }

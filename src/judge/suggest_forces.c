@@ -51,7 +51,7 @@ static double friction_needed(const ambulo__advice *a, double mu) {
   double needed = mu;
   for (int r = 0; r + 1 < p->rows; r++) {
     const ambulo__table_row *one = &p->table.rows[r], *next = one + 1;
-    int pair = !strcmp(one->family, "friction") && !strcmp(next->family, "friction") &&
+    int pair = one->kind == AMBULO__KIND_FRICTION && next->kind == AMBULO__KIND_FRICTION &&
                one->node == next->node && !strcmp(one->subject, next->subject);
     double least = fmin(a->values[r], a->values[r + 1]), sum = a->values[r] + a->values[r + 1];
     if (pair && least < 0.0 && sum > 0.0) needed = fmax(needed, mu * (1.0 - 2.02 * least / sum));
@@ -114,18 +114,23 @@ static void pressure(const ambulo__advice *a) {
 }
 
 int ambulo__advise_forces(const ambulo__advice *a) {
-  if (ambulo__advice_is(a, "zmp", NULL)) {
+  switch (a->row->kind) {
+  case AMBULO__KIND_ZMP:
     zmp(a);
-  } else if (ambulo__advice_is(a, "normal_force", NULL)) {
+    return 1;
+  case AMBULO__KIND_NORMAL_FORCE:
     normal_force(a);
-  } else if (ambulo__advice_is(a, "friction", NULL)) {
+    return 1;
+  case AMBULO__KIND_FRICTION:
     friction(a);
-  } else if (ambulo__advice_is(a, "free_moment", NULL)) {
+    return 1;
+  case AMBULO__KIND_FREE_MOMENT:
     free_moment(a);
-  } else if (ambulo__advice_is(a, "pressure", NULL)) {
+    return 1;
+  case AMBULO__KIND_PRESSURE:
     pressure(a);
-  } else {
+    return 1;
+  default:
     return 0;
   }
-  return 1;
 }

@@ -4,7 +4,7 @@
  *
  * H_GN = sum_k sum_u curvature_uk g_uk g_uk', u the residuals of the objective's terms
  * (objective/term.h) and g their gradients with respect to the unknowns of node k. Residuals
- * that span two nodes (torque rate) are split as in ambulo__node_gauss_newton. Terms of the caller
+ * that span two nodes (torque rate) are split by 2 a^2 + 2 b^2 >= (a + b)^2. Terms of the caller
  * have the curvature of nlp/user_term.h.
  */
 #ifndef AMBULO_METHOD_METRIC_H

@@ -135,11 +135,10 @@ static ambulo_status solve(ambulo__engine *e, ambulo__direct *d, ambulo_algorith
 ambulo_status ambulo__solve_plain(ambulo__engine *e, ambulo_algorithm algorithm,
                                   ambulo_diagnostics *diagnostics, double *x,
                                   const char **message) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   ambulo__direct d = {.message = "not called"};
   ambulo_status status = solve(e, &d, algorithm, x);
   if (status == AMBULO_E_LIMIT)
-    (void)ambulo__error(diagnostics, status, nowhere, "use solver.algorithm: auto",
+    (void)ambulo__error(diagnostics, status, ambulo__nowhere, "use solver.algorithm: auto",
                         "%d unknowns and %d rows need more memory than 4 GB in dense form", e->n,
                         e->problem->rows);
   if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->n * sizeof *x);

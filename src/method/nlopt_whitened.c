@@ -74,7 +74,6 @@ static ambulo_status rounds(ambulo__engine *e, ambulo__direct *d, ambulo_algorit
 ambulo_status ambulo__solve_whitened(ambulo__engine *e, ambulo_algorithm algorithm, int most,
                                      ambulo_diagnostics *diagnostics, double *x,
                                      const char **message) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   ambulo__direct d = {.message = "not called"};
   double error;
   e->mu = mu_factor * e->problem->definition.duration /
@@ -84,7 +83,7 @@ ambulo_status ambulo__solve_whitened(ambulo__engine *e, ambulo_algorithm algorit
   if (!status) status = prepare(e, &d);
   if (!status) status = rounds(e, &d, algorithm, most, x);
   if (status == AMBULO_E_LIMIT)
-    (void)ambulo__error(diagnostics, status, nowhere, "use solver.algorithm: auto",
+    (void)ambulo__error(diagnostics, status, ambulo__nowhere, "use solver.algorithm: auto",
                         "%d unknowns and %d rows need more memory than 4 GB in dense form", e->n,
                         e->problem->rows);
   if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->n * sizeof *x);

@@ -211,13 +211,12 @@ static int widest_group(const ambulo__sparse_rows *s) {
 /* Rows that follow from others are left out in silence: contacts of rigid soles and repeated ends
  * have them by nature, and the audit counts them. */
 static void report(const ambulo_problem *p, const int *rank, ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   int warnings = 0;
   for (int r = 0; r < p->rows && warnings < MOST_WARNINGS; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
     if (rank[r] != AMBULO__ROW_CONTRADICTORY) continue;
     warnings++;
-    ambulo__warning(diagnostics, nowhere, NULL,
+    ambulo__warning(diagnostics, ambulo__nowhere, NULL,
                     "equality %s of %s (%s) at t = %.6g s contradicts the equalities before it",
                     row->family, row->subject, row->detail, row->time);
   }

@@ -85,8 +85,7 @@ ambulo_status ambulo_model_adapt(const ambulo_model *model, const ambulo_conditi
   if (!model || !conditions || !adapted || conditions->cookie != CONDITIONS_COOKIE)
     return AMBULO_E_ARGUMENT;
   if (!in_range(model, conditions)) {
-    ambulo__place nowhere = {0};
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "the conditions are out of range (slope %g rad, %g kg on link %d); "
                          "expected a slope of -%g to %g rad and 1e-6 to 1000 kg on a link",
                          conditions->slope, conditions->load_mass, conditions->load_link,

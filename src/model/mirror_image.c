@@ -59,11 +59,9 @@ int ambulo__digits_apart(double a, double b) {
   return digits;
 }
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 #define DIFFER(c, hint, format, ...)                                                               \
-  (c)->status = ambulo__error((c)->diagnostics, (c)->words->status, nowhere, hint, "%s" format,    \
-                              (c)->words->before, __VA_ARGS__)
+  (c)->status = ambulo__error((c)->diagnostics, (c)->words->status, ambulo__nowhere, hint,         \
+                              "%s" format, (c)->words->before, __VA_ARGS__)
 
 /* 0 for what rounding has left of it beside a number of size `beside` */
 static double clean(double value, double beside) {

@@ -48,6 +48,9 @@ ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_model **model);
 
+/* The body weight m |g|, N: what forces are measured by. */
+double ambulo__model_weight(const ambulo_model *model);
+
 /* One value of the model file, replaced before it is read: "links[shank_r].body.mass". */
 typedef struct ambulo__model_setting {
   const char *path, *value;

@@ -12,7 +12,7 @@ ambulo__number ambulo__number_text(double value) {
 }
 
 ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
-  return c->places ? c->places->model : (ambulo__place){0};
+  return c->places ? c->places->model : ambulo__nowhere;
 }
 
 static ambulo__place place_in(const ambulo__checker *c, const ambulo__place *list, int index) {

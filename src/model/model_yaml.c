@@ -123,13 +123,12 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
 /* ------------------------------------------------------------------- loading */
 
 static ambulo_status check_subject(const ambulo_subject *subject, ambulo_diagnostics *diagnostics) {
-  ambulo__place nowhere = {0};
   if (!subject) return AMBULO_OK;
   int good = subject->sex >= AMBULO_SEX_FILE && subject->sex <= AMBULO_MALE;
   good &= subject->mass == 0 || (subject->mass >= 0.5 && subject->mass <= 1000);
   good &= subject->stature == 0 || (subject->stature >= 0.2 && subject->stature <= 3);
   if (good) return AMBULO_OK;
-  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                        "the subject is out of range (got %s kg, %s m); expected a mass of 0.5 to "
                        "1000 kg and a stature of 0.2 to 3 m",
                        ambulo__number_text(subject->mass).text,
@@ -187,15 +186,15 @@ static ambulo_status apply_override(ambulo__yaml *document, const char *override
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics) {
   static const char prefix[] = "model.";
-  ambulo__place nowhere = {0};
   const char *equals = override ? strchr(override, '=') : NULL;
   if (!equals || equals == override)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "override '%s'; expected path=value, such as links[shank_r].body.mass=4",
                          override ? override : "");
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   char *path = ambulo__alloc(&own, (size_t)(equals - override) + 1, 1);
-  if (!path) return ambulo__error(diagnostics, AMBULO_E_MEMORY, nowhere, NULL, "out of memory");
+  if (!path)
+    return ambulo__error(diagnostics, AMBULO_E_MEMORY, ambulo__nowhere, NULL, "out of memory");
   memcpy(path, override, (size_t)(equals - override));
   int below = strncmp(path, prefix, sizeof prefix - 1) == 0;
   ambulo_status status = ambulo__yaml_set_below(

@@ -1,4 +1,5 @@
 /* model/query.c - read access to a model. A NULL model has nothing in it. */
+#include <math.h>
 #include <string.h>
 
 #include "model/model.h"
@@ -69,6 +70,11 @@ int ambulo_model_find_foot(const ambulo_model *model, const char *name) {
 
 double ambulo_model_mass(const ambulo_model *model) {
   return model ? model->mass : 0;
+}
+
+double ambulo__model_weight(const ambulo_model *model) {
+  const double *g = model->gravity;
+  return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
 double ambulo_model_stature(const ambulo_model *model) {

@@ -11,10 +11,8 @@
 
 enum { MAX_INTERVALS = 100000 };
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 #define REFUSE(diagnostics, ...)                                                                   \
-  ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, __VA_ARGS__)
+  ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL, __VA_ARGS__)
 
 /* -------------------------------------------------------------- plain numbers */
 

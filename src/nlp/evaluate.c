@@ -19,13 +19,6 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
-
-double ambulo__seconds_now(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static double *block_of(const ambulo_workspace *workspace, double *base, int block) {
   return base + (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;

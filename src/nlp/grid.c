@@ -3,6 +3,7 @@
  * Coarser grids start a continuation (knot insertion), finer ones audit what lies between
  * the nodes. */
 #include "nlp/problem.h"
+#include "base/instant.h"
 
 #include <math.h>
 #include <string.h>
@@ -67,7 +68,8 @@ ambulo_status ambulo_problem_transfer(const ambulo_problem *from, const double *
                                       const ambulo_problem *to, double *x_to) {
   if (!from || !x_from || !to || !x_to) return AMBULO_E_ARGUMENT;
   if (from->coordinates != to->coordinates) return AMBULO_E_ARGUMENT;
-  if (fabs(from->definition.duration - to->definition.duration) > 1e-9) return AMBULO_E_ARGUMENT;
+  if (fabs(from->definition.duration - to->definition.duration) > AMBULO__INSTANT)
+    return AMBULO_E_ARGUMENT;
   return ambulo__basis_transfer(from->basis, x_from, to->basis, x_to, to->coordinates,
                                 &to->allocator);
 }

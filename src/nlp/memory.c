@@ -48,12 +48,11 @@ double ambulo__rows_at_most(const ambulo_problem *p) {
 }
 
 ambulo_status ambulo__check_memory(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   const double gigabyte = 1073741824.0;
   double rows = ambulo__rows_at_most(p), free_bytes = 1048576.0 * ambulo__free_megabytes();
   double bytes = ambulo__row_bytes(p, rows) + ambulo__workspace_bytes(p, 0);
   if (rows <= AMBULO__MOST_ROWS && (free_bytes == 0.0 || bytes <= free_bytes)) return AMBULO_OK;
-  return ambulo__error(diagnostics, AMBULO_E_LIMIT, nowhere,
+  return ambulo__error(diagnostics, AMBULO_E_LIMIT, ambulo__nowhere,
                        "lower time.intervals or trajectory.intervals",
                        "the problem is too large: %d time nodes and %d unknowns of %d coordinates, "
                        "up to %.3g million rows, %.3g GB before any solve (%.3g GB are free); "

@@ -74,7 +74,6 @@ struct ambulo_workspace {
   double *user_gradient;  /* [user row instances][channels]: slopes of user rows */
   int *user_slot;         /* [rows]: index into user_gradient, or -1 */
   double *node_state;     /* scratch for callbacks: [2][channels] */
-  double *local_scratch;  /* scratch for one local gradient: [span * d] */
   double *motion_scratch; /* ... for one output's gradient by q, qd, qdd: [3][d] */
   double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
                              without ground reaction */
@@ -152,10 +151,5 @@ static inline int ambulo__node_width(const ambulo_problem *p, int node) {
 static inline int ambulo__row_is_local(const ambulo_problem *p, int row) {
   return p->table.rows[row].node >= 0;
 }
-
-/* Gauss-Newton matrix of the objective, one node: added to the symmetric
- * local[width * width] (row-major, both triangles). Uses the curvature of the terms
- * (objective/term.h). */
-void ambulo__node_gauss_newton(const ambulo_workspace *workspace, int node, double *local);
 
 #endif

@@ -5,6 +5,7 @@
  * and hash. After that nothing changes.
  */
 #include "nlp/problem.h"
+#include "base/instant.h"
 #include "nlp/memory.h"
 #include "objective/mirror_terms.h"
 
@@ -48,10 +49,8 @@ ambulo_term ambulo_term_default(ambulo_term_kind kind) {
   return term;
 }
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 #define REFUSE(diagnostics, ...)                                                                   \
-  ambulo__error(diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, __VA_ARGS__)
+  ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL, __VA_ARGS__)
 
 /* ------------------------------------------------------------ construction */
 
@@ -85,10 +84,9 @@ static void add_user_rows(ambulo_problem *p) {
   for (int u = 0; u < p->definition.user_row_count; u++) {
     const ambulo_user_row *user = &p->definition.user_rows[u];
     for (int k = 0; k < p->nodes; k++) {
-      if (p->times[k] < user->from - 1e-9 || p->times[k] > user->to + 1e-9) continue;
-      ambulo__row_begin(&p->table, user->name, "", "", user->unit, user->relation, k, p->times[k],
-                        0.0);
-      if (!p->table.status) p->table.rows[p->table.row_count - 1].user = u;
+      if (p->times[k] < user->from - AMBULO__INSTANT || p->times[k] > user->to + AMBULO__INSTANT)
+        continue;
+      ambulo__row_user(&p->table, user, u, k, p->times[k]);
     }
   }
 }
@@ -97,8 +95,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   const ambulo_problem_definition *d = &p->definition;
   ambulo__gait_frame frame = {d, p->model, p->basis, p->channels, p->times, p->nodes, p->active};
   ambulo_status status = AMBULO_OK;
-  const double *g = p->model->gravity;
-  p->table.weight = p->model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  p->table.weight = ambulo__model_weight(p->model);
   if (d->ground_penetration) ambulo__ground_rows(&frame, &p->table);
   if (d->contact_tolerance > 0.0) {
     ambulo__contact_tube_rows(&frame, &p->table);
@@ -114,7 +111,7 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   ambulo__end_rows(&frame, &p->table);
   add_user_rows(p);
   if (p->table.status == AMBULO_E_INTERNAL)
-    return ambulo__error(diagnostics, AMBULO_E_INTERNAL, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_INTERNAL, ambulo__nowhere, NULL,
                          "a constraint row has more terms than its form holds");
   if (p->table.status) return p->table.status;
   p->rows = p->table.row_count;

@@ -77,13 +77,10 @@ ambulo_status ambulo_problem_row(const ambulo_problem *p, int index, ambulo_row 
 }
 
 int ambulo_problem_contact_at(const ambulo_problem *p, int foot, double time) {
-  const double tolerance = 1e-9;
   const ambulo_problem_definition *d = &p->definition;
   for (int c = 0; c < d->contact_count; c++) {
-    const ambulo_contact *contact = &d->contacts[c];
-    if (contact->foot != foot || time < contact->from - tolerance) continue;
-    int last = contact->to >= d->duration - tolerance;
-    if (time < contact->to - tolerance || last) return c;
+    if (d->contacts[c].foot == foot && ambulo__contact_holds(&d->contacts[c], d->duration, time))
+      return c;
   }
   return -1;
 }

@@ -7,10 +7,6 @@ static int user_row_instances(const ambulo_problem *problem) {
   return count;
 }
 
-static int max_local_width(const ambulo_problem *problem) {
-  return ambulo__basis_span(problem->basis) * problem->coordinates;
-}
-
 /* by far the largest part: the Jacobians of all nodes */
 static ambulo_status allocate_jacobians(ambulo_workspace *w, const ambulo_problem *p) {
   const ambulo_allocator *a = &w->allocator;
@@ -45,12 +41,11 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->user_gradient = ambulo__alloc_aligned(a, instances * (size_t)w->channel_count, word);
   w->user_slot = ambulo__alloc(a, (size_t)p->rows, sizeof *w->user_slot);
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
-  w->local_scratch = ambulo__alloc_aligned(a, (size_t)max_local_width(p), word);
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
   int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch &&
                  w->row_value && w->term_value && w->user_gradient && w->user_slot &&
-                 w->node_state && w->local_scratch && w->motion_scratch && w->fault_scratch;
+                 w->node_state && w->motion_scratch && w->fault_scratch;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
@@ -106,7 +101,6 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->term_value,
                        w->user_gradient,
                        w->node_state,
-                       w->local_scratch,
                        w->motion_scratch,
                        w->fault_scratch,
                        w->wrench[0],

@@ -24,10 +24,9 @@
 
 enum { ANGLES = 5 };
 static const double angles[ANGLES] = {-1.0, -0.5, 0.0, 0.5, 1.0}; /* rad */
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
 #define REFUSE(list, ...)                                                                          \
-  ambulo__error(list, AMBULO_E_PROBLEM, nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
+  ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
 
 /* What a term asks of one coordinate, seen with a sign: -1 in the mirror. */
 typedef struct share {

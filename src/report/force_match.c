@@ -124,10 +124,9 @@ static int find_foot(const matching *m, const char *name, size_t length) {
 
 static ambulo_status refuse_map(const matching *m, const char *text, size_t length,
                                 const char *why) {
-  ambulo__place nowhere = {0};
   char hint[LIST];
   map_hint(m->model, hint);
-  return ambulo__error(m->doubts->diagnostics, AMBULO_E_ARGUMENT, nowhere, hint,
+  return ambulo__error(m->doubts->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, hint,
                        "force columns: '%.*s' %s", length < 200 ? (int)length : 200, text, why);
 }
 

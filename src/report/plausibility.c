@@ -231,8 +231,6 @@ static void doubt_residual(ambulo__inverse *v, const char *forces,
 
 void ambulo__doubt_loads(ambulo__inverse *v, const char *forces,
                          const ambulo_ground_residual *residual) {
-  const double *g = v->model->gravity;
-  double weight = v->model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-  doubt_places(v, forces, weight);
+  doubt_places(v, forces, ambulo__model_weight(v->model));
   doubt_residual(v, forces, residual);
 }

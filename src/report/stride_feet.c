@@ -53,8 +53,7 @@ void ambulo__stride_feet_mirror(ambulo__stride *s, int k) {
 }
 
 double ambulo__stride_force(const ambulo__stride *s, int k, int foot, const double direction[3]) {
-  const double *g = s->model->gravity;
-  double weight = s->model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  double weight = ambulo__model_weight(s->model);
   const double *force = s->grf + 3 * ((size_t)k * (size_t)s->feet + (size_t)foot);
   return (force[0] * direction[0] + force[1] * direction[1] + force[2] * direction[2]) / weight;
 }

@@ -70,7 +70,6 @@ ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
 
 ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_options *o,
                                          ambulo_diagnostics *diagnostics) {
-  static const ambulo__place nowhere = {NULL, 0, 0, NULL};
   double most = o->maximum_memory, bytes = ambulo_problem_memory(p).solve;
   const char *what = "solver.maximum_memory";
   if (most == 0.0) {
@@ -79,7 +78,7 @@ ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_o
   }
   if (most == 0.0 || bytes <= most) return AMBULO_OK;
   return ambulo__error(
-      diagnostics, AMBULO_E_LIMIT, nowhere,
+      diagnostics, AMBULO_E_LIMIT, ambulo__nowhere,
       "lower trajectory.intervals or time.intervals, or raise "
       "solver.maximum_memory",
       "the solve takes about %.3g GB (%d unknowns, %d diagonals, %d rows); expected "

@@ -5,8 +5,6 @@
 
 static const double least_tolerance = 1e-14, most_tolerance = 1.0; /* as in problem files */
 
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
-
 enum { OPTIONS_COOKIE = 0x616d6273, DEFAULT_EVALUATIONS = 20000, DEFAULT_ITERATIONS = 150 };
 
 ambulo_options ambulo_options_default(void) {
@@ -29,7 +27,7 @@ ambulo_options ambulo_options_default(void) {
 static ambulo_status check_tolerance(const char *name, double value,
                                      ambulo_diagnostics *diagnostics) {
   if (value >= least_tolerance && value <= most_tolerance) return AMBULO_OK;
-  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                        "solver.%s is %g; expected %g to %g", name, value, least_tolerance,
                        most_tolerance);
 }
@@ -37,28 +35,28 @@ static ambulo_status check_tolerance(const char *name, double value,
 ambulo_status ambulo__options_check(const ambulo_options *options,
                                     ambulo_diagnostics *diagnostics) {
   if (options->cookie != OPTIONS_COOKIE)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver options did not come from ambulo_options_default()");
   if (options->algorithm < AMBULO_AUTO || options->algorithm > AMBULO_AUGLAG)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver algorithm %d", (int)options->algorithm);
   if (options->finisher < AMBULO_FINISHER_NONE || options->finisher > AMBULO_FINISHER_SLSQP)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver finisher %d", (int)options->finisher);
   if (options->maximum_evaluations < 1)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.maximum_evaluations is %d; expected at least 1",
                          options->maximum_evaluations);
   if (options->maximum_iterations < 1)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.maximum_iterations is %d; expected at least 1",
                          options->maximum_iterations);
   if (!(options->time_limit >= 0.0))
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.time_limit is %g s; expected 0 (none) or more",
                          options->time_limit);
   if (!(options->maximum_memory >= 0.0))
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.maximum_memory is %g bytes; expected 0 (what is free) or more",
                          options->maximum_memory);
   ambulo_status status =
@@ -67,7 +65,7 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
     status = check_tolerance("optimality_tolerance", options->optimality_tolerance, diagnostics);
   if (status) return status;
   if (options->dense_samples < 1 || options->dense_samples > 1000)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, nowhere, NULL,
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.dense_samples is %d; expected 1 to 1000", options->dense_samples);
   return AMBULO_OK;
 }

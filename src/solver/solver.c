@@ -38,7 +38,6 @@ enum {
   SECOND_LOOKS = 3  /* at a point that satisfies the rows and is not shown to be optimal */
 };
 static const double near_rows = 1e-3; /* relative to their sizes */
-static const ambulo__place nowhere = {NULL, 0, 0, NULL};
 
 typedef struct solve {
   const ambulo_problem *problem;
@@ -63,8 +62,8 @@ static ambulo_status check_start(const solve *s) {
   if (!status && ambulo__evaluate(workspace, x)) {
     char text[AMBULO__FAULT_TEXT];
     ambulo_fault_text(&workspace->fault, text, sizeof text);
-    status =
-        ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, nowhere, NULL, "at the start %s", text);
+    status = ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
+                           "at the start %s", text);
   }
   ambulo_workspace_free(workspace);
   return status;
@@ -94,8 +93,9 @@ static ambulo_status finish_by_slsqp(solve *s, double *x) {
   ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
   size_t n = (size_t)s->problem->variables;
   if (n > AMBULO__FINISHER_UNKNOWNS) {
-    ambulo__note(s->diagnostics, nowhere, "finisher: slsqp left out: %zu unknowns are more than %d",
-                 n, AMBULO__FINISHER_UNKNOWNS);
+    ambulo__note(s->diagnostics, ambulo__nowhere,
+                 "finisher: slsqp left out: %zu unknowns are more than %d", n,
+                 AMBULO__FINISHER_UNKNOWNS);
     return AMBULO_OK;
   }
   double *other = ambulo__alloc(&a, n, sizeof *other);
@@ -323,7 +323,7 @@ static ambulo_status begin(solve *s, const ambulo_options *options, const double
 /* frees what a failed call leaves, hands over the result of a good one */
 static ambulo_status end(solve *s, ambulo_status status, ambulo_result **result) {
   if (status == AMBULO_E_MEMORY)
-    (void)ambulo__error(s->diagnostics, status, nowhere, NULL,
+    (void)ambulo__error(s->diagnostics, status, ambulo__nowhere, NULL,
                         "cannot allocate memory to solve the problem; it takes about %.3g MB",
                         1e-6 * ambulo_problem_memory(s->problem).solve);
   ambulo__engine_free(s->engine);

@@ -73,12 +73,6 @@ void ambulo__lane_map_free(ambulo__lane_map *map) {
   ambulo__free(&allocator, map);
 }
 
-int ambulo__lane_map_nodes(const ambulo__lane_map *map) {
-  return map->nodes;
-}
-int ambulo__lane_map_coordinates(const ambulo__lane_map *map) {
-  return map->coordinates;
-}
 const ambulo__basis_point *ambulo__lane_map_points(const ambulo__lane_map *map) {
   return map->points;
 }

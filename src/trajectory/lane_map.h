@@ -22,8 +22,6 @@ ambulo_status ambulo__lane_map_create(const ambulo__basis *basis, const double *
                                       ambulo__lane_map **map);
 void ambulo__lane_map_free(ambulo__lane_map *map); /* accepts NULL */
 
-int ambulo__lane_map_nodes(const ambulo__lane_map *map);
-int ambulo__lane_map_coordinates(const ambulo__lane_map *map);
 /* The map of each node, [nodes] (and copies of the last up to a full block). */
 const ambulo__basis_point *ambulo__lane_map_points(const ambulo__lane_map *map);
 

@@ -69,13 +69,6 @@ ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator 
   return read_file(path, 1, allocator, diagnostics, motion);
 }
 
-ambulo_status ambulo__motion_read_text(const char *text, size_t length, const char *name,
-                                       ambulo__motion_format format,
-                                       const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  return ambulo__table_read(text, length, name, format, 0, allocator, diagnostics, motion);
-}
-
 ambulo__motion_format ambulo__motion_format_of(const char *name) {
   const char *dot = strrchr(name, '.');
   if (!dot) return AMBULO__MOTION_AUTO;

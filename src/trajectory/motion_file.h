@@ -53,11 +53,7 @@ ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allo
 /* The same, but any cell below a name may be "nan": measured forces have gaps. */
 ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo__motion **motion);
-ambulo_status ambulo__motion_read_text(const char *text, size_t length, const char *name,
-                                       ambulo__motion_format format,
-                                       const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion);
-/* All of them (table_read.c); gaps: as ambulo__motion_read_gaps. */
+/* Both, of a text under that name (table_read.c); gaps: as ambulo__motion_read_gaps. */
 ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
                                  ambulo__motion_format format, int gaps,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
@@ -71,12 +67,5 @@ int ambulo__motion_column(const ambulo__motion *motion, const char *name);
 /* Degrees to radians in the columns with is_angle[column] != 0, if the table is in degrees;
  * in_degrees is cleared. */
 void ambulo__motion_to_radians(ambulo__motion *motion, const unsigned char *is_angle);
-
-/* Appends the table; numbers read back bit by bit. comment (may be NULL): text without the
- * '#', may have several lines. title: first line of the STO. */
-void ambulo__motion_write_csv(const ambulo__motion *motion, const char *comment,
-                              ambulo__text_buffer *buffer);
-void ambulo__motion_write_sto(const ambulo__motion *motion, const char *title,
-                              ambulo__text_buffer *buffer);
 
 #endif

@@ -234,10 +234,3 @@ void ambulo__motion_fit_at(const ambulo__motion_fit *fit, const double *times, i
     }
   }
 }
-
-const ambulo__basis *ambulo__motion_fit_basis(const ambulo__motion_fit *fit) {
-  return fit->basis;
-}
-const double *ambulo__motion_fit_control_points(const ambulo__motion_fit *fit) {
-  return fit->x;
-}

@@ -23,9 +23,4 @@ void ambulo__motion_fit_free(ambulo__motion_fit *fit); /* accepts NULL */
 void ambulo__motion_fit_at(const ambulo__motion_fit *fit, const double *times, int count, double *q,
                            double *qd, double *qdd);
 
-/* The spline behind it, on [0, last time - first time], and its control points
- * [control_points][columns]: what ambulo__basis_transfer() takes. */
-const ambulo__basis *ambulo__motion_fit_basis(const ambulo__motion_fit *fit);
-const double *ambulo__motion_fit_control_points(const ambulo__motion_fit *fit);
-
 #endif

@@ -8,13 +8,13 @@ static const char chains[] =
     "  - {key: time.duration, name: T, values: [1, 2, 3]}\nstart_from: neighbour\nalong: T\n";
 static ambulo_allocator plain;
 
-static ambulo__run open_run(void **state, const ambulo_sweep *sweep, int shard, int shards) {
+static ambulo__batch_run open_run(void **state, const ambulo_sweep *sweep, int shard, int shards) {
   plain = ambulo__allocator_or_default(NULL);
-  ambulo__run run = {.sweep = sweep,
-                     .directory = *state,
-                     .options = ambulo_batch_options_default(),
-                     .allocator = &plain,
-                     .workers = 1};
+  ambulo__batch_run run = {.sweep = sweep,
+                           .directory = *state,
+                           .options = ambulo_batch_options_default(),
+                           .allocator = &plain,
+                           .workers = 1};
   run.options.shard = shard;
   run.options.shards = shards;
   assert_int_equal(ambulo__schedule_open(&run), AMBULO_OK);
@@ -28,14 +28,15 @@ static ambulo_sweep *sweep_of(void **state, const char *text) {
 }
 
 /* what the end of its worker does */
-static void finish(ambulo__run *run, int index, int solved) {
+static void finish(ambulo__batch_run *run, int index, int solved) {
   run->origin[index] = ambulo__schedule_origin(run, index);
   run->state[index] = AMBULO__CASE_DONE;
   run->solved[index] = (unsigned char)solved;
 }
 
 /* a record without a result folder: of a case that ended without one, or of one that is damaged */
-static void record(ambulo__run *run, int index, const char *case_state, unsigned long long origin) {
+static void record(ambulo__batch_run *run, int index, const char *case_state,
+                   unsigned long long origin) {
   const char *id = run->sweep->cases[index].id;
   ambulo__record r = {.key = run->sweep->cases[index].key, .origin = origin, .limit_seconds = 5.0};
   char folder[SCRATCH_PATH + 64];
@@ -49,7 +50,7 @@ static void record(ambulo__run *run, int index, const char *case_state, unsigned
 
 static void a_chain_goes_on_in_its_order(void **state) {
   ambulo_sweep *sweep = sweep_of(state, chains);
-  ambulo__run run = open_run(state, sweep, 1, 1);
+  ambulo__batch_run run = open_run(state, sweep, 1, 1);
   assert_int_equal(run.progress.cases, 6);
   assert_int_equal(ambulo__schedule_next(&run), 0);
   run.state[0] = AMBULO__CASE_RUNNING;
@@ -74,7 +75,7 @@ static void shards_take_whole_chains_and_every_case_once(void **state) {
   ambulo_sweep *sweep = sweep_of(state, chains);
   int taken[6] = {0};
   for (int shard = 1; shard <= 4; shard++) {
-    ambulo__run run = open_run(state, sweep, shard, 4);
+    ambulo__batch_run run = open_run(state, sweep, shard, 4);
     assert_int_equal(run.progress.cases, shard <= 2 ? 3 : 0);
     for (int k = 0; k < 6; k++) {
       taken[k] += run.state[k] != AMBULO__CASE_ELSEWHERE;
@@ -89,7 +90,7 @@ static void shards_take_whole_chains_and_every_case_once(void **state) {
 
 static void records_are_taken_when_they_fit(void **state) {
   ambulo_sweep *sweep = sweep_of(state, chains);
-  ambulo__run run = open_run(state, sweep, 1, 1);
+  ambulo__batch_run run = open_run(state, sweep, 1, 1);
   record(&run, 0, "crashed", 0);
   record(&run, 1, "crashed", 0);
   record(&run, 3, "timeout", 0);
@@ -109,7 +110,7 @@ static void records_are_taken_when_they_fit(void **state) {
 /* it counts only once the case before it is done, and leads on to the one behind it */
 static void a_record_waits_for_the_case_before_it(void **state) {
   ambulo_sweep *sweep = sweep_of(state, chains);
-  ambulo__run run = open_run(state, sweep, 1, 1);
+  ambulo__batch_run run = open_run(state, sweep, 1, 1);
   record(&run, 1, "crashed", 0);
   ambulo__schedule_free(&run);
   run = open_run(state, sweep, 1, 1);

@@ -2,7 +2,8 @@
 #include "gait/band.h"
 #include "support/row_fixture.h"
 
-static const ambulo__band_name name = {"band", "subject", "low", "high", "m"};
+static const ambulo__band_name name = {AMBULO__KIND_CLEARANCE, "subject", "low", "high",
+                                       AMBULO__METRES};
 
 static void a_pair_of_rows(void **state) {
   (void)state;

@@ -137,15 +137,19 @@ static void the_limit_of_a_row_is_the_models(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
-  ambulo__table_row row = {.family = "joint_limit", .subject = "knee_r", .detail = "upper"};
+  ambulo__table_row row = {
+      .kind = AMBULO__KIND_JOINT_LIMIT, .subject = "knee_r", .detail = "upper"};
   assert_close(ambulo__limit_given(f.model, &row), 0.1, 0);
   row.detail = "lower";
   assert_close(ambulo__limit_given(f.model, &row), -2.0, 0);
-  row = (ambulo__table_row){.family = "speed_limit", .subject = "hip_r", .detail = "lower"};
+  row =
+      (ambulo__table_row){.kind = AMBULO__KIND_SPEED_LIMIT, .subject = "hip_r", .detail = "lower"};
   assert_close(ambulo__limit_given(f.model, &row), -8.0, 0);
-  row = (ambulo__table_row){.family = "torque_limit", .subject = "hip_r", .detail = "upper"};
+  row =
+      (ambulo__table_row){.kind = AMBULO__KIND_TORQUE_LIMIT, .subject = "hip_r", .detail = "upper"};
   assert_close(ambulo__limit_given(f.model, &row), 120.0, 0);
-  row = (ambulo__table_row){.subject = "nobody", .family = "x", .detail = "lower", .constant = 2.0};
+  row = (ambulo__table_row){
+      .subject = "nobody", .kind = AMBULO__KIND_JOINT_LIMIT, .detail = "lower", .constant = 2.0};
   assert_close(ambulo__limit_given(f.model, &row), -2.0, 0);
   row_fixture_close(&f);
 }

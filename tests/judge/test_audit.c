@@ -105,6 +105,19 @@ static void dense_violation_is_larger_than_the_nodes(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* the worst row of a family, relative to its size */
+static double worst_of(const ambulo_problem *p, const ambulo_result *r, const char *family) {
+  const double *value = ambulo_result_rows(r);
+  double worst = -1.0;
+  for (int k = 0; k < p->rows; k++) {
+    const ambulo__table_row *row = &p->table.rows[k];
+    if (strcmp(row->family, family) != 0) continue;
+    double missed = row->relation == AMBULO_EQUAL ? fabs(value[k]) : fmax(0.0, -value[k]);
+    worst = fmax(worst, missed / row->size);
+  }
+  return worst;
+}
+
 static void families_are_complete(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("yardstick_12");
@@ -114,6 +127,9 @@ static void families_are_complete(void **state) {
   for (int i = 0; i < ambulo_result_family_count(r); i++) {
     const ambulo_violation *v = ambulo_result_family(r, i);
     assert_non_null(v->family);
+    assert_close(v->worst / v->size, worst_of(problem, r, v->family), 0.0);
+    for (int k = 0; k < i; k++)
+      assert_string_not_equal(v->family, ambulo_result_family(r, k)->family);
     worst = fmax(worst, v->worst);
   }
   assert_true(ambulo_result_family_count(r) >= 5);

@@ -233,6 +233,33 @@ static void a_refusal_between_the_nodes_is_told(void **state) {
 
 /* --------------------------------------------------------------------- memory */
 
+static int rule_of(ambulo__row_kind kind, ambulo__measure measure) {
+  ambulo__table_row row = {.kind = (unsigned char)kind, .measure = (unsigned char)measure};
+  return ambulo__dense_rule_of_row(&row);
+}
+
+/* lengths and angles of contacts fail alike: the sentence has their family once */
+static void the_sentence_names_a_family_once(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("two_link_reach");
+  ambulo__dense_report *report = calloc(1, sizeof *report);
+  const ambulo__row_kind kinds[] = {AMBULO__KIND_CONTACT, AMBULO__KIND_ZMP, AMBULO__KIND_CONTACT};
+  const ambulo__measure measures[] = {AMBULO__METRES, AMBULO__METRES, AMBULO__RADIANS};
+  for (int i = 0; i < 3; i++) {
+    const char *family = ambulo__row_family(kinds[i]), *unit = ambulo__measure_text(measures[i]);
+    report->family_rule[i] = rule_of(kinds[i], measures[i]);
+    report->family[i].violation = (ambulo_violation){
+        .family = family, .subject = "a", .detail = "b", .unit = unit, .worst = 1.0, .size = 1.0};
+  }
+  report->view.family_count = report->view.failing = 3;
+  report->view.samples = 10;
+  ambulo__dense_words(p, AMBULO_OPTIMAL, NULL, report);
+  assert_non_null(strstr(report->summary, "; contact, zmp: no time"));
+  assert_int_equal(report->view.line_count, 3);
+  free(report);
+  ambulo_problem_free(p);
+}
+
 static void every_allocation_may_fail(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("walker_2d_step");
@@ -263,6 +290,7 @@ int main(void) {
       cmocka_unit_test(without_time_nothing_is_foretold),
       cmocka_unit_test(a_grid_that_cannot_be_is_not_a_motion_that_holds),
       cmocka_unit_test(a_refusal_between_the_nodes_is_told),
+      cmocka_unit_test(the_sentence_names_a_family_once),
       cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -49,7 +49,7 @@ static void a_bent_force_is_off_by_what_the_basis_says(void **state) {
   ambulo__dense dense;
   assert_int_equal(ambulo__dense_open(kept, x, 10, 0.0, NULL, NULL, &dense), AMBULO_OK);
   assert_true(want > 0.1);
-  double g = ambulo__dense_body_weight(kept->model) / kept->model->mass;
+  double g = ambulo__model_weight(kept->model) / kept->model->mass;
   assert_close(largest_of(&dense, "total").sample.value, want / g, 1e-9);
   ambulo__dense_close(&dense);
   free(x);
@@ -88,7 +88,7 @@ static void each_foot_has_its_own(void **state) {
       }
       want = fmax(want, fabs(n[0] - (n[1] + (n[2] - n[1]) * (j - a) / SAMPLES)));
     }
-    want /= ambulo__dense_body_weight(p->model);
+    want /= ambulo__model_weight(p->model);
     assert_true(want > 1e-3);
     assert_close(largest_of(&dense, p->model->feet[foot].name).sample.value, want, 1e-9);
   }

@@ -253,6 +253,35 @@ static void others_are_mentioned(void **state) {
   ambulo_problem_free(p);
 }
 
+static double nothing(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  (void)user, (void)state, (void)gradient;
+  return 0.0;
+}
+
+/* a row of the caller may be called what the engine calls its own: it is none of them */
+static void own_rows_are_not_taken_for_others(void **state) {
+  (void)state;
+  static const char *const names[] = {"torque_limit", "final_state", "mirrored", "tracking_tube",
+                                      "foot_strike",  "friction",    "zmp",      "reach"};
+  ambulo_problem *p = load(WALK, NULL, 0);
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    ambulo_user_row own = {names[i], "N", AMBULO_NOT_NEGATIVE, 0.0, 10.0, nothing, NULL};
+    ambulo_problem_definition d = p->definition;
+    ambulo_problem *with = NULL;
+    char sentence[80];
+    d.user_rows = &own;
+    d.user_row_count = 1;
+    assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &with), AMBULO_OK);
+    ambulo__explanation *out = suggest(with, with->rows - 1, -2.0);
+    (void)snprintf(sentence, sizeof sentence, "let %s of  () give way by 2 N", names[i]);
+    if (!strstr(out->suggestion, sentence)) print_error("got '%s'\n", out->suggestion);
+    assert_non_null(strstr(out->suggestion, sentence));
+    free(out);
+    ambulo_problem_free(with);
+  }
+  ambulo_problem_free(p);
+}
+
 static void settings_have_room(void **state) {
   (void)state;
   ambulo_problem *p = load(WALK, NULL, 0);
@@ -273,6 +302,7 @@ int main(void) {
                                      cmocka_unit_test(travel_is_shared_by_the_steps),
                                      cmocka_unit_test(one_tube_is_widened),
                                      cmocka_unit_test(others_are_mentioned),
+                                     cmocka_unit_test(own_rows_are_not_taken_for_others),
                                      cmocka_unit_test(settings_have_room)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

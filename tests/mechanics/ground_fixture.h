@@ -9,8 +9,8 @@
 #include <complex.h>
 
 #include "kernel_fixture.h"
-#include "mechanics/ground_reaction.h"
 #include "mechanics/plan_layout.h"
+#include "support/ground_reference.h"
 
 enum { ground_case_count = 160, ground_max_rows = 200, shipped_count = 2 };
 
@@ -56,8 +56,8 @@ static inline void ground_reference(const ground_case *c, const double *state, i
     z[2 * i] = state[i];
     z[2 * i + 1] = i == k ? step : 0;
   }
-  assert_int_equal(ambulo__ground_reaction_reference(c->body.model, c->height, ground, z, z + 2 * d,
-                                                     z + 4 * d, rows, c->body.reference_scratch),
+  assert_int_equal(ground_reaction_reference(c->body.model, c->height, ground, z, z + 2 * d,
+                                             z + 4 * d, rows, c->body.reference_scratch),
                    AMBULO_OK);
 }
 

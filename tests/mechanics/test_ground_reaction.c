@@ -70,9 +70,9 @@ static void torques_lose_the_power_of_the_feet(void **state) {
       case_reference(&c.body, motion, free_rows);
       for (int i = 0; i < 3 * d; i++) z[2 * i] = motion[i];
       for (int i = 0; i < d; i++) z[2 * i + 1] = step * motion[d + i];
-      assert_int_equal(ambulo__ground_reaction_reference(c.body.model, c.height, ground, z,
-                                                         z + 2 * d, z + 4 * d, (double *)out,
-                                                         c.body.reference_scratch),
+      assert_int_equal(ground_reaction_reference(c.body.model, c.height, ground, z, z + 2 * d,
+                                                 z + 4 * d, (double *)out,
+                                                 c.body.reference_scratch),
                        AMBULO_OK);
       for (int row = 0; row < c.body.rows; row++) {
         rows[row] = creal(out[row]);

@@ -141,14 +141,14 @@ static void check_same(const ground_case *c, const char *isa, const char *what, 
 static void instruction_sets_agree(void **state) {
   (void)state;
   static ground_case c;
-  const ambulo__kernels *scalar = ambulo__kernels_by_name("scalar");
+  const ambulo__kernels *one_lane = ambulo__kernels_by_name("scalar");
   for (int number = -shipped_count; number < ground_case_count; number += 3) {
     ground_case_open(&c, number);
     ambulo__plan_pattern pattern = ambulo__plan_get_pattern(c.body.plan);
     size_t d = (size_t)c.body.d, rows = (size_t)c.body.rows;
     double *out = lane_array(rows), *gradient = lane_array(3 * d), *other = lane_array(3 * d);
-    double *entries = entries_of(&c, scalar);
-    reverse(&c, scalar, gradient);
+    double *entries = entries_of(&c, one_lane);
+    reverse(&c, one_lane, gradient);
     memcpy(out, c.body.out, rows * AMBULO__LANES * sizeof *out);
     for (int i = 1; i < isa_count; i++) {
       const ambulo__kernels *kernels = ambulo__kernels_by_name(isa_names[i]);

@@ -1,4 +1,5 @@
 /* The banded metric is the sum of the nodes' Gauss-Newton matrices. */
+#include "support/gauss_newton.h"
 #include "support/problem_fixture.h"
 #include "support/engine_fixture.h"
 
@@ -21,7 +22,7 @@ static void band_is_the_sum_over_nodes(void **state) {
   for (int k = 0; k < p->nodes; k++) {
     int first = ambulo__node_first(p, k), width = ambulo__node_width(p, k);
     memset(local, 0, widest * widest * sizeof *local);
-    ambulo__node_gauss_newton(e->workspace, k, local);
+    node_gauss_newton(e->workspace, k, local);
     for (int i = 0; i < width; i++) {
       for (int j = 0; j < width; j++) want[first + i] += 2.0 * local[i * width + j] * d[first + j];
     }

@@ -1,3 +1,4 @@
+#include "model/model.h"
 #include "support/chain_definition.h"
 
 static void by_index(void **state) {
@@ -16,6 +17,7 @@ static void by_index(void **state) {
   assert_string_equal(ambulo_model_point(model, 0)->name, "heel");
   assert_string_equal(ambulo_model_foot(model, 0)->name, "foot");
   assert_close(ambulo_model_mass(model), 7, 0);
+  assert_close(ambulo__model_weight(model), 7 * 9.81, 1e-12);
   assert_close(ambulo_model_stature(model), 1.8, 0);
   assert_close(ambulo_model_gravity(model)[1], -9.81, 0);
   assert_close(ambulo_model_up(model)[1], 1, 0);

@@ -203,6 +203,8 @@ static void forces_at_the_end_are_held_unless_they_repeat(void **state) {
     assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", overrides, 2, NULL, NULL, &p),
                      AMBULO_OK);
     assert_int_equal(ambulo_problem_contact_at(p, 1, ambulo_problem_duration(p)), -1);
+    assert_true(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p)) >= 0);
+    assert_int_equal(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p) + 0.01), -1);
     for (int r = 0; r < p->rows; r++) {
       const ambulo__table_row *row = &p->table.rows[r];
       if (row->node != p->nodes - 1) continue;

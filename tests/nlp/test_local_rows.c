@@ -1,5 +1,6 @@
 /* Local gradients are the dense ones, cut out; Gauss-Newton is a sum of outer products. */
 #include "nlp/nlp.h"
+#include "support/gauss_newton.h"
 #include "support/problem_fixture.h"
 
 static void local_gradient_is_the_dense_one_cut_out(void **state) {
@@ -38,7 +39,7 @@ static void gauss_newton_form_is_the_sum_of_squared_torque_slopes(void **state) 
   for (int k = 0; k < nodes; k++) {
     int first = ambulo__node_first(f.problem, k), width = ambulo__node_width(f.problem, k);
     memset(local, 0, sizeof local);
-    ambulo__node_gauss_newton(f.workspace, k, local);
+    node_gauss_newton(f.workspace, k, local);
     for (int a = 0; a < width; a++)
       for (int b = 0; b < width; b++) h[(first + a) * n + first + b] += local[a * width + b];
   }

@@ -15,7 +15,7 @@ static void fill(ambulo__row_table *table) {
   ambulo__row_table_init(table, NULL);
   for (int r = 0; r < 200; r++) {
     int node = r % NODES, count = terms[r % 7];
-    ambulo__row_begin(table, "f", "s", "d", "m", AMBULO_EQUAL, node, 0.0,
+    ambulo__row_begin(table, AMBULO__KIND_ZMP, "s", "d", AMBULO__METRES, AMBULO_EQUAL, node, 0.0,
                       random_between(&source, -1.0, 1.0));
     for (int t = 0; t < count; t++) {
       ambulo__row_term_add(table, (node + t) % NODES, (r + t) % CHANNELS,
@@ -92,7 +92,8 @@ static void equal_neighbours_are_one_run(void **state) {
   ambulo_allocator allocator = ambulo__allocator_or_default(NULL);
   ambulo__row_table_init(&table, NULL);
   for (int r = 0; r < 50; r++) {
-    ambulo__row_begin(&table, "f", "s", "d", "m", AMBULO_EQUAL, 0, 0.0, 0.0);
+    ambulo__row_begin(&table, AMBULO__KIND_ZMP, "s", "d", AMBULO__METRES, AMBULO_EQUAL, 0, 0.0,
+                      0.0);
     for (int t = 0; t < 1 + (r >= 30); t++) ambulo__row_term_add(&table, 0, t, 1.0);
   }
   assert_int_equal(ambulo__row_runs_create(&table, CHANNELS, &allocator, &runs), AMBULO_OK);

@@ -1,6 +1,7 @@
 /* Doubts are warnings; the strict make them errors. */
 #include "report/doubt.h"
 #include "support/messages.h"
+#include "support/motion_text.h"
 
 static void strictness_decides(void **state) {
   (void)state;
@@ -27,8 +28,8 @@ static void headers_that_count_wrongly(void **state) {
   for (int i = 0; i < 3; i++) {
     ambulo__motion *motion = NULL;
     ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
-    assert_int_equal(ambulo__motion_read_text(texts[i], strlen(texts[i]), "m.sto",
-                                              AMBULO__MOTION_STO, NULL, NULL, &motion),
+    assert_int_equal(motion_read_text(texts[i], strlen(texts[i]), "m.sto", AMBULO__MOTION_STO, NULL,
+                                      NULL, &motion),
                      AMBULO_OK);
     ambulo__doubt_header(&doubts, "m.sto", motion);
     assert_int_equal(doubts.count, i == 0);

@@ -4,6 +4,7 @@
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "support/shared_data.h"
+#include "support/motion_text.h"
 
 static ambulo__motion *table(const char *names) {
   char text[2048];
@@ -12,9 +13,9 @@ static ambulo__motion *table(const char *names) {
     used += (size_t)snprintf(text + used, sizeof text - used, ",1");
   snprintf(text + used, sizeof text - used, "\n");
   ambulo__motion *motion = NULL;
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL,
-                                            NULL, &motion),
-                   AMBULO_OK);
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
+      AMBULO_OK);
   return motion;
 }
 

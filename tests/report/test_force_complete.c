@@ -4,6 +4,7 @@
 #include "support/messages.h"
 #include "support/model_text.h"
 #include "support/planar_walker.h"
+#include "support/motion_text.h"
 
 /* messages of a table whose one group belongs to foot 0 */
 static ambulo_diagnostics *messages_of(const ambulo_model *model, const char *names,
@@ -16,9 +17,9 @@ static ambulo_diagnostics *messages_of(const ambulo_model *model, const char *na
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
   ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL,
-                                            NULL, &motion),
-                   AMBULO_OK);
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
+      AMBULO_OK);
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
   c.groups[0].foot = 0;
   assert_int_equal(ambulo__force_columns_complete(&c, model, &doubts), expected);

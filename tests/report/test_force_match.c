@@ -2,6 +2,7 @@
 #include "report/force_columns.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
+#include "support/motion_text.h"
 
 enum { FEET = 4 };
 
@@ -77,9 +78,9 @@ static void try_one(const ambulo_model *model, const attempt *a) {
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
   ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL,
-                                            NULL, &motion),
-                   AMBULO_OK);
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
+      AMBULO_OK);
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
   assert_int_equal(c.count, count);
   ambulo_status status = ambulo__force_columns_match(&c, model, a->map, &doubts);
@@ -249,9 +250,9 @@ static void a_file_without_forces(void **state) {
   ambulo__force_columns c;
   ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
   static const char text[] = "time,FP1.Fx,FP1.Fy\n0,1,2\n";
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL,
-                                            NULL, &motion),
-                   AMBULO_OK);
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
+      AMBULO_OK);
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
   assert_int_equal(ambulo__force_columns_match(&c, model, NULL, &doubts), AMBULO_E_SCHEMA);
   assert_message(doubts.diagnostics, 0, "no column of forces on a foot");

@@ -3,6 +3,7 @@
 #include "report/stride.h"
 #include "support/walker_result.h"
 #include "trajectory/motion_file.h"
+#include "support/motion_text.h"
 
 static ambulo__motion_table table_of(const ambulo__stride *s) {
   ambulo__motion_table table = {.model = s->model,
@@ -20,8 +21,8 @@ static ambulo__motion_table table_of(const ambulo__stride *s) {
 static ambulo__motion *read_back(const ambulo__text_buffer *text, ambulo__motion_format format) {
   ambulo__motion *motion = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_status status = ambulo__motion_read_text(ambulo__text_data(text), text->length, "text",
-                                                  format, NULL, list, &motion);
+  ambulo_status status =
+      motion_read_text(ambulo__text_data(text), text->length, "text", format, NULL, list, &motion);
   if (status) {
     char message[400];
     ambulo_diagnostics_format(list, 0, message, sizeof message);

@@ -5,6 +5,7 @@
 #include "ambulo/ambulo.h"
 #include "support/messages.h"
 #include "trajectory/motion_file.h"
+#include "support/motion_text.h"
 
 static inline double table_cell(const ambulo__motion *m, int row, const char *name) {
   int column = ambulo__motion_column(m, name);
@@ -16,7 +17,7 @@ static inline double table_cell(const ambulo__motion *m, int row, const char *na
 static inline ambulo__motion *table_of_text(const char *text) {
   ambulo__motion *m = NULL;
   assert_int_equal(
-      ambulo__motion_read_text(text, strlen(text), "result", AMBULO__MOTION_CSV, NULL, NULL, &m),
+      motion_read_text(text, strlen(text), "result", AMBULO__MOTION_CSV, NULL, NULL, &m),
       AMBULO_OK);
   return m;
 }

@@ -137,8 +137,6 @@ static void points_are_those_of_the_basis(void **state) {
   setup s;
   open_setup(&s, AMBULO__BSPLINE, 3, 12, 13);
   const ambulo__basis_point *points = ambulo__lane_map_points(s.map);
-  assert_int_equal(ambulo__lane_map_nodes(s.map), 13);
-  assert_int_equal(ambulo__lane_map_coordinates(s.map), D);
   for (int k = 0; k < 16; k++) {
     ambulo__basis_point point;
     ambulo__basis_at(s.basis, s.times[k < 13 ? k : 12], &point);

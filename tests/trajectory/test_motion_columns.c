@@ -1,12 +1,13 @@
 /* Which column stands for a coordinate, and that two that disagree are never chosen between. */
 #include "support/messages.h"
 #include "trajectory/motion_columns.h"
+#include "support/motion_text.h"
 
 static ambulo__motion *table(const char *text) {
   ambulo__motion *motion = NULL;
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "m.csv", AMBULO__MOTION_CSV, NULL,
-                                            NULL, &motion),
-                   AMBULO_OK);
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "m.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
+      AMBULO_OK);
   return motion;
 }
 

@@ -145,8 +145,6 @@ static void the_fewest_samples_make_one_polynomial(void **state) {
   double t = 3.4321, q[2];
   ambulo__motion_fit_at(fit, &t, 1, q, NULL, NULL);
   assert_close(q[0], cubic(t), 1e-13);
-  assert_int_equal(ambulo__basis_control_points(ambulo__motion_fit_basis(fit)), 4);
-  assert_close(ambulo__motion_fit_control_points(fit)[0], motion->values[0], 1e-14);
   ambulo__motion_fit_free(fit);
   ambulo__motion_free(motion);
 }

@@ -3,12 +3,13 @@
 #include "support/messages.h"
 #include "support/scratch.h"
 #include "trajectory/motion_file.h"
+#include "support/motion_text.h"
 
 static ambulo__motion *read_ok(const char *text, const char *name) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo__motion *motion = NULL;
-  ambulo_status status = ambulo__motion_read_text(
-      text, strlen(text), name, ambulo__motion_format_of(name), NULL, list, &motion);
+  ambulo_status status = motion_read_text(text, strlen(text), name, ambulo__motion_format_of(name),
+                                          NULL, list, &motion);
   if (status) assert_message(list, 0, "(no message)");
   assert_int_equal(status, AMBULO_OK);
   ambulo_diagnostics_free(list);
@@ -114,8 +115,8 @@ static void faults_are_named_with_line_and_column(void **state) {
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     ambulo__motion *motion = NULL;
     ambulo_status status =
-        ambulo__motion_read_text(bad[i].text, strlen(bad[i].text), bad[i].name,
-                                 ambulo__motion_format_of(bad[i].name), NULL, list, &motion);
+        motion_read_text(bad[i].text, strlen(bad[i].text), bad[i].name,
+                         ambulo__motion_format_of(bad[i].name), NULL, list, &motion);
     assert_message(list, 0, bad[i].message);
     assert_int_equal(status, bad[i].status);
     assert_null(motion);
@@ -128,9 +129,9 @@ static void one_run_reports_all_faults(void **state) {
   const char *text = "time,q,p\n0,a,b\n1,2\n2,c,3\n1.5,4,5\n";
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo__motion *motion = NULL;
-  assert_int_equal(ambulo__motion_read_text(text, strlen(text), "x.csv", AMBULO__MOTION_AUTO, NULL,
-                                            list, &motion),
-                   AMBULO_E_SCHEMA);
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "x.csv", AMBULO__MOTION_AUTO, NULL, list, &motion),
+      AMBULO_E_SCHEMA);
   assert_int_equal(ambulo_diagnostics_error_count(list), 5);
   assert_message(list, 1, "x.csv:2:5");
   assert_message(list, 2, "x.csv:3:1: error[E_PARSE]: row with 2 cells");
@@ -143,18 +144,18 @@ static void sizes_are_limited_and_nul_bytes_refused(void **state) {
   (void)state;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo__motion *motion = NULL;
-  assert_int_equal(ambulo__motion_read_text("time", AMBULO__MOTION_MAX_BYTES + 1, "a.csv",
-                                            AMBULO__MOTION_CSV, NULL, list, &motion),
+  assert_int_equal(motion_read_text("time", AMBULO__MOTION_MAX_BYTES + 1, "a.csv",
+                                    AMBULO__MOTION_CSV, NULL, list, &motion),
                    AMBULO_E_LIMIT);
   char wide[3 * 5000] = "time";
   for (size_t i = 4; i < sizeof wide - 1; i++) wide[i] = i % 2 ? 'q' : ',';
-  assert_int_equal(ambulo__motion_read_text(wide, strlen(wide), "a.csv", AMBULO__MOTION_CSV, NULL,
-                                            list, &motion),
-                   AMBULO_E_LIMIT);
+  assert_int_equal(
+      motion_read_text(wide, strlen(wide), "a.csv", AMBULO__MOTION_CSV, NULL, list, &motion),
+      AMBULO_E_LIMIT);
   assert_message(list, 1, "expected at most 4096");
-  assert_int_equal(ambulo__motion_read_text("time,q\n0,\0001\n", 12, "a.csv", AMBULO__MOTION_CSV,
-                                            NULL, list, &motion),
-                   AMBULO_E_PARSE);
+  assert_int_equal(
+      motion_read_text("time,q\n0,\0001\n", 12, "a.csv", AMBULO__MOTION_CSV, NULL, list, &motion),
+      AMBULO_E_PARSE);
   assert_message(list, 2, "a.csv:2:3: error[E_PARSE]: NUL byte");
   assert_null(motion);
   ambulo_diagnostics_free(list);
@@ -168,7 +169,7 @@ static void texts_cut_anywhere_never_crash(void **state) {
     memcpy(copy, text, length);
     ambulo__motion *motion = NULL;
     ambulo_status status =
-        ambulo__motion_read_text(copy, length, "a.sto", AMBULO__MOTION_STO, NULL, NULL, &motion);
+        motion_read_text(copy, length, "a.sto", AMBULO__MOTION_STO, NULL, NULL, &motion);
     assert_int_not_equal(status, AMBULO_OK);
     assert_null(motion);
     free(copy);
@@ -182,8 +183,8 @@ static void every_failed_allocation_is_survived(void **state) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator hook = fail_alloc_hook(&memory);
     ambulo__motion *motion = NULL;
-    ambulo_status status = ambulo__motion_read_text(text, strlen(text), "a.csv",
-                                                    AMBULO__MOTION_AUTO, &hook, NULL, &motion);
+    ambulo_status status =
+        motion_read_text(text, strlen(text), "a.csv", AMBULO__MOTION_AUTO, &hook, NULL, &motion);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     ambulo__motion_free(motion);
     assert_int_equal(memory.live, 0);
