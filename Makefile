@@ -237,7 +237,7 @@ bench-peers: build/.ready-build
 	@OUT=$(OUT) sh bench/peers.sh
 
 # the emulated processor has no AVX-512, so this also covers the narrower kernels
-VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/trajectory/%,$(TESTS))
+VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/format/% $(OUT)/tests/trajectory/%,$(TESTS))
 valgrind: build/.ready-valgrind
 	$(submake) $(VALGRIND_TESTS)
 	@TEST_WRAPPER='valgrind -q --leak-check=full --error-exitcode=99' JOBS=$(JOBS) \

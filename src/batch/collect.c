@@ -5,7 +5,7 @@
 #include "batch/gather.h"
 #include "batch/lock.h"
 #include "batch/paths.h"
-#include "report/json_text.h"
+#include "format/json_text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "base/file_steps.h"
 #include "base/read_file.h"
 #include "base/seal.h"
-#include "base/yaml_node.h"
+#include "format/yaml_node.h"
 #include "batch/paths.h"
 
 #include <errno.h>

@@ -11,7 +11,7 @@
 #include "batch/paths.h"
 #include "batch/sweep.h"
 #include "batch/units.h"
-#include "report/json_text.h"
+#include "format/json_text.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -2,9 +2,9 @@
 #include "batch/outputs.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
-#include "base/yaml_node.h"
+#include "format/yaml_node.h"
 #include "batch/paths.h"
-#include "trajectory/table_text.h"
+#include "format/table_text.h"
 
 #include <limits.h>
 #include <stdio.h>

@@ -9,7 +9,7 @@
 
 #include "ambulo/batch.h"
 #include "base/alloc.h"
-#include "base/yaml_node.h"
+#include "format/yaml_node.h"
 
 enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEXT = 256 };
 

@@ -1,10 +1,10 @@
 /* batch/sweep_table.c - axes from a CSV table: one column an axis, one row a case. */
-#include "base/foreign_format.h"
+#include "format/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
 #include "batch/paths.h"
 #include "batch/sweep.h"
-#include "trajectory/table_text.h"
+#include "format/table_text.h"
 
 #include <string.h>
 

@@ -14,13 +14,6 @@ enum {
   AMBULO__MAX_NAME = 64
 };
 
-/* A number as text in messages, independent of the locale:
- * printf("%s", ambulo__number_text(x).text). */
-typedef struct ambulo__number {
-  char text[AMBULO__NUMTEXT_SIZE];
-} ambulo__number;
-ambulo__number ambulo__number_text(double value);
-
 /* A body that could exist: mass finite and in range, centre of mass finite, inertia
  * [xx yy zz xy xz yz] positive semidefinite with principal moments that obey the
  * triangle inequality. `what` names it in messages; the places are those of the mass and of

@@ -4,13 +4,6 @@
 
 #include "model/check.h"
 
-ambulo__number ambulo__number_text(double value) {
-  ambulo__number number;
-  size_t length = ambulo__print_double(number.text, value);
-  number.text[length] = '\0';
-  return number;
-}
-
 ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
   return c->places ? c->places->model : (ambulo__place){0};
 }

@@ -2,7 +2,7 @@
 #include "report/compare_cycle.h"
 #include "report/compare_doubt.h"
 #include "report/compare_score.h"
-#include "report/json_text.h"
+#include "format/json_text.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/file_steps.h"
-#include "base/yaml_node.h"
+#include "format/yaml_node.h"
 
 static const char *const feet[] = {"left", "right"};
 

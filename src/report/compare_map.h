@@ -3,7 +3,7 @@
 #ifndef AMBULO_REPORT_COMPARE_MAP_H
 #define AMBULO_REPORT_COMPARE_MAP_H
 
-#include "report/sheet.h"
+#include "format/sheet.h"
 
 #define AMBULO__CURVE_NAME 64
 

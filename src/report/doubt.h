@@ -3,7 +3,7 @@
 #define AMBULO_REPORT_DOUBT_H
 
 #include "base/diagnostics.h"
-#include "trajectory/motion_file.h"
+#include "format/motion_file.h"
 
 typedef struct ambulo__doubts {
   ambulo_diagnostics *diagnostics;

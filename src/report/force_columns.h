@@ -17,7 +17,7 @@
 
 #include "ambulo/model.h"
 #include "report/doubt.h"
-#include "trajectory/motion_file.h"
+#include "format/motion_file.h"
 
 typedef struct ambulo__force_group {
   char name[AMBULO__MOTION_MAX_NAME + 16], tag[AMBULO__MOTION_MAX_NAME + 1];

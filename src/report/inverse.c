@@ -15,7 +15,7 @@
 #include "base/file_steps.h"
 #include "base/output_check.h"
 #include "model/model.h"
-#include "report/motion_csv.h"
+#include "format/motion_csv.h"
 
 enum { OPTIONS_COOKIE = 0x616d6269 };
 

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "report/doubt.h"
 #include "report/ground_load.h"
-#include "trajectory/motion_file.h"
+#include "format/motion_file.h"
 
 typedef struct ambulo__inverse {
   ambulo_allocator allocator;

@@ -10,7 +10,7 @@
 #include "model/model.h"
 #include "report/filtering.h"
 #include "report/inverse.h"
-#include "trajectory/motion_columns.h"
+#include "format/motion_columns.h"
 #include "trajectory/motion_fit.h"
 
 static const double radian = 3.14159265358979323846 / 180.0;

@@ -5,7 +5,7 @@
 
 #include "model/model.h"
 #include "report/inverse.h"
-#include "trajectory/motion_units.h"
+#include "format/motion_units.h"
 
 static const double slow_rows = 0.5;          /* s: no motion is recorded at so few rows a second */
 static const double fastest_angle = 200.0;    /* rad/s; a pitcher's shoulder reaches 160 */

@@ -5,7 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "report/gait_svg.h"
-#include "report/motion_csv.h"
+#include "format/motion_csv.h"
 #include "report/solution_yaml.h"
 #include "report/stride.h"
 #include "report/summary_json.h"

@@ -5,7 +5,7 @@
 #include "report/summary_json.h"
 
 #include "report/impulse.h"
-#include "report/json_text.h"
+#include "format/json_text.h"
 #include "report/stride.h"
 #include "report/strikes.h"
 

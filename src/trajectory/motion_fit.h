@@ -6,7 +6,7 @@
 #define AMBULO_TRAJECTORY_MOTION_FIT_H
 
 #include "trajectory/basis.h"
-#include "trajectory/motion_file.h"
+#include "format/motion_file.h"
 
 typedef struct ambulo__motion_fit ambulo__motion_fit;
 

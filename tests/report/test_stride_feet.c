@@ -1,6 +1,6 @@
 /* Forces on the feet in a mirrored stride: models/walk_normal.yaml at a gentle made-up point. */
 #include "base/text_buffer.h"
-#include "report/motion_csv.h"
+#include "format/motion_csv.h"
 #include "report/stride.h"
 #include "support/test.h"
 

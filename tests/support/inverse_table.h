@@ -4,7 +4,7 @@
 
 #include "ambulo/ambulo.h"
 #include "support/messages.h"
-#include "trajectory/motion_file.h"
+#include "format/motion_file.h"
 
 static inline double table_cell(const ambulo__motion *m, int row, const char *name) {
   int column = ambulo__motion_column(m, name);
