@@ -2,7 +2,7 @@
 # The folders of src/ are a pipeline: a folder never includes one to its right, and the
 # program includes only public headers and its own.
 set -u
-order=(base model format trajectory mechanics gait objective nlp solver reader report batch cli)
+order=(base model format trajectory mechanics gait objective nlp solver reader inverse stride picture report compare batch cli)
 faults=0
 
 fault() {

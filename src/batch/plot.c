@@ -2,7 +2,7 @@
 #include "batch/plot.h"
 #include "base/atomic_file.h"
 #include "batch/paths.h"
-#include "report/svg.h"
+#include "picture/svg.h"
 
 #include <ctype.h>
 #include <math.h>

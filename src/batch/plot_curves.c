@@ -6,7 +6,7 @@
  * most about the values: the one with the greatest sum of squares between its groups. */
 #include "batch/paths.h"
 #include "batch/plot.h"
-#include "report/svg.h"
+#include "picture/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

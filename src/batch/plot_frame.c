@@ -1,7 +1,7 @@
 /* batch/plot_frame.c - title, axes and their values, which curves and maps share. */
 #include "base/numtext.h"
 #include "batch/plot.h"
-#include "report/svg.h"
+#include "picture/svg.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
  * of its cases is a dot at its lower edge, with a colour and a link of its own. Where nearly
  * every case has values of its own (samples), cases are dots in a plane instead. */
 #include "batch/plot.h"
-#include "report/svg.h"
+#include "picture/svg.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * Links are relative to the batch folder, in which the drawing stands. */
 #include "batch/paths.h"
 #include "batch/plot.h"
-#include "report/svg.h"
+#include "picture/svg.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/atomic_file.h"
-#include "report/gait_svg.h"
+#include "picture/gait_svg.h"
 #include "format/motion_csv.h"
 #include "report/solution_yaml.h"
-#include "report/stride.h"
+#include "stride/stride.h"
 #include "report/summary_json.h"
 
 enum { OPTIONS_COOKIE = 0x616d6272 };

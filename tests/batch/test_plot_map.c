@@ -1,6 +1,6 @@
 /* Heat maps of cells of any size: dots that do not hide each other, and stay in their cell. */
 #include "batch/plot.h"
-#include "report/svg.h"
+#include "picture/svg.h"
 #include "support/test.h"
 
 enum { MOST = 4000, COLUMNS = AMBULO__LISTING_AXES + 2 };

@@ -170,5 +170,5 @@ int main(void) {
       cmocka_unit_test(doubtful_texts_pass),
       cmocka_unit_test(cut_texts),
   };
-  return cmocka_run_group_tests_name("base/foreign_format", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/foreign_format", tests, NULL, NULL);
 }

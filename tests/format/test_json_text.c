@@ -49,5 +49,5 @@ static void test_recognizers(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_layout),
                                      cmocka_unit_test(test_recognizers)};
-  return cmocka_run_group_tests_name("report/json_text", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/json_text", tests, NULL, NULL);
 }

@@ -77,5 +77,5 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_spelling_is_known),
                                      cmocka_unit_test(what_only_resembles_is_left),
                                      cmocka_unit_test(columns_that_disagree_are_refused)};
-  return cmocka_run_group_tests_name("trajectory/motion_columns", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/motion_columns", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* motion.csv and motion.sto read back to the same bits. */
 #include "format/motion_csv.h"
-#include "report/stride.h"
+#include "stride/stride.h"
 #include "support/walker_result.h"
 #include "format/motion_file.h"
 
@@ -101,5 +101,5 @@ static void test_sto_round_trip(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_csv_round_trip),
                                      cmocka_unit_test(test_sto_round_trip)};
-  return cmocka_run_group_tests_name("report/motion_csv", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/motion_csv", tests, NULL, NULL);
 }

@@ -112,5 +112,5 @@ int main(void) {
                                       scratch_close),
       cmocka_unit_test(a_published_opensim_motion_is_read),
   };
-  return cmocka_run_group_tests_name("trajectory/motion_file", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/motion_file", tests, NULL, NULL);
 }

@@ -23,5 +23,5 @@ static void bounds_follow_the_range(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_follow_the_range)};
-  return cmocka_run_group_tests_name("trajectory/motion_units", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/motion_units", tests, NULL, NULL);
 }

@@ -74,5 +74,5 @@ int main(void) {
       cmocka_unit_test_setup_teardown(lines_and_cells, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(bad_numbers_have_a_place, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(no_table, scratch_open, scratch_close)};
-  return cmocka_run_group_tests_name("report/sheet", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/sheet", tests, NULL, NULL);
 }

@@ -79,5 +79,5 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_unit_of_angles), cmocka_unit_test(the_key_goes_before_the_sentence),
       cmocka_unit_test(sizes_of_the_table), cmocka_unit_test(whose_motion_it_is)};
-  return cmocka_run_group_tests_name("trajectory/table_header", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/table_header", tests, NULL, NULL);
 }

@@ -244,5 +244,5 @@ int main(void) {
       cmocka_unit_test(texts_cut_anywhere_never_crash),
       cmocka_unit_test(every_failed_allocation_is_survived),
   };
-  return cmocka_run_group_tests_name("trajectory/table_read", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/table_read", tests, NULL, NULL);
 }

@@ -71,5 +71,5 @@ int main(void) {
       cmocka_unit_test(cells_know_their_column),
       cmocka_unit_test(lines_end_in_every_way),
   };
-  return cmocka_run_group_tests_name("trajectory/table_text", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/table_text", tests, NULL, NULL);
 }

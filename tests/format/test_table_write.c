@@ -76,5 +76,5 @@ int main(void) {
       cmocka_unit_test(texts_are_as_documented),
       cmocka_unit_test(numbers_come_back_bit_by_bit),
   };
-  return cmocka_run_group_tests_name("trajectory/table_write", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/table_write", tests, NULL, NULL);
 }

@@ -358,5 +358,5 @@ int main(void) {
                                      cmocka_unit_test(missing_and_unknown_keys),
                                      cmocka_unit_test(sections_of_the_wrong_kind),
                                      cmocka_unit_test(messages_without_memory)};
-  return cmocka_run_group_tests_name("base/yaml_get", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/yaml_get", tests, NULL, NULL);
 }

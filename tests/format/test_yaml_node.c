@@ -182,5 +182,5 @@ int main(void) {
                                      cmocka_unit_test(walking_a_tree),
                                      cmocka_unit_test(a_very_long_path),
                                      cmocka_unit_test(errors_of_the_reader)};
-  return cmocka_run_group_tests_name("base/yaml_node", tests, make_folder, remove_folder);
+  return cmocka_run_group_tests_name("format/yaml_node", tests, make_folder, remove_folder);
 }

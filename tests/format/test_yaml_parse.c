@@ -218,5 +218,5 @@ int main(void) {
                                      cmocka_unit_test(truncated_anywhere),
                                      cmocka_unit_test(damaged_anywhere),
                                      cmocka_unit_test(out_of_memory_anywhere)};
-  return cmocka_run_group_tests_name("base/yaml_parse", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/yaml_parse", tests, NULL, NULL);
 }

@@ -106,5 +106,5 @@ int main(void) {
                                      cmocka_unit_test(tab_indentation),
                                      cmocka_unit_test(bytes_are_found_by_line_and_column),
                                      cmocka_unit_test(brackets_between_brackets_stand_in_quotes)};
-  return cmocka_run_group_tests_name("base/yaml_scan", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/yaml_scan", tests, NULL, NULL);
 }

@@ -192,5 +192,5 @@ int main(void) {
                                      cmocka_unit_test(faults_name_the_setting),
                                      cmocka_unit_test(a_wrong_value_is_blamed_on_the_setting),
                                      cmocka_unit_test(out_of_memory_anywhere)};
-  return cmocka_run_group_tests_name("base/yaml_set", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("format/yaml_set", tests, NULL, NULL);
 }

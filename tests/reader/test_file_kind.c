@@ -38,5 +38,5 @@ static void test_neither(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(test_kinds), SCRATCH_TEST(test_neither)};
-  return cmocka_run_group_tests_name("report/file_kind", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("reader/file_kind", tests, NULL, NULL);
 }

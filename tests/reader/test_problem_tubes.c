@@ -98,5 +98,5 @@ int main(void) {
       cmocka_unit_test_setup_teardown(widths_and_samples, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(rows_and_grids, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close)};
-  return cmocka_run_group_tests_name("nlp/yaml_tubes", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("reader/problem_tubes", tests, NULL, NULL);
 }
