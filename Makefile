@@ -265,8 +265,9 @@ lint-format: build/.ready-lint
 	@clang-format --dry-run -Werror $(FORMATTED)
 lint-static: build/.ready-lint
 	@.setup/lint_static.sh $(JOBS) $(TIDY_SOURCES) -- -std=c11 $(ALL_CPPFLAGS)
-lint-order:
-	@.setup/lint_order.sh
+lint-order: build/.ready-build
+	$(submake) all
+	@.setup/lint_order.sh $(OUT)/obj/src
 lint-size:
 	@.setup/lint_size.sh
 lint-symbols: build/.ready-build

@@ -117,7 +117,7 @@ ambulo_status ambulo__outcome_record(ambulo__run *run, const ambulo__slot *slot,
   record.origin = ambulo__schedule_origin(run, slot->index);
   if (slot->from >= 0)
     (void)snprintf(record.start, sizeof record.start, "%s", run->sweep->cases[slot->from].id);
-  record.seconds = ambulo__run_clock() - slot->begin;
+  record.seconds = ambulo__seconds_now() - slot->begin;
   record.limit_seconds = run->case_seconds;
   record.limit_megabytes = run->case_megabytes;
   int taken = 0;

@@ -21,12 +21,6 @@
 enum { COOKIE = 0x62617463, MOST_WORKERS = 4096 };
 static const double report_seconds = 0.2;
 
-double ambulo__run_clock(void) {
-  struct timespec now = {0, 0};
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 ambulo_batch_options ambulo_batch_options_default(void) {
   ambulo_batch_options options;
   memset(&options, 0, sizeof options);
@@ -70,7 +64,7 @@ static ambulo_status start(ambulo__run *run, ambulo__slot *slot, int index) {
   slot->index = index;
   slot->from = from;
   slot->cut = 0;
-  slot->begin = ambulo__run_clock();
+  slot->begin = ambulo__seconds_now();
   run->state[index] = AMBULO__CASE_RUNNING;
   run->progress.running++;
   return AMBULO_OK;
@@ -95,7 +89,7 @@ static void reap(ambulo__run *run, ambulo__slot *slot, int stopping) {
   int wait_status = 0;
   pid_t process = waitpid(slot->process, &wait_status, WNOHANG);
   if (process == 0 || (process < 0 && errno == EINTR)) {
-    if (run->case_seconds > 0.0 && ambulo__run_clock() - slot->begin > run->case_seconds)
+    if (run->case_seconds > 0.0 && ambulo__seconds_now() - slot->begin > run->case_seconds)
       kill_slot(slot, 1);
     return;
   }
@@ -120,7 +114,7 @@ static void reap(ambulo__run *run, ambulo__slot *slot, int stopping) {
 
 static int ask(ambulo__run *run, int always) {
   ambulo_batch_progress *p = &run->progress;
-  double now = ambulo__run_clock() - run->begin;
+  double now = ambulo__seconds_now() - run->begin;
   if (!always && now - p->seconds < report_seconds) return 0;
   p->seconds = now;
   p->seconds_left = run->finished_now > 0 ? now / run->finished_now * (p->cases - p->done) : -1.0;
@@ -143,8 +137,8 @@ static void supervise(ambulo__run *run) {
     if (run->progress.running == 0 && (stop || run->progress.done >= run->progress.cases)) break;
     if (run->progress.running == 0 && ambulo__schedule_next(run) < 0) break; /* given up */
     if (run->progress.running == 0) run->cursor = 0;
-    if (stop && stopped == 0.0) stopped = ambulo__run_clock();
-    int late = stop && ambulo__run_clock() - stopped > run->options.grace;
+    if (stop && stopped == 0.0) stopped = ambulo__seconds_now();
+    int late = stop && ambulo__seconds_now() - stopped > run->options.grace;
     for (int i = 0; i < run->workers && (stop > 1 || late); i++) kill_slot(&run->slot[i], 2);
     struct timespec pause = {0, 2000000};
     (void)nanosleep(&pause, NULL);
@@ -163,7 +157,7 @@ static ambulo_status run_locked(ambulo__run *run) {
                                                  run->allocator, run->diagnostics);
   if (status) return status;
   if (run->options.shards == 1) ambulo__clean_all(run->directory, run->allocator);
-  run->begin = ambulo__run_clock();
+  run->begin = ambulo__seconds_now();
   status = ambulo__schedule_open(run);
   if (status) return status;
   supervise(run);

@@ -2,6 +2,7 @@
 #ifndef AMBULO_BATCH_RUN_H
 #define AMBULO_BATCH_RUN_H
 
+#include "base/clock.h"
 #include "batch/lock.h"
 #include "batch/record.h"
 #include "batch/sweep.h"
@@ -43,9 +44,6 @@ typedef struct ambulo__run {
   ambulo_batch_progress progress;
   ambulo_status status; /* of the run: E_IO once a worker could not write */
 } ambulo__run;
-
-/* Seconds of a clock that only goes forward. */
-double ambulo__run_clock(void);
 
 /* schedule.c: reads the records of this shard's cases and fills the tables. */
 ambulo_status ambulo__schedule_open(ambulo__run *run);

@@ -25,11 +25,6 @@ static ambulo_status read_filters(ambulo_sweep *s, const ambulo__yaml_node *node
   return status;
 }
 
-ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status) {
-  if (status != AMBULO_E_MEMORY) ambulo__yaml_close(section);
-  return status;
-}
-
 static ambulo_status read_axis(ambulo_sweep *s, const ambulo__yaml_node *node) {
   const ambulo__yaml_node *key = ambulo__yaml_require(node, "key");
   const char *name = ambulo__yaml_text(ambulo__yaml_get(node, "name"));

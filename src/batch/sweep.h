@@ -11,7 +11,12 @@
 #include "base/alloc.h"
 #include "format/yaml_node.h"
 
-enum { AMBULO__SWEEP_AXES = 64, AMBULO__SWEEP_CASES = 1000000, AMBULO__SWEEP_TEXT = 256 };
+enum {
+  AMBULO__SWEEP_AXES = 64,
+  AMBULO__SWEEP_CASES = 1000000,
+  AMBULO__AXIS_VALUES = 1000000, /* of one axis */
+  AMBULO__SWEEP_TEXT = 256
+};
 
 /* Where something stands in the sweep file, or in its table. */
 typedef struct ambulo__spot {
@@ -114,7 +119,11 @@ ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
 
 /* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
  * was not read any more is no stranger. Returns `status`. */
-ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section, ambulo_status status);
+static inline ambulo_status ambulo__sweep_close(const ambulo__yaml_node *section,
+                                                ambulo_status status) {
+  if (status != AMBULO_E_MEMORY) ambulo__yaml_close(section);
+  return status;
+}
 
 /* sweep_check.c: what makes a case list wrong before anything is computed. Axes: two of one
  * name or key. Filters: neither side names an axis. Name: a {word} in

@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/format.h"
 #include "cli/batch_dry_run.h"
 #include "cli/commands.h"
 #include "cli/output.h"

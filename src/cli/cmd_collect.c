@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/format.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 

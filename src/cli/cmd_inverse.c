@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/format.h"
 #include "cli/body.h"
 #include "cli/commands.h"
 #include "cli/output.h"

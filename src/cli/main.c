@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/format.h"
 #include "cli/blas.h"
 #include "cli/commands.h"
 #include "cli/output.h"

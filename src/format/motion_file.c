@@ -1,6 +1,5 @@
-/* format/motion_file.c - the table of motion_file.h: memory, names, units, loading. */
+/* format/motion_file.c - the table of motion_file.h: memory, names, units. */
 #include "format/motion_file.h"
-#include "base/read_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,37 +42,6 @@ void ambulo__motion_free(ambulo__motion *motion) {
   ambulo__free(&allocator, motion->time);
   ambulo__free(&allocator, motion->values);
   ambulo__free(&allocator, motion);
-}
-
-static ambulo_status read_file(const char *path, int gaps, const ambulo_allocator *allocator,
-                               ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  char *text = NULL;
-  size_t length = 0;
-  ambulo_status status =
-      ambulo__read_file(path, AMBULO__MOTION_MAX_BYTES, &own, diagnostics, &text, &length);
-  if (status) return status;
-  status = ambulo__table_read(text, length, path, ambulo__motion_format_of(path), gaps, &own,
-                              diagnostics, motion);
-  ambulo__free(&own, text);
-  return status;
-}
-
-ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
-                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  return read_file(path, 0, allocator, diagnostics, motion);
-}
-
-ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  return read_file(path, 1, allocator, diagnostics, motion);
-}
-
-ambulo_status ambulo__motion_read_text(const char *text, size_t length, const char *name,
-                                       ambulo__motion_format format,
-                                       const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
-  return ambulo__table_read(text, length, name, format, 0, allocator, diagnostics, motion);
 }
 
 ambulo__motion_format ambulo__motion_format_of(const char *name) {

@@ -57,11 +57,6 @@ ambulo_status ambulo__motion_read_text(const char *text, size_t length, const ch
                                        ambulo__motion_format format,
                                        const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo__motion **motion);
-/* All of them (table_read.c); gaps: as ambulo__motion_read_gaps. */
-ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
-                                 ambulo__motion_format format, int gaps,
-                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                 ambulo__motion **motion);
 /* Format that a file name asks for: AUTO when its ending is none of the known. */
 ambulo__motion_format ambulo__motion_format_of(const char *name);
 

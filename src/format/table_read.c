@@ -6,6 +6,7 @@
 #include "format/table_header.h"
 #include "format/foreign_format.h"
 #include "base/numtext.h"
+#include "base/read_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -292,10 +293,11 @@ static ambulo_status read_table(table_reader *reader, ambulo__motion_format form
   return status ? status : reader->status;
 }
 
-ambulo_status ambulo__table_read(const char *text, size_t length, const char *name,
-                                 ambulo__motion_format format, int gaps,
-                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                 ambulo__motion **motion) {
+/* gaps: as ambulo__motion_read_gaps */
+static ambulo_status read_text(const char *text, size_t length, const char *name,
+                               ambulo__motion_format format, int gaps,
+                               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                               ambulo__motion **motion) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   table_reader reader = {.text = text,
                          .length = length,
@@ -313,4 +315,35 @@ ambulo_status ambulo__table_read(const char *text, size_t length, const char *na
   }
   *motion = reader.motion;
   return AMBULO_OK;
+}
+
+static ambulo_status read_file(const char *path, int gaps, const ambulo_allocator *allocator,
+                               ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  char *text = NULL;
+  size_t length = 0;
+  ambulo_status status =
+      ambulo__read_file(path, AMBULO__MOTION_MAX_BYTES, &own, diagnostics, &text, &length);
+  if (status) return status;
+  status = read_text(text, length, path, ambulo__motion_format_of(path), gaps, &own, diagnostics,
+                     motion);
+  ambulo__free(&own, text);
+  return status;
+}
+
+ambulo_status ambulo__motion_read(const char *path, const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return read_file(path, 0, allocator, diagnostics, motion);
+}
+
+ambulo_status ambulo__motion_read_gaps(const char *path, const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return read_file(path, 1, allocator, diagnostics, motion);
+}
+
+ambulo_status ambulo__motion_read_text(const char *text, size_t length, const char *name,
+                                       ambulo__motion_format format,
+                                       const ambulo_allocator *allocator,
+                                       ambulo_diagnostics *diagnostics, ambulo__motion **motion) {
+  return read_text(text, length, name, format, 0, allocator, diagnostics, motion);
 }

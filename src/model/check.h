@@ -36,8 +36,17 @@ typedef struct ambulo__checker {
   ambulo_status status;
 } ambulo__checker;
 
-ambulo__place ambulo__place_of_model(const ambulo__checker *c);
-ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link);
+static inline ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
+  return c->places ? c->places->model : (ambulo__place){0};
+}
+/* list[index]; that of the model where there is no list. */
+static inline ambulo__place ambulo__place_in(const ambulo__checker *c, const ambulo__place *list,
+                                             int index) {
+  return list ? list[index] : ambulo__place_of_model(c);
+}
+static inline ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link) {
+  return ambulo__place_in(c, c->places ? c->places->links : NULL, link);
+}
 
 /* Parents exist, no cycles; DH constants; bodies. */
 void ambulo__check_links(ambulo__checker *c);

@@ -2,6 +2,7 @@
 #ifndef AMBULO_NLP_STATES_H
 #define AMBULO_NLP_STATES_H
 
+#include "base/clock.h"
 #include "nlp/nlp.h"
 
 /* Channels of one node, gathered from the lanes: state[channels]. */
@@ -38,8 +39,5 @@ static inline double ambulo__term_quadrature(const ambulo_problem *p, const ambu
   if (term->kind == AMBULO_TORQUE_RATE) return p->definition.duration / p->definition.intervals;
   return p->quadrature[node];
 }
-
-/* Monotonic clock, s. */
-double ambulo__seconds_now(void);
 
 #endif

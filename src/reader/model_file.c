@@ -11,26 +11,6 @@ ambulo_status ambulo__reader_status(const ambulo__reader *reader) {
   return status != AMBULO_OK ? status : reader->status;
 }
 
-int ambulo__read_count(ambulo__reader *reader, const ambulo__yaml_node *list, const char *what,
-                       int limit, int *count) {
-  (void)reader;
-  *count = 0;
-  if (!list) return 1;
-  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
-    (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL, "`%s` is not a list; expected a list",
-                             what);
-    return 0;
-  }
-  int items = ambulo__yaml_items(list);
-  if (items > limit) {
-    (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL,
-                             "too many %s (got %d); expected at most %d", what, items, limit);
-    return 0;
-  }
-  *count = items;
-  return 1;
-}
-
 /* ------------------------------------------------------------------- memory */
 
 static int allocate(ambulo__reader *r) {

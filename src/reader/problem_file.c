@@ -66,14 +66,6 @@ static ambulo_status apply_overrides(ambulo__problem_reader *reader, ambulo__yam
 
 /* ------------------------------------------------------------------- sections */
 
-const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key) {
-  const ambulo__yaml_node *node = ambulo__yaml_get(root, key);
-  if (!node || ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) return node;
-  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "'%s' is not a mapping; expected keys",
-                           key);
-  return NULL;
-}
-
 static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   static const char *const units[] = {"degrees", "radians"};
   const ambulo__yaml_node *version = ambulo__yaml_require(root, "ambulo");

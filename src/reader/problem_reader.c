@@ -1,4 +1,4 @@
-/* reader/problem_reader.c - memory and file names of a problem reader. */
+/* reader/problem_reader.c - memory, file names and sections of a problem reader. */
 #include "reader/problem_reader.h"
 
 #include <stddef.h>
@@ -49,4 +49,12 @@ void ambulo__reader_clear(ambulo__problem_reader *reader) {
   reader->blocks = NULL;
   ambulo_model_free(reader->model);
   reader->model = NULL;
+}
+
+const ambulo__yaml_node *ambulo__reader_section(const ambulo__yaml_node *root, const char *key) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(root, key);
+  if (!node || ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) return node;
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "'%s' is not a mapping; expected keys",
+                           key);
+  return NULL;
 }
