@@ -8,7 +8,7 @@
 set -u
 objects=$1
 order=(base model format trajectory mechanics gait objective nlp solver reader inverse stride
-  picture report compare batch cli)
+  picture report compare sweep batch collect cli)
 faults=0
 
 fault() {

@@ -4,7 +4,7 @@
 #include "base/read_file.h"
 #include "base/seal.h"
 #include "format/yaml_node.h"
-#include "batch/paths.h"
+#include "base/paths.h"
 
 #include <errno.h>
 #include <limits.h>

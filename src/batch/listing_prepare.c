@@ -8,9 +8,9 @@
 #include "base/seal.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
-#include "batch/paths.h"
-#include "batch/sweep.h"
-#include "batch/units.h"
+#include "base/paths.h"
+#include "sweep/sweep.h"
+#include "sweep/units.h"
 #include "format/json_text.h"
 
 #include <dirent.h>

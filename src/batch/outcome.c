@@ -4,7 +4,7 @@
  * or memory used up). Not recorded, and tried again: what came from outside (SIGKILL, SIGTERM
  * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
 #include "base/read_file.h"
-#include "batch/paths.h"
+#include "batch/case_path.h"
 #include "batch/run.h"
 
 #include <signal.h>

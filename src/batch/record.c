@@ -6,7 +6,7 @@
 #include "base/read_file.h"
 #include "base/seal.h"
 #include "format/yaml_node.h"
-#include "batch/paths.h"
+#include "batch/case_path.h"
 #include "format/json_text.h"
 
 #include <errno.h>

@@ -8,7 +8,7 @@
 #include "batch/clean.h"
 #include "batch/listing.h"
 #include "batch/machine.h"
-#include "batch/paths.h"
+#include "batch/case_path.h"
 #include "batch/worker.h"
 
 #include <errno.h>

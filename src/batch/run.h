@@ -5,7 +5,7 @@
 #include "base/clock.h"
 #include "batch/lock.h"
 #include "batch/record.h"
-#include "batch/sweep.h"
+#include "sweep/sweep.h"
 
 #include <sys/types.h>
 

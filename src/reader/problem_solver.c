@@ -11,11 +11,6 @@ static int read_switch(const ambulo__yaml_node *node, int fallback) {
   return choice < 0 ? fallback : choice % 2;
 }
 
-ambulo_options ambulo_problem_options(const ambulo_problem *problem) {
-  int from_file = problem->file_options.cookie != 0;
-  return from_file ? problem->file_options : ambulo_options_default();
-}
-
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const algorithms[] = {"auto", "slsqp", "auglag"};
   static const char *const finishers[] = {"none", "slsqp"};
