@@ -5,10 +5,10 @@
  * computed again otherwise, so the supervisor may be killed anywhere. */
 #include "batch/run.h"
 #include "base/file_steps.h"
+#include "batch/case_path.h"
 #include "batch/clean.h"
 #include "batch/listing.h"
 #include "batch/machine.h"
-#include "batch/case_path.h"
 #include "batch/worker.h"
 
 #include <errno.h>

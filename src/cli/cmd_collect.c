@@ -4,8 +4,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/format.h"
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
 
 enum { MOST_CONDITIONS = 64 };

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/format.h"
 #include "cli/blas.h"
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 #include "cli/worker.h"

@@ -1,11 +1,11 @@
 /* collect/collect.c - the table of a batch folder. */
 #include "base/atomic_file.h"
 #include "base/numtext.h"
-#include "base/text_buffer.h"
-#include "collect/gather.h"
-#include "batch/lock.h"
-#include "batch/case_path.h"
 #include "base/paths.h"
+#include "base/text_buffer.h"
+#include "batch/case_path.h"
+#include "batch/lock.h"
+#include "collect/gather.h"
 #include "format/json_text.h"
 
 #include <stdio.h>

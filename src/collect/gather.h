@@ -3,8 +3,8 @@
 #define AMBULO_COLLECT_GATHER_H
 
 #include "batch/listing.h"
-#include "collect/outputs.h"
 #include "batch/record.h"
+#include "collect/outputs.h"
 
 /* How much of a case is looked at. */
 typedef enum ambulo__gather_depth {

@@ -2,9 +2,9 @@
 #include "collect/outputs.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
-#include "format/yaml_node.h"
 #include "batch/case_path.h"
 #include "format/table_text.h"
+#include "format/yaml_node.h"
 
 #include <limits.h>
 #include <stdio.h>

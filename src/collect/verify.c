@@ -1,7 +1,7 @@
 /* collect/verify.c - the state of a batch folder: quickly by its records, or file by file. */
 #include "collect/gather.h"
-#include "batch/lock.h"
 #include "batch/case_path.h"
+#include "batch/lock.h"
 
 #include <string.h>
 

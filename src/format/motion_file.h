@@ -14,8 +14,8 @@
 #ifndef AMBULO_FORMAT_MOTION_FILE_H
 #define AMBULO_FORMAT_MOTION_FILE_H
 
+#include "base/alloc.h"
 #include "base/diagnostics.h"
-#include "base/text_buffer.h"
 
 #define AMBULO__MOTION_MAX_BYTES ((size_t)64 * 1024 * 1024)
 #define AMBULO__MOTION_MAX_COLUMNS 4096
@@ -66,12 +66,5 @@ int ambulo__motion_column(const ambulo__motion *motion, const char *name);
 /* Degrees to radians in the columns with is_angle[column] != 0, if the table is in degrees;
  * in_degrees is cleared. */
 void ambulo__motion_to_radians(ambulo__motion *motion, const unsigned char *is_angle);
-
-/* Appends the table; numbers read back bit by bit. comment (may be NULL): text without the
- * '#', may have several lines. title: first line of the STO. */
-void ambulo__motion_write_csv(const ambulo__motion *motion, const char *comment,
-                              ambulo__text_buffer *buffer);
-void ambulo__motion_write_sto(const ambulo__motion *motion, const char *title,
-                              ambulo__text_buffer *buffer);
 
 #endif

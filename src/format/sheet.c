@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#include "format/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
+#include "format/foreign_format.h"
 
 enum { MAX_BYTES = 64 * 1024 * 1024, MAX_CELLS = 4000000, QUOTED = 40 };
 

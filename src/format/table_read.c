@@ -3,10 +3,10 @@
  * Three steps: the lines before the column names (STO keys, CSV comments), the names, the
  * rows. Every fault is reported with line and column, and reading goes on after it. */
 #include "format/motion_file.h"
-#include "format/table_header.h"
-#include "format/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
+#include "format/foreign_format.h"
+#include "format/table_header.h"
 
 #include <math.h>
 #include <string.h>

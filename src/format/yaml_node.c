@@ -1,9 +1,9 @@
 /* format/yaml_node.c - a document: loading, walking, places and messages. */
 #include "format/yaml_tree.h"
 
-#include "format/foreign_format.h"
 #include "base/numtext.h"
 #include "base/read_file.h"
+#include "format/foreign_format.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -16,8 +16,8 @@
 #define AMBULO_INVERSE_FORCE_COLUMNS_H
 
 #include "ambulo/model.h"
-#include "inverse/doubt.h"
 #include "format/motion_file.h"
+#include "inverse/doubt.h"
 
 typedef struct ambulo__force_group {
   char name[AMBULO__MOTION_MAX_NAME + 16], tag[AMBULO__MOTION_MAX_NAME + 1];

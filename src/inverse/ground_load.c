@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/model.h"
 #include "inverse/filtering.h"
+#include "model/model.h"
 
 /* of the body weight: a foot that carries less may lack its point */
 static const double light = 0.05;

@@ -14,8 +14,8 @@
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
 #include "base/output_check.h"
-#include "model/model.h"
 #include "format/motion_csv.h"
+#include "model/model.h"
 
 enum { OPTIONS_COOKIE = 0x616d6269 };
 

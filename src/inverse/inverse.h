@@ -4,9 +4,9 @@
 
 #include "ambulo/inverse.h"
 #include "base/alloc.h"
+#include "format/motion_file.h"
 #include "inverse/doubt.h"
 #include "inverse/ground_load.h"
-#include "format/motion_file.h"
 
 typedef struct ambulo__inverse {
   ambulo_allocator allocator;

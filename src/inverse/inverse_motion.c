@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/model.h"
+#include "format/motion_columns.h"
 #include "inverse/filtering.h"
 #include "inverse/inverse.h"
-#include "format/motion_columns.h"
+#include "model/model.h"
 #include "trajectory/motion_fit.h"
 
 static const double radian = 3.14159265358979323846 / 180.0;

@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/model.h"
 #include "inverse/ground_load.h"
 #include "mechanics/pose.h"
+#include "model/model.h"
 
 static void cross(const double a[3], const double b[3], double c[3]) {
   c[0] = a[1] * b[2] - a[2] * b[1];

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "model/model.h"
-#include "inverse/inverse.h"
 #include "format/motion_units.h"
+#include "inverse/inverse.h"
+#include "model/model.h"
 
 static const double slow_rows = 0.5;          /* s: no motion is recorded at so few rows a second */
 static const double fastest_angle = 200.0;    /* rad/s; a pitcher's shoulder reaches 160 */

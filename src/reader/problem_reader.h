@@ -8,8 +8,8 @@
 
 #include "ambulo/solve.h"
 #include "format/yaml_node.h"
-#include "reader/model_file.h"
 #include "nlp/nlp.h"
+#include "reader/model_file.h"
 
 typedef struct ambulo__reader_block ambulo__reader_block;
 

@@ -4,8 +4,8 @@
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
 #include "report/summary_json.h"
 
-#include "stride/impulse.h"
 #include "format/json_text.h"
+#include "stride/impulse.h"
 #include "stride/stride.h"
 #include "stride/strikes.h"
 

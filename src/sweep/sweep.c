@@ -2,8 +2,8 @@
 #include "sweep/sweep.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/report.h"
-#include "base/read_file.h"
 #include "base/paths.h"
+#include "base/read_file.h"
 #include "base/text_hash.h"
 #include "sweep/units.h"
 

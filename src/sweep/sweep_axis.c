@@ -1,8 +1,8 @@
 /* sweep/sweep_axis.c - axes of a sweep: found, added, given one value after the other. */
 #include "base/file_steps.h"
 #include "base/numtext.h"
-#include "base/read_file.h"
 #include "base/paths.h"
+#include "base/read_file.h"
 #include "base/text_hash.h"
 #include "sweep/sweep.h"
 

@@ -1,10 +1,10 @@
 /* sweep/sweep_table.c - axes from a CSV table: one column an axis, one row a case. */
-#include "format/foreign_format.h"
 #include "base/numtext.h"
-#include "base/read_file.h"
 #include "base/paths.h"
-#include "sweep/sweep.h"
+#include "base/read_file.h"
+#include "format/foreign_format.h"
 #include "format/table_text.h"
+#include "sweep/sweep.h"
 
 #include <string.h>
 

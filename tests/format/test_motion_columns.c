@@ -1,6 +1,6 @@
 /* Which column stands for a coordinate, and that two that disagree are never chosen between. */
-#include "support/messages.h"
 #include "format/motion_columns.h"
+#include "support/messages.h"
 
 static ambulo__motion *table(const char *text) {
   ambulo__motion *motion = NULL;

@@ -1,8 +1,8 @@
 /* motion.csv and motion.sto read back to the same bits. */
 #include "format/motion_csv.h"
+#include "format/motion_file.h"
 #include "stride/stride.h"
 #include "support/walker_result.h"
-#include "format/motion_file.h"
 
 static ambulo__motion_table table_of(const ambulo__stride *s) {
   ambulo__motion_table table = {.model = s->model,

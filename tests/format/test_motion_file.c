@@ -1,7 +1,7 @@
 /* Motion tables from files: names, units, a published motion. */
+#include "format/motion_columns.h"
 #include "support/messages.h"
 #include "support/scratch.h"
-#include "format/motion_columns.h"
 
 static void columns_are_found_by_name(void **state) {
   (void)state;

@@ -1,6 +1,6 @@
 /* What counts as hardly an angle in radians, hardly a length in metres. */
-#include "support/test.h"
 #include "format/motion_units.h"
+#include "support/test.h"
 
 static double bound(ambulo_joint_type type, double lower, double upper) {
   ambulo_coordinate c = ambulo_coordinate_default();

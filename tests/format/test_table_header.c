@@ -1,6 +1,6 @@
 /* Lines above the column names: units, sizes, and whose motion it is. */
-#include "support/messages.h"
 #include "format/table_header.h"
+#include "support/messages.h"
 
 static ambulo__table_header take(const char *text, int number, int is_sto) {
   ambulo__table_header header = ambulo__table_header_default();

@@ -1,8 +1,8 @@
 /* Tables from text: what is accepted, and every way to be refused. */
+#include "format/motion_file.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/scratch.h"
-#include "format/motion_file.h"
 
 static ambulo__motion *read_ok(const char *text, const char *name) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);

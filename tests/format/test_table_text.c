@@ -1,6 +1,6 @@
 /* Lines and cells of a table. */
-#include "support/test.h"
 #include "format/table_text.h"
+#include "support/test.h"
 
 /* the cells of one line, joined by '|' */
 static const char *joined(const char *text, ambulo__table_cells cells) {
