@@ -238,7 +238,7 @@ bench-peers: build/.ready-build
 	@OUT=$(OUT) sh bench/peers.sh
 
 # the emulated processor has no AVX-512, so this also covers the narrower kernels
-VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/trajectory/%,$(TESTS))
+VALGRIND_TESTS ?= $(filter $(OUT)/tests/base/% $(OUT)/tests/model/% $(OUT)/tests/format/% $(OUT)/tests/trajectory/%,$(TESTS))
 valgrind: build/.ready-valgrind
 	$(submake) $(VALGRIND_TESTS)
 	@TEST_WRAPPER='valgrind -q --leak-check=full --error-exitcode=99' JOBS=$(JOBS) \
@@ -266,8 +266,9 @@ lint-format: build/.ready-lint
 	@clang-format --dry-run -Werror $(FORMATTED)
 lint-static: build/.ready-lint
 	@.setup/lint_static.sh $(JOBS) $(TIDY_SOURCES) -- -std=c11 $(ALL_CPPFLAGS)
-lint-order:
-	@.setup/lint_order.sh
+lint-order: build/.ready-build
+	$(submake) all
+	@.setup/lint_order.sh $(OUT)/obj/src
 lint-size:
 	@.setup/lint_size.sh
 lint-symbols: build/.ready-build

@@ -27,6 +27,6 @@ compare() {
     sed -E 's/^\| ([^|]*) \|.*/\1/' | grep -oE '`[a-z_]+`' | tr -d '`' | sort -u)
 }
 
-compare docs/model-format.md src/model/*.c src/base/yaml_file_kind.c
-compare docs/problem-format.md src/nlp/*.c src/base/yaml_file_kind.c
+compare docs/model-format.md src/reader/model_*.c src/format/yaml_file_kind.c
+compare docs/problem-format.md src/reader/problem_*.c src/format/yaml_file_kind.c
 exit $bad

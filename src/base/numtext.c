@@ -140,3 +140,10 @@ size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value) {
   }
   return strlen(buffer);
 }
+
+ambulo__number ambulo__number_text(double value) {
+  ambulo__number number;
+  size_t length = ambulo__print_double(number.text, value);
+  number.text[length] = '\0';
+  return number;
+}

@@ -22,4 +22,10 @@ int ambulo__parse_integer(const char *text, size_t length, long long min, long l
 #define AMBULO__NUMTEXT_SIZE 40
 size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value);
 
+/* The same as a value, for messages: printf("%s", ambulo__number_text(x).text). */
+typedef struct ambulo__number {
+  char text[AMBULO__NUMTEXT_SIZE];
+} ambulo__number;
+ambulo__number ambulo__number_text(double value);
+
 #endif

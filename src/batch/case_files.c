@@ -2,7 +2,7 @@
 #include "batch/case_files.h"
 #include "base/file_steps.h"
 #include "base/read_file.h"
-#include "batch/paths.h"
+#include "batch/case_path.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,6 +1,7 @@
 /* batch/clean.c - see clean.h. Result folders are flat, so removing takes one level. */
 #include "batch/clean.h"
-#include "batch/paths.h"
+#include "base/paths.h"
+#include "batch/case_path.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -1,10 +1,10 @@
 /* batch/listing.c - reading a batch folder's own description (listing.h). */
 #include "batch/listing.h"
 #include "base/file_steps.h"
+#include "base/paths.h"
 #include "base/read_file.h"
 #include "base/seal.h"
-#include "base/yaml_node.h"
-#include "batch/paths.h"
+#include "format/yaml_node.h"
 
 #include <errno.h>
 #include <limits.h>

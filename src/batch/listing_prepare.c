@@ -4,14 +4,14 @@
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
 #include "base/output_check.h"
+#include "base/paths.h"
 #include "base/read_file.h"
 #include "base/seal.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
-#include "batch/paths.h"
-#include "batch/sweep.h"
-#include "batch/units.h"
-#include "report/json_text.h"
+#include "format/json_text.h"
+#include "sweep/sweep.h"
+#include "sweep/units.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
 #include "batch/lock.h"
 #include "base/file_steps.h"
 #include "base/numtext.h"
-#include "batch/paths.h"
+#include "base/paths.h"
 
 #include <dirent.h>
 #include <errno.h>

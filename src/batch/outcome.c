@@ -5,7 +5,7 @@
  * and their like). What the disk brought about (a folder that cannot be written) ends the run. */
 #include "base/read_file.h"
 #include "base/clock.h"
-#include "batch/paths.h"
+#include "batch/case_path.h"
 #include "batch/run.h"
 
 #include <signal.h>

@@ -5,9 +5,9 @@
 #include "base/numtext.h"
 #include "base/read_file.h"
 #include "base/seal.h"
-#include "base/yaml_node.h"
-#include "batch/paths.h"
-#include "report/json_text.h"
+#include "batch/case_path.h"
+#include "format/json_text.h"
+#include "format/yaml_node.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -6,10 +6,10 @@
 #include "batch/run.h"
 #include "base/clock.h"
 #include "base/file_steps.h"
+#include "batch/case_path.h"
 #include "batch/clean.h"
 #include "batch/listing.h"
 #include "batch/machine.h"
-#include "batch/paths.h"
 #include "batch/worker.h"
 
 #include <errno.h>

@@ -2,9 +2,10 @@
 #ifndef AMBULO_BATCH_RUN_H
 #define AMBULO_BATCH_RUN_H
 
+#include "base/clock.h"
 #include "batch/lock.h"
 #include "batch/record.h"
-#include "batch/sweep.h"
+#include "sweep/sweep.h"
 
 #include <sys/types.h>
 

@@ -2,7 +2,8 @@
  *
  * A case that continues another waits until that one is done, and is then started in the same
  * slot; so a chain runs in order whatever the number of workers. A shard takes whole chains. */
-#include "batch/paths.h"
+#include "batch/case_path.h"
+#include "base/text_hash.h"
 #include "batch/run.h"
 
 #include <string.h>

@@ -4,7 +4,7 @@
  * it is told by AMBULO_WORKER="<parent process> <megabytes>". */
 #include "batch/worker.h"
 #include "base/file_steps.h"
-#include "batch/paths.h"
+#include "batch/case_path.h"
 
 #include <errno.h>
 #include <fcntl.h>

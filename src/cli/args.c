@@ -1,4 +1,5 @@
 /* cli/args.c - command lines: --name value, --name=value, -o value, -ovalue, -- ends options. */
+#include "cli/format.h"
 #include "cli/args.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* cli/batch_dry_run.c - see batch_dry_run.h. */
+#include "cli/format.h"
 #include "cli/batch_dry_run.h"
 
 #include <stdio.h>

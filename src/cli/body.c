@@ -1,4 +1,5 @@
 /* cli/body.c - see body.h. */
+#include "cli/format.h"
 #include "cli/body.h"
 
 #include <math.h>

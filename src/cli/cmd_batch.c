@@ -9,6 +9,7 @@
 
 #include "cli/batch_dry_run.h"
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
 
 enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
 
 enum { MOST_CONDITIONS = 64 };

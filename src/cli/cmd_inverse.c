@@ -4,6 +4,7 @@
 
 #include "cli/body.h"
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
 
 /* one of `count` words behind an option: its index, `fallback` without the option, or -1 after a

@@ -5,6 +5,7 @@
 
 #include "cli/blas.h"
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 #include "cli/worker.h"

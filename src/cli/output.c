@@ -12,14 +12,6 @@
 
 #include "cli/shipped.h"
 
-void ambulo__cli_format(char *buffer, size_t size, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  int length = vsnprintf(buffer, size, format, arguments);
-  va_end(arguments);
-  if (length < 0 && size > 0) buffer[0] = '\0';
-}
-
 /* what a user typed may hold control characters: they are shown, never sent */
 static void print_escaped(FILE *stream, const char *text) {
   for (; *text; text++) {

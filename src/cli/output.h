@@ -4,10 +4,6 @@
 
 #include "ambulo/ambulo.h"
 
-/* snprintf that always terminates and says nothing about truncation */
-void ambulo__cli_format(char *buffer, size_t size, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
 /* "ambulo: error[CODE]: ..." and an optional hint line. */
 void ambulo__cli_error(const char *code, const char *hint, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -1,6 +1,7 @@
 /* cli/shipped.c - see shipped.h. The folder is found from the place of the program itself, so that
  * an installation may be moved. */
 #define _XOPEN_SOURCE 700 /* realpath */
+#include "cli/format.h"
 #include "cli/shipped.h"
 
 #include <stdio.h>

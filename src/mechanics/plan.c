@@ -274,19 +274,3 @@ void ambulo__plan_free(ambulo__plan *plan) {
   ambulo__free(&memory, plan->roots);
   ambulo__free(&memory, plan);
 }
-
-int ambulo__plan_coordinates(const ambulo__plan *plan) {
-  return plan->coordinates;
-}
-
-int ambulo__plan_points(const ambulo__plan *plan) {
-  return plan->points;
-}
-
-int ambulo__plan_is_grounded(const ambulo__plan *plan) {
-  return plan->grounded;
-}
-
-size_t ambulo__plan_scratch(const ambulo__plan *plan) {
-  return plan->scratch;
-}

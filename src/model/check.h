@@ -14,13 +14,6 @@ enum {
   AMBULO__MAX_NAME = 64
 };
 
-/* A number as text in messages, independent of the locale:
- * printf("%s", ambulo__number_text(x).text). */
-typedef struct ambulo__number {
-  char text[AMBULO__NUMTEXT_SIZE];
-} ambulo__number;
-ambulo__number ambulo__number_text(double value);
-
 /* A body that could exist: mass finite and in range, centre of mass finite, inertia
  * [xx yy zz xy xz yz] positive semidefinite with principal moments that obey the
  * triangle inequality. `what` names it in messages; the places are those of the mass and of
@@ -43,8 +36,17 @@ typedef struct ambulo__checker {
   ambulo_status status;
 } ambulo__checker;
 
-ambulo__place ambulo__place_of_model(const ambulo__checker *c);
-ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link);
+static inline ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
+  return c->places ? c->places->model : (ambulo__place){0};
+}
+/* list[index]; that of the model where there is no list. */
+static inline ambulo__place ambulo__place_in(const ambulo__checker *c, const ambulo__place *list,
+                                             int index) {
+  return list ? list[index] : ambulo__place_of_model(c);
+}
+static inline ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link) {
+  return ambulo__place_in(c, c->places ? c->places->links : NULL, link);
+}
 
 /* Parents exist, no cycles; DH constants; bodies. */
 void ambulo__check_links(ambulo__checker *c);

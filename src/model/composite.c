@@ -4,7 +4,7 @@
  *   mass = m + n,  centre = a + n/(m + n) d,
  *   I = I_m + I_n + m n/(m + n) (|d|^2 1 - d d^T)        about the common centre
  */
-#include "model/reader.h"
+#include "model/composite.h"
 
 void ambulo__part_add(ambulo__part *whole, const ambulo__part *part) {
   if (whole->mass == 0) {

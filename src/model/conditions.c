@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/reader.h"
+#include "model/composite.h"
 
 enum { CONDITIONS_COOKIE = 0x616d636f };
 

@@ -8,14 +8,10 @@
 static const double LONGEST = 1e6;        /* m */
 static const double LARGEST_LIMIT = 1e12; /* rad, m, their rates, N m, N */
 
-static ambulo__place place_in(const ambulo__checker *c, const ambulo__place *list, int index) {
-  return list ? list[index] : ambulo__place_of_model(c);
-}
-
 /* ------------------------------------------------------------- coordinates */
 
 static ambulo__place place_of_coordinate(const ambulo__checker *c, int index) {
-  return place_in(c, c->places ? c->places->coordinates : NULL, index);
+  return ambulo__place_in(c, c->places ? c->places->coordinates : NULL, index);
 }
 
 static ambulo_joint_type type_of_coordinate(const ambulo_model_definition *d, int index) {
@@ -94,7 +90,7 @@ void ambulo__check_coordinates(ambulo__checker *c) {
 
 static void check_point(ambulo__checker *c, int index) {
   const ambulo_point *point = &c->definition->points[index];
-  ambulo__place place = place_in(c, c->places ? c->places->points : NULL, index);
+  ambulo__place place = ambulo__place_in(c, c->places ? c->places->points : NULL, index);
   const char *name = point->name ? point->name : "";
   if (point->link < 0 || point->link >= c->definition->link_count) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
@@ -118,7 +114,7 @@ static int is_point(const ambulo_model_definition *d, int index) {
 static void check_foot(ambulo__checker *c, int index) {
   const ambulo_model_definition *d = c->definition;
   const ambulo_foot *foot = &d->feet[index];
-  ambulo__place place = place_in(c, c->places ? c->places->feet : NULL, index);
+  ambulo__place place = ambulo__place_in(c, c->places ? c->places->feet : NULL, index);
   const char *name = foot->name ? foot->name : "";
   int good = is_point(d, foot->heel[0]) && is_point(d, foot->toe[0]) &&
              (foot->heel[1] == -1 || is_point(d, foot->heel[1])) &&

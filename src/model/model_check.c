@@ -4,25 +4,6 @@
 
 #include "model/check.h"
 
-ambulo__number ambulo__number_text(double value) {
-  ambulo__number number;
-  size_t length = ambulo__print_double(number.text, value);
-  number.text[length] = '\0';
-  return number;
-}
-
-ambulo__place ambulo__place_of_model(const ambulo__checker *c) {
-  return c->places ? c->places->model : ambulo__nowhere;
-}
-
-static ambulo__place place_in(const ambulo__checker *c, const ambulo__place *list, int index) {
-  return list ? list[index] : ambulo__place_of_model(c);
-}
-
-ambulo__place ambulo__place_of_link(const ambulo__checker *c, int link) {
-  return place_in(c, c->places ? c->places->links : NULL, link);
-}
-
 /* ------------------------------------------------------------------- sizes */
 
 static int counts_are_sane(const ambulo_model_definition *d) {
@@ -120,7 +101,7 @@ static void check_names(ambulo__checker *c, const char *kind, const char *kinds,
                         name_getter name_of, const ambulo__place *places) {
   for (int i = 0; i < count; i++) {
     const char *name = name_of(c->definition, i);
-    ambulo__place place = place_in(c, places, i);
+    ambulo__place place = ambulo__place_in(c, places, i);
     if (!is_name(name)) {
       report_name(c, kind, name, place);
       continue;
@@ -128,7 +109,7 @@ static void check_names(ambulo__checker *c, const char *kind, const char *kinds,
     for (int k = 0; k < i; k++) {
       const char *other = name_of(c->definition, k);
       if (!other || strcmp(name, other) != 0) continue;
-      report_duplicate(c, kinds, name, place_in(c, places, k), place);
+      report_duplicate(c, kinds, name, ambulo__place_in(c, places, k), place);
       break;
     }
   }

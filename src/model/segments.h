@@ -7,7 +7,8 @@
 #ifndef AMBULO_MODEL_SEGMENTS_H
 #define AMBULO_MODEL_SEGMENTS_H
 
-#include "model/reader.h"
+#include "model/composite.h"
+#include "model/model.h"
 
 typedef struct ambulo__frame {
   double axes[3][3]; /* column j: the frame's j-th axis */

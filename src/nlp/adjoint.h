@@ -1,4 +1,4 @@
-/* nlp/adjoint.h - the pieces of a reverse sweep (nlp/gradient.c), for those who look into it.
+/* nlp/adjoint.h - the pieces of a reverse sweep (nlp/gradient.c).
  *
  * workspace->weight holds the adjoints dL/dy of the channels y.
  */

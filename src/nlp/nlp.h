@@ -36,7 +36,7 @@ typedef struct ambulo__problem_keys {
 struct ambulo_problem {
   ambulo_allocator allocator;
   ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
-  ambulo_options file_options;          /* what the problem file asks of the solver */
+  ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;

@@ -183,7 +183,6 @@ ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *de
   ambulo_problem *p = ambulo__alloc(&own, 1, sizeof *p);
   if (!p) return AMBULO_E_MEMORY;
   p->allocator = own;
-  p->file_options = ambulo_options_default();
   ambulo__row_table_init(&p->table, &own);
   status = ambulo__definition_copy(definition, &own, &p->definition);
   if (!status) status = build(p, diagnostics);

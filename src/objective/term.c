@@ -1,10 +1,6 @@
 /* objective/term.c - the table of terms, and which channels each one looks at. */
 #include "objective/term.h"
 
-#include "base/lanes.h"
-
-#include <math.h>
-
 const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
   static const ambulo__term_info infos[] = {
       [AMBULO_TORQUE_SQUARED] = {.name = "torque_squared", .uses_tau = 1},
@@ -57,10 +53,6 @@ int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channe
   return ambulo__channel_tau(channels, i);
 }
 
-double ambulo__term_scale(const ambulo_term *term, int i) {
-  return term->scale ? term->scale[i] : 1.0;
-}
-
 double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, int i) {
   if (term->kind == AMBULO_TRACKING)
     return term->reference[(size_t)node * (size_t)coordinates + (size_t)i];
@@ -76,21 +68,6 @@ ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
 }
 
 /* --------------------------------------------------------- composite terms */
-
-double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channel) {
-  return frame->lanes[ambulo__lane_index(node, frame->channel_count, channel)];
-}
-
-void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope) {
-  if (form->count == AMBULO__FORM_CHANNELS) {
-    form->u = NAN;
-    return;
-  }
-  form->channel[form->count] = channel;
-  form->ahead[form->count] = ahead;
-  form->slope[form->count] = slope;
-  form->count++;
-}
 
 int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame, int node) {
   switch (term->kind) {

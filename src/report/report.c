@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/atomic_file.h"
-#include "report/gait_svg.h"
-#include "report/motion_csv.h"
+#include "format/motion_csv.h"
+#include "picture/gait_svg.h"
 #include "report/solution_yaml.h"
-#include "report/stride.h"
 #include "report/summary_json.h"
+#include "stride/stride.h"
 
 enum { OPTIONS_COOKIE = 0x616d6272 };
 

@@ -4,10 +4,10 @@
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
 #include "report/summary_json.h"
 
-#include "report/impulse.h"
-#include "report/json_text.h"
-#include "report/stride.h"
-#include "report/strikes.h"
+#include "format/json_text.h"
+#include "stride/impulse.h"
+#include "stride/stride.h"
+#include "stride/strikes.h"
 
 static void objective(ambulo__json *json, const ambulo_problem *problem,
                       const ambulo_result *result) {

@@ -1,5 +1,6 @@
 /* solver/options.c - the defaults of a solve, and the check of what a caller hands in. */
 #include "solver/options.h"
+#include "nlp/nlp.h"
 
 #include <math.h>
 
@@ -21,6 +22,11 @@ ambulo_options ambulo_options_default(void) {
       .dense_samples = 10,
   };
   return options;
+}
+
+ambulo_options ambulo_problem_options(const ambulo_problem *problem) {
+  int from_file = problem->file_options.cookie != 0;
+  return from_file ? problem->file_options : ambulo_options_default();
 }
 
 /* below: less than doubles can tell; above: anything would pass */

@@ -339,7 +339,7 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
                            const double *start, const ambulo_allocator *allocator,
                            ambulo_diagnostics *diagnostics, ambulo_result **result) {
   if (!problem || !result) return AMBULO_E_ARGUMENT;
-  ambulo_options own = options ? *options : problem->file_options;
+  ambulo_options own = options ? *options : ambulo_problem_options(problem);
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.errors = ambulo_diagnostics_error_count(diagnostics);
   s.explains = 1;
@@ -353,7 +353,7 @@ ambulo_status ambulo_audit_point(const ambulo_problem *problem, const ambulo_opt
                                  const double *x, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics, ambulo_result **result) {
   if (!problem || !x || !result) return AMBULO_E_ARGUMENT;
-  ambulo_options own = options ? *options : problem->file_options;
+  ambulo_options own = options ? *options : ambulo_problem_options(problem);
   solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = begin(&s, &own, x);

@@ -5,8 +5,8 @@
 #ifndef AMBULO_TRAJECTORY_MOTION_FIT_H
 #define AMBULO_TRAJECTORY_MOTION_FIT_H
 
+#include "format/motion_file.h"
 #include "trajectory/basis.h"
-#include "trajectory/motion_file.h"
 
 typedef struct ambulo__motion_fit ambulo__motion_fit;
 

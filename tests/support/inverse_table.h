@@ -3,8 +3,8 @@
 #define AMBULO_TESTS_INVERSE_TABLE_H
 
 #include "ambulo/ambulo.h"
+#include "format/motion_file.h"
 #include "support/messages.h"
-#include "trajectory/motion_file.h"
 #include "support/motion_text.h"
 
 static inline double table_cell(const ambulo__motion *m, int row, const char *name) {

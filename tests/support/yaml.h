@@ -2,7 +2,7 @@
 #ifndef AMBULO_TESTS_YAML_H
 #define AMBULO_TESTS_YAML_H
 
-#include "base/yaml_node.h"
+#include "format/yaml_node.h"
 #include "support/test.h"
 
 typedef struct yaml_case {

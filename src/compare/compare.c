@@ -1,0 +1,282 @@
+/* compare/compare.c - ambulo_compare(): a result folder against normative curves. */
+#include "compare/compare_cycle.h"
+#include "compare/compare_doubt.h"
+#include "compare/compare_score.h"
+#include "format/json_text.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { OPTIONS_COOKIE = 0x616d6263 };
+/* sides further apart than this share of the range are not averaged */
+static const double alike = 0.1;
+
+typedef char curve_name[AMBULO__CURVE_NAME];
+
+struct ambulo_comparison {
+  ambulo_allocator allocator;
+  ambulo_curve_score *scores;
+  curve_name *names; /* [capacity] */
+  int score_count;
+  ambulo_landmark landmarks[AMBULO__MAX_LANDMARKS];
+  int landmark_count;
+};
+
+typedef struct comparing {
+  const ambulo_compare_options *options;
+  ambulo_diagnostics *diagnostics;
+  ambulo__cycle cycle;
+  ambulo__map map;
+  ambulo__reference reference;
+  double *percents, *left, *right; /* [most points] */
+  int warned_sides;
+  ambulo_comparison *result;
+} comparing;
+
+ambulo_compare_options ambulo_compare_options_default(void) {
+  ambulo_compare_options options = {
+      .cookie = OPTIONS_COOKIE, .pelvic_tilt = 0.19896753472735357, .strike = (double)NAN};
+  return options;
+}
+
+static int options_valid(const ambulo_compare_options *o) {
+  if (o->cookie != OPTIONS_COOKIE || !isfinite(o->pelvic_tilt)) return 0;
+  if (!(o->mass >= 0.0) || !isfinite(o->mass)) return 0;
+  return !o->foot || strcmp(o->foot, "left") == 0 || strcmp(o->foot, "right") == 0;
+}
+
+/* ---------------------------------------------------------------- one curve */
+
+/* how far two curves are apart, as a share of the first one's range */
+static double difference(const double *a, const double *b, int count) {
+  double least = a[0], most = a[0], squares = 0.0;
+  for (int i = 0; i < count; i++) {
+    least = fmin(least, a[i]);
+    most = fmax(most, a[i]);
+    squares += (a[i] - b[i]) * (a[i] - b[i]);
+  }
+  double rms = sqrt(squares / (double)count);
+  return rms == 0.0 ? 0.0 : rms / (most - least);
+}
+
+static void tell_sides_apart(comparing *c, const char *curve) {
+  if (c->warned_sides) return;
+  ambulo__place place = {.file = c->cycle.motion_path};
+  ambulo__note(c->diagnostics, place,
+               "'%s' differs between the sides; such curves are those of the left foot alone",
+               curve);
+  c->warned_sides = 1;
+}
+
+/* values[count] of the wanted foot, or of both */
+static ambulo_status sample(comparing *c, const ambulo__map_entry *entry, const double *percents,
+                            int count, double *values, int *found) {
+  const char *foot = c->options->foot;
+  ambulo__cycle_side first = foot && foot[0] == 'r' ? AMBULO__CYCLE_RIGHT : AMBULO__CYCLE_LEFT;
+  double *other = c->right;
+  int both = 0;
+  ambulo_status status =
+      ambulo__cycle_curve(&c->cycle, entry, first, percents, count, values, found);
+  if (status || !*found) return status;
+  if (!foot) {
+    status =
+        ambulo__cycle_curve(&c->cycle, entry, AMBULO__CYCLE_RIGHT, percents, count, other, &both);
+    if (status) return status;
+  }
+  if (both && difference(values, other, count) > alike) {
+    tell_sides_apart(c, entry->curve);
+    both = 0;
+  }
+  double shift = entry->tilted ? c->options->pelvic_tilt * 57.295779513082321 : 0.0;
+  for (int i = 0; i < count; i++) {
+    if (both) values[i] = 0.5 * (values[i] + other[i]);
+    values[i] += shift;
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status sample_fine(comparing *c, const ambulo__map_entry *entry, double *fine,
+                                 int *found) {
+  for (int i = 0; i < AMBULO__FINE; i++) c->percents[i] = 0.5 * (double)i;
+  return sample(c, entry, c->percents, AMBULO__FINE, fine, found);
+}
+
+static ambulo_status score_all(comparing *c, const char *reference) {
+  ambulo_comparison *result = c->result;
+  double fine[AMBULO__FINE];
+  int doubted = 0; /* once is enough */
+  for (int i = 0; i < c->reference.count; i++) {
+    const ambulo__reference_curve *curve = &c->reference.curves[i];
+    int found = 0;
+    if (!ambulo__curve_is_listed(c->options->curves, curve->entry->curve)) continue;
+    ambulo_status status = sample(c, curve->entry, curve->percent, curve->points, c->left, &found);
+    if (!status && found) status = sample_fine(c, curve->entry, fine, &found);
+    if (status) return status;
+    if (!found) continue;
+    doubted = doubted || ambulo__curve_doubt(curve, fine, reference, c->diagnostics);
+    ambulo_curve_score *score = &result->scores[result->score_count];
+    memcpy(result->names[result->score_count], curve->entry->curve, sizeof(curve_name));
+    score->name = result->names[result->score_count++];
+    score->unit = ambulo__curve_unit_name(curve->entry->unit);
+    ambulo__score_curve(curve, c->left, fine, score);
+  }
+  ambulo__place place = {.file = c->cycle.motion_path};
+  if (result->score_count > 0) return AMBULO_OK;
+  return ambulo__error(
+      c->diagnostics, AMBULO_E_SCHEMA, place,
+      c->cycle.mass > 0.0 ? NULL : "moments and forces need the body mass: summary.json, or --mass",
+      "no curve of '%s' can be made from these columns; the first would be '%s' "
+      "from '%s'",
+      reference, c->reference.curves[0].entry->curve, c->reference.curves[0].entry->result);
+}
+
+/* ---------------------------------------------------------------- landmarks */
+
+static const ambulo__map_entry *find_entry(const ambulo__map *map, const char *curve) {
+  for (int i = 0; i < map->count; i++) {
+    if (strcmp(map->entries[i].curve, curve) == 0) return &map->entries[i];
+  }
+  return NULL;
+}
+
+static ambulo_status add_landmarks(comparing *c, const ambulo__map *fallback) {
+  static const char *const curves[] = {"knee_flexion", "ankle_dorsiflexion", "grf_vertical",
+                                       "grf_forward"};
+  ambulo_comparison *to = c->result;
+  double fine[AMBULO__FINE];
+  for (int i = 0; i < 4; i++) {
+    const ambulo__map_entry *entry = find_entry(&c->map, curves[i]);
+    int found = 0;
+    if (!entry) entry = find_entry(fallback, curves[i]);
+    ambulo_status status = sample_fine(c, entry, fine, &found);
+    if (status) return status;
+    if (!found) continue;
+    if (i == 0) ambulo__knee_landmarks(fine, to->landmarks, &to->landmark_count);
+    if (i == 1) ambulo__ankle_landmarks(fine, to->landmarks, &to->landmark_count);
+    if (i == 2) {
+      ambulo__vertical_landmarks(fine, c->cycle.gravity, to->landmarks, &to->landmark_count);
+    }
+    if (i == 3) ambulo__forward_landmarks(fine, to->landmarks, &to->landmark_count);
+  }
+  return AMBULO_OK;
+}
+
+/* -------------------------------------------------------------- entry points */
+
+static ambulo_status read_reference(comparing *c, const char *path, ambulo__sheet *sheet) {
+  const ambulo_allocator *a = &c->cycle.allocator;
+  ambulo__reference_layout layout = AMBULO__LAYOUT_WIDE;
+  int header = 0;
+  ambulo_status status = ambulo__sheet_read(path, a, c->diagnostics, sheet);
+  if (!status) status = ambulo__reference_layout_of(sheet, c->diagnostics, &layout, &header);
+  if (!status)
+    status = c->options->map ? ambulo__map_read(c->options->map, a, c->diagnostics, &c->map)
+                             : ambulo__map_default(layout, a, &c->map);
+  if (status) return status;
+  return ambulo__reference_curves(sheet, layout, header, &c->map, c->diagnostics, &c->reference);
+}
+
+static ambulo_status allocate(comparing *c) {
+  const ambulo_allocator *a = &c->cycle.allocator;
+  int most = AMBULO__FINE;
+  for (int i = 0; i < c->reference.count; i++) {
+    if (c->reference.curves[i].points > most) most = c->reference.curves[i].points;
+  }
+  c->percents = ambulo__alloc(a, (size_t)most, sizeof(double));
+  c->left = ambulo__alloc(a, (size_t)most, sizeof(double));
+  c->right = ambulo__alloc(a, (size_t)most, sizeof(double));
+  c->result = ambulo__alloc(a, 1, sizeof *c->result);
+  if (c->result) c->result->allocator = *a;
+  if (!c->percents || !c->left || !c->right || !c->result) return AMBULO_E_MEMORY;
+  c->result->scores = ambulo__alloc(a, (size_t)c->reference.count, sizeof(ambulo_curve_score));
+  c->result->names = ambulo__alloc(a, (size_t)c->reference.count, sizeof(curve_name));
+  return c->result->scores && c->result->names ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+ambulo_status ambulo_compare(const char *directory, const char *reference,
+                             const ambulo_compare_options *options,
+                             const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                             ambulo_comparison **comparison) {
+  ambulo_compare_options defaults = ambulo_compare_options_default();
+  if (!options) options = &defaults;
+  if (!directory || !reference || !comparison || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  comparing c = {.options = options, .diagnostics = diagnostics};
+  ambulo__sheet sheet = {.text = NULL};
+  ambulo__map fallback = {.entries = NULL};
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  ambulo_status status = ambulo__cycle_open(directory, options, allocator, diagnostics, &c.cycle);
+  if (status) return ambulo__conclude(diagnostics, errors, status, directory);
+  ambulo_allocator a = c.cycle.allocator;
+  status = read_reference(&c, reference, &sheet);
+  if (!status) status = ambulo__map_default(AMBULO__LAYOUT_WIDE, &a, &fallback);
+  if (!status) status = ambulo__curves_check(options->curves, &c.reference, reference, diagnostics);
+  if (!status) status = allocate(&c);
+  if (!status) status = score_all(&c, reference);
+  if (!status) status = add_landmarks(&c, &fallback);
+  if (!status) {
+    *comparison = c.result;
+    c.result = NULL;
+  }
+  ambulo_comparison_free(c.result);
+  ambulo__free(&a, c.percents);
+  ambulo__free(&a, c.left);
+  ambulo__free(&a, c.right);
+  ambulo__reference_free(&c.reference);
+  ambulo__map_free(&c.map);
+  ambulo__map_free(&fallback);
+  ambulo__sheet_free(&sheet);
+  ambulo__cycle_close(&c.cycle);
+  return ambulo__conclude(diagnostics, errors, status, reference);
+}
+
+void ambulo_comparison_free(ambulo_comparison *comparison) {
+  if (!comparison) return;
+  ambulo_allocator a = comparison->allocator;
+  ambulo__free(&a, comparison->scores);
+  ambulo__free(&a, comparison->names);
+  ambulo__free(&a, comparison);
+}
+
+int ambulo_comparison_curve_count(const ambulo_comparison *comparison) {
+  return comparison->score_count;
+}
+
+const ambulo_curve_score *ambulo_comparison_curve(const ambulo_comparison *comparison, int index) {
+  return index >= 0 && index < comparison->score_count ? &comparison->scores[index] : NULL;
+}
+
+int ambulo_comparison_landmark_count(const ambulo_comparison *comparison) {
+  return comparison->landmark_count;
+}
+
+const ambulo_landmark *ambulo_comparison_landmark(const ambulo_comparison *comparison, int index) {
+  return index >= 0 && index < comparison->landmark_count ? &comparison->landmarks[index] : NULL;
+}
+
+ambulo_status ambulo_comparison_json(const ambulo_comparison *comparison,
+                                     const ambulo_allocator *allocator, char **text) {
+  if (!comparison || !text) return AMBULO_E_ARGUMENT;
+  ambulo__text_buffer buffer;
+  ambulo__text_init(&buffer, allocator);
+  ambulo__json json = {.text = &buffer, .first = 1};
+  ambulo__json_open(&json, NULL, '{');
+  ambulo__json_open(&json, "curves", '{');
+  for (int i = 0; i < comparison->score_count; i++) {
+    const ambulo_curve_score *score = &comparison->scores[i];
+    ambulo__json_open(&json, score->name, '{');
+    ambulo__json_number(&json, "rmse", score->rmse);
+    ambulo__json_number(&json, "r", score->r);
+    ambulo__json_number(&json, "within_2sd", score->within_2sd);
+    ambulo__json_number(&json, "peak", score->peak);
+    ambulo__json_number(&json, "peak_time", score->peak_time);
+    ambulo__json_close(&json, '}');
+  }
+  ambulo__json_close(&json, '}');
+  ambulo__json_close(&json, '}');
+  ambulo_status status = ambulo__text_status(&buffer);
+  char *copy = status ? NULL : ambulo__strdup(&buffer.allocator, ambulo__text_data(&buffer));
+  if (!status && !copy) status = AMBULO_E_MEMORY;
+  ambulo__text_free(&buffer);
+  if (!status) *text = copy;
+  return status;
+}

@@ -1,0 +1,99 @@
+/* format/motion_csv.c - motion.csv: one line a time, columns named by quantity and coordinate. */
+#include "format/motion_csv.h"
+#include "base/output_check.h"
+
+#include <math.h>
+
+static void foot_header(const char *foot, ambulo__text_buffer *text) {
+  static const char *const prefixes[] = {",grf.", ",cop."}, *const axes[] = {".x", ".y", ".z"};
+  for (int i = 0; i < 6; i++) {
+    ambulo__text_append(text, prefixes[i / 3]);
+    ambulo__text_append(text, foot);
+    ambulo__text_append(text, axes[i % 3]);
+  }
+  ambulo__text_append(text, ",free_moment.");
+  ambulo__text_append(text, foot);
+}
+
+/* without the dust that sums of many parts leave */
+static void append_rounded(ambulo__text_buffer *text, double value) {
+  ambulo__text_append_number(text, round(1e9 * value) / 1e9);
+}
+
+static void comment(const ambulo__motion_table *table, ambulo__text_buffer *text) {
+  ambulo__text_append(text, AMBULO__OWN_MARK " motion: mass ");
+  append_rounded(text, table->model->mass);
+  ambulo__text_append(text, " kg, gravity");
+  for (int i = 0; i < 3; i++) {
+    ambulo__text_append_char(text, ' ');
+    append_rounded(text, table->model->gravity[i]);
+  }
+  ambulo__text_append(text, " m/s^2; SI units and radians: time s; q rad or m, qd per s, qdd per "
+                            "s^2; tau N m or N; zmp m, world axes");
+  if (table->feet)
+    ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal");
+  if (table->wrench) ambulo__text_append(text, "; wrench N, N m about the origin, world axes");
+  if (table->residual)
+    ambulo__text_append(text, "; residual N, N m about the centre of mass, world axes");
+  if (table->power) ambulo__text_append(text, "; power W");
+  ambulo__text_append_char(text, '\n');
+}
+
+static void coordinates(const ambulo_model *model, const char *prefix, ambulo__text_buffer *text) {
+  for (int i = 0; i < model->coordinate_count; i++) {
+    ambulo__text_append(text, prefix);
+    ambulo__text_append(text, model->coordinates[i].name);
+  }
+}
+
+static void wrench_header(const char *name, ambulo__text_buffer *text) {
+  for (int i = 0; i < 6; i++)
+    ambulo__text_append_format(text, ",%s.%s.%c", name, i < 3 ? "force" : "moment", "xyz"[i % 3]);
+}
+
+static void header(const ambulo__motion_table *table, ambulo__text_buffer *text) {
+  static const char *const prefixes[] = {",q.", ",qd.", ",qdd.", ",tau."};
+  comment(table, text);
+  ambulo__text_append(text, "time");
+  for (int p = 0; p < 4; p++) coordinates(table->model, prefixes[p], text);
+  ambulo__text_append(text, ",zmp.x,zmp.y,zmp.z");
+  for (int foot = 0; foot < table->feet; foot++) foot_header(table->model->feet[foot].name, text);
+  if (table->wrench) wrench_header("wrench", text);
+  if (table->residual) wrench_header("residual", text);
+  if (table->power) coordinates(table->model, ",power.", text);
+  ambulo__text_append_char(text, '\n');
+}
+
+static void numbers(ambulo__text_buffer *text, const double *values, int count) {
+  for (int i = 0; i < count; i++) {
+    ambulo__text_append_char(text, ',');
+    ambulo__text_append_number(text, values[i]);
+  }
+}
+
+void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text) {
+  int d = table->model->coordinate_count;
+  header(table, text);
+  for (int k = 0; k < table->samples; k++) {
+    size_t at = (size_t)k * (size_t)d;
+    ambulo__text_append_number(text, table->times[k]);
+    numbers(text, table->q + at, d);
+    numbers(text, table->qd + at, d);
+    numbers(text, table->qdd + at, d);
+    numbers(text, table->tau + at, d);
+    numbers(text, table->zmp + 3 * (size_t)k, 3);
+    for (int foot = 0; foot < table->feet; foot++) {
+      size_t i = (size_t)k * (size_t)table->feet + (size_t)foot;
+      numbers(text, table->grf + 3 * i, 3);
+      numbers(text, table->cop + 3 * i, 3);
+      numbers(text, table->free_moment + i, 1);
+    }
+    if (table->wrench) {
+      numbers(text, table->wrench + 6 * (size_t)k + 3, 3);
+      numbers(text, table->wrench + 6 * (size_t)k, 3);
+    }
+    if (table->residual) numbers(text, table->residual + 6 * (size_t)k, 6);
+    if (table->power) numbers(text, table->power + at, d);
+    ambulo__text_append_char(text, '\n');
+  }
+}

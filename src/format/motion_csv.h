@@ -1,0 +1,32 @@
+/* format/motion_csv.h - a motion as a table, and in OpenSim's form (docs/results.md). */
+#ifndef AMBULO_FORMAT_MOTION_CSV_H
+#define AMBULO_FORMAT_MOTION_CSV_H
+
+#include "base/text_buffer.h"
+#include "model/model.h"
+
+/* A motion to be written; arrays [samples][coordinates], zmp [samples][3]. */
+typedef struct ambulo__motion_table {
+  const ambulo_model *model;
+  const char *name;
+  int samples;
+  const double *times, *q, *qd, *qdd, *tau, *zmp;
+  int feet;                              /* 0: no forces on the feet */
+  const double *grf, *cop, *free_moment; /* [samples][feet][3], ..., [samples][feet] */
+  /* of an inverse dynamics; each may be NULL */
+  const double *wrench;   /* [samples][6]: moment about the origin, force */
+  const double *residual; /* [samples][6]: force, moment about the centre of mass */
+  const double *power;    /* [samples][coordinates] */
+} ambulo__motion_table;
+
+/* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time:
+ * time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
+ * cop.<foot>.x|y|z, free_moment.<foot>; of an inverse dynamics wrench.force.x|y|z,
+ * wrench.moment.x|y|z, the same of residual, and power.*; a value that does not exist (the ZMP in
+ * flight) is "nan". */
+void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text);
+
+/* Coordinates only, inDegrees=no. */
+void ambulo__motion_sto(const ambulo__motion_table *table, ambulo__text_buffer *text);
+
+#endif

@@ -1,0 +1,18 @@
+/* mechanics/plan_query.c - the sizes of a plan. */
+#include "mechanics/plan_layout.h"
+
+int ambulo__plan_coordinates(const ambulo__plan *plan) {
+  return plan->coordinates;
+}
+
+int ambulo__plan_points(const ambulo__plan *plan) {
+  return plan->points;
+}
+
+int ambulo__plan_is_grounded(const ambulo__plan *plan) {
+  return plan->grounded;
+}
+
+size_t ambulo__plan_scratch(const ambulo__plan *plan) {
+  return plan->scratch;
+}

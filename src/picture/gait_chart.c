@@ -1,0 +1,66 @@
+/* picture/gait_chart.c - one small panel: range, grid, curves (gait_chart.h). */
+#include "picture/gait_chart.h"
+
+#include <math.h>
+
+#include "picture/svg.h"
+
+void ambulo__chart_range(ambulo__chart *c, const int *columns, int count) {
+  double low = 0.0, high = 0.0;
+  for (int j = 0; j < count; j++) {
+    for (int k = 0; k < c->stride->samples; k++) {
+      size_t at = (size_t)k * (size_t)c->columns + (size_t)columns[j];
+      double value = c->factor * c->values[at];
+      if (!isfinite(value)) continue;
+      low = fmin(low, value);
+      high = fmax(high, value);
+    }
+  }
+  if (high - low < 1e-9) high = low + 1.0;
+  c->low = low;
+  c->high = high;
+}
+
+static double chart_y(const ambulo__chart *c, double value) {
+  return c->box.y + c->box.height * (c->high - value) / (c->high - c->low);
+}
+
+void ambulo__chart_grid(ambulo__chart *c, ambulo__text_buffer *text) {
+  int decimals;
+  double step = ambulo__nice_step(c->high - c->low, 4, &decimals);
+  c->low = floor(c->low / step + 1e-9) * step;
+  c->high = ceil(c->high / step - 1e-9) * step;
+  ambulo__text_buffer label;
+  ambulo__text_init_part(&label, text);
+  int lines = (int)lround((c->high - c->low) / step);
+  for (int i = 0; i <= lines; i++) {
+    double value = c->low + (double)i * step, y = chart_y(c, value);
+    int zero = fabs(value) < 1e-6 * step;
+    ambulo__svg_line(text, zero ? "zero" : "grid", c->box.x, y, c->box.x + c->box.width, y);
+    ambulo__text_clear(&label);
+    ambulo__label_number(&label, value, decimals);
+    ambulo__svg_label(text, "end", c->box.x - 8.0, y + 4.0, ambulo__text_data(&label));
+  }
+  ambulo__text_free(&label);
+}
+
+void ambulo__chart_curve(const ambulo__chart *c, int column, ambulo__side side,
+                         ambulo__text_buffer *text) {
+  static const char *const styles[] = {"trunk curve", "left curve", "right curve"};
+  int pen_down = 0;
+  ambulo__svg_path_begin(text, styles[side]);
+  for (int k = 0; k < c->stride->samples; k++) {
+    size_t at = (size_t)k * (size_t)c->columns + (size_t)column;
+    double value = c->factor * c->values[at];
+    double x = ambulo__panel_time(&c->box, c->stride->times[k]);
+    if (!isfinite(value)) {
+      pen_down = 0;
+    } else if (pen_down) {
+      ambulo__svg_path_line(text, x, chart_y(c, value));
+    } else {
+      ambulo__svg_path_move(text, x, chart_y(c, value));
+      pen_down = 1;
+    }
+  }
+  ambulo__svg_path_end(text);
+}

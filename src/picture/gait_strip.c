@@ -1,0 +1,275 @@
+/* picture/gait_strip.c - figures of a motion side by side.
+ *
+ * Figure k at time t_k is drawn at
+ *
+ *     X = x(t_k) + s (f . r - f . r_ref(0) - v t_k),    Y = ground - s (n . r - h)
+ *
+ * with s the scale (px per metre), r_ref a point that moves with the whole body, v its mean
+ * speed along f: the true place, with the walking direction stretched by the constant factor
+ * that spreads the figures over the time axis.
+ */
+#include <math.h>
+
+#include "picture/gait_svg.h"
+#include "picture/skeleton.h"
+#include "picture/svg.h"
+
+enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, EXTENT_SAMPLES = 61 };
+
+static const double head_room = 14.0; /* px above the figures */
+
+typedef struct strip {
+  const ambulo__panel *panel;
+  const ambulo_model *model;
+  ambulo__skeleton skeleton;
+  int reference;       /* link whose parent's origin moves with the body */
+  double speed, start; /* of the reference along forward, m/s, m */
+  double ground;       /* m */
+  double left, right;  /* extent of the figures about the reference line, m */
+  double low, high;    /* above the ground, m */
+  double scale;        /* px per m */
+  double base;         /* y of the ground, px */
+  int figures;
+} strip;
+
+static double along(const double *axis, const double *r) {
+  return axis[0] * r[0] + axis[1] * r[1] + axis[2] * r[2];
+}
+
+static double reference_place(const strip *s) {
+  static const double origin[3] = {0.0, 0.0, 0.0};
+  double world[3];
+  int link = s->reference >= 0 ? s->model->links[s->reference].parent : -1;
+  ambulo__pose_point(&s->skeleton.pose, link, origin, world);
+  return along(s->model->forward, world);
+}
+
+/* (forward of the moving reference line, height) of a bone's end, m */
+static void flat_point(const strip *s, const ambulo__bone *bone, int end, double t, double at[2]) {
+  double world[3];
+  ambulo__pose_point(&s->skeleton.pose, bone->link[end], bone->at[end], world);
+  at[0] = along(s->model->forward, world) - s->start - s->speed * t;
+  at[1] = along(s->model->up, world) - s->ground;
+}
+
+static void find_reference(strip *s, const ambulo__stride *stride) {
+  s->reference = -1;
+  for (int i = 0; i < s->model->link_count && s->reference < 0; i++) {
+    if (s->model->links[i].mass > 0.0) s->reference = i;
+  }
+  size_t last = (size_t)(stride->samples - 1) * (size_t)stride->coordinates;
+  ambulo__pose_at(&s->skeleton.pose, stride->q);
+  s->start = reference_place(s);
+  ambulo__pose_at(&s->skeleton.pose, stride->q + last);
+  double end = reference_place(s);
+  s->speed = (end - s->start) / stride->duration;
+  if (!isfinite(s->speed) || !isfinite(s->start)) s->speed = s->start = 0.0;
+}
+
+static void widen(strip *s, const double at[2], double radius) {
+  if (!isfinite(at[0]) || !isfinite(at[1])) return;
+  s->left = fmin(s->left, at[0] - radius);
+  s->right = fmax(s->right, at[0] + radius);
+  s->low = fmin(s->low, at[1] - radius);
+  s->high = fmax(s->high, at[1] + radius);
+}
+
+static void find_extent(strip *s, const ambulo__stride *stride) {
+  s->left = s->right = 0.0;
+  s->low = s->high = 0.0;
+  for (int k = 0; k < stride->samples; k++) {
+    ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
+    for (int b = 0; b < s->skeleton.bone_count; b++) {
+      const ambulo__bone *bone = &s->skeleton.bones[b];
+      double at[2];
+      flat_point(s, bone, 0, stride->times[k], at);
+      widen(s, at, 0.0);
+      flat_point(s, bone, 1, stride->times[k], at);
+      widen(s, at, bone->head);
+    }
+  }
+}
+
+/* as many figures as stand apart, as large as fits */
+static void choose_scale(strip *s) {
+  double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
+  const double side_room = s->model->foot_count ? 108.0 : 78.0;
+  /* part of a figure's width that its neighbour leaves it: legs may cross, an arm stands free */
+  const double overlap = s->model->foot_count ? 0.56 : 1.08;
+  s->scale = (s->panel->height - head_room) / height;
+  /* the first and the last figure stay on the page */
+  if (s->right * s->scale > side_room) s->scale = side_room / s->right;
+  if (-s->left * s->scale > side_room) s->scale = side_room / -s->left;
+  double spacing = overlap * width * s->scale;
+  s->figures = (int)(s->panel->width / spacing) + 1;
+  if (s->figures > MOST_FIGURES) s->figures = MOST_FIGURES;
+  if (s->figures < FEWEST_FIGURES) {
+    s->figures = FEWEST_FIGURES;
+    s->scale *= s->panel->width / (double)(FEWEST_FIGURES - 1) / spacing;
+  }
+  s->base = s->panel->y + s->panel->height + s->scale * s->low;
+}
+
+static void to_page(const strip *s, double t, const double at[2], double page[2]) {
+  page[0] = ambulo__panel_time(s->panel, t) + s->scale * at[0];
+  page[1] = s->base - s->scale * at[1];
+}
+
+static void draw_side(const strip *s, double t, ambulo__side side, const char *style,
+                      ambulo__text_buffer *text) {
+  int begun = 0;
+  for (int b = 0; b < s->skeleton.bone_count; b++) {
+    const ambulo__bone *bone = &s->skeleton.bones[b];
+    if (bone->side != side) continue;
+    double at[2], from[2], to[2];
+    flat_point(s, bone, 0, t, at);
+    to_page(s, t, at, from);
+    flat_point(s, bone, 1, t, at);
+    to_page(s, t, at, to);
+    if (!isfinite(from[0] + from[1] + to[0] + to[1])) continue;
+    if (!begun) ambulo__svg_path_begin(text, style);
+    begun = 1;
+    ambulo__svg_path_move(text, from[0], from[1]);
+    ambulo__svg_path_line(text, to[0], to[1]);
+  }
+  if (begun) ambulo__svg_path_end(text);
+}
+
+static void draw_head(const strip *s, double t, ambulo__text_buffer *text) {
+  for (int b = 0; b < s->skeleton.bone_count; b++) {
+    const ambulo__bone *bone = &s->skeleton.bones[b];
+    double at[2], center[2];
+    if (bone->head <= 0.0) continue;
+    flat_point(s, bone, 1, t, at);
+    to_page(s, t, at, center);
+    if (isfinite(center[0] + center[1]))
+      ambulo__svg_circle(text, "head", center[0], center[1], s->scale * bone->head);
+  }
+}
+
+/* what hangs on the world, hangs there: the origin of the first link that moves */
+static void draw_pivot(const strip *s, double t, ambulo__text_buffer *text) {
+  int link = s->reference >= 0 ? s->model->links[s->reference].parent : -1;
+  ambulo__bone bone = {.link = {-1, link}};
+  double at[2], page[2];
+  flat_point(s, &bone, 1, t, at);
+  to_page(s, t, at, page);
+  if (isfinite(page[0] + page[1])) ambulo__svg_circle(text, "head", page[0], page[1], 4.0);
+}
+
+/* a mark under the part of the foot that is on its foothold */
+static void draw_contacts(const strip *s, const ambulo__stride *stride, double t,
+                          ambulo__text_buffer *text) {
+  static const char *const styles[] = {"trunk-mark", "left-mark", "right-mark"};
+  for (int f = 0; f < s->model->foot_count; f++) {
+    const ambulo_foot *foot = &s->model->feet[f];
+    ambulo_contact_mode mode;
+    if (!ambulo__stride_contact(stride, f, t, &mode)) continue;
+    const ambulo_point *heel = &s->model->points[foot->heel_center];
+    const ambulo_point *toe = &s->model->points[foot->toe_center];
+    const ambulo_point *ends[2] = {mode == AMBULO_CONTACT_TOE ? toe : heel,
+                                   mode == AMBULO_CONTACT_HEEL ? heel : toe};
+    double page[2][2];
+    for (int e = 0; e < 2; e++) {
+      ambulo__bone bone = {.link = {-1, ends[e]->link}};
+      for (int k = 0; k < 3; k++) bone.at[1][k] = ends[e]->position[k];
+      double at[2];
+      flat_point(s, &bone, 1, t, at);
+      to_page(s, t, at, page[e]);
+    }
+    if (!isfinite(page[0][0] + page[1][0])) continue;
+    double y = s->base + 5.5 + (s->skeleton.side[heel->link] == AMBULO__RIGHT ? 5.0 : 0.0);
+    /* a zero-length line with round ends would not be drawn everywhere */
+    ambulo__svg_line(text, styles[s->skeleton.side[heel->link]], page[0][0] - 0.5, y,
+                     page[1][0] + 0.5, y);
+  }
+}
+
+static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_buffer *text) {
+  if (s->model->foot_count) {
+    double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
+    ambulo__svg_rectangle(text, "soil", left, s->base, width, 15.0);
+    ambulo__svg_line(text, "ground", left, s->base, left + width, s->base);
+  }
+  for (int k = 0; k < stride->samples; k++) {
+    double t = stride->times[k];
+    ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
+    ambulo__svg_group_begin(text, "figure");
+    draw_side(s, t, AMBULO__LEFT, "left", text);
+    draw_side(s, t, AMBULO__MIDDLE, "trunk", text);
+    draw_head(s, t, text);
+    draw_side(s, t, AMBULO__RIGHT, "right", text);
+    draw_contacts(s, stride, t, text);
+    if (!s->model->foot_count) draw_pivot(s, t, text);
+    ambulo__svg_group_end(text);
+  }
+}
+
+/* radians that the ground rises along forward: gravity is not along its normal then */
+static double slope_of(const ambulo_model *model) {
+  return atan2(-along(model->forward, model->gravity), -along(model->up, model->gravity));
+}
+
+/* how far the drawing departs from the truth */
+static void caption(const strip *s, ambulo__text_buffer *text) {
+  double true_width = s->scale * fabs(s->speed) * s->panel->duration;
+  ambulo__text_buffer label;
+  ambulo__text_init_part(&label, text);
+  if (true_width > 0.05 * s->panel->width) {
+    ambulo__text_append(&label, "side view, walking direction stretched ");
+    ambulo__label_number(&label, s->panel->width / true_width, 1);
+    ambulo__text_append(&label, "\xc3\x97");
+  } else {
+    ambulo__text_append(&label, "side view, one figure beside the other in time");
+  }
+  double slope = 57.295779513082321 * slope_of(s->model);
+  if (s->model->foot_count && fabs(slope) > 0.05) {
+    ambulo__text_append(&label, slope > 0.0 ? ", uphill " : ", downhill ");
+    ambulo__label_number(&label, fabs(slope), 1);
+    ambulo__text_append(&label, "\xc2\xb0 (drawn level)");
+  }
+  ambulo__svg_label(text, "end", s->panel->x + s->panel->width + 80.0, s->panel->y - 23.0,
+                    ambulo__text_data(&label));
+  ambulo__text_free(&label);
+}
+
+static ambulo_status measure(const ambulo_problem *problem, const double *x,
+                             const ambulo__panel *panel, const ambulo_allocator *allocator,
+                             strip *s) {
+  ambulo__stride dense = {.samples = 0};
+  s->panel = panel;
+  s->model = ambulo_problem_model(problem);
+  s->ground = problem->definition.ground_height;
+  ambulo_status status = ambulo__skeleton_create(s->model, allocator, &s->skeleton);
+  if (!status) status = ambulo__stride_create(problem, x, EXTENT_SAMPLES, allocator, &dense);
+  if (status) return status;
+  find_reference(s, &dense);
+  find_extent(s, &dense);
+  choose_scale(s);
+  ambulo__stride_free(&dense);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
+                                        const ambulo_allocator *allocator, ambulo__panel *panel) {
+  strip s = {.panel = NULL};
+  ambulo_status status = measure(problem, x, panel, allocator, &s);
+  if (!status) panel->height = s.scale * fmax(s.high - s.low, 0.1) + head_room;
+  ambulo__skeleton_free(&s.skeleton);
+  return status;
+}
+
+ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
+                                 const ambulo__panel *panel, ambulo__text_buffer *text) {
+  strip s = {.panel = NULL};
+  ambulo__stride shown = {.samples = 0};
+  ambulo_status status = measure(problem, x, panel, &text->allocator, &s);
+  if (!status) status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
+  if (!status) {
+    draw_figures(&s, &shown, text);
+    caption(&s, text);
+  }
+  ambulo__stride_free(&shown);
+  ambulo__skeleton_free(&s.skeleton);
+  return status;
+}

@@ -1,0 +1,139 @@
+/* picture/gait_svg.c - the page: title, strip, bars, time axis, curves, legend. */
+#include "picture/gait_svg.h"
+
+#include <math.h>
+
+#include "picture/svg.h"
+
+enum { CURVE_SAMPLES = 241 };
+
+static const double page_width = 1200.0, margin = 40.0;
+
+/* "3.2e-09": two digits, free of the locale */
+static void append_small(ambulo__text_buffer *text, double value) {
+  if (!(value > 0.0) || !isfinite(value)) {
+    ambulo__text_append(text, value == 0.0 ? "0" : "not finite");
+    return;
+  }
+  int exponent = (int)floor(log10(value));
+  int digits = (int)lround(value / pow(10.0, (double)(exponent - 1)));
+  if (digits >= 100) {
+    digits /= 10;
+    exponent++;
+  }
+  ambulo__text_append_format(text, "%d.%de%d", digits / 10, digits % 10, exponent);
+}
+
+static void append_rounded(ambulo__text_buffer *text, double value) {
+  int exponent = value != 0.0 && isfinite(value) ? (int)floor(log10(fabs(value))) : 0;
+  int decimals = 3 - exponent;
+  ambulo__label_number(text, value, decimals < 0 ? 0 : decimals > 6 ? 6 : decimals);
+}
+
+static void subtitle(const ambulo_problem *problem, const ambulo_result *result,
+                     ambulo__text_buffer *out) {
+  const ambulo_audit *audit = ambulo_result_audit(result);
+  double travel = problem->definition.travel, duration = ambulo_problem_duration(problem);
+  ambulo__text_append(out, ambulo_verdict_name(ambulo_result_verdict(result)));
+  ambulo__text_append(out, "   \xc2\xb7   ");
+  if (ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED)
+    ambulo__text_append(out, "one step, mirrored: ");
+  append_rounded(out, duration);
+  ambulo__text_append(out, " s");
+  if (travel != 0.0) {
+    ambulo__text_append(out, ", ");
+    ambulo__label_number(out, travel, 2);
+    ambulo__text_append(out, " m, ");
+    ambulo__label_number(out, travel / duration, 2);
+    ambulo__text_append(out, " m/s");
+  }
+  if (ambulo_problem_term_count(problem)) {
+    ambulo__text_append(out, "   \xc2\xb7   objective ");
+    append_rounded(out, ambulo_result_objective(result));
+  }
+  ambulo__text_append(out, "   \xc2\xb7   worst violation ");
+  append_small(out, audit->violation.worst);
+  if (audit->violation.unit) ambulo__text_append_format(out, " %s", audit->violation.unit);
+}
+
+static void heading(const ambulo_problem *problem, const ambulo_result *result, int sides,
+                    ambulo__text_buffer *text) {
+  const char *name = ambulo_problem_name(problem);
+  ambulo__text_buffer line;
+  ambulo__text_init_part(&line, text);
+  for (const char *c = name ? name : "motion"; *c; c++)
+    ambulo__text_append_char(&line, *c == '_' ? ' ' : *c);
+  ambulo__svg_label(text, "title", margin, 46.0, ambulo__text_data(&line));
+  ambulo__text_clear(&line);
+  subtitle(problem, result, &line);
+  ambulo__svg_label(text, "subtitle", margin, 69.0, ambulo__text_data(&line));
+  ambulo__text_free(&line);
+  if (!sides) return;
+  double right = page_width - margin;
+  ambulo__svg_line(text, "left-mark", right - 146.0, 41.5, right - 126.0, 41.5);
+  ambulo__svg_label(text, "left-text", right - 116.0, 46.0, "left");
+  ambulo__svg_line(text, "right-mark", right - 70.0, 41.5, right - 50.0, 41.5);
+  ambulo__svg_label(text, "right-text", right - 40.0, 46.0, "right");
+}
+
+static int has_sides(const ambulo_model *model) {
+  for (int i = 0; i < model->coordinate_count; i++) {
+    if (model->coordinates[i].mirror != i) return 1;
+  }
+  return 0;
+}
+
+/* picture below the heading; the height is known before anything is drawn */
+typedef struct layout {
+  ambulo__panel strip, bars, axis, curves, forces;
+  double height;
+} layout;
+
+static ambulo_status arrange(const ambulo__stride *stride, const double *x, layout *page) {
+  int feet = ambulo_problem_contact_count(stride->problem) ? stride->model->foot_count : 0;
+  double left = margin + 70.0, width = page_width - 2.0 * margin - 150.0;
+  ambulo__panel strip = {left, 92.0, width, 270.0, stride->duration};
+  ambulo_status status = ambulo__gait_strip_height(stride->problem, x, &stride->allocator, &strip);
+  page->strip = strip;
+  page->bars = strip;
+  page->bars.y = strip.y + strip.height + 30.0;
+  page->axis = page->bars;
+  page->axis.y = page->bars.y + 19.0 * (double)feet + (feet ? 3.0 : -12.0);
+  ambulo__panel curves = {margin, page->axis.y + 78.0, page_width - 2.0 * margin, 430.0,
+                          stride->duration};
+  page->curves = curves;
+  page->forces = curves;
+  page->forces.y = curves.y + curves.height + 66.0;
+  page->forces.height = stride->feet ? 178.0 : 0.0;
+  page->height = curves.y + curves.height + 46.0 + (stride->feet ? 244.0 : 0.0);
+  return status;
+}
+
+static ambulo_status draw_page(const ambulo_problem *problem, const ambulo_result *result,
+                               const ambulo__stride *stride, ambulo__text_buffer *text) {
+  layout page;
+  const double *x = ambulo_result_x(result);
+  ambulo_status status = arrange(stride, x, &page);
+  if (status) return status;
+  const char *name = ambulo_problem_name(problem);
+  ambulo__svg_begin(text, page_width, page.height, name ? name : "motion");
+  heading(problem, result, has_sides(stride->model), text);
+  status = ambulo__gait_strip(problem, x, &page.strip, text);
+  ambulo__gait_bars(stride, &page.bars, text);
+  ambulo__time_axis(&page.axis, 9, "s", text);
+  ambulo__gait_curves(stride, &page.curves, text);
+  if (!status) status = ambulo__gait_forces(stride, &page.forces, text);
+  ambulo__svg_end(text);
+  return status ? status : ambulo__text_status(text);
+}
+
+ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
+                               ambulo__text_buffer *text) {
+  ambulo__stride stride = {.samples = 0};
+  ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result), CURVE_SAMPLES,
+                                               &text->allocator, &stride);
+  if (status) return status;
+  status = draw_page(problem, result, &stride, text);
+  ambulo__stride_free(&stride);
+  return status;
+}

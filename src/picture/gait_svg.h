@@ -1,0 +1,53 @@
+/* picture/gait_svg.h - gait.svg: the motion at a glance.
+ *
+ * A strip of stick figures seen from the right side (forward to the right), the contact
+ * phases of the feet on the same time axis, and curves of joint angles and torques. */
+#ifndef AMBULO_PICTURE_GAIT_SVG_H
+#define AMBULO_PICTURE_GAIT_SVG_H
+
+#include "ambulo/report.h"
+#include "base/text_buffer.h"
+#include "stride/stride.h"
+
+/* Appends the whole picture. Errors: E_MEMORY. */
+ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
+                               ambulo__text_buffer *text);
+
+/* ---------------------------------------------- its parts, each in its file */
+
+/* A region of the picture, px; time runs from 0 to `duration` across its width. */
+typedef struct ambulo__panel {
+  double x, y, width, height, duration;
+} ambulo__panel;
+
+static inline double ambulo__panel_time(const ambulo__panel *panel, double t) {
+  return panel->x + panel->width * t / panel->duration;
+}
+
+/* Stick figures standing on the lower edge of the panel. A figure of time t stands at t on
+ * the time axis: the walking direction is stretched (or, for a motion that stays in place,
+ * unrolled) uniformly; heights and lengths within a figure are true. */
+ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
+                                 const ambulo__panel *panel, ambulo__text_buffer *text);
+
+/* Sets panel->height, which is the most there is room for, to what the figures need. */
+ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
+                                        const ambulo_allocator *allocator, ambulo__panel *panel);
+
+/* One bar a foot; returns the height used, px (0 for a model without feet). */
+double ambulo__gait_bars(const ambulo__stride *stride, const ambulo__panel *panel,
+                         ambulo__text_buffer *text);
+/* Ticks and numbers below y = panel->y. */
+void ambulo__time_axis(const ambulo__panel *panel, int parts, const char *unit,
+                       ambulo__text_buffer *text);
+
+/* Curves of up to three coordinates (pairs left and right): angles above, torques below. */
+void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
+                         ambulo__text_buffer *text);
+
+/* Forces on the feet, upward and forward, side by side; nothing without ground reaction.
+ * Errors: E_MEMORY. */
+ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
+                                  ambulo__text_buffer *text);
+
+#endif

@@ -1,0 +1,144 @@
+/* picture/skeleton.c - lines of a stick figure (skeleton.h). */
+#include "picture/skeleton.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double shortest_line = 0.01; /* m */
+static const double head_radius = 0.105;  /* m, of an adult */
+
+/* --------------------------------------------------------------------- sides */
+
+static int ends_with(const char *text, const char *ending) {
+  size_t length = strlen(text), tail = strlen(ending);
+  return length >= tail && strcmp(text + length - tail, ending) == 0;
+}
+
+ambulo__side ambulo__coordinate_side(const ambulo_model *model, int coordinate) {
+  const ambulo_coordinate *c = &model->coordinates[coordinate];
+  if (c->mirror == coordinate) return AMBULO__MIDDLE;
+  if (ends_with(c->name, "_l") || strstr(c->name, "left")) return AMBULO__LEFT;
+  if (ends_with(c->name, "_r") || strstr(c->name, "right")) return AMBULO__RIGHT;
+  return c->mirror > coordinate ? AMBULO__RIGHT : AMBULO__LEFT;
+}
+
+static void fill_sides(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    ambulo__side own = AMBULO__MIDDLE;
+    if (link->coordinate >= 0) own = ambulo__coordinate_side(model, link->coordinate);
+    if (own == AMBULO__MIDDLE && link->parent >= 0) own = skeleton->side[link->parent];
+    skeleton->side[i] = own;
+  }
+}
+
+/* --------------------------------------------------------------------- lines */
+
+static void add_bone(ambulo__skeleton *skeleton, int from, const double *from_at, int to,
+                     const double *to_at, ambulo__side side, double head) {
+  if (skeleton->bone_count == skeleton->bone_capacity) return;
+  ambulo__bone *bone = &skeleton->bones[skeleton->bone_count++];
+  static const double origin[3] = {0.0, 0.0, 0.0};
+  bone->link[0] = from;
+  bone->link[1] = to;
+  memcpy(bone->at[0], from_at ? from_at : origin, sizeof origin);
+  memcpy(bone->at[1], to_at ? to_at : origin, sizeof origin);
+  bone->side = side;
+  bone->head = head;
+}
+
+/* 1 if nothing between the world and link i, itself included, has a mass */
+static int is_massless_root(const ambulo_model *model, int i) {
+  for (; i >= 0; i = model->links[i].parent) {
+    if (model->links[i].mass > 0.0) return 0;
+  }
+  return 1;
+}
+
+/* 1 if the line from the parent's joint to this link's is drawn */
+static int has_own_line(const ambulo_model *model, int i) {
+  const ambulo_link *link = &model->links[i];
+  if (is_massless_root(model, i)) return 0;
+  if (link->coordinate >= 0 && !model->coordinates[link->coordinate].actuated) return 0;
+  if (link->type == AMBULO_PRISMATIC) return 1;
+  return hypot(link->a, link->d) > shortest_line;
+}
+
+/* a step along the joint's own axis does not turn with the joint: it belongs to the parent */
+static ambulo__side line_side(const ambulo__skeleton *skeleton, int i) {
+  const ambulo_link *link = &skeleton->model->links[i];
+  int along_axis = link->type == AMBULO_REVOLUTE && fabs(link->a) <= shortest_line;
+  return along_axis && link->parent >= 0 ? skeleton->side[link->parent] : skeleton->side[i];
+}
+
+/* heel and toe centres of the feet; the line runs ankle - heel - toe - ankle */
+static void add_feet(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  for (int f = 0; f < model->foot_count; f++) {
+    const ambulo_point *heel = &model->points[model->feet[f].heel_center];
+    const ambulo_point *toe = &model->points[model->feet[f].toe_center];
+    ambulo__side side = skeleton->side[heel->link];
+    add_bone(skeleton, heel->link, NULL, heel->link, heel->position, side, 0.0);
+    add_bone(skeleton, heel->link, heel->position, toe->link, toe->position, side, 0.0);
+    add_bone(skeleton, toe->link, toe->position, heel->link, NULL, side, 0.0);
+  }
+}
+
+static int link_has_point(const ambulo_model *model, int link) {
+  for (int p = 0; p < model->point_count; p++) {
+    if (model->points[p].link == link) return 1;
+  }
+  return 0;
+}
+
+/* the line to the head stops below it: the bone's second end is the centre of the head */
+static void add_head(ambulo__skeleton *skeleton, const ambulo_point *top) {
+  double length = 0.0, center[3];
+  for (int k = 0; k < 3; k++) length += top->position[k] * top->position[k];
+  length = sqrt(length);
+  double radius = length > 3.0 * head_radius ? head_radius : length / 3.0;
+  double part = length > 0.0 ? (length - radius) / length : 0.0;
+  for (int k = 0; k < 3; k++) center[k] = part * top->position[k];
+  add_bone(skeleton, top->link, NULL, top->link, center, skeleton->side[top->link], radius);
+}
+
+static void add_lines(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    if (has_own_line(model, i)) {
+      add_bone(skeleton, link->parent, NULL, i, NULL, line_side(skeleton, i), 0.0);
+    } else if (link->mass > 0.0 && !link_has_point(model, i)) {
+      double length = hypot(hypot(link->com[0], link->com[1]), link->com[2]);
+      if (length > shortest_line) add_bone(skeleton, i, NULL, i, link->com, skeleton->side[i], 0.0);
+    }
+  }
+  add_feet(skeleton);
+  int top = ambulo_model_find_point(model, "head_top");
+  if (top >= 0) add_head(skeleton, &model->points[top]);
+}
+
+ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo__skeleton *skeleton) {
+  ambulo__skeleton s = {.allocator = ambulo__allocator_or_default(allocator), .model = model};
+  size_t links = (size_t)model->link_count;
+  s.bone_capacity = model->link_count + 3 * model->foot_count + 1;
+  s.bones = ambulo__alloc(&s.allocator, (size_t)s.bone_capacity, sizeof *s.bones);
+  s.side = ambulo__alloc(&s.allocator, links, sizeof *s.side);
+  ambulo_status status = ambulo__pose_create(model, &s.allocator, &s.pose);
+  if (status || !s.bones || !s.side) {
+    ambulo__skeleton_free(&s);
+    return AMBULO_E_MEMORY;
+  }
+  fill_sides(&s);
+  add_lines(&s);
+  *skeleton = s;
+  return AMBULO_OK;
+}
+
+void ambulo__skeleton_free(ambulo__skeleton *skeleton) {
+  ambulo__free(&skeleton->allocator, skeleton->bones);
+  ambulo__free(&skeleton->allocator, skeleton->side);
+  ambulo__pose_free(&skeleton->pose);
+}

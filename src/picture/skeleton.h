@@ -1,0 +1,39 @@
+/* picture/skeleton.h - a stick figure made from any model.
+ *
+ * Lines: from each link's joint to the next (origins of parent and child frame, where they
+ * are more than 1 cm apart), ankle - heel - toe - ankle for feet, from the root body to a
+ * point named "head_top" with a head below it, or to the centre of mass of a body that has
+ * no other line. Virtual links that place the whole body in the world are not drawn.
+ */
+#ifndef AMBULO_PICTURE_SKELETON_H
+#define AMBULO_PICTURE_SKELETON_H
+
+#include "mechanics/pose.h"
+
+typedef enum ambulo__side { AMBULO__MIDDLE, AMBULO__LEFT, AMBULO__RIGHT } ambulo__side;
+
+typedef struct ambulo__bone {
+  int link[2];     /* links its ends are fixed to; -1: the world */
+  double at[2][3]; /* ends in the links' frames, m */
+  ambulo__side side;
+  double head; /* > 0: a head of this radius (m) sits at the second end */
+} ambulo__bone;
+
+typedef struct ambulo__skeleton {
+  ambulo_allocator allocator;
+  const ambulo_model *model;
+  ambulo__pose pose; /* the last one: ambulo__pose_at, ambulo__pose_point */
+  ambulo__bone *bones;
+  int bone_count, bone_capacity;
+  ambulo__side *side; /* [links] */
+} ambulo__skeleton;
+
+/* Errors: E_MEMORY. */
+ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
+                                      ambulo__skeleton *skeleton);
+void ambulo__skeleton_free(ambulo__skeleton *skeleton); /* accepts a zero-filled one */
+
+/* Left, right or neither, by the names of a coordinate that has a mirror image. */
+ambulo__side ambulo__coordinate_side(const ambulo_model *model, int coordinate);
+
+#endif

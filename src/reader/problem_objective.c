@@ -1,0 +1,239 @@
+/* reader/problem_objective.c - `objective:` of a problem file: a list of terms, or `none`. */
+#include "reader/problem_reader.h"
+
+#include "gait/neutral_pose.h"
+#include "objective/term.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_TERMS = 64 };
+
+static double *coordinate_array(ambulo__problem_reader *reader, double value) {
+  int count = ambulo_model_coordinate_count(reader->model);
+  double *array = ambulo__reader_alloc(reader, (size_t)count, sizeof *array);
+  for (int i = 0; array && i < count; i++) array[i] = value;
+  return array;
+}
+
+/* a number for all coordinates, or a mapping with `default` for those it does not name */
+static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return coordinate_array(reader, 1.0);
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    return coordinate_array(reader, ambulo__yaml_number_in(node, 0.0, 1e12, 1.0));
+  }
+  double rest = ambulo__yaml_number_in(ambulo__yaml_get(node, "default"), 0.0, 1e12, 1.0);
+  double *scale = coordinate_array(reader, rest);
+  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
+  }
+  ambulo__yaml_close(node);
+  return scale;
+}
+
+/* mg with the sign that the coordinate's generalized force has when it carries the body */
+static double body_weight_on(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                             int i) {
+  const ambulo_model *model = reader->model;
+  double axis[3], vertical = 0.0, g = 0.0;
+  ambulo__neutral_axis(model, i, axis);
+  for (int k = 0; k < 3; k++) {
+    vertical += axis[k] * model->up[k];
+    g += model->gravity[k] * model->gravity[k];
+  }
+  if (!ambulo__is_root_translation(model, i) || fabs(vertical) < 0.999) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "body_weight on '%s'; expected a vertical translation of the root",
+                             model->coordinates[i].name);
+    return 0.0;
+  }
+  return (vertical > 0.0 ? 1.0 : -1.0) * model->mass * sqrt(g);
+}
+
+static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_SCHEMA, NULL,
+        "'offset' is not a mapping; expected coordinate: number or body_weight");
+    return NULL;
+  }
+  double *offset = coordinate_array(reader, 0.0);
+  for (int i = 0; offset && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    if (!value) continue;
+    const char *text = ambulo__yaml_text(value);
+    if (strcmp(text, "body_weight") == 0) {
+      offset[i] = body_weight_on(reader, value, i);
+    } else if (text[0]) {
+      offset[i] = ambulo__yaml_number(value, 0.0);
+    }
+  }
+  ambulo__yaml_close(node);
+  return offset;
+}
+
+/* values per coordinate for a mapping {coordinate: [..]}; those not named stay zero */
+static double *read_curves(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                           int size) {
+  if (!node) return NULL;
+  int count = ambulo_model_coordinate_count(reader->model);
+  double *curves = ambulo__reader_alloc(reader, (size_t)(count * size), sizeof *curves);
+  for (int i = 0; curves && i < count; i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    (void)ambulo__yaml_numbers(value, size, curves + i * size);
+  }
+  ambulo__yaml_close(node);
+  return curves;
+}
+
+/* `points: [from, to]`, names of the model's points */
+static void read_line(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                      ambulo_term *term) {
+  for (int end = 0; end < 2; end++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, end);
+    const char *name = ambulo__yaml_name(item);
+    if (!name[0]) continue;
+    term->point[end] = ambulo_model_find_point(reader->model, name);
+    if (term->point[end] < 0)
+      (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL,
+                               "unknown point (got '%s'); expected a point of the model", name);
+  }
+}
+
+/* `angles` of posture, in the file's unit; 0 for those not named */
+static double *read_posture(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  double *angles = coordinate_array(reader, 0.0);
+  for (int i = 0; angles && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    if (value) angles[i] = ambulo__read_coordinate_value(reader, value, i);
+  }
+  ambulo__yaml_close(node);
+  return angles;
+}
+
+/* `scale` of posture names what it holds; everything else stays free */
+static double *read_posture_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  double *scale = coordinate_array(reader, 0.0);
+  for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, 0.0);
+  }
+  ambulo__yaml_close(node);
+  return scale;
+}
+
+static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         ambulo_term *term) {
+  switch (term->kind) {
+  case AMBULO_TORQUE_POWER:
+    term->power = ambulo__yaml_number_in(ambulo__yaml_get(node, "power"), 2.0, 8.0, term->power);
+    term->passive = read_curves(reader, ambulo__yaml_get(node, "passive"), 4);
+    term->strength = read_curves(reader, ambulo__yaml_get(node, "strength"), 6);
+    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+    break;
+  case AMBULO_TORQUE_SQUARED:
+  case AMBULO_TORQUE_ABSOLUTE:
+    term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
+    break;
+  case AMBULO_POSTURE:
+    term->offset = read_posture(reader, ambulo__yaml_get(node, "angles"));
+    break;
+  case AMBULO_UPRIGHT:
+    read_line(reader, ambulo__yaml_require(node, "points"), term);
+    break;
+  case AMBULO_ACCELERATION:
+  case AMBULO_TRACKING:
+  case AMBULO_USER_TERM:
+  case AMBULO_USER_SQUARE:
+  case AMBULO_TORQUE_RATE:
+  case AMBULO_MECHANICAL_POWER:
+  case AMBULO_GROUND_FORCE:
+    break;
+  case AMBULO_CLEARANCE:
+    term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
+    break;
+  }
+}
+
+static int has_smoothing(ambulo_term_kind kind) {
+  return kind == AMBULO_TORQUE_ABSOLUTE || kind == AMBULO_TORQUE_POWER ||
+         kind == AMBULO_MECHANICAL_POWER;
+}
+
+static int has_scale(ambulo_term_kind kind) {
+  return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE &&
+         kind != AMBULO_CLEARANCE;
+}
+
+static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
+  static const char *const words[] = {"torque_squared",   "torque_absolute", "acceleration",
+                                      "tracking",         "torque_power",    "torque_rate",
+                                      "mechanical_power", "posture",         "upright",
+                                      "ground_force",     "clearance"};
+  static const ambulo_term_kind kinds[] = {
+      AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
+      AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
+      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE};
+  return kinds[ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), 0)];
+}
+
+static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                      ambulo_term *term) {
+  *term = ambulo_term_default(read_kind(ambulo__yaml_require(node, "term")));
+  const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
+  if (name) term->name = ambulo__yaml_name(name);
+  term->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e12, 1.0);
+  double *scale = NULL;
+  if (has_scale(term->kind)) scale = read_scale(reader, ambulo__yaml_get(node, "scale"));
+  if (term->kind == AMBULO_POSTURE)
+    scale = read_posture_scale(reader, ambulo__yaml_require(node, "scale"));
+  term->scale = scale;
+  if (has_smoothing(term->kind))
+    term->smoothing =
+        ambulo__yaml_number_in(ambulo__yaml_get(node, "smoothing"), 1e-9, 1e9, term->smoothing);
+  read_details(reader, node, term);
+  if (term->kind == AMBULO_TRACKING && scale) {
+    const ambulo__yaml_node *reference = ambulo__yaml_require(node, "reference");
+    if (reference) term->reference = ambulo__read_tracked_motion(reader, reference, scale);
+  }
+  ambulo__yaml_close(node);
+}
+
+static int is_none(const ambulo__yaml_node *node) {
+  static const char *const words[] = {"none"};
+  if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
+  (void)ambulo__yaml_choice(node, words, 1, 0);
+  return 1;
+}
+
+void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node || is_none(node)) return;
+  int count = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
+  if (count < 1 || count > MOST_TERMS) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_SCHEMA, NULL,
+        "'objective' is not a list of 1 to %d terms; expected terms, or 'none'", MOST_TERMS);
+    return;
+  }
+  ambulo_term *terms = ambulo__reader_alloc(reader, (size_t)count, sizeof *terms);
+  if (!terms) return;
+  for (int t = 0; t < count; t++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(node, t);
+    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
+      read_term(reader, item, &terms[t]);
+    } else {
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "a term is not a mapping; expected term, weight, ...");
+    }
+  }
+  reader->definition.terms = terms;
+  reader->definition.term_count = count;
+}

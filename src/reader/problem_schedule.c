@@ -1,0 +1,251 @@
+/* reader/problem_schedule.c - `gait:` or `contacts:` of a problem file.
+ *
+ * Duration, number of steps, step time and speed say the same thing twice:
+ *     step_time = step_length / speed,   duration = steps * step_time
+ * What is missing is computed; what is given must agree. Of a speed alone follow both: people keep
+ * the walk ratio of step length and cadence when they walk slower or faster (Sekiya et al. 1996;
+ * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute:
+ *     v = L C / 60,   L = W C      =>      L = sqrt(60 v W)
+ * Two unlike steps: lists of two lengths, of two times.
+ */
+#include "reader/problem_reader.h"
+
+#include "gait/gait.h"
+#include "gait/neutral_pose.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MOST_CONTACTS = 5000 };
+
+/* index of the foot a node names; -1 when there is none */
+static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  enum { MOST_FEET = 64 };
+  const char *names[MOST_FEET];
+  int feet = ambulo_model_foot_count(reader->model);
+  if (feet > MOST_FEET) feet = MOST_FEET;
+  if (feet == 0) {
+    if (node) (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL, "the model has no feet");
+    return -1;
+  }
+  for (int i = 0; i < feet; i++) names[i] = ambulo_model_foot(reader->model, i)->name;
+  return ambulo__yaml_choice(node, names, feet, -1);
+}
+
+/* ------------------------------------------------------------------- contacts */
+
+static void read_contact(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         ambulo_contact *contact) {
+  static const char *const modes[] = {"heel", "flat", "toe"};
+  contact->foot = read_foot(reader, ambulo__yaml_require(node, "foot"));
+  int mode = ambulo__yaml_choice(ambulo__yaml_require(node, "mode"), modes, 3, 1);
+  contact->mode = (ambulo_contact_mode)mode;
+  contact->from = ambulo__yaml_number(ambulo__yaml_require(node, "from"), 0.0);
+  contact->to = ambulo__yaml_number(ambulo__yaml_require(node, "to"), 0.0);
+  (void)ambulo__yaml_numbers(ambulo__yaml_require(node, "place"), 2, contact->place);
+  ambulo__yaml_close(node);
+}
+
+static void read_contacts(ambulo__problem_reader *reader, const ambulo__yaml_node *list) {
+  if (!ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE)) {
+    (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL,
+                             "'contacts' is not a list; expected items with foot, mode, from, to, "
+                             "place");
+    return;
+  }
+  int count = ambulo__yaml_items(list);
+  if (count > MOST_CONTACTS) {
+    (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL, "%d contacts; expected at most %d", count,
+                             MOST_CONTACTS);
+    return;
+  }
+  ambulo_contact *contacts = ambulo__reader_alloc(reader, (size_t)count, sizeof *contacts);
+  if (!contacts) return;
+  for (int i = 0; i < count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    if (ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) {
+      read_contact(reader, item, &contacts[i]);
+    } else {
+      (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                               "a contact is not a mapping; expected foot, mode, from, to, place");
+    }
+  }
+  reader->definition.contacts = contacts;
+  reader->definition.contact_count = count;
+}
+
+/* ----------------------------------------------------------------------- gait */
+
+/* distance of the heel centres along left at q = 0, m */
+static double neutral_width(const ambulo_model *model) {
+  if (ambulo_model_foot_count(model) != 2) return 0.0;
+  double width = 0.0;
+  for (int foot = 0; foot < 2; foot++) {
+    double r[3];
+    ambulo__neutral_point(model, model->feet[foot].heel_center, r);
+    for (int axis = 0; axis < 3; axis++) {
+      width += (foot ? -1.0 : 1.0) * model->left[axis] * r[axis];
+    }
+  }
+  return fabs(width);
+}
+
+static void check_agreement(const ambulo__yaml_node *node, const char *what, double step_time,
+                            double other) {
+  char hint[96];
+  if (!node || !(fabs(step_time - other) > 1e-9 * fabs(other))) return; /* NaN: refused before */
+  (void)snprintf(hint, sizeof hint, "expected one of them: '--set gait.%s=null' leaves one out",
+                 what);
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, hint,
+                           "'%s' makes a step last %.9g s; expected %.9g s, from the other keys",
+                           what, step_time, other);
+}
+
+static double read_step_time(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                             const ambulo_gait *gait) {
+  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
+  const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
+  double by_time = ambulo__yaml_number_in(time, 1e-3, 1e3, NAN);
+  double velocity = ambulo__yaml_number_in(speed, 1e-3, 100.0, NAN);
+  double by_speed = ambulo__gait_place(gait, gait->steps) / (velocity * (double)gait->steps);
+  double by_duration = reader->definition.duration / (double)gait->steps;
+  if (reader->has_duration) {
+    check_agreement(time, "step_time", by_time, by_duration);
+    check_agreement(speed, "speed", by_speed, by_duration);
+    return by_duration;
+  }
+  if (!time && !speed) {
+    (void)ambulo__yaml_error(section, AMBULO_E_SCHEMA, NULL,
+                             "no step time; expected one of gait.step_time, gait.speed, "
+                             "time.duration");
+    return 1.0;
+  }
+  if (time) check_agreement(speed, "speed", by_speed, by_time);
+  return time ? by_time : by_speed;
+}
+
+/* Phases of a stride when the file says nothing: textbook timing of normal walking (foot
+ * flat at about 8 %, heel rise after 38 %, toe-off at 62 %; Perry, Gait Analysis, 1992). */
+static void read_phases(const ambulo__yaml_node *section, ambulo_gait *gait) {
+  const ambulo__yaml_node *phases = ambulo__reader_section(section, "phases");
+  gait->heel_strike =
+      ambulo__yaml_number_in(ambulo__yaml_get(phases, "heel_strike"), -0.49, 0.49, 0.0);
+  gait->foot_flat = ambulo__yaml_number_in(ambulo__yaml_get(phases, "foot_flat"), -0.49, 1.0, 0.08);
+  gait->heel_off = ambulo__yaml_number_in(ambulo__yaml_get(phases, "heel_off"), -0.49, 1.0, 0.38);
+  gait->toe_off = ambulo__yaml_number_in(ambulo__yaml_get(phases, "toe_off"), -0.49, 1.0, 0.62);
+  if (!phases) return;
+  ambulo__yaml_close(phases);
+  if (gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
+      gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0) {
+    return;
+  }
+  (void)ambulo__yaml_error(phases, AMBULO_E_PROBLEM, NULL,
+                           "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
+                           "foot_flat <= heel_off <= toe_off < heel_strike + 1",
+                           gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off);
+}
+
+static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                   const ambulo_gait *gait) {
+  int count = 0;
+  ambulo_status status = ambulo_gait_expand(reader->model, gait, NULL, 0, &count);
+  if (status == AMBULO_E_ARGUMENT) {
+    /* the keys have been checked one by one: what is left is the model, or an earlier error */
+    if (ambulo_model_foot_count(reader->model) == 2) return;
+    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, "write the schedule out under 'contacts'",
+                             "the model has %d feet; expected 2 for a regular gait",
+                             ambulo_model_foot_count(reader->model));
+    return;
+  }
+  ambulo_contact *contacts = ambulo__reader_alloc(reader, (size_t)count, sizeof *contacts);
+  if (!contacts) return;
+  status = ambulo_gait_expand(reader->model, gait, contacts, count, &count);
+  if (status) reader->failure = AMBULO_E_INTERNAL;
+  reader->definition.contacts = contacts;
+  reader->definition.contact_count = count;
+}
+
+static int is_list(const ambulo__yaml_node *node) {
+  return ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE);
+}
+
+/* two step times: 1 if the file gives them */
+static int read_two_times(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                          ambulo_gait *gait) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_time");
+  double times[2] = {1.0, 1.0};
+  if (!is_list(node)) return 0;
+  (void)ambulo__yaml_numbers(node, 2, times);
+  if (!(times[0] >= 1e-3 && times[1] >= 1e-3 && times[0] <= 1e3 && times[1] <= 1e3)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "step times %g s and %g s; expected 0.001 to 1000 s", times[0],
+                             times[1]);
+    times[0] = times[1] = 1.0;
+  }
+  gait->step_time = times[0];
+  gait->other_step_time = times[1];
+  double mean = ambulo__gait_strike(gait, gait->steps) / (double)gait->steps;
+  if (reader->has_duration)
+    check_agreement(node, "step_time", mean, reader->definition.duration / (double)gait->steps);
+  return 1;
+}
+
+/* one length, two, or that which people choose at the speed */
+static void read_step_lengths(const ambulo__problem_reader *reader,
+                              const ambulo__yaml_node *section, ambulo_gait *gait) {
+  const double walk_ratio = 0.0035; /* statures per (step / min) */
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
+  double stature = ambulo_model_stature(reader->model);
+  if (is_list(node)) {
+    double lengths[2] = {0.0, 0.0};
+    (void)ambulo__yaml_numbers(node, 2, lengths);
+    gait->step_length = lengths[0];
+    gait->other_step_length = lengths[1];
+  } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
+    double speed = ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, 1.0);
+    gait->step_length = sqrt(60.0 * speed * walk_ratio * stature);
+  } else {
+    gait->step_length =
+        ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
+  }
+}
+
+/* the other one is 0 where it was not given */
+static int differs(double value, double other) {
+  return other != 0.0 && fabs(value - other) > 1e-9 * fabs(value);
+}
+
+static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
+  ambulo_gait gait = {.steps = 1};
+  gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
+  gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
+  read_step_lengths(reader, section, &gait);
+  gait.step_width = ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0,
+                                           neutral_width(reader->model));
+  gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
+  read_phases(section, &gait);
+  if (!read_two_times(reader, section, &gait))
+    gait.step_time = read_step_time(reader, section, &gait);
+  ambulo__yaml_close(section);
+  if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
+  reader->definition.travel = ambulo__gait_place(&gait, gait.steps);
+  reader->steps = gait.steps;
+  reader->unlike_steps = differs(gait.step_time, gait.other_step_time) ||
+                         differs(gait.step_length, gait.other_step_length);
+  reader->keys.gait = 1;
+  reader->keys.steps = gait.steps;
+  reader->keys.unlike_steps = reader->unlike_steps;
+  reader->keys.speed = ambulo__yaml_get(section, "speed") != NULL;
+  expand(reader, section, &gait);
+}
+
+void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
+  const ambulo__yaml_node *contacts = ambulo__yaml_get(root, "contacts");
+  if (contacts && reader->gait) {
+    (void)ambulo__yaml_error(contacts, AMBULO_E_SCHEMA, NULL,
+                             "both 'gait' and 'contacts' are given; expected one of them");
+    return;
+  }
+  if (contacts) read_contacts(reader, contacts);
+  if (reader->gait) read_gait(reader, reader->gait);
+}

@@ -1,0 +1,148 @@
+/* stride/stride.c - sampling a motion, and adding the mirrored second step (stride.h). */
+#include "stride/stride.h"
+
+#include <string.h>
+
+/* times at which the problem itself is sampled, and which of them stand for the mirrored step */
+typedef struct sampling {
+  double *base;   /* [samples], in [0, T] */
+  char *mirrored; /* [samples] */
+} sampling;
+
+static void choose_times(ambulo__stride *s, int wanted, sampling *sample) {
+  double step = ambulo_problem_duration(s->problem);
+  int intervals = ambulo_problem_node_count(s->problem) - 1;
+  for (int k = 0; k < s->samples; k++) {
+    double t;
+    if (wanted == 0) {
+      int second = s->mirrored && k > intervals;
+      int node = second ? k - intervals : k;
+      sample->base[k] = (double)node * step / (double)intervals;
+      sample->mirrored[k] = (char)second;
+      t = second ? step + sample->base[k] : sample->base[k];
+    } else {
+      t = (double)k * s->duration / (double)(s->samples - 1);
+      int second = s->mirrored && t > step;
+      sample->base[k] = second ? t - step : t;
+      sample->mirrored[k] = (char)second;
+    }
+    s->times[k] = t;
+  }
+}
+
+/* mirrors one [coordinates] row in place; `shift` may be NULL */
+static void mirror_row(const ambulo_model *model, double *row, const double *shift,
+                       double *scratch) {
+  for (int i = 0; i < model->coordinate_count; i++) {
+    const ambulo_coordinate *c = &model->coordinates[i];
+    scratch[c->mirror] = c->mirror_sign * row[i] + (shift ? shift[c->mirror] : 0.0);
+  }
+  memcpy(row, scratch, (size_t)model->coordinate_count * sizeof *row);
+}
+
+static void mirror_point(const ambulo_model *model, double travel, double *point) {
+  double aside = 0.0;
+  for (int i = 0; i < 3; i++) aside += point[i] * model->left[i];
+  for (int i = 0; i < 3; i++) point[i] += travel * model->forward[i] - 2.0 * aside * model->left[i];
+}
+
+/* scratch: [2][coordinates] */
+static void mirror_second_step(ambulo__stride *s, const sampling *sample, double *scratch) {
+  double *shift = scratch + s->coordinates;
+  for (int i = 0; i < s->coordinates; i++) shift[i] = ambulo__end_shift(&s->problem->definition, i);
+  for (int k = 0; k < s->samples; k++) {
+    if (!sample->mirrored[k]) continue;
+    size_t at = (size_t)k * (size_t)s->coordinates;
+    mirror_row(s->model, s->q + at, shift, scratch);
+    mirror_row(s->model, s->qd + at, NULL, scratch);
+    mirror_row(s->model, s->qdd + at, NULL, scratch);
+    mirror_row(s->model, s->tau + at, NULL, scratch);
+    mirror_point(s->model, s->problem->definition.travel, s->zmp + 3 * (size_t)k);
+    ambulo__stride_feet_mirror(s, k);
+  }
+}
+
+static ambulo_status allocate(ambulo__stride *s, sampling *sample, double **scratch) {
+  const ambulo_allocator *a = &s->allocator;
+  size_t n = (size_t)s->samples, d = (size_t)s->coordinates;
+  double **arrays[] = {&s->q, &s->qd, &s->qdd, &s->tau};
+  int failed = 0;
+  for (int i = 0; i < 4; i++) {
+    *arrays[i] = ambulo__alloc(a, n * d, sizeof(double));
+    failed |= !*arrays[i];
+  }
+  s->times = ambulo__alloc(a, n, sizeof(double));
+  s->zmp = ambulo__alloc(a, 3 * n, sizeof(double));
+  sample->base = ambulo__alloc(a, n, sizeof(double));
+  sample->mirrored = ambulo__alloc(a, n, 1);
+  *scratch = ambulo__alloc(a, 2 * d, sizeof(double));
+  failed |= !s->times || !s->zmp || !sample->base || !sample->mirrored || !*scratch;
+  return failed ? AMBULO_E_MEMORY : ambulo__stride_feet_allocate(s);
+}
+
+ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double *x, int samples,
+                                    const ambulo_allocator *allocator, ambulo__stride *stride) {
+  if (samples < 0 || samples == 1) return AMBULO_E_ARGUMENT;
+  int intervals = ambulo_problem_node_count(problem) - 1;
+  ambulo__stride s = {.allocator = ambulo__allocator_or_default(allocator), .problem = problem};
+  s.model = ambulo_problem_model(problem);
+  s.coordinates = ambulo_model_coordinate_count(s.model);
+  s.feet = problem->channels.feet;
+  s.mirrored = ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED;
+  s.duration = (s.mirrored ? 2.0 : 1.0) * ambulo_problem_duration(problem);
+  s.samples = samples ? samples : (s.mirrored ? 2 : 1) * intervals + 1;
+  sampling sample = {NULL, NULL};
+  double *scratch = NULL;
+  ambulo_workspace *workspace = NULL;
+  ambulo_status status = allocate(&s, &sample, &scratch);
+  if (!status) status = ambulo__workspace_create_for_values(problem, allocator, &workspace);
+  if (!status) {
+    choose_times(&s, samples, &sample);
+    ambulo_motion motion = {.q = s.q,
+                            .qd = s.qd,
+                            .qdd = s.qdd,
+                            .tau = s.tau,
+                            .zmp = s.zmp,
+                            .grf = s.grf,
+                            .cop = s.cop,
+                            .free_moment = s.free_moment};
+    status = ambulo_problem_motion(problem, workspace, x, s.samples, sample.base, &motion);
+    /* a motion that blew up is still shown, holes and all */
+    if (status == AMBULO_E_NUMERIC) status = AMBULO_OK;
+  }
+  if (!status && scratch) mirror_second_step(&s, &sample, scratch);
+  ambulo_workspace_free(workspace);
+  ambulo__free(&s.allocator, sample.base);
+  ambulo__free(&s.allocator, sample.mirrored);
+  ambulo__free(&s.allocator, scratch);
+  if (status) {
+    ambulo__stride_free(&s);
+  } else {
+    *stride = s;
+  }
+  return status;
+}
+
+void ambulo__stride_free(ambulo__stride *s) {
+  ambulo__free(&s->allocator, s->times);
+  ambulo__free(&s->allocator, s->q);
+  ambulo__free(&s->allocator, s->qd);
+  ambulo__free(&s->allocator, s->qdd);
+  ambulo__free(&s->allocator, s->tau);
+  ambulo__free(&s->allocator, s->zmp);
+  ambulo__free(&s->allocator, s->grf);
+  ambulo__free(&s->allocator, s->cop);
+  ambulo__free(&s->allocator, s->free_moment);
+}
+
+int ambulo__stride_contact(const ambulo__stride *s, int foot, double t, ambulo_contact_mode *mode) {
+  double step = ambulo_problem_duration(s->problem);
+  if (s->mirrored && t > step) {
+    t -= step;
+    foot = ambulo_model_foot(s->model, foot)->mirror;
+  }
+  int contact = ambulo_problem_contact_at(s->problem, foot, t);
+  if (contact < 0) return 0;
+  *mode = ambulo_problem_contact(s->problem, contact)->mode;
+  return 1;
+}

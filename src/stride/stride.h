@@ -1,0 +1,51 @@
+/* stride/stride.h - the motion as it is shown: whole strides at chosen times.
+ *
+ * A problem with mirrored ends predicts one step; its mirror image, moved on by the
+ * travel, is the next one. With m the coordinate that takes the place of i:
+ *
+ *     q_m(T + t) = sign_i q_i(t) + shift_m,   qd_m, qdd_m, tau_m = sign_i (...)_i
+ *     zmp(T + t) = zmp - 2 (zmp . l) l + travel f          (l: left, f: forward)
+ *
+ * so that the stride lasts 2 T. Other problems are shown as they are.
+ */
+#ifndef AMBULO_STRIDE_STRIDE_H
+#define AMBULO_STRIDE_STRIDE_H
+
+#include "nlp/nlp.h"
+
+typedef struct ambulo__stride {
+  ambulo_allocator allocator;
+  const ambulo_problem *problem;
+  const ambulo_model *model;
+  int mirrored;
+  double duration; /* s: T or 2 T */
+  int samples, coordinates;
+  double *times;              /* [samples], s */
+  double *q, *qd, *qdd, *tau; /* [samples][coordinates], rad, m, N m, N; not finite where the
+                                 motion is not */
+  double *zmp;                /* [samples][3], m; NaN where the body does not press down */
+  int feet;                   /* 0 without ground reaction */
+  double *grf, *cop;          /* [samples][feet][3], N, m; no centre of pressure (NaN) in the air */
+  double *free_moment;        /* [samples][feet], about the normal, N m */
+} ambulo__stride;
+
+/* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced
+ * times. Fills *stride, which ambulo__stride_free releases. Errors: E_ARGUMENT, E_MEMORY. */
+ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double *x, int samples,
+                                    const ambulo_allocator *allocator, ambulo__stride *stride);
+void ambulo__stride_free(ambulo__stride *stride); /* accepts a zero-filled one */
+
+/* Mode of the contact of `foot` at time t in the stride; 0 if it is in the air. */
+int ambulo__stride_contact(const ambulo__stride *stride, int foot, double t,
+                           ambulo_contact_mode *mode);
+
+/* Its parts for the feet (stride_feet.c): arrays, and the mirror image of sample k in place. */
+ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
+void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);
+
+/* Force on a foot along `direction` at sample k, in body weights; its largest along the normal. */
+double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
+                            const double direction[3]);
+double ambulo__stride_peak(const ambulo__stride *stride, int foot);
+
+#endif

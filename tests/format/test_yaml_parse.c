@@ -1,0 +1,222 @@
+#include "base/alloc.h"
+#include "support/fail_alloc.h"
+#include "support/yaml.h"
+
+#include <time.h>
+
+static void what_is_refused(void **state) {
+  (void)state;
+  static const struct {
+    const char *text;
+    ambulo_status status;
+    const char *want;
+  } cases[] = {
+      {"a: [1, 2\nb: 3\n", AMBULO_E_PARSE,
+       "t.yaml:2:2: error[E_PARSE]: did not find expected ',' or ']' while parsing a flow sequence "
+       "that starts in line 1, column 4"},
+      {"a: {b: 1", AMBULO_E_PARSE,
+       "t.yaml:2:1: error[E_PARSE]: did not find expected ',' or '}' while parsing a flow mapping "
+       "that starts in line 1, column 4"},
+      {"x: 1\na: \"abc\n", AMBULO_E_PARSE,
+       "t.yaml:3:1: error[E_PARSE]: found unexpected end of stream while scanning a quoted scalar "
+       "that starts in line 2, column 4"},
+      {"a: b: c", AMBULO_E_PARSE,
+       "t.yaml:1:5: error[E_PARSE]: mapping values are not allowed in this context"},
+      {"a: &x 1", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: anchors ('&') are not allowed; expected a plain value"},
+      {"a: &x [1]", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: anchors ('&') are not allowed; expected a plain value"},
+      {"a: &x {b: *x}", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: anchors ('&') are not allowed; expected a plain value"},
+      {"a: *nothing", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: aliases ('*') are not allowed; expected a plain value"},
+      {"a: !!float 1", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: tags ('!') are not allowed; expected a plain value"},
+      {"a: !x {b: 1}", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: tags ('!') are not allowed; expected a plain value"},
+      {"a: !x [1]", AMBULO_E_PARSE,
+       "t.yaml:1:4: error[E_PARSE]: tags ('!') are not allowed; expected a plain value"},
+      {"b: 1\n<<: {a: 1}", AMBULO_E_PARSE,
+       "t.yaml:2:1: error[E_PARSE]: merge keys ('<<') are not allowed"},
+      {"a: 1\n---\nb: 2", AMBULO_E_PARSE,
+       "t.yaml:2:1: error[E_PARSE]: a second document starts here; expected one document"},
+      {"? [a]\n: 1", AMBULO_E_PARSE,
+       "t.yaml:1:3: error[E_PARSE]: got a collection as a key; expected a name"},
+      {"a: \"x\\0y\"", AMBULO_E_PARSE, "t.yaml:1:4: error[E_PARSE]: got a NUL character in a text"},
+      {"mass: 1\nname: x\nmass: 2\n", AMBULO_E_SCHEMA,
+       "t.yaml:3:1: error[E_SCHEMA]: duplicate key 'mass'; the first one is in line 1"},
+      {"a: {b: 1, 'b': 2}", AMBULO_E_SCHEMA,
+       "t.yaml:1:11: error[E_SCHEMA]: duplicate key 'b'; the first one is in line 1"}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    yaml_case c = yaml_open(cases[i].text);
+    expect_message(&c, 0, cases[i].want);
+    assert_int_equal(c.status, cases[i].status);
+    assert_null(c.document);
+    expect_messages(&c, 1);
+    yaml_shut(&c);
+  }
+}
+
+/* the same key may stand in two mappings */
+static void same_key_in_other_mappings(void **state) {
+  (void)state;
+  yaml_case c = yaml_open("a: {n: 1}\nb: {n: 2}\nn: {a: 1, b: 2}\n");
+  assert_int_equal(c.status, AMBULO_OK);
+  yaml_shut(&c);
+}
+
+static double seconds(void) {
+  struct timespec now;
+  (void)timespec_get(&now, TIME_UTC);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void depth_of(int depth, const char *opening, ambulo_status want) {
+  size_t width = strlen(opening), length = 3 + (size_t)depth * (width + 1);
+  char *text = malloc(length + 1);
+  assert_non_null(text);
+  memcpy(text, "a: ", 3);
+  for (int i = 0; i < depth; i++) memcpy(text + 3 + (size_t)i * width, opening, width);
+  memset(text + 3 + (size_t)depth * width, opening[0] == '[' ? ']' : '}', (size_t)depth);
+  text[length] = '\0';
+  double begin = seconds();
+  yaml_case c = yaml_open_bytes(text, length);
+  double taken = seconds() - begin;
+  free(text);
+  assert_int_equal(c.status, want);
+  if (taken > 0.1) print_error("%d levels of %s took %g s\n", depth, opening, taken);
+  assert_true(taken < 0.1);
+  yaml_shut(&c);
+}
+
+static void nesting_is_limited_at_once(void **state) {
+  (void)state;
+  depth_of(31, "[", AMBULO_OK);
+  depth_of(32, "[", AMBULO_E_LIMIT);
+  depth_of(31, "{a: ", AMBULO_OK);
+  depth_of(32, "{a: ", AMBULO_E_LIMIT);
+  depth_of(100000, "[", AMBULO_E_LIMIT);
+  depth_of(100000, "{a: ", AMBULO_E_LIMIT);
+  depth_of(100000, "[\n", AMBULO_E_LIMIT);
+}
+
+static void number_of_keys_is_limited(void **state) {
+  (void)state;
+  static char text[1100 * 8];
+  size_t length = 0;
+  for (int i = 0; i < 1025; i++)
+    length += (size_t)snprintf(text + length, sizeof text - length, "k%d:\n", i);
+  yaml_case c = yaml_open(text);
+  assert_int_equal(c.status, AMBULO_E_LIMIT);
+  expect_message(&c, 0, "t.yaml:1025:1: error[E_LIMIT]: more than 1024 keys in one mapping");
+  yaml_shut(&c);
+}
+
+static void number_of_values_is_limited(void **state) {
+  (void)state;
+  size_t length = 4 + 2 * 1000000 + 1;
+  char *text = malloc(length);
+  assert_non_null(text);
+  memcpy(text, "a: [", 4);
+  for (size_t i = 4; i + 1 < length; i += 2) memcpy(text + i, "1,", 2);
+  text[length - 1] = ']';
+  yaml_case c = yaml_open_bytes(text, length);
+  free(text);
+  assert_int_equal(c.status, AMBULO_E_LIMIT);
+  yaml_shut(&c);
+}
+
+/* line breaks of other systems, byte order mark, no final newline, markers */
+static void accepted_forms(void **state) {
+  (void)state;
+  static const char *const same[] = {
+      "mass: 1.5\nlist: [1, 2]\n",           "mass: 1.5\r\nlist: [1, 2]\r\n",
+      "\xEF\xBB\xBFmass: 1.5\nlist: [1, 2]", "--- # start\nmass: 1.5\nlist:\n- 1\n- 2\n...\n",
+      "{mass: 1.5, list: [1, 2,]}",          "mass: 1.5\rlist: [1, 2]\r"};
+  for (size_t i = 0; i < sizeof same / sizeof same[0]; i++) {
+    yaml_case c = yaml_open(same[i]);
+    assert_int_equal(c.status, AMBULO_OK);
+    double pair[2] = {0.0, 0.0};
+    assert_true(ambulo__yaml_number(ambulo__yaml_get(c.root, "mass"), 0.0) == 1.5);
+    assert_true(ambulo__yaml_numbers(ambulo__yaml_get(c.root, "list"), 2, pair));
+    assert_true(pair[0] == 1.0 && pair[1] == 2.0);
+    ambulo__yaml_close(c.root);
+    assert_int_equal(ambulo__yaml_finish(c.document), AMBULO_OK);
+    yaml_shut(&c);
+  }
+}
+
+static const char SAMPLE[] = "name: walk # comment\n"
+                             "links:\n"
+                             "  - {name: thigh, mass: 8.5, at: [0.1, -2e-3, 3]}\n"
+                             "  - name: 'shank'\n"
+                             "    mass: 3.7\n"
+                             "text: >\n"
+                             "  folded\n"
+                             "  text\n";
+
+/* a file cut anywhere is read or refused with a message, never worse */
+static void truncated_anywhere(void **state) {
+  (void)state;
+  for (size_t length = 0; length < sizeof SAMPLE - 1; length++) {
+    yaml_case c = yaml_open_bytes(SAMPLE, length);
+    if (c.status != AMBULO_OK) assert_true(ambulo_diagnostics_error_count(c.list) == 1);
+    assert_int_equal(c.status == AMBULO_OK, c.document != NULL);
+    yaml_shut(&c);
+  }
+}
+
+/* any byte replaced by any of the characters that mean something */
+static void damaged_anywhere(void **state) {
+  (void)state;
+  static const char special[] = "\0\t\n\r -?:,[]{}#&*!|>'\"%@`\\\xff\xc3<=~";
+  char text[sizeof SAMPLE];
+  for (size_t at = 0; at < sizeof SAMPLE - 1; at++) {
+    for (size_t k = 0; k < sizeof special - 1; k++) {
+      memcpy(text, SAMPLE, sizeof text);
+      text[at] = special[k];
+      yaml_case c = yaml_open_bytes(text, sizeof text - 1);
+      assert_int_equal(c.status != AMBULO_OK, ambulo_diagnostics_error_count(c.list) > 0);
+      yaml_shut(&c);
+    }
+  }
+}
+
+static void out_of_memory_anywhere(void **state) {
+  (void)state;
+  static char text[60000];
+  size_t length = 0;
+  for (int i = 0; i < 900; i++) {
+    length +=
+        (size_t)snprintf(text + length, sizeof text - length, "key_%d: {a: [1, 2], b: %d}\n", i, i);
+  }
+  long k = 0;
+  for (;; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo__yaml *document = NULL;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    ambulo_status status = ambulo__yaml_load_text(text, length, "t.yaml", &hook, list, &document);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    assert_int_equal(ambulo_diagnostics_error_count(list), memory.failed);
+    assert_int_equal(document == NULL, memory.failed);
+    ambulo__yaml_free(document);
+    ambulo_diagnostics_free(list);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  assert_true(k > 10);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_refused),
+                                     cmocka_unit_test(same_key_in_other_mappings),
+                                     cmocka_unit_test(nesting_is_limited_at_once),
+                                     cmocka_unit_test(number_of_keys_is_limited),
+                                     cmocka_unit_test(number_of_values_is_limited),
+                                     cmocka_unit_test(accepted_forms),
+                                     cmocka_unit_test(truncated_anywhere),
+                                     cmocka_unit_test(damaged_anywhere),
+                                     cmocka_unit_test(out_of_memory_anywhere)};
+  return cmocka_run_group_tests_name("format/yaml_parse", tests, NULL, NULL);
+}

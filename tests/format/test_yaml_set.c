@@ -1,0 +1,196 @@
+#include "base/alloc.h"
+#include "support/fail_alloc.h"
+#include "support/yaml.h"
+
+static const char TEXT[] = "time: {duration: 2.442, intervals: 36}\n"
+                           "objective:\n"
+                           "- {term: torque, weight: 1}\n"
+                           "- {term: upright}\n"
+                           "matrix: [[1, 2], [3, 4]]\n";
+
+static const ambulo__yaml_node *at(const ambulo__yaml_node *node, const char *key) {
+  return ambulo__yaml_get(node, key);
+}
+
+static void values_are_replaced_and_added(void **state) {
+  (void)state;
+  yaml_case c = yaml_open(TEXT);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.intervals", "72"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[0].weight", " 0.5 "), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[1].weight", "2"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[upright].points", "7"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "matrix[1][0]", "9"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "matrix[0]", "[5, 6]"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "solver", "{algorithm: slsqp}"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "solver.presolve", "off"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "solver.presolve", "on"), AMBULO_OK);
+
+  const ambulo__yaml_node *time = at(c.root, "time"), *terms = at(c.root, "objective");
+  assert_int_equal(ambulo__yaml_integer(at(time, "intervals"), 1, 100, 0), 72);
+  assert_true(ambulo__yaml_number(at(time, "duration"), 0.0) == 2.442);
+  assert_true(ambulo__yaml_number(at(ambulo__yaml_item(terms, 0), "weight"), 0.0) == 0.5);
+  assert_true(ambulo__yaml_number(at(ambulo__yaml_item(terms, 1), "weight"), 0.0) == 2.0);
+  assert_int_equal(ambulo__yaml_integer(at(ambulo__yaml_item(terms, 1), "points"), 0, 9, 0), 7);
+  double row[2][2];
+  for (int i = 0; i < 2; i++)
+    assert_true(ambulo__yaml_numbers(ambulo__yaml_item(at(c.root, "matrix"), i), 2, row[i]));
+  assert_true(row[0][0] == 5.0 && row[0][1] == 6.0 && row[1][0] == 9.0 && row[1][1] == 4.0);
+  const ambulo__yaml_node *solver = at(c.root, "solver");
+  assert_string_equal(ambulo__yaml_text(at(solver, "algorithm")), "slsqp");
+  assert_string_equal(ambulo__yaml_text(at(solver, "presolve")), "on");
+  assert_int_equal(ambulo__yaml_pairs(solver), 2);
+  assert_string_equal(ambulo__yaml_place(at(solver, "presolve")).path, "solver.presolve");
+  assert_int_equal(ambulo__yaml_set(c.document, "matrix[1]", "[0, 0]"), AMBULO_OK);
+  assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(at(c.root, "matrix"), 1)).path,
+                      "matrix[1]");
+  expect_messages(&c, 0);
+  yaml_shut(&c);
+}
+
+/* null and ~ leave a key or an item out; what follows moves up and keeps its place in messages */
+static void null_leaves_out(void **state) {
+  (void)state;
+  yaml_case c = yaml_open(TEXT);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "null"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[torque]", "~"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "matrix[1][0]", " null "), AMBULO_OK);
+  const ambulo__yaml_node *time = at(c.root, "time"), *terms = at(c.root, "objective");
+  const ambulo__yaml_node *row = ambulo__yaml_item(at(c.root, "matrix"), 1);
+  assert_null(at(time, "duration"));
+  assert_int_equal(ambulo__yaml_pairs(time), 1);
+  assert_int_equal(ambulo__yaml_integer(at(time, "intervals"), 1, 100, 0), 36);
+  assert_int_equal(ambulo__yaml_items(terms), 1);
+  assert_string_equal(ambulo__yaml_text(at(ambulo__yaml_item(terms, 0), "term")), "upright");
+  assert_string_equal(ambulo__yaml_place(ambulo__yaml_item(terms, 0)).path, "objective[0]");
+  assert_int_equal(ambulo__yaml_items(row), 1);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[0].term", "torque"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "objective[torque]", "null"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_items(at(c.root, "objective")), 0);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "\"null\""), AMBULO_OK);
+  assert_string_equal(ambulo__yaml_text(at(time, "duration")), "null");
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "null"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.duration", "2"), AMBULO_OK);
+  assert_true(ambulo__yaml_number(at(time, "duration"), 0.0) == 2.0);
+  expect_messages(&c, 0);
+  yaml_shut(&c);
+}
+
+static const struct {
+  const char *path, *value;
+  ambulo_status status;
+  const char *want;
+  int hinted;
+} faults[] = {
+    {"nothing.there", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path needs a key that is not there (got 'nothing')", 1},
+    {"tmie.duration", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path needs a key that is not there (got 'tmie')\n"
+     "  hint: did you mean 'time'?",
+     0},
+    {"time.duration.x", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
+    {"objective.x", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path goes through a value that is no mapping", 1},
+    {"objective[2]", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
+    {"time[0]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [0]; the value is no sequence",
+     0},
+    {"", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"time.", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {".time", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[-1]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[x]", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: no item is named 'x'; expected the name of one, or its number", 0},
+    {"time[x]", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: no item [x]; the value is no sequence",
+     0},
+    {"objective[0", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"objective[0]weight", "1", AMBULO_E_SCHEMA, ": error[E_SCHEMA]: the path is not well-formed",
+     1},
+    {"objective[99999999999999999999]", "1", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path is not well-formed", 1},
+    {"time.intervals", "", AMBULO_E_PARSE,
+     ": error[E_PARSE]: got no value; expected YAML text such as 36, [1, 2] or off, or null "
+     "to leave the key out",
+     0},
+    {"time.intervls", "null", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: the path needs a key that is not there (got 'intervls')\n"
+     "  hint: did you mean 'intervals'?",
+     0},
+    {"objective[2]", "~", AMBULO_E_SCHEMA,
+     ": error[E_SCHEMA]: no item [2]; expected an index below 2", 0},
+    {"time.intervals", "*a", AMBULO_E_PARSE,
+     ":1:1: error[E_PARSE]: aliases ('*') are not allowed; expected a plain value", 0},
+    {"time.intervals", "{a: 1, a: 2}", AMBULO_E_SCHEMA,
+     ":1:8: error[E_SCHEMA]: duplicate key 'a'; the first one is in line 1", 0},
+    {"time.intervals", "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]",
+     AMBULO_E_LIMIT, ":1:31: error[E_LIMIT]: nested too deeply; expected at most 32 levels", 0}};
+
+static void faults_name_the_setting(void **state) {
+  (void)state;
+  static const char hint[] = "\n  hint: paths look like 'time.intervals' or 'objective[0].weight'";
+  for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+    char want[512];
+    (void)snprintf(want, sizeof want, "--set %s%s%s", faults[i].path, faults[i].want,
+                   faults[i].hinted ? hint : "");
+    yaml_case c = yaml_open(TEXT);
+    assert_int_equal(ambulo__yaml_set(c.document, faults[i].path, faults[i].value),
+                     faults[i].status);
+    expect_message(&c, 0, want);
+    expect_messages(&c, 1);
+    assert_int_equal(ambulo__yaml_integer(at(at(c.root, "time"), "intervals"), 1, 100, 0), 36);
+    yaml_shut(&c);
+  }
+}
+
+/* what the getters say about a value that was set */
+static void a_wrong_value_is_blamed_on_the_setting(void **state) {
+  (void)state;
+  yaml_case c = yaml_open(TEXT);
+  assert_int_equal(ambulo__yaml_set(c.document, "time.intervals", "many"), AMBULO_OK);
+  assert_int_equal(ambulo__yaml_set(c.document, "tim", "1"), AMBULO_OK);
+  ambulo__yaml_integer(at(at(c.root, "time"), "intervals"), 1, 100, 0);
+  ambulo__yaml_expect(c.root, "objective");
+  ambulo__yaml_expect(c.root, "matrix");
+  ambulo__yaml_close(c.root);
+  expect_message(&c, 0,
+                 "--set time.intervals:1:1: error[E_SCHEMA]: got 'many'; expected a whole number "
+                 "from 1 to 100");
+  expect_message(&c, 1,
+                 "--set tim: error[E_SCHEMA]: unknown key 'tim' at the top level\n"
+                 "  hint: did you mean 'time'?");
+  yaml_shut(&c);
+}
+
+static void out_of_memory_anywhere(void **state) {
+  (void)state;
+  static char value[40000] = "[";
+  for (size_t i = 1; i + 2 < sizeof value; i += 2) memcpy(value + i, "1,", 2);
+  value[sizeof value - 2] = ']';
+  long k = 0;
+  for (;; k++) {
+    fail_alloc memory = fail_alloc_at(-1);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo__yaml *document = NULL;
+    assert_int_equal(
+        ambulo__yaml_load_text(TEXT, sizeof TEXT - 1, "t.yaml", &hook, NULL, &document), AMBULO_OK);
+    memory.fail_at = memory.requests + k;
+    ambulo_status status = ambulo__yaml_set(document, "time.list", value);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    const ambulo__yaml_node *time = ambulo__yaml_value(ambulo__yaml_root(document), 0);
+    assert_int_equal(ambulo__yaml_pairs(time), memory.failed ? 2 : 3);
+    ambulo__yaml_free(document);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  assert_true(k > 10);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(values_are_replaced_and_added),
+                                     cmocka_unit_test(null_leaves_out),
+                                     cmocka_unit_test(faults_name_the_setting),
+                                     cmocka_unit_test(a_wrong_value_is_blamed_on_the_setting),
+                                     cmocka_unit_test(out_of_memory_anywhere)};
+  return cmocka_run_group_tests_name("format/yaml_set", tests, NULL, NULL);
+}

@@ -1,0 +1,44 @@
+/* Stick figures: sides, and which lines exist. */
+#include "picture/skeleton.h"
+#include "support/arm.h"
+#include "support/walker_result.h"
+
+static void test_walker_has_legs_feet_and_a_head(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create();
+  ambulo__skeleton s;
+  assert_int_equal(ambulo__skeleton_create(model, NULL, &s), AMBULO_OK);
+  int count[3] = {0, 0, 0}, heads = 0;
+  for (int b = 0; b < s.bone_count; b++) {
+    count[s.bones[b].side]++;
+    heads += s.bones[b].head > 0.0;
+  }
+  /* thigh, shank, three lines of the foot */
+  assert_int_equal(count[AMBULO__LEFT], 5);
+  assert_int_equal(count[AMBULO__RIGHT], 5);
+  assert_int_equal(count[AMBULO__MIDDLE], 1);
+  assert_int_equal(heads, 1);
+  ambulo__skeleton_free(&s);
+  ambulo_model_free(model);
+}
+
+static void test_arm_has_two_links(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo__skeleton s;
+  assert_int_equal(ambulo__skeleton_create(model, NULL, &s), AMBULO_OK);
+  assert_int_equal(s.bone_count, 2);
+  const double straight[ARM_COORDINATES] = {0.0, 0.0};
+  double hand[3];
+  ambulo__pose_at(&s.pose, straight);
+  ambulo__pose_point(&s.pose, s.bones[1].link[1], s.bones[1].at[1], hand);
+  assert_close(hand[0], 0.55, 1e-15);
+  ambulo__skeleton_free(&s);
+  ambulo_model_free(model);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_walker_has_legs_feet_and_a_head),
+                                     cmocka_unit_test(test_arm_has_two_links)};
+  return cmocka_run_group_tests_name("picture/skeleton", tests, NULL, NULL);
+}

@@ -1,0 +1,67 @@
+/* `objective:`. */
+#include "reader/problem_text.h"
+
+#define TIME "time: {duration: 1, intervals: 4}\n"
+
+static void terms_are_read(void **state) {
+  (void)state;
+  ambulo_problem *p =
+      problem_of(WALKER TIME "objective:\n"
+                             "  - {term: torque_squared, weight: 2, scale: 0.5}\n"
+                             "  - term: torque_absolute\n    name: effort\n    smoothing: 0.25\n"
+                             "    scale: {pelvis_tx: 0.05, default: 3}\n"
+                             "    offset: {pelvis_ty: body_weight, pelvis_tx: -4}\n"
+                             "  - {term: acceleration, weight: 1e-3}\n");
+  const ambulo_problem_definition *d = &p->definition;
+  int tx = ambulo_model_find_coordinate(p->model, "pelvis_tx");
+  int ty = ambulo_model_find_coordinate(p->model, "pelvis_ty");
+  assert_int_equal(d->term_count, 3);
+  assert_int_equal(d->terms[0].kind, AMBULO_TORQUE_SQUARED);
+  assert_close(d->terms[0].weight, 2.0, 0.0);
+  for (int i = 0; i < 9; i++) assert_close(d->terms[0].scale[i], 0.5, 0.0);
+  assert_null(d->terms[0].offset);
+  assert_string_equal(ambulo_problem_term_name(p, 1), "effort");
+  assert_int_equal(d->terms[1].kind, AMBULO_TORQUE_ABSOLUTE);
+  assert_close(d->terms[1].smoothing, 0.25, 0.0);
+  assert_close(d->terms[1].weight, 1.0, 0.0);
+  for (int i = 0; i < 9; i++) {
+    assert_close(d->terms[1].scale[i], i == tx ? 0.05 : 3.0, 0.0);
+    assert_close(d->terms[1].offset[i], i == ty ? 75.0 * 9.81 : i == tx ? -4.0 : 0.0, 1e-9);
+  }
+  assert_int_equal(d->terms[2].kind, AMBULO_ACCELERATION);
+  assert_close(d->terms[2].weight, 1e-3, 0.0);
+  ambulo_problem_free(p);
+}
+
+static void faults_are_placed(void **state) {
+  (void)state;
+  expect_refusal(WALKER TIME "objective: nothing\n", AMBULO_E_SCHEMA, "p.yaml:5:12: error");
+  expect_refusal(WALKER TIME "objective: []\n", AMBULO_E_SCHEMA, "not a list of 1 to 64 terms");
+  expect_refusal(WALKER TIME "objective: [torque_squared]\n", AMBULO_E_SCHEMA,
+                 "p.yaml:5:13: error[E_SCHEMA]: a term is not a mapping");
+  expect_refusal(WALKER TIME "objective: [{term: torque_square}]\n", AMBULO_E_SCHEMA,
+                 "p.yaml:5:20: error");
+  expect_refusal(WALKER TIME "objective: [{weight: 1}]\n", AMBULO_E_SCHEMA, "'term'");
+  expect_refusal(WALKER TIME "objective: [{term: acceleration, weight: -1}]\n", AMBULO_E_SCHEMA,
+                 "p.yaml:5:42: error");
+  expect_refusal(WALKER TIME "objective: [{term: torque_squared, scale: {knee: 1}}]\n",
+                 AMBULO_E_SCHEMA, "p.yaml:5:44: error[E_SCHEMA]: unknown key 'knee'");
+  expect_refusal(WALKER TIME "objective: [{term: torque_squared, offset: 3}]\n", AMBULO_E_SCHEMA,
+                 "'offset' is not a mapping");
+  expect_refusal(WALKER TIME "objective: [{term: torque_squared, offset: {pelvis_ty: weight}}]\n",
+                 AMBULO_E_SCHEMA, "p.yaml:5:56: error");
+  expect_refusal(WALKER TIME
+                 "objective: [{term: torque_squared, offset: {pelvis_tx: body_weight}}]\n",
+                 AMBULO_E_PROBLEM, "body_weight on 'pelvis_tx'; expected a vertical translation");
+  expect_refusal(WALKER TIME "objective: [{term: acceleration, offset: {pelvis_tx: 1}}]\n",
+                 AMBULO_E_SCHEMA, "unknown key 'offset'");
+  expect_refusal(WALKER TIME "objective: [{term: torque_absolute, smoothing: 0}]\n",
+                 AMBULO_E_SCHEMA, "p.yaml:5:48: error");
+  expect_refusal(WALKER TIME "objective: [{term: tracking}]\n", AMBULO_E_SCHEMA, "'reference'");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(terms_are_read),
+                                     cmocka_unit_test(faults_are_placed)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,112 @@
+/* Forces on the feet in a mirrored stride: models/walk_normal.yaml at a gentle made-up point. */
+#include "base/text_buffer.h"
+#include "format/motion_csv.h"
+#include "stride/stride.h"
+#include "support/test.h"
+
+typedef struct fixture {
+  ambulo_problem *problem;
+  double *x;
+  ambulo__stride stride;
+} fixture;
+
+static void fixture_open(fixture *f) {
+  memset(f, 0, sizeof *f);
+  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &f->problem),
+                   AMBULO_OK);
+  int n = f->problem->variables, d = f->problem->coordinates;
+  f->x = calloc((size_t)n, sizeof *f->x);
+  for (int i = 0; i < n; i++)
+    f->x[i] = (i % d < 3 ? 0.01 : 0.1) * sin(0.3 * (i / d) + 1.7 * (i % d));
+  assert_int_equal(ambulo__stride_create(f->problem, f->x, 0, NULL, &f->stride), AMBULO_OK);
+  assert_int_equal(f->stride.feet, 2);
+}
+
+static void fixture_close(fixture *f) {
+  ambulo__stride_free(&f->stride);
+  free(f->x);
+  ambulo_problem_free(f->problem);
+}
+
+/* node 25 + k is node k with the feet exchanged; z is to the right, x forward */
+static void feet_change_sides(void **state) {
+  (void)state;
+  fixture f;
+  fixture_open(&f);
+  const ambulo__stride *s = &f.stride;
+  assert_int_equal(s->samples, 51);
+  for (int k = 1; k <= 25; k++) {
+    for (int foot = 0; foot < 2; foot++) {
+      int here = 2 * (25 + k) + 1 - foot, there = 2 * k + foot;
+      for (int i = 0; i < 3; i++) {
+        double sign = i == 2 ? -1.0 : 1.0, shift = i == 0 ? 0.68 : 0.0;
+        assert_close(s->grf[3 * here + i], sign * s->grf[3 * there + i], 1e-9);
+        if (isfinite(s->cop[3 * there + i]))
+          assert_close(s->cop[3 * here + i], sign * s->cop[3 * there + i] + shift, 1e-12);
+      }
+      assert_close(s->free_moment[here], -s->free_moment[there], 1e-9);
+    }
+  }
+  fixture_close(&f);
+}
+
+static void forces_and_peaks(void **state) {
+  (void)state;
+  fixture f;
+  fixture_open(&f);
+  ambulo__stride *s = &f.stride;
+  for (int k = 0; k < s->samples; k++) {
+    double *force = s->grf + 6 * k;
+    force[0] = 100.0;
+    force[1] = 10.0 * k;
+    force[2] = 0.0;
+  }
+  assert_close(ambulo__stride_peak(s, 0), 500.0 / (75.0 * 9.81), 1e-9);
+  assert_close(ambulo__stride_force(s, 3, 0, ambulo_model_forward(s->model)), 100.0 / (75.0 * 9.81),
+               1e-9);
+  fixture_close(&f);
+}
+
+static void the_table_has_their_columns(void **state) {
+  (void)state;
+  fixture f;
+  fixture_open(&f);
+  const ambulo__stride *s = &f.stride;
+  ambulo__motion_table table = {.model = s->model,
+                                .name = "walk",
+                                .samples = 2,
+                                .times = s->times,
+                                .q = s->q,
+                                .qd = s->qd,
+                                .qdd = s->qdd,
+                                .tau = s->tau,
+                                .zmp = s->zmp,
+                                .feet = s->feet,
+                                .grf = s->grf,
+                                .cop = s->cop,
+                                .free_moment = s->free_moment};
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, NULL);
+  ambulo__motion_csv(&table, &text);
+  const char *csv = ambulo__text_data(&text);
+  const char *expected = ",zmp.x,zmp.y,zmp.z,grf.right.x,grf.right.y,grf.right.z,cop.right.x,"
+                         "cop.right.y,cop.right.z,free_moment.right,grf.left.x,grf.left.y,"
+                         "grf.left.z,cop.left.x,cop.left.y,cop.left.z,free_moment.left\n";
+  assert_non_null(strstr(csv, expected));
+  /* as many numbers as names */
+  const char *header = strstr(csv, "\ntime") + 1, *row = strchr(header, '\n') + 1;
+  int names = 0, numbers = 0;
+  for (const char *c = header; *c != '\n'; c++) names += *c == ',';
+  for (const char *c = row; *c != '\n'; c++) numbers += *c == ',';
+  assert_int_equal(names, 4 * 18 + 3 + 14);
+  assert_int_equal(numbers, names);
+  ambulo__text_free(&text);
+  fixture_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(feet_change_sides),
+                                     cmocka_unit_test(forces_and_peaks),
+                                     cmocka_unit_test(the_table_has_their_columns)};
+  return cmocka_run_group_tests_name("stride/stride_feet", tests, NULL, NULL);
+}
