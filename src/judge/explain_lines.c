@@ -1,19 +1,8 @@
 /* judge/explain_lines.c - an explanation in words: one fact a line, with name, time and unit. */
 #include "judge/explain.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-void ambulo__explain_line(ambulo__explanation *out, const char *format, ...) {
-  if (out->view.line_count >= AMBULO__MOST_LINES) return;
-  char *text = out->text[out->view.line_count];
-  va_list arguments;
-  va_start(arguments, format);
-  (void)vsnprintf(text, AMBULO__LINE_SIZE, format, arguments);
-  va_end(arguments);
-  out->line[out->view.line_count++] = text;
-}
 
 /* "knee_angle_r lower" */
 static const char *name_of(const char *subject, const char *detail, char buffer[96]) {

@@ -5,7 +5,6 @@
 #include "gait/bounds.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,32 +13,6 @@ static const double travels = 1e-9; /* m: a row whose two ends are that far apar
 
 static double degrees(double angle) {
   return angle * 57.29577951308232;
-}
-
-double ambulo__outward(double value, int up) {
-  if (value == 0.0 || !isfinite(value)) return value;
-  double scale = pow(10.0, 3.0 - floor(log10(fabs(value))));
-  double steps = value * scale;
-  return (up ? ceil(steps - 1e-6) : floor(steps + 1e-6)) / scale;
-}
-
-void ambulo__advice_say(const ambulo__advice *a, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  (void)vsnprintf(a->out->suggestion, AMBULO__LINE_SIZE, format, arguments);
-  va_end(arguments);
-}
-
-void ambulo__advice_set(const ambulo__advice *a, const char *format, ...) {
-  ambulo__explanation *out = a->out;
-  int i = out->view.setting_count;
-  if (!a->problem->keys.file || i >= AMBULO__MOST_SETTINGS) return;
-  va_list arguments;
-  va_start(arguments, format);
-  (void)vsnprintf(out->setting[i], AMBULO__LINE_SIZE, format, arguments);
-  va_end(arguments);
-  out->settings[i] = out->setting[i];
-  out->view.setting_count++;
 }
 
 /* " (12 deg)" after angles */

@@ -10,16 +10,6 @@ static const double widest_contact =
     0.1;                               /* m: the most that constraints.contact_tolerance may be */
 static const double widest_turn = 0.5; /* sine: ... and constraints.orientation_tolerance */
 
-void ambulo__advice_set_step(const ambulo__advice *a, double length) {
-  const ambulo__problem_keys *keys = &a->problem->keys;
-  double travel = length * (double)keys->steps;
-  if (!keys->gait || keys->unlike_steps) return;
-  ambulo__advice_set(a, "gait.step_length=%.7g", length);
-  if (keys->speed)
-    ambulo__advice_set(a, "gait.speed=%.9g", fabs(travel) / a->problem->definition.duration);
-  if (keys->travel) ambulo__advice_set(a, "ends.travel=%.7g", travel);
-}
-
 /* the foot whose points are those of the row's subject, or that has its name; -1: none */
 static int foot_of(const ambulo__advice *a) {
   const ambulo_model *model = a->problem->model;

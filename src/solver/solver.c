@@ -1,4 +1,4 @@
-/* solver/solver.c - ambulo_solve: choice of strategy, clock, audit, verdict.
+/* solver/solver.c - ambulo_solve: which method, from which start, and which point is the best.
  *
  *   presolve off     NLopt's SLSQP or AUGLAG on the rows as they are     (nlopt_plain.c)
  *   small problems   SLSQP in whitened coordinates                       (nlopt_whitened.c)
@@ -8,24 +8,13 @@
  * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (candidates.c).
- *
- * Whatever happened, the result's numbers are those of the audit (audit.c). A point that satisfies
- * the rows and is not shown to be optimal is gone on from: the pipeline starts afresh there, with
- * the damping and the penalty of a start, and often sees further.
  */
-#include "judge/audit.h"
 #include "solver/better.h"
-#include "judge/candidates.h"
-#include "judge/dense_audit.h"
-#include "judge/ending.h"
-#include "judge/explain.h"
+#include "solver/session.h"
 #include "method/finisher.h"
-#include "solver/memory.h"
 #include "method/nlopt_direct.h"
-#include "solver/options.h"
 #include "method/refine.h"
 #include "method/smooth.h"
-#include "judge/verdict.h"
 
 #include <limits.h>
 #include <math.h>
@@ -33,46 +22,15 @@
 #include <string.h>
 
 enum {
-  SMALL = 60,       /* unknowns: SLSQP first */
-  SMALL_ROUNDS = 8, /* of it, before the pipeline takes over what has not settled */
-  SECOND_LOOKS = 3  /* at a point that satisfies the rows and is not shown to be optimal */
+  SMALL = 60,      /* unknowns: SLSQP first */
+  SMALL_ROUNDS = 8 /* of it, before AUGLAG takes over what has not settled */
 };
 static const double near_rows = 1e-3; /* relative to their sizes */
-
-typedef struct solve {
-  const ambulo_problem *problem;
-  const ambulo_allocator *allocator;
-  ambulo_diagnostics *diagnostics;
-  size_t errors; /* in it before */
-  ambulo__run run;
-  ambulo__engine *engine;
-  ambulo_result *result;
-  ambulo__candidates candidates;
-  const double *start; /* the caller's; NULL: zero */
-  int from_zero, explains;
-  const char *method, *nlopt, *note;
-} solve;
-
-/* ------------------------------------------------------------------- start */
-
-static ambulo_status check_start(const solve *s) {
-  const double *x = s->result->x;
-  ambulo_workspace *workspace = NULL;
-  ambulo_status status = ambulo__workspace_create_for_values(s->problem, s->allocator, &workspace);
-  if (!status && ambulo__evaluate(workspace, x)) {
-    char text[AMBULO__FAULT_TEXT];
-    ambulo_fault_text(&workspace->fault, text, sizeof text);
-    status = ambulo__error(s->diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
-                           "at the start %s", text);
-  }
-  ambulo_workspace_free(workspace);
-  return status;
-}
 
 /* ---------------------------------------------------------------- strategies */
 
 /* the coarse grids led astray: once more from zero; x stays if that is no better */
-static ambulo_status solve_again(solve *s, double *x) {
+static ambulo_status solve_again(ambulo__session *s, double *x) {
   ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
   size_t n = (size_t)s->problem->variables;
   double *other = ambulo__alloc(&a, n, sizeof *other);
@@ -89,7 +47,7 @@ static ambulo_status solve_again(solve *s, double *x) {
   return status;
 }
 
-static ambulo_status finish_by_slsqp(solve *s, double *x) {
+static ambulo_status finish_by_slsqp(ambulo__session *s, double *x) {
   ambulo_allocator a = ambulo__allocator_or_default(s->allocator);
   size_t n = (size_t)s->problem->variables;
   if (n > AMBULO__FINISHER_UNKNOWNS) {
@@ -115,12 +73,12 @@ static ambulo_status finish_by_slsqp(solve *s, double *x) {
   return status;
 }
 
-static ambulo__stage stage_of(solve *s, const double *x) {
+static ambulo__stage stage_of(ambulo__session *s, const double *x) {
   int near = !s->from_zero && ambulo__violation_at(s->engine, x) <= near_rows;
   return near ? AMBULO__NEAR : AMBULO__FAR;
 }
 
-static ambulo_status solve_by_pipeline(solve *s) {
+static ambulo_status solve_by_pipeline(ambulo__session *s) {
   const ambulo_options *o = s->run.options;
   double *x = s->result->x;
   int levels = 0;
@@ -137,7 +95,7 @@ static ambulo_status solve_by_pipeline(solve *s) {
   return finish_by_slsqp(s, x);
 }
 
-static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm, int most) {
+static ambulo_status solve_small(ambulo__session *s, ambulo_algorithm algorithm, int most) {
   s->method = algorithm == AMBULO_SLSQP ? "NLopt's SLSQP, whitened"
                                         : "NLopt's AUGLAG with LBFGS, whitened, all rows";
   if (most > s->run.options->maximum_iterations) most = s->run.options->maximum_iterations;
@@ -145,7 +103,7 @@ static ambulo_status solve_small(solve *s, ambulo_algorithm algorithm, int most)
                                 &s->nlopt);
 }
 
-static ambulo_status solve_presolved(solve *s) {
+static ambulo_status solve_presolved(ambulo__session *s) {
   const ambulo_options *o = s->run.options;
   int small = s->problem->variables < SMALL;
   if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP, INT_MAX);
@@ -158,7 +116,7 @@ static ambulo_status solve_presolved(solve *s) {
   return solve_by_pipeline(s);
 }
 
-static ambulo_status solve_problem(solve *s) {
+static ambulo_status solve_problem(ambulo__session *s) {
   const ambulo_options *o = s->run.options;
   s->nlopt = NULL;
   if (o->presolve) return solve_presolved(s);
@@ -169,7 +127,7 @@ static ambulo_status solve_problem(solve *s) {
 }
 
 /* an attempt from where result->x stands; what it finds joins the candidates */
-static ambulo_status attempt(solve *s) {
+static ambulo_status attempt(ambulo__session *s) {
   ambulo_status status = solve_problem(s);
   if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* the audit tells */
   if (!status) ambulo__candidates_offer(&s->candidates, s->engine, s->result->x);
@@ -177,7 +135,7 @@ static ambulo_status attempt(solve *s) {
 }
 
 /* from zero; or from the caller's start, and from zero when that leads nowhere */
-static ambulo_status search(solve *s) {
+static ambulo_status search(ambulo__session *s) {
   double *x = s->result->x;
   size_t bytes = (size_t)s->problem->variables * sizeof *x;
   ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
@@ -200,164 +158,16 @@ static ambulo_status search(solve *s) {
   return AMBULO_OK;
 }
 
-/* -------------------------------------------------------------------- ending */
-
-static void describe(const solve *s) {
-  ambulo_result *r = s->result;
-  const ambulo__run *run = &s->run;
-  char limit[48] = "", message[64] = "", dropped[64] = "";
-  r->ending_code = run->ending;
-  if (run->ending == AMBULO_ENDING_ITERATIONS)
-    (void)snprintf(limit, sizeof limit, " (%d)", run->options->maximum_iterations);
-  if (run->ending == AMBULO_ENDING_EVALUATIONS)
-    (void)snprintf(limit, sizeof limit, " (%d)", run->options->maximum_evaluations);
-  if (run->ending == AMBULO_ENDING_TIME)
-    (void)snprintf(limit, sizeof limit, " (%g s)", run->options->time_limit);
-  if (s->engine && ambulo__rows_contradict(&s->engine->rows, s->problem->rows))
-    (void)snprintf(dropped, sizeof dropped, "; of equalities that contradict, the first was kept");
-  if (s->nlopt && !run->stopped)
-    (void)snprintf(message, sizeof message, " (its last call: %s)", s->nlopt);
-  (void)snprintf(r->ending, sizeof r->ending, "%s%s: %s%s; %d iterations, %d evaluations%s%s",
-                 s->method, message, ambulo_ending_text(run->ending), limit, run->iterations,
-                 run->evaluations, dropped, s->note);
-}
-
-static ambulo_status judge(solve *s) {
-  ambulo_result *r = s->result;
-  s->run.stage = "audit";
-  ambulo_status status = ambulo__audit(s->engine, s->run.options, r);
-  if (status) return status;
-  ambulo__ending_of_faults(&s->run);
-  r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
-  return AMBULO_OK;
-}
-
-static ambulo_status look_again(solve *s) {
-  ambulo_result *r = s->result;
-  ambulo_status status = AMBULO_OK;
-  int able = s->run.options->presolve && s->engine->rows.regular;
-  for (int k = 0; k < SECOND_LOOKS && !status; k++) {
-    double before = r->objective;
-    int cut = ambulo__run_over(&s->run) || s->run.ending == AMBULO_ENDING_ITERATIONS;
-    if (!able || cut || r->verdict != AMBULO_FEASIBLE) break;
-    status = ambulo__pipeline(s->engine, AMBULO__NEAR, r->x);
-    if (status && status != AMBULO_E_NUMERIC) return status;
-    ambulo__candidates_offer(&s->candidates, s->engine, r->x);
-    (void)ambulo__candidates_take(&s->candidates, r->x);
-    status = judge(s);
-    if (r->objective >= before && r->verdict != AMBULO_OPTIMAL) break;
-  }
-  return status;
-}
-
-/* the run ended before there was an engine: what the start is */
-static ambulo_status finish_unsolved(solve *s) {
-  ambulo_result *r = s->result;
-  ambulo_workspace *workspace = NULL;
-  ambulo_status status = ambulo__workspace_create_for_values(s->problem, s->allocator, &workspace);
-  if (!status) (void)ambulo__audit_values(workspace, r); /* was finite before */
-  ambulo_workspace_free(workspace);
-  r->verdict = ambulo__verdict_of(&r->audit, s->run.options, s->run.ending);
-  r->evaluations = s->run.evaluations;
-  r->timing.total = ambulo__seconds_now() - s->run.started;
-  describe(s);
-  return status;
-}
-
-static ambulo_status look_between(solve *s) {
-  int in_time = !ambulo__run_late(&s->run);
-  ambulo_status status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
-                                             s->allocator, s->result);
-  if (status) return status;
-  return ambulo__dense_advise(s->problem, in_time, s->allocator, s->diagnostics, s->result);
-}
-
-static ambulo_status finish(solve *s) {
-  if (!s->engine) return finish_unsolved(s);
-  ambulo_result *r = s->result;
-  ambulo_status status = judge(s);
-  if (!status && s->explains) status = look_again(s);
-  if (!status) status = look_between(s);
-  if (status) return status;
-  r->iterations = s->run.iterations;
-  r->evaluations = s->run.evaluations;
-  ambulo__report_faults(&s->run, r, s->diagnostics);
-  describe(s);
-  s->run.stage = "explanation";
-  if (s->explains) status = ambulo__explain(s->engine, r);
-  if (status) return status;
-  ambulo__settle_verdict(&s->run, r);
-  if (s->explains)
-    ambulo__report_families(r, s->run.options->feasibility_tolerance, s->diagnostics);
-  ambulo__engine_free(s->engine);
-  s->engine = NULL;
-  r->timing.evaluate = s->run.seconds_evaluate;
-  r->timing.linear_algebra = s->run.seconds_linear;
-  r->nlopt = s->run.nlopt;
-  r->timing.nlopt = s->run.nlopt.seconds;
-  r->timing.total = ambulo__seconds_now() - s->run.started;
-  return AMBULO_OK;
-}
-
-static ambulo_status begin(solve *s, const ambulo_options *options, const double *start) {
-  ambulo_status status = ambulo__options_check(options, s->diagnostics);
-  if (status) return status;
-  status = ambulo__solve_check_memory(s->problem, options, s->diagnostics);
-  if (status) return status;
-  ambulo__run_begin(&s->run, options);
-  s->start = start;
-  s->from_zero = start == NULL;
-  s->method = "not called";
-  s->note = "";
-  status = ambulo__result_create(s->problem, s->allocator, &s->result);
-  if (status) return status;
-  if (start) memcpy(s->result->x, start, (size_t)s->problem->variables * sizeof *start);
-  status = check_start(s);
-  if (status) return status;
-  status = ambulo__engine_create(s->problem, s->result->x, s->allocator, &s->run, s->diagnostics,
-                                 &s->engine);
-  /* stopped during set-up: there is no engine, and nothing is wrong */
-  return status == AMBULO_E_LIMIT && s->run.stopped ? AMBULO_OK : status;
-}
-
-/* frees what a failed call leaves, hands over the result of a good one */
-static ambulo_status end(solve *s, ambulo_status status, ambulo_result **result) {
-  if (status == AMBULO_E_MEMORY)
-    (void)ambulo__error(s->diagnostics, status, ambulo__nowhere, NULL,
-                        "cannot allocate memory to solve the problem; it takes about %.3g MB",
-                        1e-6 * ambulo_problem_memory(s->problem).solve);
-  ambulo__engine_free(s->engine);
-  if (status) {
-    ambulo_result_free(s->result);
-    return ambulo__conclude(s->diagnostics, s->errors, status, NULL);
-  }
-  *result = s->result;
-  return AMBULO_OK;
-}
-
 ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *options,
                            const double *start, const ambulo_allocator *allocator,
                            ambulo_diagnostics *diagnostics, ambulo_result **result) {
   if (!problem || !result) return AMBULO_E_ARGUMENT;
   ambulo_options own = options ? *options : ambulo_problem_options(problem);
-  solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
+  ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.errors = ambulo_diagnostics_error_count(diagnostics);
   s.explains = 1;
-  ambulo_status status = begin(&s, &own, start);
+  ambulo_status status = ambulo__session_begin(&s, &own, start);
   if (!status && s.engine) status = search(&s);
-  if (!status) status = finish(&s);
-  return end(&s, status, result);
-}
-
-ambulo_status ambulo_audit_point(const ambulo_problem *problem, const ambulo_options *options,
-                                 const double *x, const ambulo_allocator *allocator,
-                                 ambulo_diagnostics *diagnostics, ambulo_result **result) {
-  if (!problem || !x || !result) return AMBULO_E_ARGUMENT;
-  ambulo_options own = options ? *options : ambulo_problem_options(problem);
-  solve s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
-  s.errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = begin(&s, &own, x);
-  if (!status) status = finish(&s);
-  if (!status) (void)snprintf(s.result->ending, sizeof s.result->ending, "audit of a given point");
-  return end(&s, status, result);
+  if (!status) status = ambulo__session_finish(&s);
+  return ambulo__session_end(&s, status, result);
 }

@@ -141,16 +141,6 @@ static void without_a_file_there_are_no_settings(void **state) {
   try_without_keys(misses, MISSES);
 }
 
-static void new_values_are_rounded_outward(void **state) {
-  (void)state;
-  assert_close(ambulo__outward(0.123449, 1), 0.1235, 1e-15);
-  assert_close(ambulo__outward(0.123451, 0), 0.1234, 1e-15);
-  assert_close(ambulo__outward(-123.44, 0), -123.5, 1e-12);
-  assert_close(ambulo__outward(-123.46, 1), -123.4, 1e-12);
-  assert_close(ambulo__outward(0.25, 1), 0.25, 1e-15);
-  assert_true(ambulo__outward(0.0, 1) == 0.0 && isinf(ambulo__outward(INFINITY, 1)));
-}
-
 /* partners whose signs differ have their limits at opposite ends */
 static void a_sign_turns_the_partners_limit(void **state) {
   (void)state;
@@ -296,7 +286,6 @@ static void settings_have_room(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_row_misses_can_be_set),
                                      cmocka_unit_test(without_a_file_there_are_no_settings),
-                                     cmocka_unit_test(new_values_are_rounded_outward),
                                      cmocka_unit_test(a_sign_turns_the_partners_limit),
                                      cmocka_unit_test(ends_are_set_where_they_have_a_key),
                                      cmocka_unit_test(travel_is_shared_by_the_steps),
