@@ -66,10 +66,17 @@ AMBULO_API const char *ambulo_ending_name(ambulo_ending ending);
 AMBULO_API const char *ambulo_ending_text(ambulo_ending ending);
 
 typedef enum ambulo_algorithm {
-  AMBULO_AUTO,  /* the NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
+  AMBULO_AUTO,  /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
   AMBULO_SLSQP, /* NLopt's SLSQP */
   AMBULO_AUGLAG /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
+
+/* Whose the equality rows are, with presolve. */
+typedef enum ambulo_equalities {
+  AMBULO_EQUALITIES_HELD, /* every point that NLopt sees satisfies them: Ambulo carries it there */
+  AMBULO_EQUALITIES_NLOPT /* NLopt's AUGLAG gets them as constraints, beside the inequalities, each
+                             with its dense gradient: to compare; much slower. Up to 4 GB */
+} ambulo_equalities;
 
 /* What follows AUGLAG. */
 typedef enum ambulo_finisher {
@@ -105,6 +112,8 @@ typedef struct ambulo_options {
   int continuation;             /* 1: solve on coarser grids first where that helps */
   int dense_samples;            /* the audit's second grid: nodes per interval; 10 */
   ambulo_finisher finisher;     /* with presolve */
+  ambulo_equalities equalities; /* with presolve; _NLOPT not with AMBULO_SLSQP, which gets them all
+                                   anyway */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;

@@ -238,6 +238,7 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algori
   s.objective.direct = d;
   s.objective.opt = opt;
   double least, begin = ambulo__seconds_now(), inside = d->workspace->seconds_evaluate;
+  int evaluations_before = d->run->evaluations;
   d->result = nlopt_set_min_objective(opt, objective, &s.objective);
   if (d->result >= 0) d->result = add_sets(d, opt, s.rows);
   memset(d->w, 0, n * sizeof *d->w);
@@ -245,6 +246,7 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algori
   d->message = ambulo__nlopt_name(d->result);
   nlopt_destroy(opt);
   inside = d->workspace->seconds_evaluate - inside;
+  d->run->nlopt.inner += d->run->evaluations - evaluations_before;
   ambulo__run_nlopt(d->run, d->result, d->message, ambulo__seconds_now() - begin - inside);
   return d->result == NLOPT_OUT_OF_MEMORY ? AMBULO_E_MEMORY : AMBULO_OK;
 }

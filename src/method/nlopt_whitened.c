@@ -10,7 +10,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { ROUND_EVALUATIONS = 300, STALL = 5 };
+enum {
+  SLSQP_EVALUATIONS = 300,   /* a round */
+  AUGLAG_EVALUATIONS = 3000, /* the same: its multipliers begin at zero each time */
+  STALL = 5
+};
 static const double mu_factor = 0.3; /* times T/K, as in pipeline.c */
 static const double settled = 1e-8;  /* relative change of the objective */
 static const double progress = 0.9;  /* share of a violation that is left where it falls */
@@ -41,7 +45,8 @@ static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_alg
     return AMBULO_OK;
   }
   memcpy(d->center, x, (size_t)e->n * sizeof *x);
-  ambulo_status status = ambulo__direct_minimize(d, algorithm, ROUND_EVALUATIONS);
+  int most = algorithm == AMBULO_AUGLAG ? AUGLAG_EVALUATIONS : SLSQP_EVALUATIONS;
+  ambulo_status status = ambulo__direct_minimize(d, algorithm, most);
   if (status) return status;
   double change = fabs(d->best_objective - before);
   int feasible = d->best_violation <= e->run->options->feasibility_tolerance;
@@ -49,7 +54,8 @@ static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_alg
   *idle = feasible || d->best_violation < progress * violation ? 0 : *idle + 1;
   if (*idle == STALL) *ending = AMBULO_ENDING_STALLED;
   if (!(d->best_violation < HUGE_VAL)) *ending = AMBULO_ENDING_NO_DESCENT;
-  if (feasible && change <= settled * (fabs(before) + 1e-12)) *ending = AMBULO_ENDING_SETTLED;
+  if (feasible && before < HUGE_VAL && change <= settled * (fabs(before) + 1e-12))
+    *ending = AMBULO_ENDING_SETTLED;
   (void)ambulo__run_progress(e->run, d->best_objective, d->best_violation);
   return AMBULO_OK;
 }

@@ -107,7 +107,8 @@ static ambulo_status solve_presolved(ambulo__session *s) {
   const ambulo_options *o = s->run.options;
   int small = s->problem->variables < SMALL;
   if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP, INT_MAX);
-  if (!s->engine->rows.regular) return solve_small(s, AMBULO_AUGLAG, INT_MAX);
+  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->rows.regular;
+  if (all_rows) return solve_small(s, AMBULO_AUGLAG, INT_MAX);
   if (o->algorithm == AMBULO_AUGLAG || !small) return solve_by_pipeline(s);
   ambulo_status status = solve_small(s, AMBULO_SLSQP, SMALL_ROUNDS);
   if (status || s->run.stopped || s->run.ending == AMBULO_ENDING_SETTLED) return status;

@@ -28,6 +28,24 @@ static void every_way_finds_the_swing(void **state) {
   assert_close(solve("pendulum_swing", AMBULO_AUGLAG, 1), best, 1e-5);
 }
 
+/* equalities as constraints of NLopt's own: the same optimum, and no point is carried to them */
+static void equalities_may_be_nlopts(void **state) {
+  (void)state;
+  double best = solve("two_link_reach", AMBULO_AUTO, 1);
+  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_options options = ambulo_problem_options(problem);
+  ambulo_result *result = NULL;
+  options.equalities = AMBULO_EQUALITIES_NLOPT;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_close(ambulo_result_objective(result), best, 1e-5);
+  assert_non_null(strstr(ambulo_result_ending(result), "all rows"));
+  assert_int_equal(ambulo_result_nlopt(result)->outer, 0); /* not by auglag.c */
+  assert_true(ambulo_result_nlopt(result)->inner > 100);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 static void every_way_finds_the_reach(void **state) {
   (void)state;
   double best = solve("two_link_reach", AMBULO_AUTO, 1);
@@ -147,6 +165,7 @@ static void analytic_optimum_is_found(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_finds_the_swing),
                                      cmocka_unit_test(every_way_finds_the_reach),
+                                     cmocka_unit_test(equalities_may_be_nlopts),
                                      cmocka_unit_test(every_way_finds_a_step),
                                      cmocka_unit_test(every_way_ends_a_step_as_shipped),
                                      cmocka_unit_test(auglag_finds_a_gait),

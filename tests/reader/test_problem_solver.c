@@ -36,7 +36,7 @@ static void every_key_arrives(void **state) {
   ambulo_problem *p = problem_of(
       HEAD "solver: {algorithm: auglag, presolve: off, maximum_evaluations: 77, time_limit: 2.5,\n"
            "  feasibility_tolerance: 1e-7, optimality_tolerance: 1e-4, continuation: false,\n"
-           "  dense_samples: 3, finisher: slsqp}\n");
+           "  dense_samples: 3, finisher: slsqp, equalities: nlopt}\n");
   ambulo_options o = ambulo_problem_options(p);
   assert_int_equal(o.algorithm, AMBULO_AUGLAG);
   assert_int_equal(o.presolve, 0);
@@ -47,6 +47,7 @@ static void every_key_arrives(void **state) {
   assert_int_equal(o.continuation, 0);
   assert_int_equal(o.dense_samples, 3);
   assert_int_equal(o.finisher, AMBULO_FINISHER_SLSQP);
+  assert_int_equal(o.equalities, AMBULO_EQUALITIES_NLOPT);
   ambulo_problem_free(p);
 }
 
@@ -65,6 +66,7 @@ static void switches_have_two_spellings(void **state) {
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(HEAD "solver: {algorithm: ipopt}\n", AMBULO_E_SCHEMA, "p.yaml:6:21: error");
+  expect_refusal(HEAD "solver: {equalities: ours}\n", AMBULO_E_SCHEMA, "p.yaml:6:22: error");
   expect_refusal(HEAD "solver: {presolve: maybe}\n", AMBULO_E_SCHEMA, "p.yaml:6:20: error");
   expect_refusal(HEAD "solver: {time_limit: -1}\n", AMBULO_E_SCHEMA, "p.yaml:6:22: error");
   expect_refusal(HEAD "solver: {maximum_evaluations: 1.5}\n", AMBULO_E_SCHEMA,

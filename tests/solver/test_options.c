@@ -44,6 +44,9 @@ static void each_fault_is_named(void **state) {
   o.finisher = (ambulo_finisher)7;
   refuse(o, "finisher");
   o = ambulo_options_default();
+  o.equalities = (ambulo_equalities)2;
+  refuse(o, "equalities");
+  o = ambulo_options_default();
   o.dense_samples = 0;
   refuse(o, "dense_samples");
 }
