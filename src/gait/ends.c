@@ -11,7 +11,7 @@
  * shift = travel (a . f) for the root translations (axis a, forward f) at o = 0.
  */
 #include "gait/gait.h"
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 

@@ -16,7 +16,7 @@
  */
 #include "gait/gait.h"
 #include "base/instant.h"
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 

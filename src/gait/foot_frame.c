@@ -1,7 +1,7 @@
 /* gait/foot_frame.c - direction cosines of a foot (foot_frame.h). */
 #include "gait/foot_frame.h"
 
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 

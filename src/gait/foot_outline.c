@@ -7,7 +7,7 @@
  */
 #include "gait/foot_outline.h"
 
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 

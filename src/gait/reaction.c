@@ -18,7 +18,7 @@
  */
 #include "gait/band.h"
 #include "gait/loading.h"
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 #include "gait/support_polygon.h"
 
 #include <math.h>

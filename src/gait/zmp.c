@@ -16,7 +16,7 @@
  * The sign of n . F is held by its own row: n.F / mg - minimum_force >= 0.
  */
 #include "gait/band.h"
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 #include "gait/support_polygon.h"
 
 #include <math.h>

@@ -17,7 +17,7 @@ static const double gradient_small = 3e-5;
 static const double polishable = 1e-5;    /* violation, relative to the sizes of the rows */
 static const double polish_reach = 1e-5;  /* the same, where polishing may start */
 static const double stalled_reach = 1e-2; /* the same, where nothing else helps */
-static const double loose_violation = 1e-3, loose_change = 1e-3; /* on coarse grids */
+static const double loose_violation = 1e-2, loose_change = 1e-2; /* on coarse grids */
 static const double penalty_largest = 3000.0, penalty_last = 3e5;
 
 ambulo__stopping ambulo__stopping_begin(int loose) {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "model/check.h"
+#include "model/neutral_pose.h"
 
 enum { DEFINITION_COOKIE = 0x616d626d };
 
@@ -141,8 +142,10 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   m->coordinates = ambulo__alloc(a, coordinates, sizeof *m->coordinates);
   m->coordinate_link = ambulo__alloc(a, coordinates, sizeof *m->coordinate_link);
   m->points = ambulo__alloc(a, (size_t)d->point_count, sizeof *m->points);
+  m->neutral = ambulo__alloc(a, 3 * (size_t)d->point_count, sizeof *m->neutral);
   m->feet = ambulo__alloc(a, (size_t)d->foot_count, sizeof *m->feet);
-  return m->text && m->links && m->coordinates && m->coordinate_link && m->points && m->feet;
+  return m->text && m->links && m->coordinates && m->coordinate_link && m->points && m->neutral &&
+         m->feet;
 }
 
 static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
@@ -164,6 +167,7 @@ static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
   m->name = keep(&text, d->name);
   copy_links(m, d, &n, &text);
   copy_contacts(m, d, &n, &text);
+  ambulo__neutral_points(m);
   memcpy(m->gravity, d->gravity, sizeof m->gravity);
   set_directions(m, d->forward);
   ambulo__free(&m->allocator, block);
@@ -206,6 +210,7 @@ void ambulo_model_free(ambulo_model *model) {
   ambulo__free(&a, model->coordinates);
   ambulo__free(&a, model->coordinate_link);
   ambulo__free(&a, model->points);
+  ambulo__free(&a, model->neutral);
   ambulo__free(&a, model->feet);
   ambulo__free(&a, model);
 }

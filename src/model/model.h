@@ -26,6 +26,7 @@ struct ambulo_model {
   int *coordinate_link;           /* [coordinate_count]: the link that carries coordinate i */
   int coordinate_count;
   ambulo_point *points; /* [point_count] */
+  double *neutral;      /* [point_count][3]: where they are at q = 0, world frame, m */
   int point_count;
   ambulo_foot *feet; /* [foot_count] */
   int foot_count;

@@ -3,7 +3,7 @@
  * A foot's side is that of its heel at q = 0: left where it stands further along left. */
 #include <math.h>
 
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 #include "picture/gait_chart.h"
 #include "picture/svg.h"
 

@@ -1,7 +1,7 @@
 /* reader/problem_objective.c - `objective:` of a problem file: a list of terms, or `none`. */
 #include "reader/problem_reader.h"
 
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 #include "objective/term.h"
 
 #include <math.h>

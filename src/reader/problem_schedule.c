@@ -11,7 +11,7 @@
 #include "reader/problem_reader.h"
 
 #include "gait/gait.h"
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdio.h>

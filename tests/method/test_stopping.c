@@ -42,12 +42,12 @@ static void coarse_grids_are_content_with_less(void **state) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(1);
-  assert_int_equal(at(&s, &f, 2.0, 9e-4, 1.0), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 2.0018, 9e-4, 1.0), AMBULO_ENDING_CONVERGED);
+  assert_int_equal(at(&s, &f, 2.0, 9e-3, 1.0), AMBULO_ENDING_NONE);
+  assert_int_equal(at(&s, &f, 2.018, 9e-3, 1.0), AMBULO_ENDING_CONVERGED);
   s = ambulo__stopping_begin(1);
-  (void)at(&s, &f, 2.0, 9e-4, 1.0);
-  assert_int_equal(at(&s, &f, 2.0022, 9e-4, 1.0), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 2.0022, 1.1e-3, 1.0), AMBULO_ENDING_NONE);
+  (void)at(&s, &f, 2.0, 9e-3, 1.0);
+  assert_int_equal(at(&s, &f, 2.022, 9e-3, 1.0), AMBULO_ENDING_NONE);
+  assert_int_equal(at(&s, &f, 2.022, 1.1e-2, 1.0), AMBULO_ENDING_NONE);
   engine_close(&f);
 }
 

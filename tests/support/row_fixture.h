@@ -3,7 +3,7 @@
 #define AMBULO_TESTS_ROW_FIXTURE_H
 
 #include "gait/gait.h"
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 #include "support/walker_fixture.h"
 
 enum { ROW_NODES = 5 };

@@ -1,12 +1,14 @@
-/* gait/neutral_pose.h - the skeleton at q = 0: where points are, how joints point.
+/* model/neutral_pose.h - the skeleton at q = 0: where points are, how joints point.
  *
  * The neutral pose is the one in which a model stands upright with flat feet; the
  * geometry of feet and the directions of the root coordinates are read off it. */
-#ifndef AMBULO_GAIT_NEUTRAL_POSE_H
-#define AMBULO_GAIT_NEUTRAL_POSE_H
+#ifndef AMBULO_MODEL_NEUTRAL_POSE_H
+#define AMBULO_MODEL_NEUTRAL_POSE_H
 
 #include "model/model.h"
 
+/* Fills model->neutral, which has room for it; rows ask for these places at every node. */
+void ambulo__neutral_points(ambulo_model *model);
 /* World position of a model's point at q = 0, m. */
 void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]);
 

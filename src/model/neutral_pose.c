@@ -1,4 +1,4 @@
-/* gait/neutral_pose.c - DH transforms at q = 0, applied from a link to the world.
+/* model/neutral_pose.c - DH transforms at q = 0, applied from a link to the world.
  *
  * T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha) (ambulo/model.h). A vector v of
  * the link frame reads in the parent frame:
@@ -8,9 +8,10 @@
  *
  * The joint of a link turns about, or slides along, the z axis of its parent frame.
  */
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double parallel_tolerance = 1e-9;
 
@@ -34,10 +35,16 @@ static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+void ambulo__neutral_points(ambulo_model *model) {
+  for (int i = 0; i < model->point_count; i++) {
+    double *world = model->neutral + (size_t)(3 * i);
+    memcpy(world, model->points[i].position, 3 * sizeof *world);
+    to_world(model, model->points[i].link, 1, world);
+  }
+}
+
 void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]) {
-  const ambulo_point *p = &model->points[point];
-  for (int axis = 0; axis < 3; axis++) world[axis] = p->position[axis];
-  to_world(model, p->link, 1, world);
+  memcpy(world, model->neutral + (size_t)(3 * point), 3 * sizeof *world);
 }
 
 static void link_axis(const ambulo_model *model, int link, double axis[3]) {

@@ -1,5 +1,5 @@
 /* The neutral pose: places and axes known from the walker's construction. */
-#include "gait/neutral_pose.h"
+#include "model/neutral_pose.h"
 #include "support/walker_fixture.h"
 
 static void points_stand_where_built(void **state) {
