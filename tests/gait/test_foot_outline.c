@@ -1,5 +1,6 @@
 /* The flat foot: corners, length, a foot that is built turned out, held points. */
 #include "gait/foot_outline.h"
+#include "model/neutral_pose.h"
 #include "support/walker_fixture.h"
 
 static void corners_lie_as_built(void **state) {
@@ -25,6 +26,7 @@ static void a_turned_foot_is_put_straight(void **state) {
   ambulo_model *model = walker_create(0);
   int toe = model->feet[WALKER_RIGHT].toe_center;
   model->points[toe].position[2] = 0.1;
+  ambulo__neutral_points(model);
   ambulo__foot_outline outline = ambulo__foot_outline_of(model, WALKER_RIGHT);
   double angle = atan2(0.1, 0.22), c = cos(angle), s = sin(angle);
   assert_close(outline.length, hypot(0.22, 0.1), 1e-15);
