@@ -329,7 +329,7 @@ static ambulo_ending prepare(session *s) {
   }
   s->constant = -s->scale * e->held.objective;
   if (violated == 0.0) {
-    penalty = plain_penalty;
+    penalty = e->inequalities > 0 ? plain_penalty : 1.0; /* as mirror.c: there is none */
     s->scale = e->rho / penalty;
     s->chart.stretch = sqrt(s->scale);
     s->constant = 1.0 - s->scale * e->held.objective;

@@ -148,6 +148,56 @@ static void indefinite_matrix_is_refused(void **state) {
   ambulo__pool_clear(&m.pool);
 }
 
+/* a small matrix has no more diagonals than rows, a wide one is LAPACK's */
+static void sizes_are_what_is_stored(void **state) {
+  (void)state;
+  ambulo__pool pool;
+  ambulo__band small, wide;
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__band_create(&pool, 4, 9, &small), AMBULO_OK);
+  assert_int_equal(small.kd, 3);
+  setenv("AMBULO_ISA", "avx2", 1);
+  const ambulo__band_kernels *kernels = ambulo__band_kernels_select();
+  assert_int_equal(ambulo__band_create(&pool, 400, 300, &wide), AMBULO_OK);
+  if (kernels) assert_int_equal(wide.kernels == NULL, 300 > kernels->largest_kd);
+  unsetenv("AMBULO_ISA");
+  ambulo__pool_clear(&pool);
+}
+
+static void a_copied_factor_solves(void **state) {
+  (void)state;
+  banded m;
+  ambulo__band other;
+  double x[N], y[N];
+  fill(&m, 8);
+  assert_int_equal(ambulo__band_create(&m.pool, N, KD, &other), AMBULO_OK);
+  assert_int_equal(ambulo__band_factor(&m.band), 0);
+  ambulo__band_copy_factor(&m.band, &other);
+  for (int i = 0; i < N; i++) x[i] = y[i] = sin(i);
+  ambulo__band_forward(&m.band, x);
+  ambulo__band_backward(&m.band, x);
+  ambulo__band_forward(&other, y);
+  ambulo__band_backward(&other, y);
+  assert_memory_equal(x, y, sizeof x);
+  ambulo__pool_clear(&m.pool);
+}
+
+/* on the diagonal, with the kernels of this machine, and with LAPACK */
+static void what_is_not_finite_is_no_factor(void **state) {
+  (void)state;
+  static const double bad[] = {NAN, INFINITY};
+  for (int run = 0; run < 4; run++) {
+    banded m;
+    fill(&m, 9);
+    if (run % 2) m.band.kernels = NULL;
+    m.band.a[(size_t)(N - 1) * (size_t)m.band.ld] = bad[run / 2];
+    double largest = ambulo__band_largest(&m.band);
+    assert_true(run / 2 ? largest == INFINITY : isnan(largest));
+    if (run == 0 || run % 2) assert_int_equal(ambulo__band_factor(&m.band), 1);
+    ambulo__pool_clear(&m.pool);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(product_is_the_dense_one),
@@ -156,6 +206,9 @@ int main(void) {
       cmocka_unit_test(a_right_hand_side_that_overflows_leaves_nothing_behind),
       cmocka_unit_test(sparse_row_adds_its_outer_product),
       cmocka_unit_test(indefinite_matrix_is_refused),
+      cmocka_unit_test(sizes_are_what_is_stored),
+      cmocka_unit_test(a_copied_factor_solves),
+      cmocka_unit_test(what_is_not_finite_is_no_factor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

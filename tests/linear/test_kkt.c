@@ -140,12 +140,94 @@ static void a_border_row_that_vanishes_does_no_harm(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
+/* the least accurate multiplier decides how stiff the rows become; there is a bound */
+static void rows_that_nearly_depend_are_made_stiffer(void **state) {
+  (void)state;
+  static kkt_case s;
+  double d[N], before = 0.0;
+  open_system(&s);
+  for (int e = 0; e < 4; e++) {
+    s.column[0][s.start[0][1] + e] = s.column[0][e];
+    s.value[0][s.start[0][1] + e] = s.value[0][e] * (1.0 + 1e-7 * e);
+  }
+  for (int k = 0; k < 4; k++) {
+    double l[LOCAL] = {0.0};
+    assert_true(s.kkt.stiffness <= 1e8);
+    before = s.kkt.stiffness;
+    s.rhs_local[1] = s.rhs_local[0] + 1.0;
+    assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+    ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+    assert_close(s.kkt.stiffness, fmin(1e8, 100.0 * before), 0.0);
+  }
+  s.kkt.stiffness = 1e20; /* drowns H: back to where it started */
+  assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+  assert_close(s.kkt.stiffness, 1e4, 0.0);
+  ambulo__pool_clear(&s.pool);
+}
+
+/* once; then the penalty of a row goes with what the metric has along it */
+static void stiffness_by_row(void **state) {
+  (void)state;
+  static kkt_case s;
+  open_system(&s);
+  double largest = ambulo__band_largest(&s.h);
+  for (int run = 0; run < 2; run++) {
+    for (int i = 0; i < LOCAL; i++) {
+      double square = 0.0, along = 0.0;
+      for (int e = s.start[0][i]; e < s.start[0][i + 1]; e++) {
+        square += s.value[0][e] * s.value[0][e];
+        along += s.value[0][e] * s.value[0][e] * s.h.a[(size_t)s.column[0][e] * (size_t)s.h.ld];
+      }
+      double curvature = run ? along / square : largest;
+      assert_close(s.kkt.penalty[i] * square / curvature, 1e4, 1e-6);
+    }
+    assert_int_equal(ambulo__kkt_by_row(&s.kkt), !run);
+    assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+  }
+  assert_int_equal(ambulo__kkt_by_row(&s.kkt), 0);
+  ambulo__pool_clear(&s.pool);
+}
+
+static void a_local_row_that_vanishes_does_no_harm(void **state) {
+  (void)state;
+  static kkt_case s;
+  double d[N], l[LOCAL] = {0.0};
+  open_system(&s);
+  for (int e = s.start[0][3]; e < s.start[0][4]; e++) s.value[0][e] = 0.0;
+  s.rhs_local[3] = 0.0;
+  assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+  assert_true(s.kkt.penalty[3] == 0.0);
+  ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+  for (int i = 0; i < N; i++) assert_true(isfinite(d[i]));
+  ambulo__pool_clear(&s.pool);
+}
+
+/* what is left counts beside the parts that make it up */
+static void small_right_hand_sides_are_as_exact(void **state) {
+  (void)state;
+  static kkt_case s;
+  double d[N], small[N], l[LOCAL] = {0.0}, other[LOCAL] = {0.0};
+  const double tiny = ldexp(1.0, -40);
+  open_system(&s);
+  ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+  for (int i = 0; i < N; i++) s.a[i] *= tiny;
+  for (int i = 0; i < LOCAL; i++) s.rhs_local[i] *= tiny;
+  for (int i = 0; i < BORDER; i++) s.rhs_border[i] *= tiny;
+  ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, small, other, NULL);
+  for (int i = 0; i < N; i++) assert_true(small[i] == tiny * d[i]);
+  ambulo__pool_clear(&s.pool);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(solution_is_the_dense_one),
       cmocka_unit_test(rows_hold_to_rounding),
       cmocka_unit_test(dependent_rows_do_no_harm),
       cmocka_unit_test(a_border_row_that_vanishes_does_no_harm),
+      cmocka_unit_test(rows_that_nearly_depend_are_made_stiffer),
+      cmocka_unit_test(stiffness_by_row),
+      cmocka_unit_test(a_local_row_that_vanishes_does_no_harm),
+      cmocka_unit_test(small_right_hand_sides_are_as_exact),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Compressed gradients are the dense ones of the public interface. */
 #include "support/engine_fixture.h"
+#include "support/problem_fixture.h"
 
 static void compare(engine_fixture *f, const ambulo__sparse_rows *rows) {
   double *want = calloc((size_t)f->n, sizeof *want), *got = calloc((size_t)f->n, sizeof *got);
@@ -124,12 +125,123 @@ static void control_point_rows_find_a_host(void **state) {
   ambulo_problem_free(problem);
 }
 
+static void scales_multiply_values_and_gradients(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  double *plain = calloc((size_t)rows->count, sizeof *plain);
+  double *scaled = calloc((size_t)rows->count, sizeof *scaled);
+  unsigned seed = 4;
+  for (int j = 0; j < f.n; j++) f.x[j] = 0.1 * random_number(&seed);
+  for (int i = 0; i < rows->count; i++) ambulo__sparse_rows_set_scale(rows, i, 1.0);
+  assert_int_equal(ambulo__evaluate_jacobian(f.engine->workspace, f.x), AMBULO_OK);
+  assert_int_equal(ambulo__sparse_rows_fill(rows, f.engine->workspace, 1), AMBULO_OK);
+  ambulo__sparse_rows_values(rows, f.engine->workspace, plain);
+  int last = rows->count - 1;
+  double norm = ambulo__sparse_rows_norm(rows, last);
+  assert_true(norm > 0.0);
+  ambulo__sparse_rows_set_scale(rows, last, -2.0);
+  assert_close(ambulo__sparse_rows_norm(rows, last), 2.0 * norm, 1e-12);
+  ambulo__sparse_rows_set_scale(rows, last, -6.0);
+  assert_close(ambulo__sparse_rows_norm(rows, last), 6.0 * norm, 1e-12);
+  ambulo__sparse_rows_values(rows, f.engine->workspace, scaled);
+  assert_close(scaled[last], -6.0 * plain[last], 1e-14);
+  assert_true(scaled[0] == plain[0] && plain[last] != 0.0);
+  free(plain);
+  free(scaled);
+  engine_close(&f);
+}
+
+static void a_gradient_that_is_not_finite_is_named(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  assert_int_equal(ambulo__evaluate_jacobian(f.engine->workspace, f.x), AMBULO_OK);
+  assert_int_equal(ambulo__sparse_rows_fill(rows, f.engine->workspace, 1), AMBULO_OK);
+  int bad = rows->count / 2;
+  rows->scale[bad] = INFINITY;
+  assert_int_equal(ambulo__sparse_rows_fill(rows, f.engine->workspace, 1), AMBULO_E_NUMERIC);
+  const ambulo__table_row *row = &f.problem->table.rows[rows->row[bad]];
+  const ambulo_fault *fault = &f.engine->workspace->fault;
+  assert_string_equal(fault->name, row->family);
+  assert_close(fault->time, row->time, 0.0);
+  engine_close(&f);
+}
+
+/* all columns of a row lie in its host's window; rows of the caller may have any of those */
+static void hosts_have_all_columns(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open_with(&f, "yardstick_12", "constraints.joint_limits=control_points");
+  const ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  for (int i = 0; i < rows->count; i++) {
+    const ambulo__table_row *row = &f.problem->table.rows[rows->row[i]];
+    int from = ambulo__node_first(f.problem, rows->host[i]);
+    int to = from + ambulo__node_width(f.problem, rows->host[i]);
+    if (row->node >= 0) continue;
+    for (int t = 0; t < row->term_count; t++) {
+      int unknown = f.problem->table.terms[row->first_term + t].channel;
+      assert_true(unknown >= from && unknown < to);
+    }
+  }
+  engine_close(&f);
+}
+
+static double height_of_hand(void *user, const ambulo_node_state *state,
+                             ambulo_node_gradient *gradient) {
+  (void)user;
+  if (gradient) gradient->points[1] += 2.0 * state->points[1];
+  return state->points[1] * state->points[1];
+}
+
+/* they may depend on all unknowns of their node, and are no straight lines */
+static void rows_of_the_caller_are_filled_anew(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  ambulo_problem_definition d = arm_definition(f.model);
+  ambulo_user_row own = {"hand", "m", AMBULO_NOT_NEGATIVE, 0.2, 0.8, height_of_hand, NULL};
+  ambulo__sparse_rows rows;
+  ambulo__pool pool;
+  int seen = 0;
+  d.user_rows = &own;
+  d.user_row_count = 1;
+  fixture_open(&f, &d);
+  int *list = calloc((size_t)f.m, sizeof *list);
+  for (int r = 0; r < f.m; r++) list[r] = r;
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__sparse_rows_create(f.problem, list, f.m, NULL, &pool, &rows), AMBULO_OK);
+  for (int fill = 1; fill >= 0; fill--) {
+    for (int j = 0; j < f.n; j++) f.x[j] += 0.1;
+    assert_int_equal(ambulo__evaluate_jacobian(f.workspace, f.x), AMBULO_OK);
+    assert_int_equal(ambulo__sparse_rows_fill(&rows, f.workspace, fill), AMBULO_OK);
+  }
+  for (int i = 0; i < f.m; i++) {
+    assert_int_equal(
+        ambulo_problem_row_gradient(f.problem, f.workspace, f.x, rows.row[i], f.gradient),
+        AMBULO_OK);
+    seen += f.problem->table.rows[i].user >= 0;
+    for (int e = rows.start[i]; e < rows.start[i + 1]; e++)
+      f.gradient[rows.column[e]] -= rows.value[e];
+    for (int j = 0; j < f.n; j++) assert_close(f.gradient[j], 0.0, 1e-12);
+  }
+  assert_true(seen > 0);
+  free(list);
+  ambulo__pool_clear(&pool);
+  fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gradients_are_the_dense_ones),
       cmocka_unit_test(transpose_is_adjoint_of_product),
       cmocka_unit_test(products_are_sums_over_entries),
       cmocka_unit_test(control_point_rows_find_a_host),
+      cmocka_unit_test(scales_multiply_values_and_gradients),
+      cmocka_unit_test(a_gradient_that_is_not_finite_is_named),
+      cmocka_unit_test(hosts_have_all_columns),
+      cmocka_unit_test(rows_of_the_caller_are_filled_anew),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
 /* NLopt's AUGLAG runs the solve: its multipliers are those that the engine works with, it iterates
  * itself, and without its update nothing is solved. */
 #define _GNU_SOURCE /* dlsym's RTLD_NEXT */
+#include "method/auglag.h"
 #include "support/engine_fixture.h"
+#include "support/arm.h"
 
 #include <dlfcn.h>
 #include <nlopt.h>
@@ -166,9 +168,84 @@ static void multipliers_are_nlopts(void **state) {
   }
 }
 
+/* NLopt starts with the engine's lambda and R, whether rows are violated or not */
+static void nlopt_starts_where_the_engine_is(void **state) {
+  (void)state;
+  for (int run = 0; run < 3; run++) {
+    engine_fixture f;
+    ambulo_ending ending;
+    engine_open_restored(&f, run == 2 ? "two_link_reach" : "yardstick_12");
+    ambulo__engine *e = f.engine;
+    ambulo__stopping stopping = ambulo__stopping_begin(0);
+    assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
+    assert_int_equal(ambulo__engine_excess(e, e->held.excess) > 0.0, run < 2);
+    for (int i = 0; i < e->inequalities; i++) e->lambda[i] = run == 1 ? 0.25 : 0.0;
+    e->rho = 160.0;
+    f.options.maximum_evaluations = f.run.evaluations + 3; /* in the first inner solve */
+    assert_int_equal(ambulo__auglag(e, &stopping, f.x, &ending), AMBULO_OK);
+    assert_int_equal(f.run.nlopt.outer, 0);
+    assert_close(e->rho, 160.0, 1e-9);
+    for (int i = 0; i < e->inequalities; i++)
+      assert_close(e->lambda[i], run == 1 ? 0.25 : 0.0, 1e-12);
+    engine_close(&f);
+  }
+}
+
+static void the_penalty_keeps_its_bound(void **state) {
+  (void)state;
+  engine_fixture f;
+  ambulo_ending ending;
+  engine_open_restored(&f, "yardstick_12");
+  ambulo__stopping stopping = ambulo__stopping_begin(0);
+  stopping.penalty_limit = 15.0;
+  f.options.maximum_iterations = 6;
+  assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
+  assert_int_equal(ending, AMBULO_ENDING_ITERATIONS);
+  assert_int_equal(f.run.nlopt.outer, 6);
+  assert_close(f.engine->rho, 15.0, 1e-9);
+  engine_close(&f);
+}
+
+static void a_centre_that_is_not_finite_is_told(void **state) {
+  (void)state;
+  engine_fixture f;
+  ambulo_ending ending = AMBULO_ENDING_NONE;
+  engine_open_restored(&f, "yardstick_12");
+  ambulo__stopping stopping = ambulo__stopping_begin(0);
+  f.x[4] = NAN;
+  assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
+  assert_int_equal(ending, AMBULO_ENDING_NOT_FINITE);
+  engine_close(&f);
+}
+
+/* without limits there is nothing to multiply */
+static void no_rows_need_no_penalty(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  engine_fixture f = {.options = ambulo_options_default()};
+  d.joint_limits = AMBULO_LIMIT_OFF;
+  d.speed_limits = d.torque_limits = 0;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f.problem), AMBULO_OK);
+  f.n = ambulo_problem_variable_count(f.problem);
+  f.x = calloc((size_t)f.n, sizeof *f.x);
+  ambulo__run_begin(&f.run, &f.options);
+  assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
+  assert_int_equal(f.engine->inequalities, 0);
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+  assert_int_equal(f.run.ending, AMBULO_ENDING_CONVERGED);
+  assert_close(f.engine->rho, 10.0, 1e-9);
+  engine_close(&f);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(without_nlopts_update_nothing_is_solved),
                                      cmocka_unit_test(nlopt_iterates),
-                                     cmocka_unit_test(multipliers_are_nlopts)};
+                                     cmocka_unit_test(multipliers_are_nlopts),
+                                     cmocka_unit_test(nlopt_starts_where_the_engine_is),
+                                     cmocka_unit_test(the_penalty_keeps_its_bound),
+                                     cmocka_unit_test(a_centre_that_is_not_finite_is_told),
+                                     cmocka_unit_test(no_rows_need_no_penalty)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,10 +52,73 @@ static void lost_point_gives_a_large_finite_value(void **state) {
   engine_close(&f);
 }
 
+/* f + sum (p^2 - lambda^2) / (2 rho), counted once; what lies above all of it elsewhere */
+static void values_are_the_formula(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_at_model_step(&f);
+  ambulo__engine *e = f.engine;
+  double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
+  int counted = f.run.evaluations;
+  double sum = 0.0, squares = 0.0;
+  e->ceiling = -HUGE_VAL;
+  double value = ambulo__augmented(e, w, NULL);
+  assert_int_equal(f.run.evaluations, counted + 1);
+  assert_true(ambulo__augmented(e, w, g) == value);
+  assert_int_equal(f.run.evaluations, counted + 1);
+  for (int i = 0; i < e->inequalities; i++) {
+    double p = fmax(0.0, e->lambda[i] + e->rho * e->held.excess[i]);
+    assert_true(e->held.multiplier[i] == p);
+    sum += p * p - e->lambda[i] * e->lambda[i];
+  }
+  assert_true(sum != 0.0);
+  assert_close(value, e->objective_scale * e->workspace->objective + sum / (2.0 * e->rho), 1e-12);
+  assert_true(e->ceiling == value);
+  e->equality_multiplier[0] = 17.0;
+  ambulo__trial_copy(e, &e->held, &e->reached);
+  assert_true(e->reached.equality_multiplier[0] == 17.0 && e->reached.value == value);
+  for (int j = 0; j < f.n; j++) {
+    w[j] = 1e6 * (j % 2 ? 1.0 : -1.0);
+    squares += w[j] * w[j];
+  }
+  double bowl = ambulo__augmented(e, w, g), height = 1.0 + fabs(value);
+  assert_close(bowl / (value + height * (1.0 + squares)), 1.0, 1e-12);
+  for (int j = 0; j < f.n; j++) assert_close(g[j] / (2.0 * height * w[j]), 1.0, 1e-12);
+  assert_true(e->ceiling == value);
+  free(w);
+  free(g);
+  engine_close(&f);
+}
+
+/* a value, a gradient, a whitened gradient that is not finite: the point is given up */
+static void what_is_not_finite_is_given_up(void **state) {
+  (void)state;
+  for (int run = 0; run < 3; run++) {
+    engine_fixture f;
+    open_at_model_step(&f);
+    ambulo__engine *e = f.engine;
+    double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
+    e->ceiling = -HUGE_VAL;
+    if (run == 0) e->lambda[0] = INFINITY;
+    double value = ambulo__augmented(e, w, NULL);
+    if (run == 0) assert_true(value == 1.0); /* the bottom of the bowl */
+    if (run == 1) e->objective_scale = NAN;
+    if (run == 2) e->whitener.a[0] = INFINITY;
+    double bowl = run == 0 ? 1.0 : value + 1.0 + fabs(value);
+    assert_close(ambulo__augmented(e, w, g), bowl, 1e-12);
+    for (int j = 0; j < f.n; j++) assert_true(g[j] == 0.0);
+    free(w);
+    free(g);
+    engine_close(&f);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gradient_is_the_slope),
       cmocka_unit_test(lost_point_gives_a_large_finite_value),
+      cmocka_unit_test(values_are_the_formula),
+      cmocka_unit_test(what_is_not_finite_is_given_up),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,8 +66,52 @@ static void densities_are_linear_between_nodes(void **state) {
   engine_close(&fine);
 }
 
+/* beside a hole in time a density lasts for half an interval; nothing carried is nothing */
+static void holes_stay_empty(void **state) {
+  (void)state;
+  engine_fixture coarse, fine;
+  ambulo__carried carried = {0}, none = {0};
+  const ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  engine_open_with(&coarse, "walk_normal", "time.intervals=24");
+  engine_open_with(&fine, "walk_normal", "time.intervals=96");
+  ambulo__engine *c = coarse.engine, *e = fine.engine;
+  double T = coarse.problem->definition.duration, interval = T / 24.0, worst = 0.0;
+  for (int i = 0; i < c->inequalities; i++) {
+    const ambulo__table_row *row = row_of(c, i);
+    double scale = -c->rows.inequality.scale[i];
+    if (strcmp(row->family, "joint_limit") == 0 && row->node >= 0)
+      c->lambda[i] = coarse.problem->quadrature[row->node] * c->objective_scale / scale;
+  }
+  c->reached.objective = -3.0 * c->objective_scale;
+  assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
+  int kept = 0; /* the rows from 5 to 10 intervals go */
+  for (int k = 0; k < carried.count; k++) {
+    double at = carried.row[k].time / interval;
+    if (at < 4.5 || at > 10.5) carried.row[kept++] = carried.row[k];
+  }
+  carried.count = kept;
+  ambulo__carry_to(&carried, e);
+  assert_close(e->carried_objective, 3.0, 1e-12);
+  for (int i = 0; i < e->inequalities; i++) {
+    const ambulo__table_row *row = row_of(e, i);
+    if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) continue;
+    double scale = -e->rows.inequality.scale[i], at = row->time / interval;
+    double density =
+        e->lambda[i] * scale / (e->objective_scale * fine.problem->quadrature[row->node]);
+    worst = fmax(worst, fabs(density - (at > 4.6 && at < 10.4 ? 0.0 : 1.0)));
+  }
+  assert_close(worst, 0.0, 1e-9);
+  ambulo__carry_to(&none, e);
+  assert_true(e->carried_objective == -1.0);
+  for (int i = 0; i < e->inequalities; i++) assert_true(e->lambda[i] == 0.0);
+  ambulo__carry_clear(&a, &carried);
+  engine_close(&coarse);
+  engine_close(&fine);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(on_the_same_grid_nothing_changes),
-                                     cmocka_unit_test(densities_are_linear_between_nodes)};
+                                     cmocka_unit_test(densities_are_linear_between_nodes),
+                                     cmocka_unit_test(holes_stay_empty)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

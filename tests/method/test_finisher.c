@@ -55,11 +55,36 @@ static void large_problems_are_left_alone(void **state) {
   ambulo_diagnostics_free(messages);
 }
 
+/* the engine keeps its scale and its tolerances; rows to rounding, the same minimum */
+static void the_engine_is_given_back(void **state) {
+  (void)state;
+  engine_fixture f;
+  const char *message = NULL;
+  engine_open(&f, "walker_2d_step");
+  f.options.feasibility_tolerance = 1e-4;
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+  ambulo__engine *e = f.engine;
+  double scale = e->objective_scale, adjoint = e->adjoint_tolerance;
+  double retraction = e->retraction_tolerance;
+  assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
+  double before = e->workspace->objective;
+  assert_int_equal(ambulo__finish(e, f.x, &message), AMBULO_OK);
+  assert_non_null(message);
+  assert_true(e->objective_scale == scale && e->adjoint_tolerance == adjoint);
+  assert_true(e->retraction_tolerance == retraction);
+  assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
+  assert_true(ambulo__engine_equality_error(e) <= 1e-9);
+  assert_true(ambulo__engine_excess(e, e->held.excess) <= 1e-8);
+  assert_close(e->workspace->objective / before, 1.0, 1e-3);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rows_hold_to_rounding),
       cmocka_unit_test(a_limit_keeps_the_point),
       cmocka_unit_test(large_problems_are_left_alone),
+      cmocka_unit_test(the_engine_is_given_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -138,8 +138,26 @@ static void penalty_starts_as_in_the_paper(void **state) {
   ambulo__pool_clear(&pool);
 }
 
+static void its_bounds_are_nlopts(void **state) {
+  (void)state;
+  ambulo__pool pool;
+  ambulo__mirror none, one;
+  double row[] = {1e30};
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__mirror_create(0, &pool, &none), AMBULO_OK);
+  assert_int_equal(ambulo__mirror_create(1, &pool, &one), AMBULO_OK);
+  ambulo__mirror_start(&none, 5.0, row);
+  assert_true(none.penalty == 1.0);
+  ambulo__mirror_start(&one, 5.0, row);
+  assert_true(one.penalty == 1e-6);
+  (void)ambulo__mirror_update(&one, row);
+  assert_true(one.multiplier[0] == 1e20);
+  ambulo__pool_clear(&pool);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(update_is_nlopts),
-                                     cmocka_unit_test(penalty_starts_as_in_the_paper)};
+                                     cmocka_unit_test(penalty_starts_as_in_the_paper),
+                                     cmocka_unit_test(its_bounds_are_nlopts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,10 +79,9 @@ static void every_way_finds_a_step(void **state) {
   (void)state;
   double slsqp = step_of("walker_2d_step", AMBULO_SLSQP, 1);
   double auglag = step_of("walker_2d_step", AMBULO_AUGLAG, 1);
-  if (!(slsqp < 0.3)) print_error("SLSQP: objective %g\n", slsqp);
-  assert_true(slsqp < 0.3);
-  if (!(auglag < 0.6)) print_error("AUGLAG: objective %g\n", auglag);
-  assert_true(auglag < 0.6);
+  /* a minimum near zero; the whitened solve finds a lower one, 0.233904 */
+  assert_close(slsqp / 0.270751, 1.0, 1e-3);
+  assert_close(auglag / 0.270751, 1.0, 0.05); /* it ends on its way there, feasible */
 }
 
 /* ends feasible, which step_of asserts */
@@ -96,8 +95,7 @@ static void every_way_ends_a_step_as_shipped(void **state) {
 static void auglag_finds_a_gait(void **state) {
   (void)state;
   double objective = step_of("yardstick_12", AMBULO_AUGLAG, 1);
-  if (!(objective < 0.8)) print_error("AUGLAG: objective %g\n", objective);
-  assert_true(objective < 0.8);
+  assert_close(objective / 0.449616, 1.0, 1e-3);
 }
 
 /* (q0 - 2)^2 + (q1 + 1)^2 at every node */

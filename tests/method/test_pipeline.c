@@ -105,11 +105,134 @@ static void tracking_has_no_lower_bound_to_rest_on(void **state) {
   }
 }
 
+/* a run that is stopped as soon as the equalities hold: what the method starts with */
+static void open_stopped(engine_fixture *f, ambulo_discretization discretization) {
+  double error;
+  engine_open(f, "yardstick_12");
+  f->problem->definition.discretization = discretization;
+  assert_int_equal(ambulo__restore(f->engine, f->x, &error), AMBULO_OK);
+  f->run.stopped = 1;
+  for (int i = 0; i < f->engine->inequalities; i++) f->engine->lambda[i] = 0.25;
+  for (int i = 0; i < f->engine->equalities; i++) f->engine->equality_multiplier[i] = 0.5;
+  f->engine->reached.value = 1.0;
+}
+
+static void each_start_has_its_penalty_and_damping(void **state) {
+  (void)state;
+  static const struct {
+    ambulo__stage stage;
+    ambulo_discretization discretization;
+    double carried, rho, mu, lambda; /* carried: times the objective there; < 0: nothing is */
+  } cases[] = {
+      {AMBULO__FAR, AMBULO_BSPLINE, -1.0, 10.0, 0.3, 0.0},
+      {AMBULO__NEAR, AMBULO_BSPLINE, -1.0, 3000.0, 0.3, 0.0},
+      {AMBULO__FAR, AMBULO_CENTRAL_DIFFERENCE, -1.0, 10.0, 0.06, 0.0},
+      {AMBULO__FAR, AMBULO_BSPLINE, 0.51, 160.0, 0.075,
+       0.25}, /* the coarser grid had resolved it */
+      {AMBULO__FAR, AMBULO_BSPLINE, 0.49, 10.0, 0.3, 0.0},
+  };
+  for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+    engine_fixture f;
+    open_stopped(&f, cases[c].discretization);
+    ambulo__engine *e = f.engine;
+    assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
+    e->carried_objective = cases[c].carried < 0 ? -1.0 : cases[c].carried * e->workspace->objective;
+    assert_int_equal(ambulo__pipeline(e, cases[c].stage, f.x), AMBULO_OK);
+    double interval = f.problem->definition.duration / ambulo__basis_intervals(f.problem->basis);
+    assert_close(e->rho, cases[c].rho, 0.0);
+    assert_close(e->mu / interval, cases[c].mu, 1e-12);
+    assert_true(e->lambda[3] == cases[c].lambda && e->equality_multiplier[0] == 0.0);
+    assert_true(e->carried_objective == -1.0 && e->reached.value == HUGE_VAL);
+    engine_close(&f);
+  }
+}
+
+static void a_start_that_leads_nowhere_is_told(void **state) {
+  (void)state;
+  for (int run = 0; run < 2; run++) {
+    engine_fixture f;
+    engine_open(&f, "yardstick_12");
+    f.x[3] = run ? NAN : 0.0;
+    f.options.maximum_evaluations = 0; /* restoring stops at once */
+    if (run) f.options.maximum_evaluations = 1000;
+    ambulo_status status = ambulo__pipeline(f.engine, AMBULO__FAR, f.x);
+    assert_int_equal(status, run ? AMBULO_E_NUMERIC : AMBULO_OK);
+    if (run) assert_int_equal(f.run.ending, AMBULO_ENDING_NOT_FINITE);
+    assert_true(f.engine->reached.value == HUGE_VAL);
+    assert_true(f.engine->rho == 10.0 && f.run.nlopt.calls == 0);
+    engine_close(&f);
+  }
+}
+
+/* by the caller's limit on iterations, or on evaluations: the rows hold where they nearly did */
+static void what_is_cut_short_is_polished(void **state) {
+  (void)state;
+  for (int run = 0; run < 2; run++) {
+    int polished = 0;
+    for (int limit = 4; limit < 8; limit++) {
+      engine_fixture f;
+      engine_open(&f, "yardstick_12");
+      if (run == 0) f.options.maximum_iterations = limit;
+      if (run == 1) f.options.maximum_evaluations = 10 * limit;
+      assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+      double before = f.engine->reached.violation;
+      assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+      double after = ambulo__engine_excess(f.engine, f.engine->held.excess);
+      if (f.engine->reached.value < HUGE_VAL && before > 1e-4 && before < 1e-2) {
+        assert_true(after <= 1e-6);
+        polished++;
+      }
+      engine_close(&f);
+    }
+    if (polished == 0) print_error("run %d: no point between\n", run);
+    assert_true(polished > 0);
+  }
+}
+
+/* the engine is left as it was, but for lambda; a point that cannot be had stays */
+static void polish_gives_back_what_it_takes(void **state) {
+  (void)state;
+  for (int run = 0; run < 2; run++) {
+    engine_fixture f;
+    engine_open(&f, "yardstick_12");
+    f.options.feasibility_tolerance = 1e-3;
+    assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+    ambulo__engine *e = f.engine;
+    double *x = calloc((size_t)f.n, sizeof *x), rho = e->rho, moved = 0.0;
+    assert_true(rho < 1e5);
+    memcpy(x, f.x, (size_t)f.n * sizeof *x);
+    for (int i = 0; i < e->equalities; i++) e->equality_multiplier[i] = 1e3;
+    f.options.feasibility_tolerance = run ? 1e-30 : 1e-8;
+    assert_int_equal(ambulo__polish(e, f.x), !run);
+    assert_true(e->rho == rho);
+    for (int i = 0; i < e->equalities; i++)
+      assert_true(e->equality_multiplier[i] == e->reached.equality_multiplier[i]);
+    for (int j = 0; j < f.n; j++) moved = fmax(moved, fabs(f.x[j] - x[j]));
+    assert_int_equal(moved > 0.0, !run);
+    if (!run) {
+      for (int i = 0; i < e->inequalities; i++)
+        assert_true(e->lambda[i] == e->reached.multiplier[i]);
+      assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
+      /* to a fifth of the tolerance, and rows with a force to it from both sides */
+      assert_true(ambulo__engine_excess(e, e->held.excess) <= 0.2e-8);
+      for (int i = 0; i < e->inequalities; i++) {
+        if (e->reached.multiplier[i] > 0.1) assert_close(e->held.excess[i], 0.0, 1e-6);
+      }
+    }
+    free(x);
+    engine_close(&f);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_reaches_its_optimum),
                                      cmocka_unit_test(polish_closes_what_is_left),
                                      cmocka_unit_test(tight_tolerances_are_met),
                                      cmocka_unit_test(vanishing_objective_ends_the_solve),
-                                     cmocka_unit_test(tracking_has_no_lower_bound_to_rest_on)};
+                                     cmocka_unit_test(tracking_has_no_lower_bound_to_rest_on),
+                                     cmocka_unit_test(each_start_has_its_penalty_and_damping),
+                                     cmocka_unit_test(a_start_that_leads_nowhere_is_told),
+                                     cmocka_unit_test(what_is_cut_short_is_polished),
+                                     cmocka_unit_test(polish_gives_back_what_it_takes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -91,11 +91,34 @@ static void two_values_at_once_contradict_each_other(void **state) {
   ambulo_diagnostics_free(list);
 }
 
+static void rows_are_measured_by_their_sizes(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open_with(&f, "walk_normal", "constraints.torque_limits=true");
+  ambulo__rows_split *rows = &f.engine->rows;
+  int other = 0;
+  for (int i = 0; i < rows->inequality.count; i++) {
+    double size = f.problem->table.rows[rows->inequality.row[i]].size;
+    assert_true(rows->size[i] == size &&
+                ambulo__rows_size(f.problem, &rows->inequality, i) == size);
+    assert_close(rows->inequality.scale[i] * size, -1.0, 1e-14);
+    other |= size != 1.0;
+  }
+  assert_true(other);
+  assert_int_equal(rows->regular, 1);
+  assert_int_equal(ambulo__rows_contradict(rows, f.problem->rows), 0);
+  rows->rank[f.problem->rows - 1] = AMBULO__ROW_CONTRADICTORY;
+  assert_int_equal(ambulo__rows_contradict(rows, f.problem->rows), 1);
+  assert_int_equal(ambulo__rows_contradict(rows, f.problem->rows - 1), 0);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(flat_soles_and_the_periodic_end_are_dropped),
       cmocka_unit_test(repeated_value_is_a_copy),
       cmocka_unit_test(two_values_at_once_contradict_each_other),
+      cmocka_unit_test(rows_are_measured_by_their_sizes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

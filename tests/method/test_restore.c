@@ -27,9 +27,24 @@ static void end_states_are_met(void **state) {
   equalities_hold_after("two_link_reach");
 }
 
+static void a_run_that_is_over_does_not_move(void **state) {
+  (void)state;
+  engine_fixture f;
+  double error;
+  engine_open(&f, "yardstick_12");
+  unsigned seed = 7;
+  double *start = calloc((size_t)f.n, sizeof *start);
+  for (int j = 0; j < f.n; j++) f.x[j] = start[j] = 2.0 * random_number(&seed);
+  f.options.maximum_evaluations = 0; /* the first point is all there is */
+  assert_int_equal(ambulo__restore(f.engine, f.x, &error), AMBULO_OK);
+  assert_true(error > 1e-3 && memcmp(start, f.x, (size_t)f.n * sizeof *start) == 0);
+  free(start);
+  engine_close(&f);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_walks),
-                                     cmocka_unit_test(mirrored_step_closes),
-                                     cmocka_unit_test(end_states_are_met)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(yardstick_walks), cmocka_unit_test(mirrored_step_closes),
+      cmocka_unit_test(end_states_are_met), cmocka_unit_test(a_run_that_is_over_does_not_move)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

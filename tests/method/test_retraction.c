@@ -49,11 +49,60 @@ static void hopeless_point_is_refused(void **state) {
   engine_close(&f);
 }
 
+/* to rounding, which some points cannot be better than; what happened is remembered */
+static void tight_tolerances_and_faults(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_factored(&f);
+  f.engine->retraction_tolerance = 0.0;
+  double t = ambulo__engine_step_limit(f.engine, f.engine->total, 0.05);
+  for (int j = 0; j < f.n; j++) f.x[j] += t * f.engine->total[j];
+  assert_int_equal(ambulo__retract(f.engine, f.x), 1);
+  assert_true(ambulo__engine_equality_error(f.engine) <= 1e-11);
+  f.x[0] = NAN;
+  int faults = f.run.faults;
+  assert_int_equal(ambulo__retract(f.engine, f.x), 0);
+  assert_int_equal(f.run.faults, faults + 1);
+  engine_close(&f);
+}
+
+/* further for each digit that is asked for; mixing makes it few passes */
+static void gradients_are_as_exact_as_asked(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_factored(&f);
+  ambulo__engine *e = f.engine;
+  double *exact = calloc((size_t)f.n, sizeof *exact), *z = calloc((size_t)f.n, sizeof *z);
+  double t = ambulo__engine_step_limit(e, e->total, 0.3), size = 0.0, off[2] = {0.0, 0.0};
+  for (int j = 0; j < f.n; j++) f.x[j] += t * e->total[j];
+  assert_int_equal(ambulo__retract(e, f.x), 1);
+  e->adjoint_tolerance = 1e-12;
+  for (int k = 0; k < 6; k++) /* each goes on from the last */
+    assert_int_equal(ambulo__reduced_gradient(e, e->lambda, exact), AMBULO_OK);
+  for (int run = 0; run < 2; run++) {
+    e->adjoint_tolerance = run ? 1e-8 : 1e-3;
+    memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *z);
+    assert_int_equal(ambulo__reduced_gradient(e, e->lambda, z), AMBULO_OK);
+    for (int j = 0; j < f.n; j++) {
+      size = fmax(size, fabs(exact[j]));
+      off[run] = fmax(off[run], fabs(z[j] - exact[j]));
+    }
+  }
+  if (!(off[0] <= 3e-3 * size && off[1] <= 1e-6 * size))
+    print_error("%g and %g of %g\n", off[0], off[1], size);
+  assert_true(off[0] <= 3e-3 * size && off[1] <= 1e-6 * size);
+  free(exact);
+  free(z);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(point_nearby_is_carried_to_the_surface),
       cmocka_unit_test(reduced_gradient_is_tangent),
       cmocka_unit_test(hopeless_point_is_refused),
+      cmocka_unit_test(tight_tolerances_and_faults),
+      cmocka_unit_test(gradients_are_as_exact_as_asked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
