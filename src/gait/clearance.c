@@ -92,6 +92,7 @@ static void swing_rows(const swing *w) {
   track_band(w);
 }
 
+/* (14.e) n.r - h of a foot in the air, at least its clearance */
 void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
   for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {

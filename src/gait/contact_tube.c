@@ -87,6 +87,7 @@ static void contact_rows(const tube *t) {
   angle_band(t, &roll, "left side low", "left side high", -o, o);
 }
 
+/* (14.e) corners within a tolerance of where they are due */
 void ambulo__contact_tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);

@@ -129,6 +129,7 @@ static void node_rows(const node_frame *n) {
   if (r->free_moment >= 0.0 && !n->planar) free_moment_rows(n);
 }
 
+/* (W.7) boxes of pressure, friction, free moment */
 void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(model, &table->allocator);

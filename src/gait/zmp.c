@@ -24,6 +24,7 @@
 /* a region smaller than this (m^2, planar: m) is empty */
 static const double smallest_region = 1e-9;
 
+/* (17') one side of the support region, without the division by n.F */
 void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table) {

@@ -57,6 +57,7 @@ static void keep_worse(ambulo_violation v, ambulo_violation *worst) {
     *worst = v;
 }
 
+/* (A.1) |c|, max(0, -c) */
 static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
   result->audit.violation = no_violation(0.0);
   for (int g = 0; g < p->table.group_count; g++) result->family[g] = no_violation(0.0);
@@ -69,7 +70,7 @@ static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
 
 /* ------------------------------------------------------- first-order conditions */
 
-/* solves the cone problem; the direction stays in engine->total; 0 on success */
+/* (A.3): solves the cone problem; the direction stays in engine->total; 0 on success */
 static int project(ambulo__engine *e) {
   double decrease, bound = cone_tolerance * ambulo__largest(e->gradient, (size_t)e->n);
   ambulo__band_clear(&e->base);

@@ -137,7 +137,7 @@ static void take_multipliers(session *s) {
     e->lambda[i] = s->mirror.multiplier[i] + s->mirror.penalty * s->shift[i];
 }
 
-/* NLopt's update, and the growth of R that it leads to */
+/* (P.12): NLopt's update, and the growth of R that it leads to */
 static void update_multipliers(session *s) {
   ambulo__engine *e = s->engine;
   if (ambulo__mirror_update(&s->mirror, s->row)) {
