@@ -6,7 +6,7 @@
  * toe centre straight ahead, l . r_toe - place_l = 0: the heading. Rows along left are
  * left out where no coordinate can move the point sideways.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
 static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,

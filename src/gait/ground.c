@@ -6,7 +6,7 @@
  * The four corners of a flat spatial sole are coplanar, so one of its
  * four rows depends on the others; the solver's rank check drops it.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
 static void height_row(const ambulo__gait_frame *frame, int node, int point,

@@ -15,7 +15,7 @@
  * (a, b) = n x (v_k+1 - v_k) / |v_k+1 - v_k|, c = (a, b) . v_k + margin.
  * The sign of n . F is held by its own row: n.F / mg - minimum_force >= 0.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/neutral_pose.h"
 #include "gait/support_polygon.h"
 
