@@ -13,6 +13,9 @@
  *
  * kkt is relative to g, which vanishes where the objective reaches zero, its lower bound: there
  * the bound itself is the proof (engine.c, negligible_objective).
+ *
+ * Reading order: result.h, audit.c, verdict.c, candidates.h; between the nodes: dense.h and what
+ * it lists; why there is no solution: explain.h, elastic.h, relax.c, suggest.h.
  */
 #include "judge/audit.h"
 #include "base/worst.h"
