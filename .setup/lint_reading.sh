@@ -5,6 +5,7 @@
 #   in that folder, or below src/
 #   every `src/...` file of docs/solver.md and docs/glossary.md exists, and every function named with
 #   it is in it
+#   no two headers of src/ declare types of one name
 #   the list "Follow one control point" of docs/solver.md has at most 60 files
 set -u
 most=60
@@ -35,6 +36,11 @@ for page in docs/solver.md docs/glossary.md; do
     fi
   done < <(grep -oE '`(src|tests|include)/[a-z0-9_/]+\.[a-z0-9]+(:[A-Za-z0-9_]+)?`' "$page" |
     tr -d '`' | sort -u)
+done
+
+for name in $(grep -rhoE '^(typedef )?(struct|union|enum) [a-z0-9_]+ \{' src --include='*.h' |
+  sed -E 's/^(typedef )?[a-z]+ ([a-z0-9_]+) .*/\2/' | sort | uniq -d); do
+  say "$name is declared in $(grep -rlE "(struct|union|enum) $name \{" src --include='*.h' | xargs)"
 done
 
 count=$(sed -n '/^## Follow one control point/,/^## /p' docs/solver.md |
