@@ -101,7 +101,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
   sanitize valgrind check-kill check-slurm coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers \
-  lint-equations lint-keys lint-leftovers format \
+  lint-equations lint-reading lint-keys lint-leftovers format \
   install uninstall clean force
 
 # A second make with as many jobs as there are processors, unless -j was given. It also reads
@@ -250,7 +250,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols callers mirror headers equations keys leftovers
+LINT := format static order size symbols callers mirror headers equations reading keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
@@ -283,6 +283,8 @@ lint-headers:
 	@CC='$(CC)' .setup/lint_headers.sh
 lint-equations:
 	@.setup/lint_equations.sh
+lint-reading:
+	@.setup/lint_reading.sh
 lint-keys:
 	@.setup/lint_keys.sh
 lint-leftovers:

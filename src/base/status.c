@@ -1,4 +1,9 @@
-/* base/status.c - names, texts and exit codes of statuses, from the one list. */
+/* base/status.c - names, texts and exit codes of statuses, from the one list.
+ *
+ * Reading order: status.c, alloc.h, diagnostics.h, worst.h (how maxima treat what is not finite),
+ * lanes.h (the layout of all node arrays), clock.h; then, where files are written, atomic_file.h,
+ * file_steps.h, seal.h; the rest as it is called.
+ */
 #include "ambulo/ambulo.h"
 
 const char *ambulo_status_name(ambulo_status status) {

@@ -2,7 +2,11 @@
  *
  * One thread, one loop: every 2 ms it asks which workers ended, which exceeded their time, and,
  * five times a second, what the caller wants. A case counts once its record is on disk, and is
- * computed again otherwise, so the supervisor may be killed anywhere. */
+ * computed again otherwise, so the supervisor may be killed anywhere.
+ *
+ * Reading order: run.h, run.c, schedule.c, listing.h, worker.h, record.h, outcome.c, lock.h,
+ * clean.h, machine.h.
+ */
 #include "batch/run.h"
 #include "base/clock.h"
 #include "base/file_steps.h"

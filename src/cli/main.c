@@ -1,4 +1,8 @@
-/* cli/main.c - the program: finds the command, runs it, and makes sure its output arrived. */
+/* cli/main.c - the program: finds the command, runs it, and makes sure its output arrived.
+ *
+ * Reading order: main.c, commands.h, args.h, load.h, cmd_solve.c, output.h, summary.h; the other
+ * commands alike.
+ */
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,8 @@
-/* collect/collect.c - the table of a batch folder. */
+/* collect/collect.c - the table of a batch folder.
+ *
+ * Reading order: gather.h, collect.c, outputs.h, verify.c; plot.h, plot.c, plot_layout.c and the
+ * other plot files.
+ */
 #include "base/atomic_file.h"
 #include "base/numtext.h"
 #include "base/paths.h"

@@ -1,4 +1,8 @@
-/* compare/compare.c - ambulo_compare(): a result folder against normative curves. */
+/* compare/compare.c - ambulo_compare(): a result folder against normative curves.
+ *
+ * Reading order: compare_reference.h, compare_map.h, compare_cycle.h, compare_samples.c,
+ * compare_score.h, compare.c, compare_doubt.h.
+ */
 #include "compare/compare_cycle.h"
 #include "compare/compare_doubt.h"
 #include "compare/compare_score.h"

@@ -2,7 +2,12 @@
  *
  * libyaml has no depth limit and takes quadratic time in the depth, accepts duplicate keys
  * and further documents silently, and passes aliases that nothing defines: all of these are
- * refused here, event by event. Its own memory does not come from the allocator hook. */
+ * refused here, event by event. Its own memory does not come from the allocator hook.
+ *
+ * Reading order: yaml_node.h, yaml_tree.h, yaml_parse.c, yaml_scan.c, yaml_get.c, yaml_set.c;
+ * then tables: table_text.h, table_read.c, table_header.h, sheet.h; motions: motion_file.h,
+ * motion_csv.c, motion_sto.c; JSON: json_text.h.
+ */
 #include "format/yaml_tree.h"
 
 #include <stdio.h>

@@ -22,24 +22,24 @@ typedef struct swing {
   ambulo__row_table *table;
 } swing;
 
-static void height_band(const swing *w, int point, double low) {
+static void height_bounds(const swing *w, int point, double low) {
   const ambulo__gait_frame *frame = w->frame;
   ambulo__linear form = {.constant = -frame->definition->ground_height};
   ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), frame->model->up,
                      1.0);
-  ambulo__band_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[point].name, "low", "high",
-                            AMBULO__METRES};
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[point].name, "low",
+                               "high", AMBULO__METRES};
   double ceiling = frame->definition->clearance.ceiling;
-  ambulo__band_rows(frame, w->node, &name, &form, low, ceiling, w->table);
+  ambulo__bounded_rows(frame, w->node, &name, &form, low, ceiling, w->table);
 }
 
-static void turn_band(const swing *w, const ambulo__linear *form, const char *lower,
-                      const char *upper) {
+static void turn_bounds(const swing *w, const ambulo__linear *form, const char *lower,
+                        const char *upper) {
   if (form->count == 0) return;
   double turn = w->frame->definition->clearance.turn;
-  ambulo__band_name name = {AMBULO__KIND_CLEARANCE, w->frame->model->feet[w->foot].name, lower,
-                            upper, AMBULO__RADIANS};
-  ambulo__band_rows(w->frame, w->node, &name, form, -turn, turn, w->table);
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, w->frame->model->feet[w->foot].name, lower,
+                               upper, AMBULO__RADIANS};
+  ambulo__bounded_rows(w->frame, w->node, &name, form, -turn, turn, w->table);
 }
 
 /* Lateral place of the foot's nearest contact, the next one first; 0 if it has none. */
@@ -57,7 +57,7 @@ static int track_of(const ambulo__gait_frame *frame, int foot, double time, doub
   return isfinite(nearest);
 }
 
-static void track_band(const swing *w) {
+static void track_bounds(const swing *w) {
   const ambulo__gait_frame *frame = w->frame;
   const ambulo_clearance *c = &frame->definition->clearance;
   int heel = frame->model->feet[w->foot].heel_center;
@@ -70,10 +70,10 @@ static void track_band(const swing *w) {
   ambulo__linear form = {.constant = -track};
   ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, heel, 0), frame->model->left,
                      1.0);
-  ambulo__band_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[heel].name, "to the right",
-                            "to the left", AMBULO__METRES};
-  ambulo__band_rows(frame, w->node, &name, &form, is_left ? -c->inward : -c->outward,
-                    is_left ? c->outward : c->inward, w->table);
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[heel].name,
+                               "to the right", "to the left", AMBULO__METRES};
+  ambulo__bounded_rows(frame, w->node, &name, &form, is_left ? -c->inward : -c->outward,
+                       is_left ? c->outward : c->inward, w->table);
 }
 
 static void swing_rows(const swing *w) {
@@ -81,17 +81,18 @@ static void swing_rows(const swing *w) {
   const ambulo_foot *foot = &w->frame->model->feet[w->foot];
   double s = w->phase;
   double low = c->height * fmax(0.0, fmin(1.0, fmin(4.0 * s, 6.0 * (1.0 - s))));
-  height_band(w, foot->heel_center, 0.5 * low);
-  height_band(w, foot->toe_center, low);
-  if (foot->has_tip && s >= c->tip_from) height_band(w, foot->tip, low);
+  height_bounds(w, foot->heel_center, 0.5 * low);
+  height_bounds(w, foot->toe_center, low);
+  if (foot->has_tip && s >= c->tip_from) height_bounds(w, foot->tip, low);
   if (!ambulo__foot_outline_of(w->frame->model, w->foot).moves_sideways) return;
   ambulo__linear yaw = ambulo__foot_yaw(w->frame, w->foot);
   ambulo__linear roll = ambulo__foot_roll(w->frame, w->foot);
-  turn_band(w, &yaw, "turned right", "turned left");
-  turn_band(w, &roll, "left side low", "left side high");
-  track_band(w);
+  turn_bounds(w, &yaw, "turned right", "turned left");
+  turn_bounds(w, &roll, "left side low", "left side high");
+  track_bounds(w);
 }
 
+/* (14.e) n.r - h of a foot in the air, at least its clearance */
 void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
   for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {

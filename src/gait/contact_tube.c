@@ -27,23 +27,23 @@ typedef struct tube {
   ambulo__row_table *table;
 } tube;
 
-static void place_band(const tube *t, int point, const double direction[3], double place,
-                       const char *lower, const char *upper) {
+static void place_bounds(const tube *t, int point, const double direction[3], double place,
+                         const char *lower, const char *upper) {
   const ambulo__gait_frame *frame = t->frame;
   double e = frame->definition->contact_tolerance;
   ambulo__linear form = {.constant = -place};
   ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), direction, 1.0);
-  ambulo__band_name name = {AMBULO__KIND_CONTACT, frame->model->points[point].name, lower, upper,
-                            AMBULO__METRES};
-  ambulo__band_rows(frame, t->node, &name, &form, -e, e, t->table);
+  ambulo__bounded_name name = {AMBULO__KIND_CONTACT, frame->model->points[point].name, lower, upper,
+                               AMBULO__METRES};
+  ambulo__bounded_rows(frame, t->node, &name, &form, -e, e, t->table);
 }
 
-static void angle_band(const tube *t, const ambulo__linear *form, const char *lower,
-                       const char *upper, double low, double high) {
+static void angle_bounds(const tube *t, const ambulo__linear *form, const char *lower,
+                         const char *upper, double low, double high) {
   if (form->count == 0) return;
   const char *foot = t->frame->model->feet[t->contact->foot].name;
-  ambulo__band_name name = {AMBULO__KIND_CONTACT, foot, lower, upper, AMBULO__RADIANS};
-  ambulo__band_rows(t->frame, t->node, &name, form, low, high, t->table);
+  ambulo__bounded_name name = {AMBULO__KIND_CONTACT, foot, lower, upper, AMBULO__RADIANS};
+  ambulo__bounded_rows(t->frame, t->node, &name, form, low, high, t->table);
 }
 
 /* 1 at the first node of a loaded foot's contact */
@@ -55,7 +55,7 @@ static int is_strike(const tube *t) {
          time - span.from < step * (1.0 - 1e-6);
 }
 
-static void pitch_band(const tube *t) {
+static void pitch_bounds(const tube *t) {
   const ambulo_problem_definition *d = t->frame->definition;
   double o = d->orientation_tolerance, low = -o, high = o;
   ambulo__linear pitch = ambulo__foot_pitch(t->frame, t->contact->foot);
@@ -67,7 +67,7 @@ static void pitch_band(const tube *t) {
     low = strike ? sin(d->strike_pitch[0]) : 0.0;
     high = strike ? sin(d->strike_pitch[1]) : most_toes_up;
   }
-  angle_band(t, &pitch, "toes low", "toes high", low, high);
+  angle_bounds(t, &pitch, "toes low", "toes high", low, high);
 }
 
 static void contact_rows(const tube *t) {
@@ -75,18 +75,19 @@ static void contact_rows(const tube *t) {
   const ambulo_problem_definition *d = t->frame->definition;
   double place[2];
   int point = ambulo__contact_point(model, t->outline, t->contact, place);
-  place_band(t, point, model->forward, place[0], "behind", "ahead");
-  place_band(t, point, model->up, d->ground_height, "below", "above");
-  pitch_band(t);
+  place_bounds(t, point, model->forward, place[0], "behind", "ahead");
+  place_bounds(t, point, model->up, d->ground_height, "below", "above");
+  pitch_bounds(t);
   if (!t->outline->moves_sideways) return;
-  place_band(t, point, model->left, place[1], "to the right", "to the left");
+  place_bounds(t, point, model->left, place[1], "to the right", "to the left");
   double o = d->orientation_tolerance * (t->contact->mode == AMBULO_CONTACT_TOE ? 2.0 : 1.0);
   ambulo__linear yaw = ambulo__foot_yaw(t->frame, t->contact->foot);
   ambulo__linear roll = ambulo__foot_roll(t->frame, t->contact->foot);
-  angle_band(t, &yaw, "turned right", "turned left", -o, o);
-  angle_band(t, &roll, "left side low", "left side high", -o, o);
+  angle_bounds(t, &yaw, "turned right", "turned left", -o, o);
+  angle_bounds(t, &roll, "left side low", "left side high", -o, o);
 }
 
+/* (14.e) corners within a tolerance of where they are due */
 void ambulo__contact_tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);

@@ -69,6 +69,7 @@ static void matching_row(const ambulo__gait_frame *frame, int i, int order, int 
   ambulo__row_term_add(table, 0, channel_of(&frame->channels, order, i), -sign * scale);
 }
 
+/* (14.d) what is prescribed, repeated or mirrored at the ends */
 void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   const ambulo_problem_definition *definition = frame->definition;
   for (int e = 0; e < definition->end_value_count; e++) {

@@ -11,7 +11,7 @@
 #ifndef AMBULO_GAIT_FOOT_FRAME_H
 #define AMBULO_GAIT_FOOT_FRAME_H
 
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
 ambulo__linear ambulo__foot_yaw(const ambulo__gait_frame *frame, int foot);

@@ -6,7 +6,7 @@
  * toe centre straight ahead, l . r_toe - place_l = 0: the heading. Rows along left are
  * left out where no coordinate can move the point sideways.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
 static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,
@@ -32,6 +32,7 @@ static void contact_rows(const ambulo__gait_frame *frame, int node, const ambulo
   place_row(frame, node, toe, "heading", model->left, place[1], table);
 }
 
+/* (14.b) r - foothold = 0 while a corner is down */
 void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);

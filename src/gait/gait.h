@@ -2,6 +2,10 @@
  *
  * One function a family; each appends its rows for all nodes in node order. All take
  * the same frame. Axes: up n, forward f, left l = n x f; ground plane n . r = h.
+ *
+ * Reading order: channels.h, row_kind.h, row_table.h, gait.h, schedule.c, expand.c, ends.c;
+ * bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c, clearance.c,
+ * zmp.c, reaction.c, limits.c, tube.c.
  */
 #ifndef AMBULO_GAIT_GAIT_H
 #define AMBULO_GAIT_GAIT_H

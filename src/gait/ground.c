@@ -6,7 +6,7 @@
  * The four corners of a flat spatial sole are coplanar, so one of its
  * four rows depends on the others; the solver's rank check drops it.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
 static void height_row(const ambulo__gait_frame *frame, int node, int point,
@@ -30,6 +30,7 @@ static void foot_rows(const ambulo__gait_frame *frame, int node, int contact,
   }
 }
 
+/* (14.a) n.r - h = 0 in contact, >= 0 otherwise */
 void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   int feet = frame->model->foot_count;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);

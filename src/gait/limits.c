@@ -99,6 +99,7 @@ static void control_point_limits(const ambulo__gait_frame *frame, int fixed_only
   }
 }
 
+/* (14.c) limits of q, qd and tau, each side a row */
 void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   for (int node = 0; node < frame->nodes; node++) node_limits(frame, node, table);
   ambulo_limit_mode mode = frame->definition->joint_limits;

@@ -131,6 +131,7 @@ static ambulo__load double_support(const ambulo_problem_definition *d,
   return load;
 }
 
+/* (W.5) share of the front foot, early in double support: 1 - (1 - u)^e */
 ambulo__load ambulo__load_at(const ambulo_problem_definition *d,
                              const ambulo__foot_outline *outlines, double time) {
   ambulo__span span[2];

@@ -88,6 +88,7 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
                        reach);
 }
 
+/* (REACH) neighbouring footholds within the reach of both legs */
 ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *definition,
                                            const double *times, int nodes, const int *active,
                                            ambulo_diagnostics *diagnostics) {

@@ -16,7 +16,7 @@
  * body weights. Free moment: |T_0 + T_1| <= bound W, in m when divided by W. The sum of the feet's
  * free moments is that of the whole, T = M.F / F_n.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "gait/loading.h"
 #include "model/neutral_pose.h"
 #include "gait/support_polygon.h"
@@ -78,25 +78,25 @@ static void pressure_rows(const node_frame *n, int foot) {
 
 /* ------------------------------------------------------------------- friction */
 
-static void friction_band(const node_frame *n, int first, const char *subject,
-                          const double direction[3], const char *lower, const char *upper) {
+static void friction_bounds(const node_frame *n, int first, const char *subject,
+                            const double direction[3], const char *lower, const char *upper) {
   const ambulo_model *model = n->frame->model;
   double mu = n->frame->definition->ground_reaction.friction;
-  ambulo__band_name name = {AMBULO__KIND_FRICTION, subject, lower, upper, AMBULO__BODY_WEIGHTS};
+  ambulo__bounded_name name = {AMBULO__KIND_FRICTION, subject, lower, upper, AMBULO__BODY_WEIGHTS};
   for (int sign = -1; sign <= 1; sign += 2) {
     ambulo__linear form = {.count = 0};
     ambulo__linear_add(&form, first, model->up, mu / n->weight);
     ambulo__linear_add(&form, first, direction, -sign / n->weight);
-    ambulo__band_name one = name;
+    ambulo__bounded_name one = name;
     one.lower = sign > 0 ? upper : lower;
-    ambulo__band_rows(n->frame, n->node, &one, &form, 0.0, INFINITY, n->table);
+    ambulo__bounded_rows(n->frame, n->node, &one, &form, 0.0, INFINITY, n->table);
   }
 }
 
 static void friction_rows(const node_frame *n, int first, const char *subject) {
   const ambulo_model *model = n->frame->model;
-  friction_band(n, first, subject, model->forward, "backward", "forward");
-  if (!n->planar) friction_band(n, first, subject, model->left, "to the right", "to the left");
+  friction_bounds(n, first, subject, model->forward, "backward", "forward");
+  if (!n->planar) friction_bounds(n, first, subject, model->left, "to the right", "to the left");
 }
 
 /* ---------------------------------------------------------------- free moment */
@@ -108,9 +108,9 @@ static void free_moment_rows(const node_frame *n) {
     form.channel[foot] = ambulo__channel_free_moment(&n->frame->channels, foot);
     form.coefficient[foot] = 1.0 / n->weight;
   }
-  ambulo__band_name name = {AMBULO__KIND_FREE_MOMENT, "ground", "to the right", "to the left",
-                            AMBULO__METRES};
-  ambulo__band_rows(n->frame, n->node, &name, &form, -bound, bound, n->table);
+  ambulo__bounded_name name = {AMBULO__KIND_FREE_MOMENT, "ground", "to the right", "to the left",
+                               AMBULO__METRES};
+  ambulo__bounded_rows(n->frame, n->node, &name, &form, -bound, bound, n->table);
 }
 
 static void node_rows(const node_frame *n) {
@@ -129,6 +129,7 @@ static void node_rows(const node_frame *n) {
   if (r->free_moment >= 0.0 && !n->planar) free_moment_rows(n);
 }
 
+/* (W.7) boxes of pressure, friction, free moment */
 void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
   const ambulo_model *model = frame->model;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(model, &table->allocator);

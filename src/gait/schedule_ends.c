@@ -7,7 +7,7 @@
  *     place(T) = (place_f(0) + travel, +-place_l(0)),   m;   - when mirrored
  *
  * It need not be down at both: at T it may strike, or leave the ground. Rows at the last node are
- * left out where they repeat those of the first (gait/band.h), so a disagreement would be a foot
+ * left out where they repeat those of the first (gait/bounded.h), so a disagreement would be a foot
  * that slides in the last interval. It is what the wrong number of steps comes to, too: after two
  * steps the same foot strikes again, after one the other one does.
  */

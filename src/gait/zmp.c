@@ -15,7 +15,7 @@
  * (a, b) = n x (v_k+1 - v_k) / |v_k+1 - v_k|, c = (a, b) . v_k + margin.
  * The sign of n . F is held by its own row: n.F / mg - minimum_force >= 0.
  */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "model/neutral_pose.h"
 #include "gait/support_polygon.h"
 
@@ -24,6 +24,7 @@
 /* a region smaller than this (m^2, planar: m) is empty */
 static const double smallest_region = 1e-9;
 
+/* (17') one side of the support region, without the division by n.F */
 void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table) {

@@ -191,7 +191,7 @@ static ambulo_status add_group(const group_load *g, int placed) {
 
 /* ------------------------------------------------------------------- one foot */
 
-/* linearly between the file's rows, which cover the time */
+/* (I.2): linearly between the file's rows, which cover the time */
 static void interpolate(const ambulo__motion *table, double unit, const double *values, int width,
                         double time, double *out) {
   int low = 0, high = table->rows - 1;

@@ -5,7 +5,11 @@
  *
  *     p = (n x M + h F) / (n . F)                                                 (16')
  *
- * Forces on the feet are then taken off the torques (ground_load.h). */
+ * Forces on the feet are then taken off the torques (ground_load.h).
+ *
+ * Reading order: inverse.h, inverse.c, inverse_motion.c, filtering.h, force_columns.h,
+ * force_match.c, ground_load.h, load_apply.c, doubt.h, plausibility.c.
+ */
 #include "inverse/inverse.h"
 
 #include <math.h>

@@ -74,7 +74,7 @@ void ambulo__ground_load_place(ambulo__ground_load *load, const ambulo__load_pos
   }
 }
 
-/* z . (m - o x f) or z . f of the joint of `link`; frames [links][12] */
+/* (I.3): z . (m - o x f) or z . f of the joint of `link`; frames [links][12] */
 static double share(const ambulo_model *model, const double *frames, int link, const double *force,
                     const double *moment) {
   static const double world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};

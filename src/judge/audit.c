@@ -13,6 +13,9 @@
  *
  * kkt is relative to g, which vanishes where the objective reaches zero, its lower bound: there
  * the bound itself is the proof (engine.c, negligible_objective).
+ *
+ * Reading order: result.h, audit.c, verdict.c, candidates.h; between the nodes: dense.h and what
+ * it lists; why there is no solution: explain.h, elastic.h, relax.c, suggest.h.
  */
 #include "judge/audit.h"
 #include "base/worst.h"
@@ -57,6 +60,7 @@ static void keep_worse(ambulo_violation v, ambulo_violation *worst) {
     *worst = v;
 }
 
+/* (A.1) |c|, max(0, -c) */
 static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
   result->audit.violation = no_violation(0.0);
   for (int g = 0; g < p->table.group_count; g++) result->family[g] = no_violation(0.0);
@@ -69,7 +73,7 @@ static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
 
 /* ------------------------------------------------------- first-order conditions */
 
-/* solves the cone problem; the direction stays in engine->total; 0 on success */
+/* (A.3): solves the cone problem; the direction stays in engine->total; 0 on success */
 static int project(ambulo__engine *e) {
   double decrease, bound = cone_tolerance * ambulo__largest(e->gradient, (size_t)e->n);
   ambulo__band_clear(&e->base);

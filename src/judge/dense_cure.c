@@ -108,6 +108,7 @@ static ambulo_status find_rates(forecast *f, const double *x, const ambulo_alloc
 
 /* ---------------------------------------------------------------- forecast */
 
+/* (A.2c) error expected on a grid of N' intervals */
 static double foretold(const forecast *f, int rule, int intervals) {
   const ambulo_problem_definition *d = &f->problem->definition;
   const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);

@@ -49,6 +49,7 @@ static void visit_force(const force *f, ambulo__dense_visitor visit, void *user)
   }
 }
 
+/* (A.2b) normal force beside what is linear between its nodes */
 void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo_problem *p = dense->problem;
   force f = {.dense = dense, .weight = ambulo__model_weight(p->model)};

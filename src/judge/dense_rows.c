@@ -33,6 +33,7 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
   visit(user, &sample);
 }
 
+/* (A.2) the rows again on the finer grid */
 void ambulo__dense_rows(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo__row_table *table = &dense->fine->table;
   for (int r = 0; r < table->row_count; r++) {

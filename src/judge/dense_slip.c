@@ -118,6 +118,7 @@ static int visit_loading(const corner *c, int j) {
   return j;
 }
 
+/* (A.2a) way along the ground between two nodes that hold */
 void ambulo__dense_slip(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo_problem *fine = dense->fine;
   for (int foot = 0; fine->definition.contact_count && foot < fine->model->foot_count; foot++) {

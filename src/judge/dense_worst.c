@@ -33,6 +33,7 @@ static void note(void *user, const ambulo__dense_sample *sample) {
   entry->between = ratio;
 }
 
+/* (A.2) their worst, by family */
 void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__dense_events *events,
                             ambulo__dense_worst *worst) {
   search s = {dense, events, worst};

@@ -56,6 +56,7 @@ static int is_limit(ambulo_ending ending) {
          ending == AMBULO_ENDING_TIME;
 }
 
+/* (A.4) what violation and KKT residual allow to say */
 ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_options *options,
                                   ambulo_ending ending) {
   if (audit->fault.kind != AMBULO_FAULT_NONE || !isfinite(audit->violation.worst))

@@ -6,6 +6,9 @@
  * is an ordinary column-major lower triangle: rank-k updates go straight into the band. The
  * rows of a[] below the band stay zero, so that rectangles that reach past it can be read;
  * ld - 1 is a multiple of 8, so that aligned tiles can (band_kernels.h).
+ *
+ * Reading order: band.h, sparse_rows.h, band.c, band_kernels.h, band_source.h; border.h, kkt.h,
+ * kkt.c; mixing.h.
  */
 #ifndef AMBULO_LINEAR_BAND_H
 #define AMBULO_LINEAR_BAND_H

@@ -55,6 +55,7 @@ int ambulo__border_factor(ambulo__border *border, const ambulo__band *factor, co
   return ambulo__band_factor(&border->schur);
 }
 
+/* (P.3) the Schur complement's part of a pass */
 void ambulo__border_eliminate(ambulo__border *border, const double *b, double *z) {
   if (border->count == 0) return;
   double one = 1.0, zero = 0.0, minus = -1.0, *rest = border->rest;

@@ -4,7 +4,7 @@
  *
  *     M d_i + C' m_i = a + J' (S h - l_i),   C d_i = b,   l_{i+1} = l_i + S (J d_i - h)
  *
- * converges to the solution of (K): the error of the multipliers shrinks each pass by
+ * converges to the solution of (KKT): the error of the multipliers shrinks each pass by
  * 1 / (1 + s) or more, s the smallest eigenvalue of S^1/2 J H^-1 J' S^1/2. With S large three
  * passes reach rounding, and M stays banded and positive definite: a Cholesky factor of the
  * band of H replaces the LU factor of the interleaved, indefinite and wider KKT matrix.
@@ -110,6 +110,7 @@ static double equality_error(ambulo__kkt *kkt, const double *h, const double *d)
   return size == 0.0 ? 0.0 : worst / size;
 }
 
+/* (P.3) passes of the method of multipliers */
 void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
                        double *d, double *l, double *m) {
   size_t n = (size_t)kkt->n;

@@ -1,6 +1,6 @@
 /* linear/kkt.h - equality-constrained quadratic problems in a banded metric.
  *
- *     H d + J' l + C' m = a,    J d = h,    C d = b                                  (K)
+ *     H d + J' l + C' m = a,    J d = h,    C d = b                                (KKT)
  *
  * H [n][n] banded and positive definite, J the local equalities (banded J'J), C the few
  * border rows that couple distant unknowns. Derivation in kkt.c.
@@ -25,7 +25,7 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
                                  const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
                                  ambulo__kkt *kkt);
 
-/* Factors (K) for metric H and the gradients that the row sets hold; they must not change
+/* Factors (KKT) for metric H and the gradients that the row sets hold; they must not change
  * while the factor is in use. 0, or 1 when H is not positive definite. */
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h);
 /* Where no H can be factored: from now on stiffness row by row. 0 when it already is. */
@@ -35,7 +35,7 @@ int ambulo__kkt_by_row(ambulo__kkt *kkt);
  * b NULL: zero. right becomes d. m [border->count] may be NULL. */
 void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m);
 
-/* Solves (K) to rounding: a, h, b NULL are zero; l [equalities] is the first guess of the
+/* Solves (KKT) to rounding: a, h, b NULL are zero; l [equalities] is the first guess of the
  * multipliers on entry. m may be NULL. */
 void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const double *b,
                        double *d, double *l, double *m);

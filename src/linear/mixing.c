@@ -69,6 +69,7 @@ static int coefficients(const ambulo__mixing *m, const double *r, double *c) {
   return solve(m->count, a, c) == 0;
 }
 
+/* (P.8) Anderson mixing */
 void ambulo__mixing_apply(ambulo__mixing *m, const double *residual, double *image) {
   double c[AMBULO__MIXING_DEPTH];
   int usable = m->count > 0 && coefficients(m, residual, c);

@@ -66,7 +66,8 @@ typedef struct ground_split {
   wide height, twist;
 } ground_split;
 
-/* The split of the root wrench w; first: the bodies' first mass moment, what is fixed left out. */
+/* (W.1) (W.2): The split of the root wrench w; first: the bodies' first mass moment, what is fixed
+ * left out. */
 AMBULO__INLINE ground_split ground_split_of(const ambulo__plan *plan, const double *ground,
                                             wide_pair w, wide3 first) {
   const double *fixed = plan->fixed_first;
@@ -101,7 +102,7 @@ AMBULO__INLINE void ground_divide(const ambulo__plan *plan, const double *ground
   ground_keep(plan, w, &split, scratch);
 }
 
-/* Outputs: feet, centre of mass. */
+/* (W.3): Outputs: feet, centre of mass. */
 AMBULO__INLINE void ground_rows(const ambulo__plan *plan, const double *ground,
                                 const ground_split *split, double *out) {
   const wide share[2] = {load(ground), 1 - load(ground)};
@@ -114,8 +115,8 @@ AMBULO__INLINE void ground_rows(const ambulo__plan *plan, const double *ground,
   store3(out, split->center);
 }
 
-/* Adds M' and F' to *root, the weights on the root wrench; foot: virtual motions of the feet.
- * Returns c'. */
+/* (W.V): Adds M' and F' to *root, the weights on the root wrench; foot: virtual motions of the
+ * feet. Returns c'. */
 AMBULO__INLINE wide3 ground_adjoints(const ambulo__plan *plan, const double *ground,
                                      const double *weights, const wide_pair foot[2],
                                      wide_pair *root, const double *scratch) {

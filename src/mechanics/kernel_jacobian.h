@@ -251,6 +251,7 @@ AMBULO__STEP void column_on_ground(const ambulo__plan *plan, int k, const double
   jacobian_column(plan, k, subtree, 1, jq, jqd, jqdd, scratch);
 }
 
+/* (J) all Jacobians of a part of the tree */
 static void jacobian_part(const ambulo__plan *plan, const world_inputs *x, double *jq, double *jqd,
                           double *jqdd, double *scratch) {
   for (int i = 0; i < plan->local.limb_count; i++) {

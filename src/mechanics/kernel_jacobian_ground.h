@@ -110,7 +110,7 @@ AMBULO__INLINE void ground_feet(const ambulo__plan *plan, const ground_shares *g
   }
 }
 
-/* After those of the body in the air, on the same scratch. */
+/* (W.J): After those of the body in the air, on the same scratch. */
 static void jacobian_ground_part(const ambulo__plan *plan, const double *ground, double *jq,
                                  double *scratch) {
   wide_subtree all = {0};

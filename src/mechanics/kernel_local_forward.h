@@ -146,7 +146,7 @@ AMBULO__INLINE local_state carried_down(const ambulo__local_step *step, local_st
                        into_turn(step->turn, s.a)};
 }
 
-/* Down to a leaf. */
+/* (10 L): Down to a leaf. */
 AMBULO__INLINE void limb_down(const ambulo__plan *plan, const ambulo__limb *limb, int keep,
                               const double *q, const double *qd, const double *qdd,
                               double *scratch) {
@@ -270,7 +270,7 @@ AMBULO__INLINE void last_hinge_up(const ambulo__local_step *step, wide_pair sum,
   }
 }
 
-/* Up from the leaf. */
+/* (10 L): Up from the leaf. */
 AMBULO__INLINE void limb_up(const ambulo__plan *plan, const ambulo__limb *limb, int keep,
                             const double *q, double *out, double *scratch) {
   wide_pair sum = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};

@@ -29,7 +29,7 @@
 #include "mechanics/kernel_ground.h"
 #include "mechanics/kernel_local_points.h"
 
-/* Takes the wrench w off the load of a foot's frame; bare: it has none yet. */
+/* (W.4): Takes the wrench w off the load of a foot's frame; bare: it has none yet. */
 AMBULO__INLINE void take_off(const ambulo__local_step *step, int bare, wide_pair w,
                              double *scratch) {
   double *at = scratch + step->at;
@@ -106,7 +106,7 @@ AMBULO__INLINE wide_pair turned_against(wide_pair w, wide_pair v) {
                      cross3(w.linear, v.angular)};
 }
 
-/* Adds M' and F' to *root, the weights on the root wrench. */
+/* (V): Adds M' and F' to *root, the weights on the root wrench. */
 static local_pulls local_ground_adjoints(const ambulo__plan *plan, const double *ground,
                                          const double *weights, wide_pair *root,
                                          const double *scratch) {

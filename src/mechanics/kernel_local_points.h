@@ -133,7 +133,7 @@ AMBULO__INLINE void show_place(int shows, const local_place *p, double *at) {
   if (shows & ambulo__shows_origin) store3(at + local_origin, p->o);
 }
 
-/* sum + R b */
+/* (W.C): sum + R b */
 AMBULO__INLINE wide3 add_barycentric(const ambulo__local_step *step, const local_place *p,
                                      wide3 sum) {
   if (step->weighs & 1) sum = axpy3(sum, spread(step->moment[0]), p->x);
@@ -249,7 +249,8 @@ AMBULO__INLINE wide_pair gathered_weights(const ambulo__plan *plan, const ambulo
   return pulls ? add_pulls(step, sum, pulls, at) : sum;
 }
 
-/* The points' part of gq, which holds the rest already; pulls: NULL without ground reaction. */
+/* (V): The points' part of gq, which holds the rest already; pulls: NULL without ground reaction.
+ */
 static void local_point_weights(const ambulo__plan *plan, const local_pulls *pulls,
                                 const double *weights, double *gq, double *scratch) {
   const wide3 zero = {{0}, {0}, {0}};

@@ -279,7 +279,7 @@ AMBULO__INLINE void leave_adjoints(const ambulo__local_step *step, local_state s
   store3(above + 2 * three, s.a);
 }
 
-/* Adjoints of the steps from `last` up to `first`. */
+/* (V): Adjoints of the steps from `last` up to `first`. */
 AMBULO__INLINE void limb_adjoints(const ambulo__local_plan *local, int first, int last,
                                   const local_arrays *x) {
   const local_state zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}, {{0}, {0}, {0}}};

@@ -120,6 +120,7 @@ AMBULO__INLINE wide33 body_coriolis(wide3 v, wide3 h, wide3 w, wide6 j) {
                   {-v.z * h.x - k1.z, -v.z * h.y - k2.z, trace - v.z * h.z - k3.z}};
 }
 
+/* (10 W) load of the subtree about the world origin */
 AMBULO__INLINE void store_body(const ambulo__local_step *step, const ambulo__body *body,
                                const world_state *s, double *to) {
   wide3 w = s->w, c = body_center(step, &s->place), x = add3(s->place.o, c);
@@ -142,7 +143,7 @@ AMBULO__INLINE void store_body(const ambulo__local_step *step, const ambulo__bod
   store_subtree(to, &sum);
 }
 
-/* Down a limb: the joints' motions, the points, the bodies. */
+/* (S.1): Down a limb: the joints' motions, the points, the bodies. */
 static void world_limb(const ambulo__plan *plan, const ambulo__limb *limb, const world_inputs *x,
                        double *scratch) {
   const world_state start = world_itself(plan);
@@ -171,7 +172,7 @@ static void world_limb(const ambulo__plan *plan, const ambulo__limb *limb, const
   }
 }
 
-/* Where the subtree of step k's frame stands, given that of its last child. A frame that has
+/* (15'): Where the subtree of step k's frame stands, given that of its last child. A frame that has
  * nothing of its own, neither body nor branches, has its child's. */
 AMBULO__INLINE const double *complete_subtree(const ambulo__plan *plan, int k, const double *child,
                                               double *scratch) {

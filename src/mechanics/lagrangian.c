@@ -49,8 +49,8 @@ static void add_product(matrix *out, scalar factor, const matrix *x, const matri
   }
 }
 
-/* T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha), and its derivatives with respect to the
- * link's coordinate: by theta for a revolute link, by d for a prismatic one. */
+/* (DH): T = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha), and its derivatives with respect to
+ * the link's coordinate: by theta for a revolute link, by d for a prismatic one. */
 static void transform(const ambulo_link *link, scalar q, link_state *s) {
   scalar theta = link->theta + (link->type == AMBULO_REVOLUTE ? q : 0);
   scalar d = link->d + (link->type == AMBULO_PRISMATIC ? q : 0);
@@ -74,7 +74,7 @@ static scalar component(const double *values, int is_complex, int index) {
   return values[index];
 }
 
-/* Eqs. (4)-(6) for all links, parents first. */
+/* (4) (5) (6) for all links, parents first. */
 static void forward(const ambulo_model *model, int is_complex, const double *q, const double *qd,
                     const double *qdd, link_state *states) {
   static const matrix identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -117,7 +117,7 @@ static void pseudo_inertia(const ambulo_link *link, double j[4][4]) {
   }
 }
 
-/* D and E of the link itself, Eqs. (11)-(12) without the children. */
+/* (11) (12): D and E of the link itself, without the children. */
 static void start_backward(const ambulo_link *link, link_state *s) {
   double j[4][4];
   pseudo_inertia(link, j);
@@ -130,7 +130,7 @@ static void start_backward(const ambulo_link *link, link_state *s) {
   }
 }
 
-/* Adds T_c D_c and T_c E_c of a child to its parent. */
+/* (11) (12): Adds T_c D_c and T_c E_c of a child to its parent. */
 static void add_to_parent(link_state *p, const link_state *c) {
   for (int i = 0; i < 4; i++) {
     for (int k = 0; k < 4; k++) {
@@ -141,7 +141,7 @@ static void add_to_parent(link_state *p, const link_state *c) {
   }
 }
 
-/* Eq. (10). */
+/* (10) */
 static scalar joint_force(const ambulo_model *model, const link_state *p, const link_state *s) {
   static const matrix identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   matrix derivative = {{{0}}};
@@ -167,7 +167,7 @@ static void backward(const ambulo_model *model, link_state *states, scalar *tau)
   }
 }
 
-/* X r for a point r of the link frame, Eqs. (7)-(9). */
+/* (7) (8) (9): X r for a point r of the link frame. */
 static void apply(const matrix *x, const double r[3], scalar out[3]) {
   for (int i = 0; i < 3; i++) {
     out[i] = x->e[i][3];
@@ -175,7 +175,7 @@ static void apply(const matrix *x, const double r[3], scalar out[3]) {
   }
 }
 
-/* One body's part of Eq. (15'). */
+/* (15'): one body's part. */
 static void add_wrench(const ambulo_model *model, const ambulo_link *link, const link_state *s,
                        scalar wrench[6]) {
   scalar c[3], f[3], k[3][3] = {{0}};
@@ -256,7 +256,7 @@ ambulo_status ambulo_lagrangian_inverse_dynamics_complex(const ambulo_model *mod
   return inverse_dynamics(model, 1, q, qd, qdd, tau, wrench, points, scratch);
 }
 
-/* T = sum tr(B J B^T) / 2,  V = -sum m g . c. */
+/* (E): T = sum tr(B J B^T) / 2,  V = -sum m g . c. */
 ambulo_status ambulo_lagrangian_energy(const ambulo_model *model, const double *q, const double *qd,
                                        double *kinetic, double *potential, void *scratch) {
   if (!model || !scratch) return AMBULO_E_ARGUMENT;

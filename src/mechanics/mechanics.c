@@ -4,6 +4,11 @@
  * node, and the results scattered back. Inputs are looked through before anything is written.
  * Results can only overflow if an input is enormous; then a dry run comes first, so that outputs
  * stay untouched on failure.
+ *
+ * Reading order: lagrangian.c (the equations as printed), plan.c, plan_layout.h, plan_local.h,
+ * plan_steps.h; kernels.h, dispatch.c, kernel_source.h, and from there kernel_wide.h,
+ * kernel_local_forward.h, kernel_local_reverse.h, kernel_jacobian.h; kernel_ground.h where the
+ * ground's force acts.
  */
 #include <math.h>
 #include <string.h>

@@ -130,7 +130,7 @@ static void compile_prismatic(ambulo__joint *joint, ambulo__placing *placing,
   place_fixed(placing, link);
 }
 
-/* Compiles one link. Parents come first, so placings[link->parent] is known. */
+/* (DH): Compiles one link. Parents come first, so placings[link->parent] is known. */
 static void compile_link(ambulo__plan *plan, const ambulo_link *link, ambulo__placing *placing) {
   if (link->type == AMBULO_FIXED) {
     place_fixed(placing, link);

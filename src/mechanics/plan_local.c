@@ -267,8 +267,8 @@ static void set_ground(ambulo__plan *plan) {
   }
 }
 
-/* Masses and moments of kernel_local_points.h. A frame's mass stands at its origin for the parent,
- * which it then is part of; that of a slider is left where it is. */
+/* (W.C): Masses and moments of kernel_local_points.h. A frame's mass stands at its origin for the
+ * parent, which it then is part of; that of a slider is left where it is. */
 static void set_masses(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
   for (int k = 0; k < plan->coordinates; k++) {

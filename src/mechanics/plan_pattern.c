@@ -228,6 +228,7 @@ static int ground_parts(const ambulo__plan *plan, int row, ambulo__row_part *par
   return add_wrench(plan, plan->foot_factors + factor_twist + 6 * foot, part);
 }
 
+/* (W.J) which factors a row of the Jacobian has */
 int ambulo__plan_parts(const ambulo__plan *plan, int row,
                        ambulo__row_part part[AMBULO__MOST_PARTS]) {
   int feet = ambulo__plan_first_foot_row(plan), count = 1;

@@ -24,6 +24,7 @@ static void multiply(const double *a, const double *b, double *product) {
   }
 }
 
+/* (4) A_i = A_p T_i */
 void ambulo__pose_at(ambulo__pose *pose, const double *q) {
   for (int i = 0; i < pose->model->link_count; i++) {
     const ambulo_link *link = &pose->model->links[i];

@@ -8,8 +8,8 @@
  * and holds multipliers mu, penalty rho and the outer loop. In NLopt's inner problem
  *
  *     S f + rho/2 sum max(0, c + mu/rho)^2 = S F + constant,
- *     F = f + 1/(2 R) sum ( max(0, lambda + R v)^2 - lambda^2 ),   lambda = mu + rho sigma,  R =
- * rho S
+ *     F = f + 1/(2 R) sum ( max(0, lambda + R v)^2 - lambda^2 ),
+ *     lambda = mu + rho sigma,   R = rho S
  *
  * F is augmented.c's. What is ours:
  *
@@ -19,13 +19,15 @@
  *              afresh at every inner solve.
  *   gradients  NLopt adds to the objective's gradient each row's, times rho c + mu. That sum is one
  *              reverse sweep, each gradient alone would be one too. So NLopt is given the sum in
- * the place of one row, the one with the largest force, divided by the force that NLopt is going to
- * multiply it with, and zeros elsewhere; with the objective when no row has a force. Forces by mu
- * and rho as mirror.h knows them. scale S    NLopt multiplies rho by 10 where a row does not give
- * way; 2, up to a bound, is what walks stand (left alone rho runs to 1e9, and stops the solve 0.6
- * to 7 % too high). S is lowered in the same moment, for objective and rows alike: then lambda
- * stays, and R grows by 2. sigma      where a call has to be repeated, it starts with the lambda
- * that the last one reached. ending     stopping.h, by nlopt_force_stop.
+ *              the place of one row, the one with the largest force, divided by the force that
+ *              NLopt is going to multiply it with, and zeros elsewhere; with the objective when no
+ *              row has a force. Forces by mu and rho as mirror.h knows them.
+ *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
+ *              walks stand (docs/solver.md: left alone it stops some of them too high). S is
+ *              lowered in the same moment, for objective and rows alike: lambda stays, and R
+ *              grows by 2.
+ *   sigma      where a call has to be repeated, it starts with the lambda of the last one.
+ *   ending     stopping.h, by nlopt_force_stop.
  *
  * NLopt evaluates without a gradient when it starts, and when an inner solve has ended: this is how
  * the phases are told apart. It starts with rho = 1e-6 where the constant makes its f zero and some
@@ -137,7 +139,7 @@ static void take_multipliers(session *s) {
     e->lambda[i] = s->mirror.multiplier[i] + s->mirror.penalty * s->shift[i];
 }
 
-/* NLopt's update, and the growth of R that it leads to */
+/* (P.12): NLopt's update, and the growth of R that it leads to */
 static void update_multipliers(session *s) {
   ambulo__engine *e = s->engine;
   if (ambulo__mirror_update(&s->mirror, s->row)) {

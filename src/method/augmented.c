@@ -32,7 +32,7 @@ void ambulo__trial_copy(const ambulo__engine *e, const ambulo__trial *from, ambu
          (size_t)e->equalities * sizeof *to->equality_multiplier);
 }
 
-/* value at w into engine->held; HUGE_VAL as value when there is no point */
+/* (P.7): value at w into engine->held; HUGE_VAL as value when there is no point */
 static void evaluate(ambulo__engine *e, const double *w) {
   ambulo__trial *held = &e->held;
   memcpy(e->w, w, (size_t)e->n * sizeof *w);
@@ -81,6 +81,7 @@ static double given_up(const ambulo__engine *e, const double *w, double *gradien
   return top + height * sum;
 }
 
+/* (P.6) F at y = R(y_k + L^-T w), and its gradient by w */
 double ambulo__augmented(ambulo__engine *e, const double *w, double *gradient) {
   int same = e->has_held && memcmp(w, e->w, (size_t)e->n * sizeof *w) == 0;
   if (!same) evaluate(e, w);

@@ -78,6 +78,7 @@ static double density_at(const ambulo__carried *carried, unsigned long long seri
   return b && time - b->time <= reach ? b->density : 0.0;
 }
 
+/* (P.13) densities of the coarse grid times w_k of this one */
 void ambulo__carry_to(const ambulo__carried *carried, ambulo__engine *e) {
   const ambulo_problem *p = e->problem;
   const ambulo__sparse_rows *rows = &e->rows.inequality;

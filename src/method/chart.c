@@ -21,6 +21,7 @@ ambulo_status ambulo__chart_create(int n, ambulo__pool *pool, ambulo__chart *c) 
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
+/* (P.10) s and a for which NLopt's first step is the model step */
 int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, double stretch) {
   int n = e->n;
   size_t bytes = (size_t)n * sizeof *w;

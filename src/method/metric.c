@@ -225,6 +225,7 @@ static void add_accelerations(const ambulo__metric *metric, const ambulo_workspa
               weight * p->quadrature[node], h);
 }
 
+/* (GN) (P.2) sum of curvature g g' over nodes and residuals */
 void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
                          double scale, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;

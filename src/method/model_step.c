@@ -251,6 +251,7 @@ static int not_finite(ambulo__engine *e) {
   return 2;
 }
 
+/* (P.5) the active set that phi foresees */
 int ambulo__model_step(ambulo__engine *e, double *predicted) {
   if (ambulo__evaluate_jacobian(e->workspace, e->center)) return not_finite(e);
   if (ambulo__engine_gradient(e, NULL, NULL, e->gradient)) return 2;

@@ -4,9 +4,14 @@
  *     mu = mu_0 T/K, rho = 10, lambda = 0; rho = 3000 where the start nearly satisfies the rows: a
  *     weaker penalty would let go of them, and the solve would wander off into another valley.
  *     lambda of a coarser grid (carry.c), rho = 160 and a quarter of mu where that grid had
- * resolved the motion
+ *     resolved the motion
  *
  * Equalities hold all along: every point is a retracted one.
+ *
+ * Reading order: engine.h, rows_split.h, metric.h, pipeline.c, restore.c, auglag.c, chart.h,
+ * mirror.h, model_step.c, augmented.c, retraction.c, stopping.h, polish.c; refine.c and carry.h
+ * around it. Besides: nlopt_whitened.c and nlopt_plain.c with nlopt_direct.h, finisher.h,
+ * smooth.h.
  */
 #include "method/auglag.h"
 

@@ -249,6 +249,7 @@ static int take(ambulo__sparse_rows *s, ambulo_workspace *workspace, const doubl
   return 0;
 }
 
+/* (P.1) what each equality adds to the span of those before it */
 ambulo_status ambulo__presolve_rank(const ambulo_problem *p, ambulo_workspace *workspace,
                                     const double *start, ambulo__run *run, ambulo__pool *pool,
                                     ambulo_diagnostics *diagnostics, int *rank) {

@@ -51,6 +51,7 @@ static int advance(ambulo__engine *e, const double *d, double *x) {
   return 1;
 }
 
+/* (P.4) Newton steps of least length onto the equalities */
 ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
   double least = HUGE_VAL;
   *error = HUGE_VAL;

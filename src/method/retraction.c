@@ -49,6 +49,7 @@ static void chord(ambulo__engine *e, double *y) {
   e->run->seconds_linear += ambulo__seconds_now() - begin;
 }
 
+/* (P.8) chord steps onto h = 0, C y = b */
 int ambulo__retract(ambulo__engine *e, double *y) {
   double least = HUGE_VAL;
   ambulo__mixing_reset(&e->retraction);
@@ -89,6 +90,7 @@ static ambulo_status adjoint_pass(ambulo__engine *e, const double *p, double *z)
   return AMBULO_OK;
 }
 
+/* (P.9) H z + C'm = G + J'l */
 ambulo_status ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
   ambulo__mixing_reset(&e->adjoint);
   for (int k = 0; k < MAX_ADJOINT; k++) {

@@ -81,6 +81,7 @@ int ambulo__smooth_curve(ambulo__engine *e, const double *x, double *smooth) {
   return 0;
 }
 
+/* (P.2b) the smoothest motion near x */
 int ambulo__smooth_start(ambulo__engine *e, double *x) {
   size_t bytes = (size_t)e->n * sizeof *x;
   double *smooth = e->total, *rough = e->iterate;

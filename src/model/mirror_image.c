@@ -175,8 +175,8 @@ static int compare_lines(comparison *c, int i, int m, const double from[3], cons
 }
 
 static int compare_axes(comparison *c, int i, int m) {
-  ambulo__frame own = ambulo__segment_joint(&c->segments, i);
-  ambulo__frame other = ambulo__segment_joint(&c->segments, m);
+  ambulo__segment_frame own = ambulo__segment_joint(&c->segments, i);
+  ambulo__segment_frame other = ambulo__segment_joint(&c->segments, m);
   double a[3], b[3];
   for (int k = 0; k < 3; k++) {
     a[k] = own.axes[k][2];
@@ -287,7 +287,7 @@ static void compare_feet(comparison *c, int i, int m) {
 static double size_of(const comparison *c) {
   double size = 0.0, r[3];
   for (int i = 0; i < c->model->coordinate_count; i++) {
-    ambulo__frame joint = ambulo__segment_joint(&c->segments, i);
+    ambulo__segment_frame joint = ambulo__segment_joint(&c->segments, i);
     const double *com = c->segments.body[i + 1].com;
     size = fmax(size, hypot(hypot(joint.origin[0], joint.origin[1]), joint.origin[2]));
     size = fmax(size, hypot(hypot(com[0], com[1]), com[2]));

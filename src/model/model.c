@@ -1,4 +1,9 @@
-/* model/model.c - building an immutable model from a definition, and freeing it. */
+/* model/model.c - building an immutable model from a definition, and freeing it.
+ *
+ * Reading order: model.h, model.c, model_check.c (link_check.c, body_check.c, contact_check.c),
+ * query.c; segments.h and composite.h for the body as a whole, mirror_image.h for what it needs
+ * them for.
+ */
 #include <math.h>
 #include <string.h>
 

@@ -15,7 +15,7 @@
 
 static const double parallel_tolerance = 1e-9;
 
-/* v of the link frame into the parent frame; `is_point` adds the translation */
+/* (DH): v of the link frame into the parent frame; `is_point` adds the translation */
 static void to_parent(const ambulo_link *link, int is_point, double v[3]) {
   double ca = cos(link->alpha), sa = sin(link->alpha);
   double ct = cos(link->theta), st = sin(link->theta);

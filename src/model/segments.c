@@ -13,8 +13,8 @@
 
 #include <math.h>
 
-static ambulo__frame world_frame(const ambulo_model *model) {
-  ambulo__frame world;
+static ambulo__segment_frame world_frame(const ambulo_model *model) {
+  ambulo__segment_frame world;
   for (int j = 0; j < 3; j++) {
     world.axes[0][j] = model->forward[j];
     world.axes[1][j] = model->up[j];
@@ -25,22 +25,23 @@ static ambulo__frame world_frame(const ambulo_model *model) {
 }
 
 /* A v */
-static void turn(const ambulo__frame *frame, const double v[3], double out[3]) {
+static void turn(const ambulo__segment_frame *frame, const double v[3], double out[3]) {
   for (int i = 0; i < 3; i++)
     out[i] = frame->axes[i][0] * v[0] + frame->axes[i][1] * v[1] + frame->axes[i][2] * v[2];
 }
 
-static void place(const ambulo__frame *frame, const double v[3], double out[3]) {
+static void place(const ambulo__segment_frame *frame, const double v[3], double out[3]) {
   turn(frame, v, out);
   for (int i = 0; i < 3; i++) out[i] += frame->origin[i];
 }
 
-static ambulo__frame frame_of(const ambulo__frame *parent, const ambulo_link *link) {
+static ambulo__segment_frame frame_of(const ambulo__segment_frame *parent,
+                                      const ambulo_link *link) {
   double c = cos(link->theta), s = sin(link->theta);
   double ca = cos(link->alpha), sa = sin(link->alpha);
   const double columns[3][3] = {{c, s, 0.0}, {-s * ca, c * ca, sa}, {s * sa, -c * sa, ca}};
   const double t[3] = {link->a * c, link->a * s, link->d};
-  ambulo__frame frame;
+  ambulo__segment_frame frame;
   for (int j = 0; j < 3; j++) {
     double axis[3];
     turn(parent, columns[j], axis);
@@ -51,7 +52,7 @@ static ambulo__frame frame_of(const ambulo__frame *parent, const ambulo_link *li
 }
 
 /* the body of a link in the common axes */
-static ambulo__part body_of(const ambulo__frame *frame, const ambulo_link *link) {
+static ambulo__part body_of(const ambulo__segment_frame *frame, const ambulo_link *link) {
   static const int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
   ambulo__part body = {.mass = link->mass};
@@ -69,7 +70,7 @@ static ambulo__part body_of(const ambulo__frame *frame, const ambulo_link *link)
 
 static void fill(ambulo__segments *s) {
   const ambulo_model *model = s->model;
-  const ambulo__frame world = world_frame(model);
+  const ambulo__segment_frame world = world_frame(model);
   s->heaviest[0] = -1;
   for (int c = 0; c < model->coordinate_count; c++) s->heaviest[c + 1] = model->coordinate_link[c];
   for (int i = 0; i < model->link_count; i++) {
@@ -115,7 +116,7 @@ int ambulo__segment_parent(const ambulo__segments *s, int coordinate) {
   return parent < 0 ? 0 : s->of_link[parent];
 }
 
-ambulo__frame ambulo__segment_joint(const ambulo__segments *s, int coordinate) {
+ambulo__segment_frame ambulo__segment_joint(const ambulo__segments *s, int coordinate) {
   int parent = s->model->links[s->model->coordinate_link[coordinate]].parent;
   return parent < 0 ? world_frame(s->model) : s->frame[parent];
 }

@@ -180,6 +180,7 @@ static ambulo_status run(check *c, const double *x, double step) {
   return status;
 }
 
+/* (FD) central differences beside the gradients */
 ambulo_status ambulo_problem_check_derivatives(const ambulo_problem *p, ambulo_workspace *workspace,
                                                const double *x, double step,
                                                ambulo_derivative_error *errors, int capacity,

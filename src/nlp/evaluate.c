@@ -99,6 +99,7 @@ static double term_value(ambulo_workspace *workspace, const ambulo_term *term) {
   return composite_term_value(workspace, term);
 }
 
+/* (13) w_k times each term, summed over the nodes */
 static double evaluate_terms(ambulo_workspace *workspace) {
   const ambulo_problem_definition *definition = &workspace->problem->definition;
   double total = 0.0;
@@ -136,6 +137,7 @@ static double mixed_row_value(const ambulo_workspace *workspace, const ambulo__t
   return value;
 }
 
+/* (14) (24) every row from the channels of its node */
 static void evaluate_rows(ambulo_workspace *workspace) {
   const ambulo_problem *p = workspace->problem;
   const ambulo__row_runs *runs = &p->row_runs;

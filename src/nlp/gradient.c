@@ -23,6 +23,7 @@ static void pull_back(ambulo_workspace *workspace, double *gradient) {
   ambulo__lane_map_transpose(p->map, w, w + d8, w + 2 * d8, NULL, stride, gradient);
 }
 
+/* (L) B_0'g_q + B_1'g_qd + B_2'g_qdd */
 ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_weight,
                                const double *row_weights, double *gradient) {
   double start = ambulo__seconds_now();

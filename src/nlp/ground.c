@@ -40,6 +40,7 @@ ambulo_status ambulo__ground_fill(const ambulo_problem *p, const ambulo_allocato
   return AMBULO_OK;
 }
 
+/* (W.6) c_0 = p + a_1 D, c_1 = p - a_0 D */
 void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop) {
   const double *lane = ground + ambulo__lane_index(node, AMBULO__GROUND_ENTRIES, 0);
   double share[2] = {lane[0], 1.0 - lane[0]};

@@ -61,6 +61,7 @@ static void add_user_row(const ambulo_workspace *workspace, int row, double fact
   }
 }
 
+/* (LR) one row, on the unknowns of its node */
 void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const ambulo__table_row *r = &p->table.rows[row];

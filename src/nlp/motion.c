@@ -48,6 +48,7 @@ static int unpack(const dense *d, int channels, int first, int size, int count, 
   return finite;
 }
 
+/* (16') (n x M + h F) / (n.F) */
 static void zero_moment_point(const double *n, double height, const double *wrench, double *zmp) {
   const double *m = wrench, *f = wrench + 3;
   double normal = n[0] * f[0] + n[1] * f[1] + n[2] * f[2];

@@ -3,6 +3,9 @@
  * Order of construction (each step may refuse): definition checked and copied -> basis and
  * lane map -> compiled mechanics -> schedule at the nodes -> rows of every family -> counts
  * and hash. After that nothing changes.
+ *
+ * Reading order: nlp.h, problem.h, problem.c, grid.c, workspace.c, evaluate.c, motion.c,
+ * row_runs.h, gradient.c, adjoint.h, local_rows.c; derivative_check.c compares them.
  */
 #include "nlp/problem.h"
 #include "base/instant.h"

@@ -92,6 +92,7 @@ static void estimate(const ambulo_workspace *workspace, const ambulo_term *term,
   }
 }
 
+/* (P.2a) four probes with signs after Hadamard */
 void ambulo__user_term_curvature(const ambulo_workspace *workspace, const ambulo_term *term,
                                  int node, double *scratch, double *curvature, int *count) {
   const int channels = workspace->channel_count;

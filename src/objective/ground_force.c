@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+/* (13.i) F / (m g) - n */
 void ambulo__ground_force_form(const ambulo__term_frame *frame, int node, int axis,
                                ambulo__form *form) {
   const double *g = ambulo_model_gravity(frame->model);

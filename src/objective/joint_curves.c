@@ -14,12 +14,14 @@
 
 static const double least_share = 0.1;
 
+/* (13.e) passive torque */
 double ambulo__passive_torque(const double curve[4], double q, double *derivative) {
   double first = curve[0] * exp(curve[1] * q), second = curve[2] * exp(curve[3] * q);
   *derivative = curve[1] * first + curve[3] * second;
   return first + second;
 }
 
+/* (13.e) strength at an angle and a rate */
 double ambulo__strength(const double curve[3], double q, double *derivative) {
   double angle = curve[1] * (q - curve[2]);
   double share = cos(angle), slope = -curve[1] * sin(angle);

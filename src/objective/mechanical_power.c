@@ -6,6 +6,7 @@
  */
 #include "objective/term.h"
 
+/* (13.f) |tau qd| / m */
 void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_frame *frame,
                                    int node, int i, ambulo__form *form) {
   double factor = ambulo__term_scale(term, i) / ambulo_model_mass(frame->model);

@@ -14,17 +14,20 @@
 
 #include <math.h>
 
+/* (13.a) u^2 */
 ambulo__residual ambulo__squared(double u) {
   ambulo__residual r = {u * u, 2.0 * u, 2.0};
   return r;
 }
 
+/* (13.b) sqrt(u^2 + s^2) - s */
 ambulo__residual ambulo__absolute(double u, double smoothing) {
   double root = hypot(u, smoothing);
   ambulo__residual r = {u * (u / (root + smoothing)), u / root, 1.0 / root};
   return r;
 }
 
+/* (13.d) (u^2 + s^2)^(p/2) - s^p */
 ambulo__residual ambulo__power_law(double u, double power, double smoothing) {
   double square = u * u + smoothing * smoothing;
   double lower = power == 3.0 ? sqrt(square) : pow(square, 0.5 * power - 1.0);

@@ -10,6 +10,7 @@
  */
 #include "objective/term.h"
 
+/* (13.d) u: active torque over strength */
 void ambulo__strength_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
                            int i, ambulo__form *form) {
   double scale = ambulo__term_scale(term, i);

@@ -60,6 +60,7 @@ double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, i
   return term->offset[i];
 }
 
+/* (13.c) u of the simple terms */
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
   if (term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_MECHANICAL_POWER)
     return ambulo__absolute(u, term->smoothing);

@@ -14,6 +14,9 @@
  * quadratic that majorizes it (iteratively reweighted least squares).
  *
  * User terms are functions of a node of the caller's own (nlp/user_term.h).
+ *
+ * Reading order: term.h, term.c, shapes.c, term_lanes.c; form.c and one composite term:
+ * ground_force.c; strength.c with joint_curves.c.
  */
 #ifndef AMBULO_OBJECTIVE_TERM_H
 #define AMBULO_OBJECTIVE_TERM_H

@@ -5,6 +5,7 @@
  */
 #include "objective/term.h"
 
+/* (13.g) (tau_k+1 - tau_k) / dt */
 void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
                               int i, ambulo__form *form) {
   double factor = ambulo__term_scale(term, i) / frame->step;

@@ -28,6 +28,7 @@ static void horizontal(const ambulo_model *model, int j, double e[3]) {
   }
 }
 
+/* (13.h) horizontal direction cosines of a line of the body */
 void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
                           ambulo__form *form) {
   double e[3];

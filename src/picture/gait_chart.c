@@ -5,7 +5,7 @@
 
 #include "picture/svg.h"
 
-void ambulo__chart_range(ambulo__chart *c, const int *columns, int count) {
+void ambulo__chart_range(ambulo__gait_chart *c, const int *columns, int count) {
   double low = 0.0, high = 0.0;
   for (int j = 0; j < count; j++) {
     for (int k = 0; k < c->stride->samples; k++) {
@@ -21,11 +21,11 @@ void ambulo__chart_range(ambulo__chart *c, const int *columns, int count) {
   c->high = high;
 }
 
-static double chart_y(const ambulo__chart *c, double value) {
+static double chart_y(const ambulo__gait_chart *c, double value) {
   return c->box.y + c->box.height * (c->high - value) / (c->high - c->low);
 }
 
-void ambulo__chart_grid(ambulo__chart *c, ambulo__text_buffer *text) {
+void ambulo__chart_grid(ambulo__gait_chart *c, ambulo__text_buffer *text) {
   int decimals;
   double step = ambulo__nice_step(c->high - c->low, 4, &decimals);
   c->low = floor(c->low / step + 1e-9) * step;
@@ -44,7 +44,7 @@ void ambulo__chart_grid(ambulo__chart *c, ambulo__text_buffer *text) {
   ambulo__text_free(&label);
 }
 
-void ambulo__chart_curve(const ambulo__chart *c, int column, ambulo__side side,
+void ambulo__chart_curve(const ambulo__gait_chart *c, int column, ambulo__side side,
                          ambulo__text_buffer *text) {
   static const char *const styles[] = {"trunk curve", "left curve", "right curve"};
   int pen_down = 0;

@@ -5,21 +5,21 @@
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
 
-typedef struct ambulo__chart {
+typedef struct ambulo__gait_chart {
   ambulo__panel box;
   const ambulo__stride *stride;
   const double *values; /* [samples][columns] */
   int columns;
   double factor;    /* to the unit shown */
   double low, high; /* of the axis, in the unit shown */
-} ambulo__chart;
+} ambulo__gait_chart;
 
 /* Sets low and high so that zero and the columns fit. */
-void ambulo__chart_range(ambulo__chart *chart, const int *columns, int count);
+void ambulo__chart_range(ambulo__gait_chart *chart, const int *columns, int count);
 /* Horizontal grid with numbers; the range grows to whole steps. */
-void ambulo__chart_grid(ambulo__chart *chart, ambulo__text_buffer *text);
+void ambulo__chart_grid(ambulo__gait_chart *chart, ambulo__text_buffer *text);
 /* One column in the colour of a side; gaps where it is not finite. */
-void ambulo__chart_curve(const ambulo__chart *chart, int column, ambulo__side side,
+void ambulo__chart_curve(const ambulo__gait_chart *chart, int column, ambulo__side side,
                          ambulo__text_buffer *text);
 
 #endif

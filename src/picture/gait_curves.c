@@ -83,7 +83,7 @@ static void pretty_name(const ambulo_model *model, int i, ambulo__text_buffer *o
 
 /* ------------------------------------------------------------------- drawing */
 
-static void draw_chart(ambulo__chart *c, int coordinate, const char *quantity,
+static void draw_chart(ambulo__gait_chart *c, int coordinate, const char *quantity,
                        ambulo__text_buffer *text) {
   const ambulo_model *model = c->stride->model;
   int pair[2] = {coordinate, model->coordinates[coordinate].mirror};
@@ -114,12 +114,12 @@ void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *pane
   for (int j = 0; j < count; j++) {
     int revolute = stride->model->coordinates[chosen[j]].type == AMBULO_REVOLUTE;
     double x = panel->x + (double)j * (width + label_room + gap) + label_room;
-    ambulo__chart upper = {.box = {x, panel->y, width, height, stride->duration},
-                           .stride = stride,
-                           .values = stride->q,
-                           .columns = stride->coordinates,
-                           .factor = revolute ? degrees : 1.0};
-    ambulo__chart lower = upper;
+    ambulo__gait_chart upper = {.box = {x, panel->y, width, height, stride->duration},
+                                .stride = stride,
+                                .values = stride->q,
+                                .columns = stride->coordinates,
+                                .factor = revolute ? degrees : 1.0};
+    ambulo__gait_chart lower = upper;
     lower.box.y += height + row_room;
     lower.values = stride->tau;
     lower.factor = 1.0;

@@ -15,7 +15,7 @@ static double along_left(const ambulo_model *model, int foot) {
   return r[0] * model->left[0] + r[1] * model->left[1] + r[2] * model->left[2];
 }
 
-static void draw_force(ambulo__chart *c, const double direction[3], double *values,
+static void draw_force(ambulo__gait_chart *c, const double direction[3], double *values,
                        const char *title, ambulo__text_buffer *text) {
   const ambulo__stride *s = c->stride;
   const int columns[MOST_FEET] = {0, 1};
@@ -42,13 +42,13 @@ ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__pa
   double *values = ambulo__alloc(&text->allocator, count, sizeof *values);
   if (!values) return AMBULO_E_MEMORY;
   double width = 0.5 * (panel->width - gap) - label_room;
-  ambulo__chart up = {
+  ambulo__gait_chart up = {
       .box = {panel->x + label_room, panel->y, width, panel->height, stride->duration},
       .stride = stride,
       .values = values,
       .columns = stride->feet,
       .factor = 1.0};
-  ambulo__chart ahead = up;
+  ambulo__gait_chart ahead = up;
   ahead.box.x += width + label_room + gap;
   draw_force(&up, stride->model->up, values, "Ground reaction upward, body weights", text);
   draw_force(&ahead, stride->model->forward, values, "Ground reaction forward, body weights", text);

@@ -1,4 +1,8 @@
-/* picture/gait_svg.c - the page: title, strip, bars, time axis, curves, legend. */
+/* picture/gait_svg.c - the page: title, strip, bars, time axis, curves, legend.
+ *
+ * Reading order: svg.h, skeleton.h, gait_svg.h, gait_svg.c, gait_strip.c, gait_bars.c,
+ * gait_chart.h, gait_curves.c, gait_forces.c.
+ */
 #include "picture/gait_svg.h"
 
 #include <math.h>

@@ -4,6 +4,10 @@
  * sections refer to it); sections are read; only a document without any fault becomes a
  * problem. What ambulo_problem_create() then objects to gets the position of the key
  * its message begins with.
+ *
+ * Reading order: problem_reader.h, problem_file.c, problem_reader.c, problem_grid.c,
+ * problem_schedule.c, problem_constraints.c, problem_objective.c, problem_solver.c; model_file.h,
+ * model_reader.h, model_links.c; solution_load.c.
  */
 #include "reader/problem_reader.h"
 

@@ -1,4 +1,7 @@
-/* report/report.c - the result folder, all or nothing. */
+/* report/report.c - the result folder, all or nothing.
+ *
+ * Reading order: report.c, summary_json.h, summary_json.c, solution_yaml.c, versions.c.
+ */
 #include "ambulo/report.h"
 
 #include <string.h>

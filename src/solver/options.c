@@ -49,8 +49,7 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
   if (options->finisher < AMBULO_FINISHER_NONE || options->finisher > AMBULO_FINISHER_SLSQP)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver finisher %d", (int)options->finisher);
-  if (options->equalities < AMBULO_EQUALITIES_HELD ||
-      options->equalities > AMBULO_EQUALITIES_NLOPT)
+  if (options->equalities < AMBULO_EQUALITIES_HELD || options->equalities > AMBULO_EQUALITIES_NLOPT)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver equalities %d", (int)options->equalities);
   if (options->maximum_evaluations < 1)

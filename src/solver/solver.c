@@ -8,6 +8,9 @@
  * From a start of the caller: a rough one is smoothed first (smooth.c); where it leads to no
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (candidates.c).
+ *
+ * Reading order: solver.c, session.h, session.c, options.h, memory.h, better.h, audit_point.c;
+ * what they call: method/pipeline.c, method/refine.c, judge/audit.c.
  */
 #include "solver/better.h"
 #include "solver/session.h"

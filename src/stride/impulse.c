@@ -84,6 +84,7 @@ static void release(const ambulo_allocator *a, samples *s) {
   ambulo__free(a, s->step);
 }
 
+/* (I.4) Gauss's rule on the pieces */
 static ambulo_status integrate(const ambulo_problem *p, ambulo_workspace *workspace,
                                const double *x, samples *s) {
   int width = 3 * p->channels.feet, count = AMBULO__GAUSS_POINTS * pieces(p, s->ends);

@@ -1,4 +1,7 @@
-/* stride/stride.c - sampling a motion, and adding the mirrored second step (stride.h). */
+/* stride/stride.c - sampling a motion, and adding the mirrored second step (stride.h).
+ *
+ * Reading order: stride.h, stride.c, stride_feet.c, strikes.h, impulse.h.
+ */
 #include "stride/stride.h"
 
 #include <string.h>

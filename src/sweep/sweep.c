@@ -1,4 +1,8 @@
-/* sweep/sweep.c - reading a sweep file. */
+/* sweep/sweep.c - reading a sweep file.
+ *
+ * Reading order: sweep.h, sweep.c, sweep_axis.c, sweep_values.c, filter.c, sweep_cases.c,
+ * sweep_chains.c, sweep_check.c, units.h.
+ */
 #include "sweep/sweep.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/report.h"

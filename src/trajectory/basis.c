@@ -1,5 +1,9 @@
 /* trajectory/basis.c - what all discretizations share: breakpoints, finding the
- * interval of a time, trimming the map to the control points that carry weight. */
+ * interval of a time, trimming the map to the control points that carry weight.
+ *
+ * Reading order: basis.h, bspline.c (central_difference.c, hermite.c), lane_map.h, transfer.c for
+ * another grid; motion_fit.h, butterworth.h for given motions.
+ */
 #include "trajectory/basis_methods.h"
 
 #include <float.h>

@@ -26,7 +26,7 @@ static int span(int degree, int intervals) {
   return degree + 1;
 }
 
-/* degree k - 1 -> k, in place: w[0..k-1] hold j = s-k+1..s, afterwards w[0..k] j = s-k..s */
+/* (23): degree k - 1 -> k, in place: w[0..k-1] hold j = s-k+1..s, afterwards w[0..k] j = s-k..s */
 static void raise_degree(const double *knots, int s, int k, double t, int differentiate,
                          double *w) {
   w[k] = 0.0;
@@ -39,6 +39,7 @@ static void raise_degree(const double *knots, int s, int k, double t, int differ
   }
 }
 
+/* (23) N_j,p from N_j,p-1 */
 static void at(const ambulo__basis *basis, int interval, double t, ambulo__basis_point *point) {
   int p = basis->degree;
   int s = p + interval;

@@ -52,6 +52,7 @@ static double memory(const section *s) {
   return root < 0.0 ? sqrt(s->a2) : 0.5 * (fabs(s->a1) + sqrt(root));
 }
 
+/* (I.1) gain of both passes together */
 static filter design(double rate, double cutoff, int order) {
   filter f = {.count = 0};
   int n = order / 2;

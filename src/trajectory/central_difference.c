@@ -30,6 +30,7 @@ static void add_node(double factor, double h, int offset, ambulo__basis_point *p
   point->weight[2][offset + 2] += factor / (h * h);
 }
 
+/* (18) (19) differences of the neighbours */
 static void at(const ambulo__basis *basis, int interval, double t, ambulo__basis_point *point) {
   double h = basis->duration / basis->intervals;
   double start = basis->breakpoints[interval];

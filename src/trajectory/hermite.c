@@ -29,6 +29,7 @@ static int span(int degree, int intervals) {
 static const double coefficient[4][4] = {
     {1, 0, 0, 0}, {0, 1, 0, 0}, {-3, -2, 3, -1}, {2, 1, -2, 1}};
 
+/* (20) (21) (22) cubic of the interval */
 static void at(const ambulo__basis *basis, int interval, double t, ambulo__basis_point *point) {
   double h = basis->duration / basis->intervals;
   double start = basis->breakpoints[interval];

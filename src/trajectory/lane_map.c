@@ -105,6 +105,7 @@ static void forward_order(const double *weight, int first, int span, int d,
   }
 }
 
+/* (M) (q, qd, qdd) = (B_0, B_1, B_2) P */
 void ambulo__lane_map_forward(const ambulo__lane_map *map, const double *x, double *q, double *qd,
                               double *qdd, double *jerk, size_t block_stride) {
   int d = map->coordinates;
@@ -152,6 +153,7 @@ static void transpose_order(const double *weight, int first, int span, int d,
   }
 }
 
+/* (M) its transpose */
 void ambulo__lane_map_transpose(const ambulo__lane_map *map, const double *gq, const double *gqd,
                                 const double *gqdd, const double *gjerk, size_t block_stride,
                                 double *gx) {

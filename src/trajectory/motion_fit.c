@@ -36,6 +36,7 @@ typedef struct banded {
 
 /* -------------------------------------------------------------- interpolation */
 
+/* (FIT) N(t_i) P = q_i */
 static void collocate(const ambulo__motion *motion, const ambulo__basis *basis, banded *system) {
   int diagonal = 2 * system->band; /* dgbtrf: `band` rows of fill-in, `band` above */
   for (int k = 0; k < motion->rows; k++) {

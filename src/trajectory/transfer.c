@@ -79,6 +79,7 @@ static void oslo_weights(const ambulo__basis *from, const ambulo__basis *to, int
   memcpy(weight, point[p], ((size_t)p + 1) * sizeof *weight);
 }
 
+/* (K) blossoms */
 static void insert_knots(const ambulo__basis *from, const double *x_from, const ambulo__basis *to,
                          double *x_to, int d) {
   for (int j = 0; j < to->control_points; j++) {

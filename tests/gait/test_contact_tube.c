@@ -1,5 +1,5 @@
 /* Contact tubes at q = 0: left heel at (-0.05, 0.09), left toe at (0.17, 0.09) m, sole level. */
-#include "gait/band.h"
+#include "gait/bounded.h"
 #include "support/row_fixture.h"
 
 static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, {0.6, 0.1}},

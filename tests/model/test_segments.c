@@ -100,7 +100,7 @@ static void fixed_links_belong_to_what_carries_them(void **state) {
   assert_close(s.body[1].inertia[0], 0.85, 1e-15);
   assert_close(s.body[1].inertia[1], 0.1, 1e-15);
   assert_close(s.body[1].inertia[2], 0.75, 1e-15);
-  ambulo__frame joint = ambulo__segment_joint(&s, 0);
+  ambulo__segment_frame joint = ambulo__segment_joint(&s, 0);
   assert_close(joint.axes[2][2], -1.0, 0); /* world z points to the right */
   ambulo__segments_free(&s);
   ambulo_model_free(model);

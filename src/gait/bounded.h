@@ -1,6 +1,6 @@
-/* gait/band.h - a linear form of one node's channels between two bounds: a pair of rows. */
-#ifndef AMBULO_GAIT_BAND_H
-#define AMBULO_GAIT_BAND_H
+/* gait/bounded.h - a linear form of one node's channels between two bounds: a pair of rows. */
+#ifndef AMBULO_GAIT_BOUNDED_H
+#define AMBULO_GAIT_BOUNDED_H
 
 #include "gait/gait.h"
 
@@ -10,26 +10,26 @@ enum { AMBULO__FORM_TERMS = 12 };
 typedef struct ambulo__linear {
   double constant;
   int count;
-  int overflow; /* 1: a term found no room; ambulo__band_rows then refuses the form */
+  int overflow; /* 1: a term found no room; ambulo__bounded_rows then refuses the form */
   int channel[AMBULO__FORM_TERMS];
   double coefficient[AMBULO__FORM_TERMS];
 } ambulo__linear;
 
 /* What a pair of rows is about. Static text, except the subject, which lives in the model. */
-typedef struct ambulo__band_name {
+typedef struct ambulo__bounded_name {
   ambulo__row_kind kind;
   const char *subject, *lower, *upper;
   ambulo__measure measure;
-} ambulo__band_name;
+} ambulo__bounded_name;
 
 /* Adds factor times the components first, first + 1, first + 2 along `direction`. */
 void ambulo__linear_add(ambulo__linear *form, int first, const double direction[3], double factor);
 
 /* form - low >= 0 and high - form >= 0; an infinite bound has no row. A form that overflowed makes
  * the table fail with E_INTERNAL. */
-void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
-                       const ambulo__linear *form, double low, double high,
-                       ambulo__row_table *table);
+void ambulo__bounded_rows(const ambulo__gait_frame *frame, int node,
+                          const ambulo__bounded_name *name, const ambulo__linear *form, double low,
+                          double high, ambulo__row_table *table);
 
 /* Derivatives of q that rows look at: places none, forces and the zero-moment point two. */
 enum { AMBULO__OF_PLACES = 0, AMBULO__OF_FORCES = 2 };

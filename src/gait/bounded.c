@@ -1,5 +1,5 @@
-/* gait/band.c - pairs of inequality rows (band.h). */
-#include "gait/band.h"
+/* gait/bounded.c - pairs of inequality rows (bounded.h). */
+#include "gait/bounded.h"
 
 #include <math.h>
 
@@ -15,7 +15,7 @@ void ambulo__linear_add(ambulo__linear *form, int first, const double direction[
   }
 }
 
-static void side(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
+static void side(const ambulo__gait_frame *frame, int node, const ambulo__bounded_name *name,
                  const ambulo__linear *form, double sign, double bound, ambulo__row_table *table) {
   if (!isfinite(bound)) return;
   ambulo__row_begin(table, name->kind, name->subject, sign > 0.0 ? name->lower : name->upper,
@@ -25,9 +25,9 @@ static void side(const ambulo__gait_frame *frame, int node, const ambulo__band_n
     ambulo__row_term_add(table, node, form->channel[t], sign * form->coefficient[t]);
 }
 
-void ambulo__band_rows(const ambulo__gait_frame *frame, int node, const ambulo__band_name *name,
-                       const ambulo__linear *form, double low, double high,
-                       ambulo__row_table *table) {
+void ambulo__bounded_rows(const ambulo__gait_frame *frame, int node,
+                          const ambulo__bounded_name *name, const ambulo__linear *form, double low,
+                          double high, ambulo__row_table *table) {
   if (form->overflow && !table->status) table->status = AMBULO_E_INTERNAL;
   side(frame, node, name, form, 1.0, low, table);
   side(frame, node, name, form, -1.0, high, table);

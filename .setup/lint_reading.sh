@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# What a newcomer is led by stands where it is said to stand:
+#
+#   each folder of src/ has one file whose head has a "Reading order:", and every file it names is
+#   in that folder, or below src/
+#   every `src/...` file of docs/solver.md and docs/glossary.md exists, and every function named with
+#   it is in it
+#   no two headers of src/ declare types of one name
+#   the list "Follow one control point" of docs/solver.md has at most 60 files
+set -u
+most=60
+bad=0
+say() {
+  echo "$1"
+  bad=1
+}
+
+for folder in src/*/; do
+  mapfile -t heads < <(grep -lE '^ \* Reading order: ' "$folder"*.[ch])
+  if [ ${#heads[@]} -ne 1 ]; then
+    say "$folder: ${#heads[@]} files with a reading order, expected one"
+    continue
+  fi
+  while read -r name; do
+    [ -f "$folder$name" ] || [ -f "src/$name" ] || say "${heads[0]}: no file $name in $folder"
+  done < <(sed -n '/^ \* Reading order: /,/^ \*\/\|^ \*$/p' "${heads[0]}" |
+    grep -oE '[a-z0-9_/]+\.[ch]')
+done
+
+for page in docs/solver.md docs/glossary.md; do
+  while IFS=: read -r file name; do
+    if [ ! -f "$file" ]; then
+      say "$page: no file $file"
+    elif [ -n "$name" ] && ! grep -qE "\b$name\b" "$file"; then
+      say "$page: $file has no $name"
+    fi
+  done < <(grep -oE '`(src|tests|include)/[a-z0-9_/]+\.[a-z0-9]+(:[A-Za-z0-9_]+)?`' "$page" |
+    tr -d '`' | sort -u)
+done
+
+for name in $(grep -rhoE '^(typedef )?(struct|union|enum) [a-z0-9_]+ \{' src --include='*.h' |
+  sed -E 's/^(typedef )?[a-z]+ ([a-z0-9_]+) .*/\2/' | sort | uniq -d); do
+  say "$name is declared in $(grep -rlE "(struct|union|enum) $name \{" src --include='*.h' | xargs)"
+done
+
+count=$(sed -n '/^## Follow one control point/,/^## /p' docs/solver.md |
+  grep -oE '`src/[a-z0-9_/]+\.[ch]`' | sort -u | wc -l)
+[ "$count" -gt 0 ] || say 'docs/solver.md: no list "Follow one control point"'
+[ "$count" -le $most ] || say "docs/solver.md: one control point goes through $count files, expected at most $most"
+exit $bad
