@@ -32,6 +32,7 @@
  * row is violated, with 10 where none is and f > 0: S makes R of it.
  */
 #include "method/auglag.h"
+#include "method/parameters.h"
 #include "method/chart.h"
 #include "method/mirror.h"
 #include "method/nlopt_direct.h"
@@ -42,18 +43,8 @@
 #include <string.h>
 
 enum {
-  BLOCK = 8, /* rows that NLopt is given as one vector: it keeps n doubles for each of a block */
-  INNER_EVALUATIONS = 8,
-  STORED_VECTORS = 20, /* of L-BFGS: as many as there are evaluations, and to spare */
-  MAX_DAMPINGS = 6
-};
-static const double least_penalty = 1e-6, plain_penalty = 10.0; /* NLopt's rho at its start */
-static const double penalty_growth = 2.0;
-static const double nlopt_growth = 10.0;
-static const double least_scale = 1e-11; /* S: below, L-BFGS's absolute tests come near */
-static const double no_gradient = 5e-6;  /* of max(1, |f|): below the gradient's own accuracy */
-static const double least_adjoint_tolerance = 1e-6;
-static const double mu_least = 0.03, mu_largest = 3.0; /* times mu at the beginning */
+  BLOCK = 8
+}; /* rows that NLopt is given as one vector: it keeps n doubles for each of them */
 
 typedef struct session session;
 
@@ -95,11 +86,11 @@ static ambulo_ending model(session *s) {
   double mu = e->mu;
   do {
     e->mu = mu;
-    for (int trial = 0; trial < MAX_DAMPINGS; trial++) {
+    for (int trial = 0; trial < AMBULO__DAMPING_RAISES; trial++) {
       int failed = ambulo__model_step(e, &s->predicted);
       if (failed == 0) return AMBULO_ENDING_NONE;
       if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
-      e->mu *= 10.0;
+      e->mu *= AMBULO__DAMPING_RAISE;
     }
   } while (ambulo__kkt_by_row(&e->kkt));
   return AMBULO_ENDING_BREAKDOWN;
@@ -123,8 +114,10 @@ static void update_damping(session *s, double reached) {
   double promised = fmin(s->predicted, -1e-14);
   double by_step = (s->tried - s->chart.start) / promised;
   double in_all = (reached - s->chart.start) / promised;
-  if (in_all > 1.5 && by_step > 0.5) e->mu = fmax(mu_least * s->damping, 0.5 * e->mu);
-  if (by_step < 0.1) e->mu = fmax(e->mu, fmin(mu_largest * s->damping, 2.0 * e->mu));
+  if (in_all > AMBULO__DAMPING_LOWER_ALL && by_step > AMBULO__DAMPING_LOWER_STEP)
+    e->mu = fmax(AMBULO__DAMPING_LEAST * s->damping, e->mu / AMBULO__DAMPING_CHANGE);
+  if (by_step < AMBULO__DAMPING_RAISE_STEP)
+    e->mu = fmax(e->mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * e->mu));
 }
 
 /* -------------------------------------------------------- after an inner solve */
@@ -142,7 +135,7 @@ static void update_multipliers(session *s) {
   ambulo__engine *e = s->engine;
   if (ambulo__mirror_update(&s->mirror, s->row)) {
     double room = s->stopping->penalty_limit / e->rho;
-    s->scale *= fmax(1.0, fmin(penalty_growth, room)) / nlopt_growth;
+    s->scale *= fmax(1.0, fmin(AMBULO__PENALTY_GROWTH, room)) / AMBULO__NLOPT_GROWTH;
   }
   memset(s->shift, 0, (size_t)e->inequalities * sizeof *s->shift);
   take_multipliers(s);
@@ -165,7 +158,7 @@ static void inner_ended(session *s, double value) {
   if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;
-  s->again = s->scale < least_scale;
+  s->again = s->scale < AMBULO__SCALE_LEAST;
   s->lay = 1;
 }
 
@@ -222,7 +215,7 @@ static double trial(session *s, unsigned n, const double *w, double *gradient) {
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
   if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
-  double least = no_gradient * fmax(1.0, fabs(e->held.objective));
+  double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(e->held.objective));
   if (e->held.value < HUGE_VAL && e->held.gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);
   take_rows(s);
@@ -282,9 +275,10 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
 
 static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
   static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
-  int failed = nlopt_set_maxeval(local, INNER_EVALUATIONS) < 0 ||
-               nlopt_set_ftol_rel(local, 1e-12) < 0 || nlopt_set_xtol_rel(local, 1e-14) < 0 ||
-               nlopt_set_vector_storage(local, STORED_VECTORS) < 0 ||
+  int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
+               nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
+               nlopt_set_xtol_rel(local, AMBULO__INNER_POINT) < 0 ||
+               nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
                !ambulo__nlopt_can_copy((unsigned)s->engine->n) ||
                nlopt_set_local_optimizer(outer, local) < 0 ||
                nlopt_set_min_objective(outer, objective, s) < 0;
@@ -315,7 +309,7 @@ static int call(session *s) {
 /* S, sigma and the constant for which NLopt starts with the engine's lambda and R; the chart */
 static ambulo_ending prepare(session *s) {
   ambulo__engine *e = s->engine;
-  double penalty = least_penalty, violated = 0.0;
+  double penalty = AMBULO__NLOPT_LEAST_PENALTY, violated = 0.0;
   memset(e->iterate, 0, (size_t)e->n * sizeof *e->iterate);
   s->started = e->inequalities == 0; /* NLopt does not ask then */
   s->again = 0;
@@ -329,7 +323,7 @@ static ambulo_ending prepare(session *s) {
   }
   s->constant = -s->scale * e->held.objective;
   if (violated == 0.0) {
-    penalty = plain_penalty;
+    penalty = AMBULO__NLOPT_FIRST_PENALTY;
     s->scale = e->rho / penalty;
     s->chart.stretch = sqrt(s->scale);
     s->constant = 1.0 - s->scale * e->held.objective;
@@ -374,8 +368,8 @@ static ambulo_status run(session *s) {
       s->ending = AMBULO_ENDING_NLOPT;
       break;
     }
-    if (e->adjoint_tolerance > least_adjoint_tolerance) {
-      e->adjoint_tolerance *= 0.1;
+    if (e->adjoint_tolerance > AMBULO__ADJOINT_LEAST) {
+      e->adjoint_tolerance *= AMBULO__ADJOINT_SHARPEN;
     } else if (r->nlopt.outer == before) {
       s->ending = AMBULO_ENDING_NLOPT;
     }
