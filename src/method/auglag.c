@@ -114,7 +114,7 @@ static void update_damping(session *s, double reached) {
   double promised = fmin(s->predicted, -1e-14);
   double by_step = (s->tried - s->chart.start) / promised;
   double in_all = (reached - s->chart.start) / promised;
-  if (in_all > AMBULO__DAMPING_LOWER_ALL && by_step > AMBULO__DAMPING_LOWER_STEP)
+  if (in_all > AMBULO__DAMPING_LOWER_ALL)
     e->mu = fmax(AMBULO__DAMPING_LEAST * s->damping, e->mu / AMBULO__DAMPING_CHANGE);
   if (by_step < AMBULO__DAMPING_RAISE_STEP)
     e->mu = fmax(e->mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * e->mu));
@@ -277,7 +277,6 @@ static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
   static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
   int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
-               nlopt_set_xtol_rel(local, AMBULO__INNER_POINT) < 0 ||
                nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
                !ambulo__nlopt_can_copy((unsigned)s->engine->n) ||
                nlopt_set_local_optimizer(outer, local) < 0 ||

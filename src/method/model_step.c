@@ -191,15 +191,14 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   take(e, t);
   d->before = d->value;
   d->value = now;
-  int better = now < d->least, whole = fabs(t - 1.0) < AMBULO__MODEL_WHOLE;
+  int better = now < d->least, whole = t >= 1.0;
   keep(e, d);
-  double gained = fmax(AMBULO__MODEL_GAIN_FLOOR, d->start - d->least);
+  double gained = d->start - d->least;
   int changed = mark_active(e);
   if (changed == 0 && whole) return 1;
   if (!better) return 0;
   if (k > 0 && fabs(d->before - now) < d->tolerance * gained) return 1;
-  return slope < AMBULO__MODEL_EXACT * gained ||
-         slope < AMBULO__MODEL_NEGLIGIBLE * fmax(1.0, fabs(now));
+  return slope < AMBULO__MODEL_EXACT * gained;
 }
 
 int ambulo__model_minimize(ambulo__engine *e, int roughly, double *phi) {

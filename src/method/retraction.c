@@ -56,8 +56,7 @@ int ambulo__retract(ambulo__engine *e, double *y) {
     if (error <= e->retraction_tolerance) return 1;
     if (least <= AMBULO__ROUNDING && error > 0.5 * least)
       return 1; /* as near as rounding lets it */
-    if (isnan(error) || (k >= AMBULO__CHORD_PATIENCE && error > AMBULO__CHORD_GROWTH * least))
-      return 0;
+    if (isnan(error)) return 0;
     least = fmin(least, error);
     chord(e, y);
     for (int j = 0; j < e->n; j++) {
