@@ -140,12 +140,64 @@ static void a_border_row_that_vanishes_does_no_harm(void **state) {
   ambulo__pool_clear(&s.pool);
 }
 
+/* worst |J d - h| of the local rows */
+static double worst_row(const kkt_case *s, const double *d) {
+  double out[LOCAL], worst = 0.0;
+  ambulo__sparse_rows_multiply(&s->local, d, out);
+  for (int i = 0; i < LOCAL; i++) worst = fmax(worst, fabs(out[i] - s->rhs_local[i]));
+  return worst;
+}
+
+/* the penalty is raised for the next factor, and that one solves */
+static void rows_that_nearly_depend_get_stiffer(void **state) {
+  (void)state;
+  static kkt_case s;
+  double d[N], l[LOCAL] = {0.0};
+  open_system(&s);
+  /* row 1 becomes row 0 but for a trace of another column, with another right-hand side */
+  memcpy(s.column[0] + s.start[0][1], s.column[0], 4 * sizeof(int));
+  memcpy(s.value[0] + s.start[0][1], s.value[0], 4 * sizeof(double));
+  s.value[0][s.start[0][1]] += 1e-4;
+  s.rhs_local[1] = s.rhs_local[0] + 1e-4;
+  assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+  ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+  double before = worst_row(&s, d);
+  assert_true(before > 1e-5);
+  for (int k = 0; k < 2; k++) {
+    memset(l, 0, sizeof l);
+    assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+    ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+  }
+  assert_true(worst_row(&s, d) < 1e-3 * before);
+  ambulo__pool_clear(&s.pool);
+}
+
+/* one penalty for all rows drowns a metric of very uneven size; one for each row does not */
+static void uneven_metrics_are_solved_row_by_row(void **state) {
+  (void)state;
+  static kkt_case s;
+  double d[N], l[LOCAL] = {0.0};
+  open_system(&s);
+  ambulo__band_clear(&s.h);
+  ambulo__band_add_diagonal(&s.h, 1e-6);
+  s.h.a[(size_t)(N - 1) * (size_t)s.h.ld] = 1e10;
+  assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 1);
+  assert_int_equal(ambulo__kkt_by_row(&s.kkt), 1);
+  assert_int_equal(ambulo__kkt_by_row(&s.kkt), 0);
+  assert_int_equal(ambulo__kkt_factor(&s.kkt, &s.h), 0);
+  ambulo__kkt_solve(&s.kkt, s.a, s.rhs_local, s.rhs_border, d, l, NULL);
+  assert_true(worst_row(&s, d) < 1e-9 * fabs(d[0]));
+  ambulo__pool_clear(&s.pool);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(solution_is_the_dense_one),
       cmocka_unit_test(rows_hold_to_rounding),
       cmocka_unit_test(dependent_rows_do_no_harm),
       cmocka_unit_test(a_border_row_that_vanishes_does_no_harm),
+      cmocka_unit_test(rows_that_nearly_depend_get_stiffer),
+      cmocka_unit_test(uneven_metrics_are_solved_row_by_row),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -91,11 +91,28 @@ static void two_values_at_once_contradict_each_other(void **state) {
   ambulo_diagnostics_free(list);
 }
 
+/* two values that differ by rounding agree; by a micrometre, or a microradian, they do not */
+static void rounding_is_no_contradiction(void **state) {
+  (void)state;
+  ambulo_user_row row = {"own", "rad", AMBULO_EQUAL, 0.0, 0.0, shoulder_at_0_4, NULL};
+  const double apart[] = {1e-10, 1e-6};
+  const ambulo__row_rank want[] = {AMBULO__ROW_DEPENDENT, AMBULO__ROW_CONTRADICTORY};
+  for (int i = 0; i < 2; i++) {
+    ambulo_end_value ends[] = {{0, 0, 0, 0.4 + apart[i]}};
+    ambulo__row_rank last = AMBULO__ROW_INDEPENDENT;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    (void)ranks_of(ends, 1, &row, &last, list);
+    assert_int_equal(last, want[i]);
+    ambulo_diagnostics_free(list);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(flat_soles_and_the_periodic_end_are_dropped),
       cmocka_unit_test(repeated_value_is_a_copy),
       cmocka_unit_test(two_values_at_once_contradict_each_other),
+      cmocka_unit_test(rounding_is_no_contradiction),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
