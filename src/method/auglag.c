@@ -352,10 +352,9 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
 }
 
 /* calls until something ends it: more than one where NLopt ended by a test of its own: all rows
- * hold without a multiplier; or its line search found nothing, which asks for better gradients */
+ * hold without a multiplier; or its line search found nothing, after a chart is laid anew once */
 static ambulo_status run(session *s) {
-  ambulo__engine *e = s->engine;
-  ambulo__run *r = e->run;
+  ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {
     int before = r->nlopt.outer;
     s->ending = prepare(s);
@@ -367,11 +366,7 @@ static ambulo_status run(session *s) {
       s->ending = AMBULO_ENDING_NLOPT;
       break;
     }
-    if (e->adjoint_tolerance > AMBULO__ADJOINT_LEAST) {
-      e->adjoint_tolerance *= AMBULO__ADJOINT_SHARPEN;
-    } else if (r->nlopt.outer == before) {
-      s->ending = AMBULO_ENDING_NLOPT;
-    }
+    if (r->nlopt.outer == before) s->ending = AMBULO_ENDING_NLOPT;
   }
   return AMBULO_OK;
 }
@@ -381,10 +376,8 @@ ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, doub
   session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->mu};
   ambulo__pool pool;
   ambulo__pool_init(&pool, &e->pool.allocator);
-  double accuracy = e->adjoint_tolerance;
   ambulo_status status = create(&s, &pool);
   if (!status) status = run(&s);
-  e->adjoint_tolerance = accuracy;
   ambulo__pool_clear(&pool);
   *ending = s.ending;
   return status;

@@ -62,7 +62,6 @@ int ambulo__retract(ambulo__engine *e, double *y) {
     for (int j = 0; j < e->n; j++) {
       if (!isfinite(y[j])) return 0;
     }
-    if (ambulo__engine_step_limit(e, e->step, AMBULO__WILD_STEP) < 1.0) return 0;
   }
   return 0;
 }

@@ -25,7 +25,7 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
   const ambulo__trial *point = &e->reached;
   double change = fabs(point->objective - s->objective), violation = point->violation;
   double relative = s->loose ? AMBULO__COARSE_CHANGE : AMBULO__VALUE_CHANGE;
-  int steady = change <= fmax(relative * fabs(point->objective), AMBULO__VALUE_FLOOR);
+  int steady = change <= relative * fabs(point->objective);
   int small = point->gradient_norm <= AMBULO__GRADIENT_SMALL * fmax(1.0, fabs(point->objective));
   int near = violation <= fmax(tolerance, AMBULO__NEAR_VIOLATION);
   s->settled = near && steady ? s->settled + 1 : 0;
