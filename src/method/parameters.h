@@ -1,23 +1,22 @@
 /* method/parameters.h - every constant of the method, by what it governs.
  *
  * Each with its unit, why it is what it is, and what holds it: the test in tests/method that goes
- * red when it is wrong by a hundred, up or down (T), a measured change of the work at half and at
- * double the value (x), or without it (0). Measured over the 17 shipped problems that the solver
- * takes through AUGLAG or SLSQP (352 iterations, 2716 evaluations in all) or, for (0), over 21: the
- * same, rough starts, central differences, long steps, tight tolerances and infeasible tasks.
- * "Free" stands for less than 5 % of the iterations, every verdict the same and every objective to
- * 0.1 %; the one exception that is not told each time is walk_tracking, which has a second minimum
- * 0.12 % lower and goes there or not. "other minima": yardsticks have many local minima, and a
- * change of the path ends in another, better or worse, as often as not. All at the objective's
- * scale (REFERENCE_CURVATURE).
+ * red when it is wrong by a hundred or far more, or zero (T), a measured change of the work at half
+ * and at double the value (x), or without it (0). Measured over the 17 shipped problems that the
+ * solver takes through AUGLAG or SLSQP (352 iterations, 2716 evaluations in all) or, for (0), over
+ * 21: the same, rough starts, central differences, long steps, tight tolerances and infeasible
+ * tasks. "Free" stands for less than 5 % of the iterations, every verdict the same and every
+ * objective to 0.1 %; the one exception that is not told each time is walk_tracking, which has a
+ * second minimum 0.12 % lower and goes there or not. "other minima": yardsticks have many local
+ * minima, and a change of the path ends in another, better or worse, as often as not. All at the
+ * objective's scale (REFERENCE_CURVATURE).
  *
  * What is no parameter stays where it is used: NLopt's own constants (mirror.h), sizes of blocks.
  */
 #ifndef AMBULO_METHOD_PARAMETERS_H
 #define AMBULO_METHOD_PARAMETERS_H
 
-/* ------------------------------------------- damping mu of the model step (auglag.c, pipeline.c)
- */
+/* ------------------------ damping mu of the model step (auglag.c, pipeline.c) */
 
 /* mu at the start, times the time T/K of a control point; rad^-2 or m^-2 of scaled objective. x:
  * free. T: pipeline. */
@@ -50,8 +49,7 @@
  * model_step. */
 #define AMBULO__RESTORE_DAMPING 10.0
 
-/* -------------------------------------------------------- penalty R on inequalities (pipeline.c)
- */
+/* ------------------------ penalty R on inequalities (pipeline.c) */
 
 /* R at the start, scaled objective per (row unit)^2: weak, so that rows shape the motion late.
  * x: +5 % iterations; double: yardstick_72 +1.2 % of the objective (other minima). T: pipeline. */
@@ -152,8 +150,7 @@
 /* passes of a gradient. x: free. T: retraction. */
 #define AMBULO__ADJOINT_PASSES 14
 
-/* ------------------------------------------------------------ the way to the surface (restore.c)
- */
+/* ------------------------ the way to the surface (restore.c) */
 
 /* Newton steps from anywhere. Shipped problems need fewer than 30 (x: no change). T: restore. */
 #define AMBULO__RESTORE_STEPS 60
