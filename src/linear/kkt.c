@@ -18,20 +18,16 @@
  * (retraction.c).
  */
 #include "linear/kkt.h"
+#include "linear/parameters.h"
 #include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MAX_PASSES = 8 };
-static const double stiffness_start = 1e4, stiffness_largest = 1e8, stiffness_factor = 100.0;
-static const double pass_tolerance = 1e-11;
-static const double slow = 1e-7; /* error after all passes that asks for more stiffness */
-
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
                                  const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
                                  ambulo__kkt *kkt) {
-  kkt->stiffness = stiffness_start;
+  kkt->stiffness = AMBULO__STIFFNESS_START;
   kkt->equality = equality;
   kkt->n = equality->problem->variables;
   kkt->equalities = equality->count;
@@ -68,13 +64,13 @@ static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
     ambulo__band_add_sparse(&kkt->factor, kkt->equality, i, kkt->penalty[i]);
   if (ambulo__band_factor(&kkt->factor)) return 1;
   /* a border row that the local rows imply would make the complement singular */
-  return ambulo__border_factor(&kkt->border, &kkt->factor, NULL, 0.0, 1e-14);
+  return ambulo__border_factor(&kkt->border, &kkt->factor, NULL, 0.0, AMBULO__BORDER_SHIFT);
 }
 
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
   int failed = factor(kkt, h);
-  if (!failed || kkt->stiffness <= stiffness_start) return failed;
-  kkt->stiffness = stiffness_start;
+  if (!failed || kkt->stiffness <= AMBULO__STIFFNESS_START) return failed;
+  kkt->stiffness = AMBULO__STIFFNESS_START;
   return factor(kkt, h);
 }
 
@@ -115,7 +111,7 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
                        double *d, double *l, double *m) {
   size_t n = (size_t)kkt->n;
   double before = HUGE_VAL, error = 0.0;
-  for (int pass = 0; pass < MAX_PASSES; pass++) {
+  for (int pass = 0; pass < AMBULO__KKT_PASSES; pass++) {
     for (int i = 0; i < kkt->equalities; i++)
       kkt->residual[i] = (h ? kkt->penalty[i] * h[i] : 0.0) - l[i];
     if (a) {
@@ -127,8 +123,9 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
     ambulo__kkt_pass(kkt, d, b, m);
     error = equality_error(kkt, h, d);
     for (int i = 0; i < kkt->equalities; i++) l[i] += kkt->penalty[i] * kkt->residual[i];
-    if (error <= pass_tolerance || !(error <= 0.5 * before)) break;
+    if (error <= AMBULO__KKT_TOLERANCE || !(error <= AMBULO__KKT_PROGRESS * before)) break;
     before = error;
   }
-  if (error > slow) kkt->stiffness = fmin(stiffness_largest, stiffness_factor * kkt->stiffness);
+  if (error > AMBULO__KKT_SLOW)
+    kkt->stiffness = fmin(AMBULO__STIFFNESS_LARGEST, AMBULO__STIFFNESS_FACTOR * kkt->stiffness);
 }

@@ -6,11 +6,10 @@
  * few normal equations are regularized and solved by Cholesky.
  */
 #include "linear/mixing.h"
+#include "linear/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double regularization = 1e-12;
 
 ambulo_status ambulo__mixing_create(ambulo__pool *pool, int points, int residuals,
                                     ambulo__mixing *m) {
@@ -65,7 +64,7 @@ static int coefficients(const ambulo__mixing *m, const double *r, double *c) {
     }
     trace += a[i][i];
   }
-  for (int i = 0; i < m->count; i++) a[i][i] += regularization * trace;
+  for (int i = 0; i < m->count; i++) a[i][i] += AMBULO__MIXING_REGULARIZATION * trace;
   return solve(m->count, a, c) == 0;
 }
 

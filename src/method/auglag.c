@@ -34,6 +34,7 @@
  * row is violated, with 10 where none is and f > 0: S makes R of it.
  */
 #include "method/auglag.h"
+#include "method/parameters.h"
 #include "method/chart.h"
 #include "method/mirror.h"
 #include "method/nlopt_direct.h"
@@ -44,18 +45,8 @@
 #include <string.h>
 
 enum {
-  BLOCK = 8, /* rows that NLopt is given as one vector: it keeps n doubles for each of a block */
-  INNER_EVALUATIONS = 8,
-  STORED_VECTORS = 20, /* of L-BFGS: as many as there are evaluations, and to spare */
-  MAX_DAMPINGS = 6
-};
-static const double least_penalty = 1e-6, plain_penalty = 10.0; /* NLopt's rho at its start */
-static const double penalty_growth = 2.0;
-static const double nlopt_growth = 10.0;
-static const double least_scale = 1e-11; /* S: below, L-BFGS's absolute tests come near */
-static const double no_gradient = 5e-6;  /* of max(1, |f|): below the gradient's own accuracy */
-static const double least_adjoint_tolerance = 1e-6;
-static const double mu_least = 0.03, mu_largest = 3.0; /* times mu at the beginning */
+  BLOCK = 8
+}; /* rows that NLopt is given as one vector: it keeps n doubles for each of them */
 
 typedef struct session session;
 
@@ -97,11 +88,11 @@ static ambulo_ending model(session *s) {
   double mu = e->mu;
   do {
     e->mu = mu;
-    for (int trial = 0; trial < MAX_DAMPINGS; trial++) {
+    for (int trial = 0; trial < AMBULO__DAMPING_RAISES; trial++) {
       int failed = ambulo__model_step(e, &s->predicted);
       if (failed == 0) return AMBULO_ENDING_NONE;
       if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
-      e->mu *= 10.0;
+      e->mu *= AMBULO__DAMPING_RAISE;
     }
   } while (ambulo__kkt_by_row(&e->kkt));
   return AMBULO_ENDING_BREAKDOWN;
@@ -125,8 +116,10 @@ static void update_damping(session *s, double reached) {
   double promised = fmin(s->predicted, -1e-14);
   double by_step = (s->tried - s->chart.start) / promised;
   double in_all = (reached - s->chart.start) / promised;
-  if (in_all > 1.5 && by_step > 0.5) e->mu = fmax(mu_least * s->damping, 0.5 * e->mu);
-  if (by_step < 0.1) e->mu = fmax(e->mu, fmin(mu_largest * s->damping, 2.0 * e->mu));
+  if (in_all > AMBULO__DAMPING_LOWER_ALL)
+    e->mu = fmax(AMBULO__DAMPING_LEAST * s->damping, e->mu / AMBULO__DAMPING_CHANGE);
+  if (by_step < AMBULO__DAMPING_RAISE_STEP)
+    e->mu = fmax(e->mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * e->mu));
 }
 
 /* -------------------------------------------------------- after an inner solve */
@@ -144,7 +137,7 @@ static void update_multipliers(session *s) {
   ambulo__engine *e = s->engine;
   if (ambulo__mirror_update(&s->mirror, s->row)) {
     double room = s->stopping->penalty_limit / e->rho;
-    s->scale *= fmax(1.0, fmin(penalty_growth, room)) / nlopt_growth;
+    s->scale *= fmax(1.0, fmin(AMBULO__PENALTY_GROWTH, room)) / AMBULO__NLOPT_GROWTH;
   }
   memset(s->shift, 0, (size_t)e->inequalities * sizeof *s->shift);
   take_multipliers(s);
@@ -167,7 +160,7 @@ static void inner_ended(session *s, double value) {
   if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;
-  s->again = s->scale < least_scale;
+  s->again = s->scale < AMBULO__SCALE_LEAST;
   s->lay = 1;
 }
 
@@ -224,7 +217,7 @@ static double trial(session *s, unsigned n, const double *w, double *gradient) {
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
   if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
-  double least = no_gradient * fmax(1.0, fabs(e->held.objective));
+  double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(e->held.objective));
   if (e->held.value < HUGE_VAL && e->held.gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);
   take_rows(s);
@@ -284,9 +277,9 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
 
 static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
   static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
-  int failed = nlopt_set_maxeval(local, INNER_EVALUATIONS) < 0 ||
-               nlopt_set_ftol_rel(local, 1e-12) < 0 || nlopt_set_xtol_rel(local, 1e-14) < 0 ||
-               nlopt_set_vector_storage(local, STORED_VECTORS) < 0 ||
+  int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
+               nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
+               nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
                !ambulo__nlopt_can_copy((unsigned)s->engine->n) ||
                nlopt_set_local_optimizer(outer, local) < 0 ||
                nlopt_set_min_objective(outer, objective, s) < 0;
@@ -317,7 +310,7 @@ static int call(session *s) {
 /* S, sigma and the constant for which NLopt starts with the engine's lambda and R; the chart */
 static ambulo_ending prepare(session *s) {
   ambulo__engine *e = s->engine;
-  double penalty = least_penalty, violated = 0.0;
+  double penalty = AMBULO__NLOPT_LEAST_PENALTY, violated = 0.0;
   memset(e->iterate, 0, (size_t)e->n * sizeof *e->iterate);
   s->started = e->inequalities == 0; /* NLopt does not ask then */
   s->again = 0;
@@ -331,7 +324,7 @@ static ambulo_ending prepare(session *s) {
   }
   s->constant = -s->scale * e->held.objective;
   if (violated == 0.0) {
-    penalty = e->inequalities > 0 ? plain_penalty : 1.0; /* as mirror.c: there is none */
+    penalty = e->inequalities > 0 ? AMBULO__NLOPT_FIRST_PENALTY : 1.0; /* as mirror.c */
     s->scale = e->rho / penalty;
     s->chart.stretch = sqrt(s->scale);
     s->constant = 1.0 - s->scale * e->held.objective;
@@ -361,10 +354,9 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
 }
 
 /* calls until something ends it: more than one where NLopt ended by a test of its own: all rows
- * hold without a multiplier; or its line search found nothing, which asks for better gradients */
+ * hold without a multiplier; or its line search found nothing, after a chart is laid anew once */
 static ambulo_status run(session *s) {
-  ambulo__engine *e = s->engine;
-  ambulo__run *r = e->run;
+  ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {
     int before = r->nlopt.outer;
     s->ending = prepare(s);
@@ -376,11 +368,7 @@ static ambulo_status run(session *s) {
       s->ending = AMBULO_ENDING_NLOPT;
       break;
     }
-    if (e->adjoint_tolerance > least_adjoint_tolerance) {
-      e->adjoint_tolerance *= 0.1;
-    } else if (r->nlopt.outer == before) {
-      s->ending = AMBULO_ENDING_NLOPT;
-    }
+    if (r->nlopt.outer == before) s->ending = AMBULO_ENDING_NLOPT;
   }
   return AMBULO_OK;
 }
@@ -390,10 +378,8 @@ ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, doub
   session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->mu};
   ambulo__pool pool;
   ambulo__pool_init(&pool, &e->pool.allocator);
-  double accuracy = e->adjoint_tolerance;
   ambulo_status status = create(&s, &pool);
   if (!status) status = run(&s);
-  e->adjoint_tolerance = accuracy;
   ambulo__pool_clear(&pool);
   *ending = s.ending;
   return status;

@@ -1,11 +1,9 @@
 /* method/chart.c - see chart.h */
 #include "method/chart.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double step_cap = 0.5;      /* rad, m: largest change that a model step proposes */
-static const double least_cosine = 1e-4; /* between s and -g; below, the step is left out */
 
 static double dot(const double *a, const double *b, int n) {
   double sum = 0.0;
@@ -25,7 +23,7 @@ ambulo_status ambulo__chart_create(int n, ambulo__pool *pool, ambulo__chart *c) 
 int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, double stretch) {
   int n = e->n;
   size_t bytes = (size_t)n * sizeof *w;
-  double share = ambulo__engine_step_limit(e, e->total, step_cap);
+  double share = ambulo__engine_step_limit(e, e->total, AMBULO__MODEL_STEP_CAP);
   memcpy(c->origin, w, bytes);
   memset(c->turn, 0, bytes);
   c->stretch = stretch;
@@ -38,7 +36,7 @@ int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, doub
   if (!(e->held.value < HUGE_VAL)) return 0;
   double slope = dot(c->gradient, c->step, n), size = dot(c->step, c->step, n);
   double steep = dot(c->gradient, c->gradient, n);
-  if (slope < 0.0 && slope * slope > least_cosine * least_cosine * steep * size) {
+  if (slope < 0.0 && slope * slope > AMBULO__COSINE_LEAST * AMBULO__COSINE_LEAST * steep * size) {
     double share_of_step = 1.0 / sqrt(-slope * size);
     for (int j = 0; j < n; j++) c->turn[j] = share_of_step * c->step[j] - c->gradient[j] / slope;
   } else {

@@ -1,5 +1,6 @@
 /* method/engine.c - setting up a solve on one grid; shared small steps. */
 #include "method/engine.h"
+#include "method/parameters.h"
 
 #include "base/worst.h"
 #include "nlp/fault.h"
@@ -10,17 +11,13 @@
 #include <math.h>
 #include <string.h>
 
-static const double adjoint_tolerance = 1e-3, retraction_tolerance = 1e-7;
-static const double retraction_share = 0.3; /* of a feasibility tolerance that is tighter */
-static const double usual_cap = 1.0;        /* rad, m: unit of ambulo__engine_step_limit */
-
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
 static double cap_of(const ambulo_problem *problem, int i) {
   const ambulo_coordinate *c = &problem->model->coordinates[i];
   ambulo__bounds bounds = ambulo__bounds_of(&problem->definition, i, AMBULO_LIMITED_POSITION);
-  if (c->type == AMBULO_REVOLUTE) return usual_cap;
+  if (c->type == AMBULO_REVOLUTE) return AMBULO__USUAL_CAP;
   double width = bounds.high.value - bounds.low.value;
-  return isfinite(width) ? fmax(usual_cap, 2.0 * width) : HUGE_VAL;
+  return isfinite(width) ? fmax(AMBULO__USUAL_CAP, AMBULO__RANGE_CAP * width) : HUGE_VAL;
 }
 
 static ambulo_status create_trial(ambulo__engine *e, ambulo__trial *trial) {
@@ -129,9 +126,9 @@ static ambulo_status create_parts(ambulo__engine *e, const double *start,
   for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(p, i);
   e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
   if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
-  e->adjoint_tolerance = adjoint_tolerance;
-  e->retraction_tolerance =
-      fmin(retraction_tolerance, retraction_share * e->run->options->feasibility_tolerance);
+  e->adjoint_tolerance = AMBULO__ADJOINT_TOLERANCE;
+  e->retraction_tolerance = fmin(AMBULO__RETRACTION_TOLERANCE,
+                                 AMBULO__RETRACTION_SHARE * e->run->options->feasibility_tolerance);
   e->carried_objective = -1.0;
   e->negligible = negligible_objective(e);
   return AMBULO_OK;

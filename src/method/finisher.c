@@ -11,16 +11,12 @@
  * violates joins them, and SLSQP starts again from the point before.
  */
 #include "method/finisher.h"
+#include "method/parameters.h"
 #include "method/nlopt_direct.h"
 
 #include <math.h>
 #include <nlopt.h>
 #include <string.h>
-
-enum { ROUNDS = 3, EVALUATIONS = 40 };
-static const double margin = 1e-2; /* relative to the row's size */
-static const double gradient_tolerance = 1e-8, surface_tolerance = 1e-11;
-static const double row_tolerance = 1e-10, value_tolerance = 1e-13, point_tolerance = 1e-13;
 
 typedef struct finisher {
   ambulo__engine *engine;
@@ -111,7 +107,7 @@ static int screen(finisher *s) {
     int row = e->rows.inequality.row[i];
     double size = e->problem->table.rows[row].size;
     double excess = e->held.excess[i] / (-e->rows.inequality.scale[i] * size);
-    if (excess < -margin) continue;
+    if (excess < -AMBULO__FINISHER_MARGIN) continue;
     e->active_next[i] = 1;
     s->row[s->count++] = i;
     found += excess > tolerance;
@@ -123,13 +119,13 @@ static int minimize(finisher *s, double *w) {
   ambulo__engine *e = s->engine;
   unsigned n = (unsigned)e->n;
   double least;
-  for (int i = 0; i < s->count; i++) s->tolerance[i] = row_tolerance;
+  for (int i = 0; i < s->count; i++) s->tolerance[i] = AMBULO__FINISHER_ROW;
   s->opt = nlopt_create(NLOPT_LD_SLSQP, n);
   if (!s->opt) return NLOPT_OUT_OF_MEMORY;
   int result = nlopt_set_min_objective(s->opt, objective, s);
-  if (result >= 0) result = nlopt_set_maxeval(s->opt, EVALUATIONS);
-  if (result >= 0) result = nlopt_set_ftol_rel(s->opt, value_tolerance);
-  if (result >= 0) result = nlopt_set_xtol_rel(s->opt, point_tolerance);
+  if (result >= 0) result = nlopt_set_maxeval(s->opt, AMBULO__FINISHER_EVALUATIONS);
+  if (result >= 0) result = nlopt_set_ftol_rel(s->opt, AMBULO__FINISHER_VALUE);
+  if (result >= 0) result = nlopt_set_xtol_rel(s->opt, AMBULO__FINISHER_POINT);
   if (result >= 0 && s->count > 0)
     result = nlopt_add_inequality_mconstraint(s->opt, (unsigned)s->count, rows, s, s->tolerance);
   memset(w, 0, n * sizeof *w);
@@ -158,12 +154,12 @@ ambulo_status ambulo__finish(ambulo__engine *e, double *x, const char **message)
   memcpy(e->center, x, bytes);
   if (ambulo__model_step(e, &predicted)) return AMBULO_OK;
   double begin = ambulo__seconds_now();
-  e->adjoint_tolerance = gradient_tolerance;
-  e->retraction_tolerance = surface_tolerance;
+  e->adjoint_tolerance = AMBULO__FINISHER_ADJOINT;
+  e->retraction_tolerance = AMBULO__FINISHER_RETRACTION;
   memset(e->active_next, 0, (size_t)e->inequalities * sizeof *e->active_next);
   memset(e->iterate, 0, bytes);
   if (!move_to(&s, e->iterate)) (void)screen(&s);
-  for (int round = 0; round < ROUNDS && !s.failed; round++) {
+  for (int round = 0; round < AMBULO__FINISHER_ROUNDS && !s.failed; round++) {
     int result = minimize(&s, e->iterate);
     *message = ambulo__nlopt_name(result);
     ambulo__run_nlopt(e->run, result, *message, 0.0); /* seconds below */

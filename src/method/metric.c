@@ -8,6 +8,7 @@
  * much they bend the motion.
  */
 #include "method/metric.h"
+#include "method/parameters.h"
 #include "base/worst.h"
 #include "nlp/states.h"
 #include "nlp/user_term.h"
@@ -15,10 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double acceleration_weight = 1e-3;
 static const double pi = 3.14159265358979323846;
-/* mean curvature of an objective along qdd, per second, for which mu and rho were tuned */
-static const double reference_curvature = 0.5;
 
 int ambulo__metric_diagonals(const ambulo_problem *p) {
   int widest = 1;
@@ -233,7 +231,7 @@ void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *w
   int forms = 0;
   for (int k = 0; k < p->nodes; k++) forms += add_node(metric, workspace, k, scale, h);
   for (int k = 0; k < p->nodes && forms == 0; k++)
-    add_accelerations(metric, workspace, k, acceleration_weight, h);
+    add_accelerations(metric, workspace, k, AMBULO__ACCELERATION_WEIGHT, h);
 }
 
 void ambulo__metric_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,
@@ -319,5 +317,5 @@ double ambulo__metric_objective_scale(const ambulo__metric *metric,
   for (int k = 0; k < p->nodes; k++) sum += acceleration_curvature(metric, workspace, k);
   double mean = sum / (p->definition.duration * (double)p->coordinates);
   if (!(mean > 0.0) || !isfinite(mean)) return 0.0;
-  return reference_curvature / mean;
+  return AMBULO__REFERENCE_CURVATURE / mean;
 }

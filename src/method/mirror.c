@@ -4,10 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double least_penalty = 1e-6, first_penalty = 10.0; /* NLopt's */
-static const double growth = 10.0, enough = 0.5;                /* gam and tau there */
-static const double largest_multiplier = 1e20;
-
 ambulo_status ambulo__mirror_create(int rows, ambulo__pool *pool, ambulo__mirror *m) {
   memset(m, 0, sizeof *m);
   m->rows = rows;
@@ -22,8 +18,10 @@ void ambulo__mirror_start(ambulo__mirror *m, double f, const double *row) {
     if (row[i] > 0.0) sum += row[i] * row[i];
   }
   double wanted = 2.0 * fabs(f) / sum;
-  wanted = first_penalty < wanted ? first_penalty : wanted;
-  m->penalty = m->rows == 0 ? 1.0 : least_penalty > wanted ? least_penalty : wanted;
+  wanted = AMBULO__NLOPT_FIRST_PENALTY < wanted ? AMBULO__NLOPT_FIRST_PENALTY : wanted;
+  m->penalty = m->rows == 0                           ? 1.0
+               : AMBULO__NLOPT_LEAST_PENALTY > wanted ? AMBULO__NLOPT_LEAST_PENALTY
+                                                      : wanted;
   m->measure = HUGE_VAL;
   m->updates = 0;
 }
@@ -37,10 +35,12 @@ int ambulo__mirror_update(ambulo__mirror *m, const double *row) {
     double slack = -m->multiplier[i] / m->penalty;
     double left = fabs(row[i] > slack ? row[i] : slack);
     m->measure = m->measure > left ? m->measure : left;
-    m->multiplier[i] = next < 0.0 ? 0.0 : next < largest_multiplier ? next : largest_multiplier;
+    m->multiplier[i] = next < 0.0                                ? 0.0
+                       : next < AMBULO__NLOPT_LARGEST_MULTIPLIER ? next
+                                                                 : AMBULO__NLOPT_LARGEST_MULTIPLIER;
   }
   m->updates++;
-  if (!(m->measure > enough * before)) return 0;
-  m->penalty *= growth;
+  if (!(m->measure > AMBULO__NLOPT_ENOUGH * before)) return 0;
+  m->penalty *= AMBULO__NLOPT_GROWTH;
   return 1;
 }

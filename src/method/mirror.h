@@ -16,6 +16,13 @@
 
 #include "linear/pool.h"
 
+/* NLopt's own constants, in its paper's letters where it has any: no parameters, facts. */
+#define AMBULO__NLOPT_FIRST_PENALTY 10.0
+#define AMBULO__NLOPT_LEAST_PENALTY 1e-6
+#define AMBULO__NLOPT_GROWTH 10.0 /* gam */
+#define AMBULO__NLOPT_ENOUGH 0.5  /* tau */
+#define AMBULO__NLOPT_LARGEST_MULTIPLIER 1e20
+
 typedef struct ambulo__mirror {
   int rows;
   double *multiplier; /* mu, [rows] */

@@ -26,20 +26,11 @@
  * plain Gauss-Newton steps lack.
  */
 #include "method/engine.h"
+#include "method/parameters.h"
 #include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
-
-enum {
-  MAX_NEWTON = 15,
-  FULL_STEPS = 8, /* then line searches */
-  MAX_SEARCH = 20
-};
-static const double enough = 1e-3;      /* of the gain so far: what a step has to bring */
-static const double exact = 1e-8;       /* the same, where the minimum itself is wanted */
-static const double negligible = 1e-10; /* slope along a step, relative to phi */
-static const double level = 1e-6;       /* of phi' at 0: what counts as zero along a step */
 
 static double square(double x) {
   return x * x;
@@ -87,9 +78,9 @@ static double exact_step(const ambulo__engine *e) {
   double smooth[2] = {dot(e->step, e->gradient, e->n) + dot(e->step, e->curved_total, e->n),
                       dot(e->step, e->curved, e->n)};
   double low = 0.0, high = 1.0, t = 1.0, curvature;
-  double zero = level * fabs(slope_at(e, smooth, 0.0, &curvature));
+  double zero = AMBULO__MODEL_LEVEL * fabs(slope_at(e, smooth, 0.0, &curvature));
   if (slope_at(e, smooth, 1.0, &curvature) <= zero) return 1.0;
-  for (int k = 0; k < MAX_SEARCH; k++) {
+  for (int k = 0; k < AMBULO__MODEL_SEARCH; k++) {
     double slope = slope_at(e, smooth, t, &curvature);
     if (fabs(slope) <= zero) break;
     if (slope > 0.0) {
@@ -186,7 +177,8 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   double slope, t = 1.0;
   if (direction(e, &slope)) return -1;
   double now = value_at(e, 1.0);
-  if (!d->searching && k > 0 && (now > fmax(d->before, d->value) || k >= FULL_STEPS)) {
+  if (!d->searching && k > 0 &&
+      (now > fmax(d->before, d->value) || k >= AMBULO__MODEL_FULL_STEPS)) {
     d->searching = 1;
     go_back(e, d);
     (void)mark_active(e);
@@ -199,14 +191,14 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   take(e, t);
   d->before = d->value;
   d->value = now;
-  int better = now < d->least, whole = fabs(t - 1.0) < 1e-3;
+  int better = now < d->least, whole = t >= 1.0;
   keep(e, d);
-  double gained = fmax(1e-12, d->start - d->least);
+  double gained = d->start - d->least;
   int changed = mark_active(e);
   if (changed == 0 && whole) return 1;
   if (!better) return 0;
   if (k > 0 && fabs(d->before - now) < d->tolerance * gained) return 1;
-  return slope < exact * gained || slope < negligible * fmax(1.0, fabs(now));
+  return slope < AMBULO__MODEL_EXACT * gained;
 }
 
 int ambulo__model_minimize(ambulo__engine *e, int roughly, double *phi) {
@@ -221,10 +213,10 @@ int ambulo__model_minimize(ambulo__engine *e, int roughly, double *phi) {
   descent d = {.before = HUGE_VAL,
                .least = HUGE_VAL,
                .searching = !roughly,
-               .tolerance = roughly ? enough : exact};
+               .tolerance = roughly ? AMBULO__MODEL_ENOUGH : AMBULO__MODEL_EXACT};
   d.start = d.value = value_at(e, 0.0);
   keep(e, &d);
-  for (int k = 0; k < MAX_NEWTON && settled == 0; k++) {
+  for (int k = 0; k < AMBULO__MODEL_STEPS && settled == 0; k++) {
     (void)ambulo__run_poll(e->run); /* one step of a large problem takes seconds */
     settled = ambulo__run_late(e->run) ? -1 : newton(e, k, &d);
   }

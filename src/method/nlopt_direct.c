@@ -7,18 +7,13 @@
  * added; stop requests are polled in every callback.
  */
 #include "method/nlopt_direct.h"
+#include "method/parameters.h"
 #include "base/worst.h"
 #include "method/nlopt_memory.h"
 
 #include <math.h>
 #include <nlopt.h>
 #include <string.h>
-
-enum { STORED_VECTORS = 20 };
-static const double row_tolerance = 1e-9, value_tolerance = 1e-11, point_tolerance = 1e-11;
-static const double largest_memory = 4e9; /* bytes */
-static const double failed_row = 1e3;
-static const double reach_share = 0.1; /* of the tolerance: rows that hold */
 
 typedef struct callback {
   ambulo__direct *direct;
@@ -91,7 +86,7 @@ static int move_to(ambulo__direct *d, const double *w) {
 }
 
 static int reached(const ambulo__direct *d) {
-  return d->best_violation <= reach_share * d->run->options->feasibility_tolerance;
+  return d->best_violation <= AMBULO__DIRECT_REACHED * d->run->options->feasibility_tolerance;
 }
 
 /* |w|^2 / 2 */
@@ -133,7 +128,7 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
     if (failed) ambulo__run_fault(d->run, &d->workspace->fault);
   }
   if (failed) {
-    for (unsigned i = 0; i < m; i++) result[i] = failed_row;
+    for (unsigned i = 0; i < m; i++) result[i] = AMBULO__DIRECT_FAILED_ROW;
     return;
   }
   ambulo__sparse_rows_values(c->set, d->workspace, result);
@@ -163,14 +158,15 @@ static nlopt_opt create_optimizer(unsigned n, ambulo_algorithm algorithm, int ev
   nlopt_opt opt = nlopt_create(algorithm == AMBULO_AUGLAG ? NLOPT_AUGLAG : NLOPT_LD_SLSQP, n);
   if (!opt) return NULL;
   int failed = nlopt_set_maxeval(opt, evaluations) < 0 ||
-               nlopt_set_ftol_rel(opt, value_tolerance) < 0 ||
-               nlopt_set_xtol_rel(opt, point_tolerance) < 0;
+               nlopt_set_ftol_rel(opt, AMBULO__DIRECT_VALUE) < 0 ||
+               nlopt_set_xtol_rel(opt, AMBULO__DIRECT_POINT) < 0;
   if (!failed && algorithm == AMBULO_AUGLAG) {
     nlopt_opt local = nlopt_create(NLOPT_LD_LBFGS, n);
     failed = !local || nlopt_set_maxeval(local, evaluations / 10 + 50) < 0 ||
-             nlopt_set_ftol_rel(local, 1e-9) < 0 || nlopt_set_xtol_rel(local, 1e-9) < 0 ||
-             nlopt_set_vector_storage(local, STORED_VECTORS) < 0 || !ambulo__nlopt_can_copy(n) ||
-             nlopt_set_local_optimizer(opt, local) < 0;
+             nlopt_set_ftol_rel(local, AMBULO__DIRECT_INNER) < 0 ||
+             nlopt_set_xtol_rel(local, AMBULO__DIRECT_INNER) < 0 ||
+             nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
+             !ambulo__nlopt_can_copy(n) || nlopt_set_local_optimizer(opt, local) < 0;
     nlopt_destroy(local);
   }
   if (!failed) return opt;
@@ -185,7 +181,7 @@ static int add_sets(ambulo__direct *d, nlopt_opt opt, callback *rows_of) {
     callback c = {d, opt, set};
     rows_of[s] = c;
     unsigned m = (unsigned)set->count;
-    for (int i = 0; i < set->count; i++) d->values[i] = row_tolerance;
+    for (int i = 0; i < set->count; i++) d->values[i] = AMBULO__DIRECT_ROW;
     int added = d->is_equality[s]
                     ? nlopt_add_equality_mconstraint(opt, m, rows, &rows_of[s], d->values)
                     : nlopt_add_inequality_mconstraint(opt, m, rows, &rows_of[s], d->values);
@@ -226,7 +222,7 @@ const char *ambulo__nlopt_name(int result) {
 ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algorithm,
                                       int evaluations) {
   unsigned n = (unsigned)d->problem->variables;
-  if (memory_of(d, algorithm) > largest_memory) return AMBULO_E_LIMIT;
+  if (memory_of(d, algorithm) > AMBULO__DIRECT_MEMORY) return AMBULO_E_LIMIT;
   if (equalities_of(d) >= d->problem->variables) {
     d->message = "not called: as many equality rows as unknowns";
     d->result = NLOPT_INVALID_ARGS;

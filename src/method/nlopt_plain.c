@@ -23,12 +23,10 @@
  * The best point of all calls (feasible: lowest objective; else smallest violation) is kept.
  */
 #include "method/nlopt_direct.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { REACH_CALLS = 8, REACH_EVALUATIONS = 120, CALL_EVALUATIONS = 1500 };
-static const double settled = 1e-7; /* relative change of the objective */
 
 static void prepare(ambulo__engine *e, ambulo__direct *d) {
   d->problem = e->problem;
@@ -59,9 +57,9 @@ static ambulo_status reach(ambulo__direct *d) {
   ambulo_status status = AMBULO_OK;
   d->nearest = 1;
   d->best_violation = d->best_objective = HUGE_VAL;
-  for (int k = 0; k < REACH_CALLS && !status && !is_feasible(d); k++) {
+  for (int k = 0; k < AMBULO__REACH_CALLS && !status && !is_feasible(d); k++) {
     double before = d->best_violation;
-    status = ambulo__direct_minimize(d, AMBULO_SLSQP, REACH_EVALUATIONS);
+    status = ambulo__direct_minimize(d, AMBULO_SLSQP, AMBULO__REACH_EVALUATIONS);
     if (status || is_over(d)) break;
     memcpy(d->center, d->best_x, bytes_of(d));
     d->run->iterations++;
@@ -75,11 +73,12 @@ static ambulo_status reach(ambulo__direct *d) {
 static ambulo_status improve(ambulo__direct *d, int *done) {
   double before = d->best_objective;
   int was_feasible = is_feasible(d);
-  ambulo_status status = ambulo__direct_minimize(d, AMBULO_SLSQP, CALL_EVALUATIONS);
+  ambulo_status status = ambulo__direct_minimize(d, AMBULO_SLSQP, AMBULO__CALL_EVALUATIONS);
   if (status) return status;
   d->run->iterations++;
-  *done = is_over(d) || (was_feasible && is_feasible(d) &&
-                         before - d->best_objective <= settled * fabs(before) + 1e-15);
+  *done =
+      is_over(d) || (was_feasible && is_feasible(d) &&
+                     before - d->best_objective <= AMBULO__PLAIN_SETTLED * fabs(before) + 1e-15);
   memcpy(d->center, d->best_x, bytes_of(d));
   return AMBULO_OK;
 }
@@ -90,7 +89,7 @@ static ambulo_status improve_nearly(ambulo__direct *d, double *x, int *done) {
   memcpy(x, d->best_x, bytes_of(d));
   int left = d->run->options->maximum_evaluations - d->run->evaluations;
   /* the way back to the rows takes a few calls as well */
-  int reserve = REACH_CALLS / 2 * REACH_EVALUATIONS;
+  int reserve = AMBULO__REACH_CALLS / 2 * AMBULO__REACH_EVALUATIONS;
   int evaluations = left > 2 * reserve ? left - reserve : (left + 1) / 2;
   ambulo_status status = ambulo__direct_minimize(d, AMBULO_AUGLAG, evaluations);
   if (status) return status;
@@ -104,7 +103,7 @@ static ambulo_status improve_nearly(ambulo__direct *d, double *x, int *done) {
                    ? d->best_violation < violation
                    : feasible && d->best_objective < objective;
   *done = is_over(d) || !better ||
-          (feasible && objective - d->best_objective <= settled * fabs(objective));
+          (feasible && objective - d->best_objective <= AMBULO__PLAIN_SETTLED * fabs(objective));
   if (better) return status;
   memcpy(d->best_x, x, bytes_of(d));
   d->best_objective = objective;

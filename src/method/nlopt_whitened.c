@@ -6,18 +6,10 @@
  * run->ending says why they ended.
  */
 #include "method/nlopt_direct.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-enum {
-  SLSQP_EVALUATIONS = 300,   /* a round */
-  AUGLAG_EVALUATIONS = 3000, /* the same: its multipliers begin at zero each time */
-  STALL = 5
-};
-static const double mu_factor = 0.3; /* times T/K, as in pipeline.c */
-static const double settled = 1e-8;  /* relative change of the objective */
-static const double progress = 0.9;  /* share of a violation that is left where it falls */
 
 static ambulo_status prepare(ambulo__engine *e, ambulo__direct *d) {
   d->problem = e->problem;
@@ -45,16 +37,16 @@ static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_alg
     return AMBULO_OK;
   }
   memcpy(d->center, x, (size_t)e->n * sizeof *x);
-  int most = algorithm == AMBULO_AUGLAG ? AUGLAG_EVALUATIONS : SLSQP_EVALUATIONS;
+  int most = algorithm == AMBULO_AUGLAG ? AMBULO__AUGLAG_ROUND : AMBULO__ROUND_EVALUATIONS;
   ambulo_status status = ambulo__direct_minimize(d, algorithm, most);
   if (status) return status;
   double change = fabs(d->best_objective - before);
   int feasible = d->best_violation <= e->run->options->feasibility_tolerance;
   e->run->iterations++;
-  *idle = feasible || d->best_violation < progress * violation ? 0 : *idle + 1;
-  if (*idle == STALL) *ending = AMBULO_ENDING_STALLED;
+  *idle = feasible || d->best_violation < AMBULO__VIOLATION_BETTER * violation ? 0 : *idle + 1;
+  if (*idle == AMBULO__ROUNDS_IDLE) *ending = AMBULO_ENDING_STALLED;
   if (!(d->best_violation < HUGE_VAL)) *ending = AMBULO_ENDING_NO_DESCENT;
-  if (feasible && before < HUGE_VAL && change <= settled * (fabs(before) + 1e-12))
+  if (feasible && before < HUGE_VAL && change <= AMBULO__ROUNDS_SETTLED * (fabs(before) + 1e-12))
     *ending = AMBULO_ENDING_SETTLED;
   (void)ambulo__run_progress(e->run, d->best_objective, d->best_violation);
   return AMBULO_OK;
@@ -82,9 +74,9 @@ ambulo_status ambulo__solve_whitened(ambulo__engine *e, ambulo_algorithm algorit
                                      const char **message) {
   ambulo__direct d = {.message = "not called"};
   double error;
-  e->mu = mu_factor * e->problem->definition.duration /
+  e->mu = AMBULO__DAMPING_START * e->problem->definition.duration /
           (double)ambulo__basis_intervals(e->problem->basis);
-  e->rho = 10.0;
+  e->rho = AMBULO__PENALTY_START;
   ambulo_status status = ambulo__restore(e, x, &error);
   if (!status) status = prepare(e, &d);
   if (!status) status = rounds(e, &d, algorithm, most, x);

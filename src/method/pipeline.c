@@ -14,27 +14,21 @@
  * smooth.h.
  */
 #include "method/auglag.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-/* mu_0. Central differences want less: with 0.3 they take two to three times the refreshes at
- * N = 12, for a minimum that is lower by a tenth. */
-static const double mu_start = 0.3, mu_start_differences = 0.06;
-static const double rho_start = 10.0, rho_near = 3000.0;
-static const double rho_carried = 160.0, mu_carried = 0.25; /* with multipliers of a coarser grid */
-static const double resolved = 2.0;                         /* times its objective */
-static const double restored = 1e-6;
 
 /* The multipliers of a coarser grid are kept where that grid had resolved the motion: its objective
  * is about the one of its solution here. */
 static void begin_multipliers(ambulo__engine *e, ambulo__stage stage) {
   double objective = fabs(e->workspace->objective);
-  int carried = e->carried_objective >= 0.0 && objective <= resolved * e->carried_objective;
-  e->rho = stage == AMBULO__NEAR ? rho_near : rho_start;
+  int carried =
+      e->carried_objective >= 0.0 && objective <= AMBULO__CARRIED_OBJECTIVE * e->carried_objective;
+  e->rho = stage == AMBULO__NEAR ? AMBULO__PENALTY_LIMIT : AMBULO__PENALTY_START;
   if (carried) {
-    e->rho = rho_carried;
-    e->mu *= mu_carried;
+    e->rho = AMBULO__PENALTY_CARRIED;
+    e->mu *= AMBULO__DAMPING_CARRIED;
   } else {
     memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
   }
@@ -47,7 +41,7 @@ static ambulo_status solve(ambulo__engine *e, ambulo__stage stage, ambulo__stopp
   double error;
   ambulo_status status = ambulo__restore(e, x, &error);
   if (!status) status = ambulo__evaluate(e->workspace, x);
-  if (status || !(error <= restored)) {
+  if (status || !(error <= AMBULO__RESTORED)) {
     *ending = status == AMBULO_E_NUMERIC ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_NOT_RESTORED;
     return status;
   }
@@ -61,7 +55,7 @@ ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__stage stage, double *x
   ambulo__stopping stopping = ambulo__stopping_begin(stage == AMBULO__COARSE);
   ambulo_ending ending = AMBULO_ENDING_NONE;
   int differences = p->definition.discretization == AMBULO_CENTRAL_DIFFERENCE;
-  e->mu = (differences ? mu_start_differences : mu_start) * interval;
+  e->mu = (differences ? AMBULO__DAMPING_START_DIFFERENCES : AMBULO__DAMPING_START) * interval;
   e->reached.value = HUGE_VAL;
   ambulo_status status = solve(e, stage, &stopping, x, &ending);
   int cut = e->run->stopped || ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_NLOPT;

@@ -12,13 +12,10 @@
  * objective gradient - J' lambda that balances them: rows with a force then pull both ways.
  */
 #include "method/engine.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { MAX_STEPS = 6 };
-static const double stiff = 1e7; /* penalty */
-static const double share = 0.2; /* of the feasibility tolerance */
 
 /* one step from engine->center into y; 0 on success */
 static int step(ambulo__engine *e, double *y) {
@@ -36,17 +33,18 @@ static int step(ambulo__engine *e, double *y) {
 
 int ambulo__polish(ambulo__engine *e, double *x) {
   size_t bytes = (size_t)e->n * sizeof *x;
-  double rho = e->rho, target = share * e->run->options->feasibility_tolerance;
+  double rho = e->rho, target = AMBULO__POLISH_SHARE * e->run->options->feasibility_tolerance;
   double begin = ambulo__seconds_now();
   int done = 0;
   memcpy(e->iterate, x, bytes);
   memcpy(e->lambda, e->reached.multiplier, (size_t)e->inequalities * sizeof *e->lambda);
-  e->rho = stiff;
-  for (int k = 0; k < MAX_STEPS && !done; k++) {
+  e->rho = AMBULO__POLISH_PENALTY;
+  for (int k = 0; k < AMBULO__POLISH_STEPS && !done; k++) {
     memcpy(e->center, e->iterate, bytes);
     if (ambulo__evaluate_jacobian(e->workspace, e->center)) break;
     double worst = ambulo__engine_excess(e, e->linear);
-    done = worst <= target || (k == MAX_STEPS - 1 && worst <= target / share);
+    done = worst <= target ||
+           (k == AMBULO__POLISH_STEPS - 1 && worst <= target / AMBULO__POLISH_SHARE);
     if (!done && step(e, e->iterate)) break;
   }
   e->rho = rho;

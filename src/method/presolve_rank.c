@@ -20,16 +20,14 @@
  * by cyclic projections.
  */
 #include "method/presolve_rank.h"
+#include "method/parameters.h"
 #include "base/worst.h"
 #include "linear/sparse_rows.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SMALL_PROBLEM = 200, SWEEPS = 500, MOST_WARNINGS = 5, POLL_NODES = 256 };
-static const double shift_size = 0.1;     /* rad, m */
-static const double dependence = 1e-8;    /* relative */
-static const double contradiction = 1e-7; /* row unit, relative to 1 + |value| */
+enum { MOST_WARNINGS = 5, POLL_NODES = 256 };
 
 typedef struct group {
   const ambulo__sparse_rows *rows;
@@ -54,7 +52,7 @@ static double next_random(unsigned long long *state) {
 static void generic_point(const ambulo_problem *p, const double *start, double *x) {
   unsigned long long state = 20190731ULL;
   for (int j = 0; j < p->variables; j++) {
-    x[j] = (start ? start[j] : 0.0) + shift_size * next_random(&state);
+    x[j] = (start ? start[j] : 0.0) + AMBULO__RANK_SHIFT * next_random(&state);
   }
 }
 
@@ -69,7 +67,7 @@ static double linear_value(const ambulo__sparse_rows *s, int i, double at0, cons
 
 static void satisfy_border(const ambulo__sparse_rows *s, const double *at0, const double *x0,
                            double *x) {
-  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+  for (int sweep = 0; sweep < AMBULO__RANK_SWEEPS; sweep++) {
     double worst = 0.0;
     for (int i = 0; i < s->count; i++) {
       if (s->host[i] >= 0 || !s->constant[i]) continue;
@@ -124,13 +122,13 @@ static ambulo__row_rank add_member(group *g, int i) {
   double before = norm_of(g->candidate, g->width);
   double rest = g->value[i] - orthogonalize(g);
   double after = norm_of(g->candidate, g->width);
-  if (after > dependence * before && before > 0.0 && g->basis < g->width) {
+  if (after > AMBULO__RANK_DEPENDENCE * before && before > 0.0 && g->basis < g->width) {
     double *e = g->vector + (size_t)g->basis * (size_t)g->width;
     for (int j = 0; j < g->width; j++) e[j] = g->candidate[j] / after;
     g->level[g->basis++] = rest / after;
     return AMBULO__ROW_INDEPENDENT;
   }
-  int agrees = fabs(rest) <= contradiction * (1.0 + fabs(g->value[i]));
+  int agrees = fabs(rest) <= AMBULO__RANK_CONTRADICTION * (1.0 + fabs(g->value[i]));
   return agrees ? AMBULO__ROW_DEPENDENT : AMBULO__ROW_CONTRADICTORY;
 }
 
@@ -175,7 +173,7 @@ static int sort_all(group *g, ambulo__run *run, int *rank) {
   const ambulo_problem *p = g->rows->problem;
   int last = p->nodes - 1, borders = 0;
   for (int i = 0; i < g->rows->count; i++) borders += g->rows->host[i] < 0;
-  if (p->variables <= SMALL_PROBLEM) {
+  if (p->variables <= AMBULO__RANK_ALL_ROWS) {
     g->members = 0;
     collect(g, -1);
     for (int node = 0; node <= last; node++) collect(g, node);
@@ -205,7 +203,7 @@ static int widest_group(const ambulo__sparse_rows *s) {
   for (int i = 0; i < s->count; i++) {
     if (s->host[i] < 0) width += s->start[i + 1] - s->start[i];
   }
-  return width > p->variables || p->variables <= SMALL_PROBLEM ? p->variables : width;
+  return width > p->variables || p->variables <= AMBULO__RANK_ALL_ROWS ? p->variables : width;
 }
 
 /* Rows that follow from others are left out in silence: contacts of rigid soles and repeated ends

@@ -5,6 +5,7 @@
  * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones.
  */
 #include "nlp/problem.h"
+#include "method/parameters.h"
 #include "nlp/user_term.h"
 #include "method/carry.h"
 #include "method/refine.h"
@@ -12,14 +13,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_LEVELS = 16, FINEST_COARSE = 24, COARSEST = 8 };
+enum { MAX_LEVELS = 16 };
 
 /* intervals of the next coarser grid; 0: none */
 static int coarser(int intervals) {
-  if (intervals < FINEST_COARSE) return 0;
-  if (intervals % 2 == 0 && intervals / 2 >= FINEST_COARSE) return intervals / 2;
-  if (intervals % 3 == 0 && intervals / 3 >= COARSEST) return intervals / 3;
-  return intervals / 2 >= COARSEST ? intervals / 2 : 0;
+  if (intervals < AMBULO__COARSE_INTERVALS) return 0;
+  if (intervals % 2 == 0 && intervals / 2 >= AMBULO__COARSE_INTERVALS) return intervals / 2;
+  if (intervals % 3 == 0 && intervals / 3 >= AMBULO__COARSEST_INTERVALS) return intervals / 3;
+  return intervals / 2 >= AMBULO__COARSEST_INTERVALS ? intervals / 2 : 0;
 }
 
 static int has_callbacks(const ambulo_problem *p) {

@@ -9,14 +9,10 @@
  * that it arrives at a smooth one: a step that bends the motion costs torque.
  */
 #include "method/engine.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { MAX_STEPS = 60, MAX_HALVINGS = 12 };
-static const double step_cap = 0.3; /* rad, m */
-static const double target = 1e-9;
-static const double damping = 10.0; /* times mu */
 
 static int direction(ambulo__engine *e, double *d) {
   double begin = ambulo__seconds_now();
@@ -24,7 +20,7 @@ static int direction(ambulo__engine *e, double *d) {
     ambulo__run_fault(e->run, &e->workspace->fault);
     return 1;
   }
-  int failed = ambulo__engine_fill_metric(e, damping * e->mu);
+  int failed = ambulo__engine_fill_metric(e, AMBULO__RESTORE_DAMPING * e->mu);
   if (!failed) failed = ambulo__kkt_factor(&e->kkt, &e->base);
   if (failed && ambulo__kkt_by_row(&e->kkt)) failed = ambulo__kkt_factor(&e->kkt, &e->base);
   if (!failed) {
@@ -39,9 +35,9 @@ static int direction(ambulo__engine *e, double *d) {
 
 /* x + t d with the largest t, halved while the point is not finite; 0 on success */
 static int advance(ambulo__engine *e, const double *d, double *x) {
-  double t = ambulo__engine_step_limit(e, d, step_cap);
+  double t = ambulo__engine_step_limit(e, d, AMBULO__RESTORE_STEP_CAP);
   memcpy(e->center, x, (size_t)e->n * sizeof *x);
-  for (int trial = 0; trial < MAX_HALVINGS; trial++) {
+  for (int trial = 0; trial < AMBULO__RESTORE_HALVINGS; trial++) {
     for (int j = 0; j < e->n; j++) x[j] = e->center[j] + t * d[j];
     if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return 0;
     ambulo__run_fault(e->run, &e->workspace->fault);
@@ -55,7 +51,7 @@ static int advance(ambulo__engine *e, const double *d, double *x) {
 ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
   double least = HUGE_VAL;
   *error = HUGE_VAL;
-  for (int k = 0; k < MAX_STEPS; k++) {
+  for (int k = 0; k < AMBULO__RESTORE_STEPS; k++) {
     ambulo_status status = ambulo__evaluate_jacobian(e->workspace, x);
     if (status) return status;
     *error = ambulo__engine_equality_error(e);
@@ -63,7 +59,7 @@ ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
       least = *error;
       memcpy(e->previous, x, (size_t)e->n * sizeof *x);
     }
-    if (*error < target || ambulo__run_over(e->run)) break;
+    if (*error < AMBULO__RESTORE_TARGET || ambulo__run_over(e->run)) break;
     if (direction(e, e->step) || advance(e, e->step, x)) break;
   }
   if (least < *error) {

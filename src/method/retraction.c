@@ -24,15 +24,10 @@
  * GMRES. |z - z'|^2 in the metric M is (z - z') . (r - r'), r the right-hand sides.
  */
 #include "method/engine.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { MAX_CHORD = 16, MAX_ADJOINT = 14 };
-static const double wild_step = 3.0; /* rad, m */
-static const double rounding =
-    1e-11; /* error, relative to the sizes of the rows, that may be all of it */
-static const double adjoint_floor = 1e-7;
 
 static void chord(ambulo__engine *e, double *y) {
   double begin = ambulo__seconds_now();
@@ -53,21 +48,21 @@ static void chord(ambulo__engine *e, double *y) {
 int ambulo__retract(ambulo__engine *e, double *y) {
   double least = HUGE_VAL;
   ambulo__mixing_reset(&e->retraction);
-  for (int k = 0; k < MAX_CHORD; k++) {
+  for (int k = 0; k < AMBULO__CHORD_STEPS; k++) {
     if (ambulo__evaluate(e->workspace, y)) {
       ambulo__run_fault(e->run, &e->workspace->fault);
       return 0;
     }
     double error = ambulo__engine_equality_error(e);
     if (error <= e->retraction_tolerance) return 1;
-    if (least <= rounding && error > 0.5 * least) return 1; /* as near as rounding lets it */
-    if (isnan(error) || (k >= 4 && error > 10.0 * least)) return 0;
+    if (least <= AMBULO__ROUNDING && error > 0.5 * least)
+      return 1; /* as near as rounding lets it */
+    if (isnan(error)) return 0;
     least = fmin(least, error);
     chord(e, y);
     for (int j = 0; j < e->n; j++) {
       if (!isfinite(y[j])) return 0;
     }
-    if (ambulo__engine_step_limit(e, e->step, wild_step) < 1.0) return 0;
   }
   return 0;
 }
@@ -93,7 +88,7 @@ static ambulo_status adjoint_pass(ambulo__engine *e, const double *p, double *z)
 /* (P.9) H z + C'm = G + J'l */
 ambulo_status ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
   ambulo__mixing_reset(&e->adjoint);
-  for (int k = 0; k < MAX_ADJOINT; k++) {
+  for (int k = 0; k < AMBULO__ADJOINT_PASSES; k++) {
     ambulo_status status = adjoint_pass(e, p, z);
     if (status) return status;
     double size = 0.0, change = 0.0;
@@ -104,7 +99,7 @@ ambulo_status ambulo__reduced_gradient(ambulo__engine *e, const double *p, doubl
     memcpy(e->previous, z, (size_t)e->n * sizeof *z);
     memcpy(e->previous_right, e->gradient, (size_t)e->n * sizeof *z);
     if (e->equalities == 0) break;
-    double limit = e->adjoint_tolerance * sqrt(fabs(size)) + adjoint_floor;
+    double limit = e->adjoint_tolerance * sqrt(fabs(size)) + AMBULO__ADJOINT_FLOOR;
     if (k > 0 && fabs(change) <= limit * limit) break;
   }
   return AMBULO_OK;

@@ -1,11 +1,9 @@
 /* method/run.c - see run.h. */
 #include "method/run.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double poll_interval = 0.1;                   /* s */
-static const double grace_share = 0.1, least_grace = 0.25; /* of the time used, s */
 
 void ambulo__run_begin(ambulo__run *run, const ambulo_options *options) {
   memset(run, 0, sizeof *run);
@@ -75,7 +73,7 @@ void ambulo__run_forgive(ambulo__run *run) {
 int ambulo__run_poll(ambulo__run *run) {
   if (!run) return 0;
   double now = ambulo__seconds_now();
-  if (!run->stopped && now - run->polled_at >= poll_interval) {
+  if (!run->stopped && now - run->polled_at >= AMBULO__POLL_INTERVAL) {
     run->polled_at = now;
     (void)ambulo__run_progress(run, NAN, NAN);
   }
@@ -92,7 +90,7 @@ ambulo__poll ambulo__run_poller(ambulo__run *run) {
 
 int ambulo__run_late(const ambulo__run *run) {
   if (run->ending != AMBULO_ENDING_TIME && run->ending != AMBULO_ENDING_CALLER) return 0;
-  double grace = grace_share * (run->stopped_at - run->started);
-  if (grace < least_grace) grace = least_grace;
+  double grace = AMBULO__GRACE_SHARE * (run->stopped_at - run->started);
+  if (grace < AMBULO__GRACE_LEAST) grace = AMBULO__GRACE_LEAST;
   return run->stopped && ambulo__seconds_now() - run->stopped_at > grace;
 }

@@ -17,15 +17,11 @@
  * plus penalty on the inequalities is the start: an optimum is not smoothed away.
  */
 #include "method/smooth.h"
+#include "method/parameters.h"
 #include "base/worst.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double deviation = 0.02;    /* s, rad and m */
-static const double acceleration = 30.0; /* a, rad/s^2 and m/s^2 */
-static const double kept = 0.5;          /* of the squared accelerations: a smooth start */
-static const double penalty = 10.0;      /* on inequalities, as at the start of pipeline.c */
 
 /* integral of |qdd|^2 / a^2 at the point held */
 static double bending(const ambulo__engine *e) {
@@ -35,7 +31,8 @@ static double bending(const ambulo__engine *e) {
   for (int k = 0; k < p->nodes; k++) {
     for (int i = 0; i < p->coordinates; i++) {
       int channel = ambulo__channel_qdd(&p->channels, i);
-      double qdd = w->channel[ambulo__lane_index(k, w->channel_count, channel)] / acceleration;
+      double qdd =
+          w->channel[ambulo__lane_index(k, w->channel_count, channel)] / AMBULO__ROUGH_ACCELERATION;
       sum += p->quadrature[k] * qdd * qdd;
     }
   }
@@ -47,13 +44,14 @@ static double bending(const ambulo__engine *e) {
 static int assemble(ambulo__engine *e) {
   const ambulo_problem *p = e->problem;
   double time = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
-  double rate = sqrt(deviation * acceleration);
-  ambulo__metric_accelerations(&e->metric, e->workspace, 1.0 / (acceleration * acceleration),
+  double rate = sqrt(AMBULO__ROUGH_DEVIATION * AMBULO__ROUGH_ACCELERATION);
+  ambulo__metric_accelerations(&e->metric, e->workspace,
+                               1.0 / (AMBULO__ROUGH_ACCELERATION * AMBULO__ROUGH_ACCELERATION),
                                &e->base);
   for (int j = 0; j < e->n; j++) {
     int is_value = 1;
     (void)ambulo__basis_abscissa(p->basis, j / p->coordinates, &is_value);
-    double size = is_value ? deviation : rate;
+    double size = is_value ? AMBULO__ROUGH_DEVIATION : rate;
     e->step[j] = time / (size * size);
     e->base.a[(size_t)j * (size_t)e->base.ld] += e->step[j];
   }
@@ -69,8 +67,8 @@ static double merit(ambulo__engine *e, double *x) {
     double v = ambulo__worse(0.0, e->held.excess[i]);
     sum += v * v;
   }
-  double value = e->objective_scale * e->workspace->objective + 0.5 * penalty * sum;
-  return error <= 1e-6 && isfinite(value) ? value : HUGE_VAL;
+  double value = e->objective_scale * e->workspace->objective + 0.5 * AMBULO__PENALTY_START * sum;
+  return error <= AMBULO__RESTORED && isfinite(value) ? value : HUGE_VAL;
 }
 
 int ambulo__smooth_curve(ambulo__engine *e, const double *x, double *smooth) {
@@ -87,10 +85,10 @@ int ambulo__smooth_start(ambulo__engine *e, double *x) {
   double *smooth = e->total, *rough = e->iterate;
   if (ambulo__smooth_curve(e, x, smooth)) return 0;
   double before = bending(e);
-  if (ambulo__evaluate(e->workspace, smooth) || bending(e) > kept * before) return 0;
+  if (ambulo__evaluate(e->workspace, smooth) || bending(e) > AMBULO__ROUGH_KEPT * before) return 0;
   memcpy(rough, x, bytes);
   double interval = e->problem->definition.duration / ambulo__basis_intervals(e->problem->basis);
-  e->mu = 0.3 * interval;
+  e->mu = AMBULO__DAMPING_START * interval;
   double of_rough = merit(e, rough), of_smooth = merit(e, smooth);
   if (!(of_smooth < of_rough)) return 0;
   memcpy(x, smooth, bytes);

@@ -111,18 +111,6 @@ static void slow_rows_raise_the_bound(void **state) {
   engine_close(&f);
 }
 
-/* next to nothing, relative changes are rounding */
-static void small_values_settle_by_a_floor(void **state) {
-  (void)state;
-  engine_fixture f;
-  engine_open(&f, "walk_tracking");
-  f.engine->at_rest = 0.0;
-  ambulo__stopping s = ambulo__stopping_begin(0);
-  assert_int_equal(at(&s, &f, 1e-8, 1e-7, 1e-5), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 1e-8 + 9e-10, 1e-7, 1e-5), AMBULO_ENDING_CONVERGED);
-  engine_close(&f);
-}
-
 /* what settles while rows are violated, or vanishes there, says nothing */
 static void only_points_near_the_rows_count(void **state) {
   (void)state;
@@ -232,7 +220,6 @@ int main(void) {
                                      cmocka_unit_test(what_vanishes_ends_it),
                                      cmocka_unit_test(stalls_raise_the_bound),
                                      cmocka_unit_test(slow_rows_raise_the_bound),
-                                     cmocka_unit_test(small_values_settle_by_a_floor),
                                      cmocka_unit_test(only_points_near_the_rows_count),
                                      cmocka_unit_test(terms_without_a_measure_vanish_too),
                                      cmocka_unit_test(what_counts_as_progress),

@@ -1,0 +1,28 @@
+/* linear/parameters.h - constants of the linear algebra that shape the method. How they were
+ * measured, and what T, x and 0 stand for: method/parameters.h; tests in tests/linear. */
+#ifndef AMBULO_LINEAR_PARAMETERS_H
+#define AMBULO_LINEAR_PARAMETERS_H
+
+/* passes of the method of multipliers (kkt.c): three reach rounding, more are for rows that nearly
+ * depend on each other. 0 (1): free on whole problems. T: kkt. */
+#define AMBULO__KKT_PASSES 8
+/* error of the rows, relative to their parts, that is rounding; a pass that leaves more than this
+ * share of it brings nothing. T: kkt, both (1e-3; 0). */
+#define AMBULO__KKT_TOLERANCE 1e-11
+#define AMBULO__KKT_PROGRESS 0.5
+/* error after all passes that asks for more stiffness next time. 0 (never): walk_without_reaction
+ * takes 22 to 25 iterations. T: kkt (rows_that_nearly_depend_get_stiffer). */
+#define AMBULO__KKT_SLOW 1e-7
+/* S |J|^2 of a row, relative to the largest diagonal element of the metric or to what it has along
+ * the row: at first, its growth, and at most: half the digits of a double are left then. T: kkt,
+ * all three (1; 1; 1e4). */
+#define AMBULO__STIFFNESS_START 1e4
+#define AMBULO__STIFFNESS_FACTOR 100.0
+#define AMBULO__STIFFNESS_LARGEST 1e8
+/* of the border's largest diagonal element: keeps border rows solvable that others imply.
+ * T: kkt (a hundredfold; 0). */
+#define AMBULO__BORDER_SHIFT 1e-14
+/* of the trace of the normal equations of mixing (mixing.c). 0: +4 % evaluations. */
+#define AMBULO__MIXING_REGULARIZATION 1e-12
+
+#endif

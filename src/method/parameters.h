@@ -1,0 +1,305 @@
+/* method/parameters.h - every constant of the method, by what it governs.
+ *
+ * Each with its unit, why it is what it is, and what holds it: the test in tests/method that goes
+ * red when it is wrong by a hundred or far more, or zero (T), a measured change of the work at half
+ * and at double the value (x), or without it (0). Measured over the 17 shipped problems that the
+ * solver takes through AUGLAG or SLSQP (352 iterations, 2716 evaluations in all) or, for (0), over
+ * 21: the same, rough starts, central differences, long steps, tight tolerances and infeasible
+ * tasks. "Free" stands for less than 5 % of the iterations, every verdict the same and every
+ * objective to 0.1 %; the one exception that is not told each time is walk_tracking, which has a
+ * second minimum 0.12 % lower and goes there or not. "other minima": yardsticks have many local
+ * minima, and a change of the path ends in another, better or worse, as often as not. All at the
+ * objective's scale (REFERENCE_CURVATURE).
+ *
+ * What is no parameter stays where it is used: NLopt's own constants (mirror.h), sizes of blocks.
+ */
+#ifndef AMBULO_METHOD_PARAMETERS_H
+#define AMBULO_METHOD_PARAMETERS_H
+
+/* ------------------------ damping mu of the model step (auglag.c, pipeline.c) */
+
+/* mu at the start, times the time T/K of a control point; rad^-2 or m^-2 of scaled objective. x:
+ * free. T: pipeline. */
+#define AMBULO__DAMPING_START 0.3
+/* The same with central differences, which want less: with 0.3 they take two to three times the
+ * iterations at N = 12. x: +4 % and +6 % of the objective of yardstick_12, +76 % iterations at
+ * double. */
+#define AMBULO__DAMPING_START_DIFFERENCES 0.06
+/* times mu, from a coarser grid's solution: what is left is small. x: free. 0 (1): walk_normal_21
+ * 27 to 33 iterations, walk_normal +11 % evaluations. */
+#define AMBULO__DAMPING_CARRIED 0.25
+/* bounds of mu, times the one at the start. Least: H0 alone may be singular. x, 0: free, both.
+ * T: pipeline (least). */
+#define AMBULO__DAMPING_LEAST 0.03
+#define AMBULO__DAMPING_LARGEST 3.0
+/* factor by which mu changes. x: +7 % iterations at 1 (none), -2 % at 4. T: pipeline. */
+#define AMBULO__DAMPING_CHANGE 2.0
+/* of the promised descent: an inner solve that brought more than this found the model too timid.
+ * x: -2 %, +3 %. T: pipeline. */
+#define AMBULO__DAMPING_LOWER_ALL 1.5
+/* the same: a model step that brought less was too bold. x: free. T: pipeline. */
+#define AMBULO__DAMPING_RAISE_STEP 0.1
+/* factor and number of times that mu is raised where the metric cannot be factored, before
+ * penalties go row by row (kkt.h). No shipped problem needs the second trial (0: no change), which
+ * is for grids of thousands of intervals. T: pipeline (one at least). */
+#define AMBULO__DAMPING_RAISE 10.0
+#define AMBULO__DAMPING_RAISES 6
+/* times mu, in the metric of the way to the surface (restore.c), which starts far away. x: +1 %,
+ * +2 %; 0 (1): a step that is too long is explained by a motion 35 % worse. T: pipeline,
+ * model_step. */
+#define AMBULO__RESTORE_DAMPING 10.0
+
+/* ------------------------ penalty R on inequalities (pipeline.c) */
+
+/* R at the start, scaled objective per (row unit)^2: weak, so that rows shape the motion late.
+ * x: +5 % iterations; double: yardstick_72 +1.2 % of the objective (other minima). T: pipeline. */
+#define AMBULO__PENALTY_START 10.0
+/* R with a coarser grid's multipliers, which a weak penalty would let drift. x: +5 %, -4 %
+ * iterations. 0 (10): +10 %. */
+#define AMBULO__PENALTY_CARRIED 160.0
+/* times the coarse solution's objective: below, that grid had resolved the motion and its
+ * multipliers are kept. 0 (never): +9 % iterations; always: free on shipped problems. */
+#define AMBULO__CARRIED_OBJECTIVE 2.0
+/* factor of R where NLopt raises its penalty. Half (no growth): 6 of 17 problems run into
+ * their limits. Double: yardstick_72 +0.6 % of the objective. T: pipeline. */
+#define AMBULO__PENALTY_GROWTH 2.0
+/* bound of R, and R from a start that nearly satisfies the rows (a weaker one would let go of them,
+ * and the solve would wander off into another valley). Beyond, steps are bent by rounding of the
+ * rows. x: free. T: stopping. */
+#define AMBULO__PENALTY_LIMIT 3000.0
+/* where rows do not give way the bound rises by this factor, up to the last. x: free; 0 (no rise):
+ * 79 to 103 iterations for a step that is too long. T: stopping, both. */
+#define AMBULO__PENALTY_LIMIT_GROWTH 10.0
+#define AMBULO__PENALTY_LAST 3e5
+/* S (auglag.c): below, L-BFGS's absolute tests come near, and NLopt starts anew. Reached after some
+ * eighteen growths of the penalty: by no shipped problem (0: no change). */
+#define AMBULO__SCALE_LEAST 1e-11
+
+/* -------------------------------------------------------------------------- scales (metric.c) */
+
+/* mean curvature of an objective along qdd, per second, that the scale gives to every objective:
+ * the one for which mu and R are meant. x: +0 %, +16 % iterations. T: pipeline. */
+#define AMBULO__REFERENCE_CURVATURE 0.5
+/* s^4: curvature along qdd of the metric where no term has any. Small beside an objective, large
+ * beside mu. x: free, a hundredfold too; only problems without an objective have it. */
+#define AMBULO__ACCELERATION_WEIGHT 1e-3
+
+/* -------------------------------------------------------------- one inner solve of NLopt
+ * (auglag.c) */
+
+/* evaluations of L-BFGS between two model steps. Half: +27 %
+ * iterations, yardstick_72 +2 % of the objective; double: +66 % evaluations, +23 % CPU.
+ * T: pipeline. */
+#define AMBULO__INNER_EVALUATIONS 8
+/* pairs that L-BFGS keeps, here and in nlopt_direct.c: more than an inner solve has evaluations, so
+ * that it forgets none; n doubles each. x: no change. */
+#define AMBULO__STORED_VECTORS 20
+/* relative change of the value that ends an inner solve: rounding. x: free. T: pipeline. */
+#define AMBULO__INNER_VALUE 1e-12
+/* whitened gradient, of max(1, |f|), that counts as zero: below the gradient's own accuracy line
+ * searches fail. x, 0: free, +2 % evaluations. T: pipeline. */
+#define AMBULO__GRADIENT_NONE 5e-6
+
+/* --------------------------------------------------------- model step (model_step.c, chart.c) */
+
+/* factorizations of one model. x: free. T: model_step. */
+#define AMBULO__MODEL_STEPS 15
+/* of these, full steps, before line searches from the best point. x: free. 0: other
+ * minima. */
+#define AMBULO__MODEL_FULL_STEPS 8
+/* Newton steps of a line search, each a bisection at least: 2^-20 of the step. x: no change. */
+#define AMBULO__MODEL_SEARCH 20
+/* of the gain so far: what a step has to bring; roughly, and where the minimum itself is wanted
+ * (polish.c), whose value is then known to rounding. x: free; no change. */
+#define AMBULO__MODEL_ENOUGH 1e-3
+#define AMBULO__MODEL_EXACT 1e-8
+/* of phi' at 0: slope that counts as zero along a step. x: no change. */
+#define AMBULO__MODEL_LEVEL 1e-6
+/* rad, m: largest change that a model step proposes; beyond, angles are not small.
+ * x: +4 %, +5 % iterations, yardstick_72 +0.7, +1.0 % of the objective. T: chart. */
+#define AMBULO__MODEL_STEP_CAP 0.5
+/* cosine between model step and -gradient; below, the step would be a division by rounding and is
+ * left out. x, 0: no change. T: chart. */
+#define AMBULO__COSINE_LEAST 1e-4
+/* rad, m: unit of step caps, which the caps here are multiples of. x: +1 %, +6 %. T: chart,
+ * restore. */
+#define AMBULO__USUAL_CAP 1.0
+/* a translation with a wide range may move by this multiple of it. x: no change; 0 (1 m for all):
+ * central differences take 21 to 35 iterations. T: engine. */
+#define AMBULO__RANGE_CAP 2.0
+
+/* -------------------------------- points on the surface and gradients along it (retraction.c) */
+
+/* worst equality of a retracted point, relative to the rows' sizes: a tenth of the usual
+ * feasibility tolerance. x: +2 %, -1 %. T: retraction. */
+#define AMBULO__RETRACTION_TOLERANCE 1e-7
+/* of a feasibility tolerance that is tighter. 0: walk_normal with 1e-9 is called infeasible.
+ * T: pipeline. */
+#define AMBULO__RETRACTION_SHARE 0.3
+/* error, relative to the rows' sizes, that may be all rounding: then a point that gets no better is
+ * reached. Only tolerances near it meet this (0: no change). */
+#define AMBULO__ROUNDING 1e-11
+/* chord steps to a point; a step of L-BFGS that takes more is too long. Half: +9 % iterations,
+ * fig5b_torque elsewhere; double: free. T: retraction. */
+#define AMBULO__CHORD_STEPS 16
+/* relative error of a reduced gradient, in the metric. x: free. */
+#define AMBULO__ADJOINT_TOLERANCE 1e-3
+/* absolute error, whitened gradient: a tiny gradient is not worth passes. x: free; 0: free, passes
+ * at a solution end by rounding. */
+#define AMBULO__ADJOINT_FLOOR 1e-7
+/* passes of a gradient. x: free. T: retraction. */
+#define AMBULO__ADJOINT_PASSES 14
+
+/* ------------------------ the way to the surface (restore.c) */
+
+/* Newton steps from anywhere. Shipped problems need fewer than 30 (x: no change). T: restore. */
+#define AMBULO__RESTORE_STEPS 60
+/* halvings of a step into values that are not finite. Only functions of the caller have such (0: no
+ * change); 2^-12 of 0.3 rad. T: restore. */
+#define AMBULO__RESTORE_HALVINGS 12
+/* rad, m: largest change in one step. 0: other minima, a torque that is too weak explained 3 %
+ * worse. T: restore. */
+#define AMBULO__RESTORE_STEP_CAP 0.3
+/* worst equality, relative to the rows' sizes: where it stops, and what the method then takes, here
+ * and after smoothing. Newton's last step passes both. */
+#define AMBULO__RESTORE_TARGET 1e-9
+#define AMBULO__RESTORED 1e-6
+
+/* -------------------------------------------------------------- when it is done (stopping.c) */
+
+/* points at the bound of the penalty without progress. 0 (never): 79 to 103 iterations for a step
+ * that is too long. T: stopping. */
+#define AMBULO__STALL 15
+/* points without a change that end a solve whose gradient is not small. x: free. T: stopping. */
+#define AMBULO__SETTLED 3
+/* relative change of f that is none. x: +3 %, -1 % iterations. T: stopping. */
+#define AMBULO__VALUE_CHANGE 1e-5
+/* relative change of f that is progress. x: no change. Never: a step that is too long is explained
+ * by a motion 0.2 % better after 57 iterations, not 79. */
+#define AMBULO__VALUE_MOVING 1e-3
+/* share of the least violation so far that is progress (here and in nlopt_whitened.c); and the one
+ * that shows that rows give way. x: no change. T: stopping, both. */
+#define AMBULO__VIOLATION_BETTER 0.9
+#define AMBULO__VIOLATION_HALVED 0.5
+/* whitened gradient, of max(1, |f|): six times GRADIENT_NONE. x: free. T: stopping. */
+#define AMBULO__GRADIENT_SMALL 3e-5
+/* violation, relative to the rows' sizes, where f may settle and polishing may start.
+ * 0: walk_normal with a tolerance of 1e-9 takes 23 to 55 iterations. */
+#define AMBULO__NEAR_VIOLATION 1e-5
+/* the same, where nothing else helps: at a stall and at a limit. 0: no change where there is time.
+ */
+#define AMBULO__POLISH_LAST_REACH 1e-2
+/* of the first f: an objective that goes to zero (besides engine.c's measure). 0: such a solve
+ * takes 6 to 12 iterations. T: stopping. */
+#define AMBULO__VANISHED 1e-3
+/* of f for the motionless body: the same, for terms without a measure of their own. 0: no
+ * change on shipped problems. */
+#define AMBULO__VANISHED_AT_REST 1e-6
+/* violation and relative change of f that are enough on a coarse grid. 1e-3: +12 % iterations of
+ * eleven walks and yardsticks; 1e-1 ends yardstick_72 9 % higher. 0 (as on the last): +4 %, +9 %
+ * iterations. T: stopping. */
+#define AMBULO__COARSE_VIOLATION 1e-2
+#define AMBULO__COARSE_CHANGE 1e-2
+
+/* ------------------------------------------------------------------------ polishing (polish.c) */
+
+/* Newton steps. 0: walk_normal with a tolerance of 1e-9 takes 23 to 63 iterations. T: pipeline. */
+#define AMBULO__POLISH_STEPS 6
+/* penalty of its model, scaled objective per (row unit)^2: as good as equality. A
+ * hundredfold or a hundredth pass every test. */
+#define AMBULO__POLISH_PENALTY 1e7
+/* of the feasibility tolerance: the last decimals are not a matter of luck. 0 (1): free. */
+#define AMBULO__POLISH_SHARE 0.2
+
+/* -------------------------------------------------------------------- coarse grids (refine.c) */
+
+/* intervals from which a grid has a coarser one, and that this has where it can; and the fewest. 0
+ * (none): -7 % iterations, all of them on the fine grid. T: pipeline. */
+#define AMBULO__COARSE_INTERVALS 24
+#define AMBULO__COARSEST_INTERVALS 8
+
+/* -------------------------------------------------------------------- rough starts (smooth.c) */
+
+/* rad, m: what a start is off by; rad/s^2, m/s^2: accelerations of a swinging leg. Together a
+ * low-pass of 6 Hz (smooth.c). T: smooth, both. */
+#define AMBULO__ROUGH_DEVIATION 0.02
+#define AMBULO__ROUGH_ACCELERATION 30.0
+/* of the squared accelerations: what a start that is not rough keeps. 0 (never smooth):
+ * walk_tracking from noise of 0.2 rad takes 29 to 188 iterations. T: smooth. */
+#define AMBULO__ROUGH_KEPT 0.5
+
+/* --------------------------------------------------------------- SLSQP at the end (finisher.c) */
+
+/* rounds of SLSQP, as rows outside the margin are met; evaluations of each, dense in n. Fewer
+ * rounds: no change; half the evaluations: walker_2d_step as good. */
+#define AMBULO__FINISHER_ROUNDS 3
+#define AMBULO__FINISHER_EVALUATIONS 40
+/* excess, relative to a row's size: rows that are handed over. x: no change. */
+#define AMBULO__FINISHER_MARGIN 1e-2
+/* tolerances of gradients and of the surface. x: free. T: finisher, the surface's. */
+#define AMBULO__FINISHER_ADJOINT 1e-8
+#define AMBULO__FINISHER_RETRACTION 1e-11
+/* given to NLopt: of rows, relative of value and point. x: free, half the time at 2e-13 of the
+ * value. T: finisher, the rows'. */
+#define AMBULO__FINISHER_ROW 1e-10
+#define AMBULO__FINISHER_VALUE 1e-13
+#define AMBULO__FINISHER_POINT 1e-13
+
+/* -------------------------------------------- SLSQP on small problems (nlopt_whitened.c) */
+
+/* evaluations of a round: walker_2d_step needs 130, two_link_reach 49. */
+#define AMBULO__ROUND_EVALUATIONS 300
+/* the same of AUGLAG, whose multipliers begin at zero in each: with 300 two_link_reach by
+ * `equalities: nlopt` is not solved. */
+#define AMBULO__AUGLAG_ROUND 3000
+/* rounds without progress. x: -2 %, +1 % iterations of an infeasible task. */
+#define AMBULO__ROUNDS_IDLE 5
+/* relative change of the objective that ends them. x: no change. */
+#define AMBULO__ROUNDS_SETTLED 1e-8
+
+/* ----------------------- NLopt on rows as they are or whitened (nlopt_direct.c, nlopt_plain.c) */
+
+/* given to NLopt: tolerance of scaled rows; relative, of value and point; both of AUGLAG's inner
+ * solver. x: free. */
+#define AMBULO__DIRECT_ROW 1e-9
+#define AMBULO__DIRECT_VALUE 1e-11
+#define AMBULO__DIRECT_POINT 1e-11
+#define AMBULO__DIRECT_INNER 1e-9
+/* bytes: dense work of SLSQP beyond which a problem is refused. */
+#define AMBULO__DIRECT_MEMORY 4e9
+/* row unit: value of rows at points that are given up. x: no change. */
+#define AMBULO__DIRECT_FAILED_ROW 1e3
+/* of the feasibility tolerance: a first stage ends there, well inside. x: no change. */
+#define AMBULO__DIRECT_REACHED 0.1
+/* calls of the first stage and evaluations of each; evaluations of a call that improves.
+ * x: no change. */
+#define AMBULO__REACH_CALLS 8
+#define AMBULO__REACH_EVALUATIONS 120
+#define AMBULO__CALL_EVALUATIONS 1500
+/* relative gain of a call after which there is none more. x: no change. */
+#define AMBULO__PLAIN_SETTLED 1e-7
+
+/* ---------------------------------------------------------- dependent rows (presolve_rank.c) */
+
+/* unknowns up to which all rows are one group. */
+#define AMBULO__RANK_ALL_ROWS 200
+/* cyclic projections onto border rows. x: no change. */
+#define AMBULO__RANK_SWEEPS 500
+/* rad, m: distance of the generic point from the start. x: no change. */
+#define AMBULO__RANK_SHIFT 0.1
+/* of a row's gradient: what is left of it after the others are taken off. x: no change. T:
+ * presolve_rank. */
+#define AMBULO__RANK_DEPENDENCE 1e-8
+/* row unit, of 1 + |value|: values of dependent rows that contradict: a microradian does,
+ * rounding does not. T: presolve_rank. */
+#define AMBULO__RANK_CONTRADICTION 1e-7
+
+/* -------------------------------------------------------------------------------- clock (run.c) */
+
+/* s: how often a caller is asked during work without numbers. */
+#define AMBULO__POLL_INTERVAL 0.1
+/* after a stop, of the time used, and s: to say what was found. T: run. */
+#define AMBULO__GRACE_SHARE 0.1
+#define AMBULO__GRACE_LEAST 0.25
+
+#endif
