@@ -19,6 +19,8 @@
  */
 #include "judge/audit.h"
 #include "base/worst.h"
+#include "method/engine_point.h"
+#include "method/model_step.h"
 #include "method/presolve_rank.h"
 #include "judge/verdict.h"
 
@@ -73,21 +75,22 @@ static void audit_violations(const ambulo_problem *p, ambulo_result *result) {
 
 /* ------------------------------------------------------- first-order conditions */
 
-/* (A.3): solves the cone problem; the direction stays in engine->total; 0 on success */
-static int project(ambulo__engine *e) {
-  double decrease, bound = cone_tolerance * ambulo__largest(e->gradient, (size_t)e->n);
-  ambulo__band_clear(&e->base);
-  ambulo__band_add_diagonal(&e->base, 1.0);
-  e->rho = cone_penalty;
+/* (A.3): solves the cone problem for the gradient in the engine's model and the rows marked active;
+ * the direction stays in the model; 0 on success */
+static int project(ambulo__engine *e, const int *active) {
+  ambulo__quadratic *q = e->quadratic;
+  double *lambda = e->iterate.lambda, decrease;
+  double bound = cone_tolerance * ambulo__largest(q->gradient, (size_t)e->setup->n);
+  ambulo__band_clear(&e->linearized.base);
+  ambulo__band_add_diagonal(&e->linearized.base, 1.0);
   for (int pass = 0; pass < MULTIPLIER_PASSES; pass++) {
-    for (int i = 0; i < e->inequalities; i++)
-      e->linear[i] = e->held.excess[i] < 0.0 ? far_away : 0.0;
-    if (ambulo__model_minimize(e, 0, &decrease)) return 1;
+    for (int i = 0; i < e->setup->inequalities; i++) q->linear[i] = active[i] ? 0.0 : far_away;
+    if (ambulo__model_minimize(e, cone_penalty, 0, &decrease)) return 1;
     double worst = 0.0;
-    for (int i = 0; i < e->inequalities; i++) {
-      double balance = ambulo__worse(e->linear[i], -e->lambda[i] / e->rho);
+    for (int i = 0; i < e->setup->inequalities; i++) {
+      double balance = ambulo__worse(q->linear[i], -lambda[i] / cone_penalty);
       worst = ambulo__worse(worst, fabs(balance));
-      e->lambda[i] = ambulo__worse(0.0, e->lambda[i] + e->rho * e->linear[i]);
+      lambda[i] = ambulo__worse(0.0, lambda[i] + cone_penalty * q->linear[i]);
     }
     if (worst <= bound) break;
   }
@@ -95,10 +98,9 @@ static int project(ambulo__engine *e) {
 }
 
 /* the scales that the solver gave the rows */
-static void restore_scales(ambulo__engine *e) {
-  ambulo__sparse_rows *rows = &e->rows.inequality;
-  for (int i = 0; i < rows->count; i++)
-    ambulo__sparse_rows_set_scale(rows, i, -1.0 / e->rows.size[i]);
+static void restore_scales(ambulo__rows_split *rows) {
+  for (int i = 0; i < rows->inequality.count; i++)
+    ambulo__sparse_rows_set_scale(&rows->inequality, i, -1.0 / rows->size[i]);
 }
 
 /* gradients of length 1, which neither the cone nor the tolerance of a row notices: on fine
@@ -111,38 +113,35 @@ static void normalize(ambulo__sparse_rows *rows) {
   }
 }
 
-/* marks active rows in held.excess: 0 active, -1 not; returns their number. The tolerance is
- * relative to the sizes of the rows. */
-static int mark(ambulo__engine *e, double tolerance) {
-  const ambulo__sparse_rows *rows = &e->rows.inequality;
-  const ambulo__table_row *table = e->problem->table.rows;
-  int count = 0;
-  ambulo__engine_excess(e, e->held.excess);
-  for (int i = 0; i < e->inequalities; i++) {
+/* marks active rows; the tolerance is relative to their sizes */
+static void mark(ambulo__engine *e, double tolerance, int *active) {
+  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
+  const ambulo__table_row *table = e->setup->problem->table.rows;
+  double *excess = e->measured.excess;
+  ambulo__engine_excess(e, excess);
+  for (int i = 0; i < rows->count; i++) {
     double least = tolerance * table[rows->row[i]].size * rows->scale[i]; /* scale < 0 */
-    int active = e->held.excess[i] >= least;
-    e->held.excess[i] = active ? 0.0 : -1.0;
-    count += active;
+    active[i] = excess[i] >= least;
   }
-  return count;
 }
 
 /* from multipliers for a gradient of length 1 to those of grad J = sum multiplier grad c */
-static void collect_multipliers(ambulo__engine *e, double size, ambulo_result *result) {
-  const ambulo__rows_split *s = &e->rows;
-  double unit = size / e->objective_scale;
+static void collect_multipliers(const ambulo__engine *e, double size, ambulo_result *result) {
+  const ambulo__rows_split *s = e->setup->rows;
+  const ambulo__iterate *iterate = &e->iterate;
+  double unit = size / e->setup->objective_scale;
   memset(result->multiplier, 0, (size_t)result->rows * sizeof *result->multiplier);
-  for (int i = 0; i < e->inequalities; i++)
-    result->multiplier[s->inequality.row[i]] = -s->inequality.scale[i] * e->lambda[i] * unit;
-  for (int i = 0; i < e->equalities; i++)
-    result->multiplier[s->equality.row[i]] = -e->equality_multiplier[i] * unit;
-  for (int i = 0; i < e->borders; i++)
-    result->multiplier[s->border.row[i]] = -e->border_multiplier[i] * unit;
+  for (int i = 0; i < s->inequality.count; i++)
+    result->multiplier[s->inequality.row[i]] = -s->inequality.scale[i] * iterate->lambda[i] * unit;
+  for (int i = 0; i < s->equality.count; i++)
+    result->multiplier[s->equality.row[i]] = -iterate->equality_multiplier[i] * unit;
+  for (int i = 0; i < s->border.count; i++)
+    result->multiplier[s->border.row[i]] = -iterate->border_multiplier[i] * unit;
 }
 
 static void audit_complementarity(const ambulo__engine *e, ambulo_result *result) {
-  const ambulo__sparse_rows *rows = &e->rows.inequality;
-  for (int i = 0; i < e->inequalities; i++) {
+  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
+  for (int i = 0; i < rows->count; i++) {
     int r = rows->row[i];
     result->audit.complementarity =
         ambulo__worse(result->audit.complementarity, fabs(result->multiplier[r] * result->row[r]));
@@ -150,8 +149,10 @@ static void audit_complementarity(const ambulo__engine *e, ambulo_result *result
   result->audit.complementarity /= fmax(1.0, fabs(result->objective));
 }
 
-static ambulo_status find_rank(ambulo__engine *e, ambulo__pool *pool, ambulo_result *result) {
-  const ambulo_problem *p = e->problem;
+/* rank of all equalities together with the active inequalities */
+static ambulo_status audit_rank(const ambulo__engine *e, const int *active, ambulo__pool *pool,
+                                ambulo_result *result) {
+  const ambulo_problem *p = e->setup->problem;
   ambulo__sparse_rows rows;
   int count = 0;
   int *list = ambulo__pool_ints(pool, (size_t)p->rows);
@@ -160,8 +161,8 @@ static ambulo_status find_rank(ambulo__engine *e, ambulo__pool *pool, ambulo_res
   for (int r = 0; r < p->rows; r++) {
     if (p->table.rows[r].relation == AMBULO_EQUAL) list[count++] = r;
   }
-  for (int i = 0; i < e->inequalities; i++) {
-    if (e->held.excess[i] >= 0.0) list[count++] = e->rows.inequality.row[i];
+  for (int i = 0; i < e->setup->inequalities; i++) {
+    if (active[i]) list[count++] = e->setup->rows->inequality.row[i];
   }
   double *value = ambulo__pool_doubles(pool, (size_t)count);
   ambulo_status status = ambulo__sparse_rows_create(p, list, count, NULL, pool, &rows);
@@ -176,46 +177,42 @@ static ambulo_status find_rank(ambulo__engine *e, ambulo__pool *pool, ambulo_res
   return AMBULO_OK;
 }
 
-/* rank of all equalities together with the active inequalities */
-static ambulo_status audit_rank(ambulo__engine *e, ambulo_result *result) {
-  ambulo__pool pool; /* audits are many, their memory is not kept */
-  ambulo__pool_init(&pool, &e->pool.allocator);
-  ambulo_status status = find_rank(e, &pool, result);
-  ambulo__pool_clear(&pool);
-  return status;
-}
-
 /* every gradient at the point; 1 when one is not finite */
 static int take_gradients(ambulo__engine *e) {
-  return ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 1) ||
-         ambulo__sparse_rows_fill(&e->rows.border, e->workspace, 1) ||
-         ambulo__sparse_rows_fill(&e->rows.inequality, e->workspace, 1) ||
-         ambulo__engine_gradient(e, NULL, NULL, e->gradient);
+  ambulo__rows_split *rows = &e->linearized.rows;
+  return ambulo__sparse_rows_fill(&rows->equality, e->workspace, 1) ||
+         ambulo__sparse_rows_fill(&rows->border, e->workspace, 1) ||
+         ambulo__sparse_rows_fill(&rows->inequality, e->workspace, 1) ||
+         ambulo__engine_gradient(e, e->setup->objective_scale, NULL, NULL, e->quadratic->gradient);
 }
 
 /* of the solved cone problem, for a gradient that had this size */
-static void take_first_order(ambulo__engine *e, double size, ambulo_result *result) {
-  result->audit.kkt = ambulo__largest(e->total, (size_t)e->n);
+static void take_first_order(const ambulo__engine *e, double size, ambulo_result *result) {
+  result->audit.kkt = ambulo__largest(e->quadratic->total, (size_t)e->setup->n);
   if (!isfinite(result->audit.kkt)) result->audit.kkt = HUGE_VAL;
   collect_multipliers(e, size, result);
   audit_complementarity(e, result);
 }
 
-static void audit_first_order(ambulo__engine *e, const ambulo_options *options,
+/* also marks the rows that are active */
+static void audit_first_order(ambulo__engine *e, const ambulo_options *options, int *active,
                               ambulo_result *result) {
-  double size = ambulo__largest(e->gradient, (size_t)e->n);
+  const ambulo__setup *s = e->setup;
+  ambulo__iterate *iterate = &e->iterate;
+  double *gradient = e->quadratic->gradient, size = ambulo__largest(gradient, (size_t)s->n);
   /* the cone does not ask how long g is; its penalty and tolerances do */
-  for (int i = 0; i < e->n && size > 0.0; i++) e->gradient[i] /= size;
-  mark(e, active_factor * options->feasibility_tolerance);
-  int failed = project(e); /* from the solver's multipliers, if it has any */
+  for (int i = 0; i < s->n && size > 0.0; i++) gradient[i] /= size;
+  mark(e, active_factor * options->feasibility_tolerance, active);
+  int failed = project(e, active); /* from the solver's multipliers, if it has any */
   if (failed) {
-    normalize(&e->rows.inequality);
-    memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
-    memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
-    failed = project(e);
+    normalize(&e->linearized.rows.inequality);
+    memset(iterate->lambda, 0, (size_t)s->inequalities * sizeof *iterate->lambda);
+    memset(iterate->equality_multiplier, 0,
+           (size_t)s->equalities * sizeof *iterate->equality_multiplier);
+    failed = project(e, active);
   }
   if (!failed) take_first_order(e, size, result);
-  restore_scales(e);
+  restore_scales(&e->linearized.rows);
 }
 
 ambulo_status ambulo__audit_values(ambulo_workspace *w, ambulo_result *result) {
@@ -235,17 +232,29 @@ ambulo_status ambulo__audit_values(ambulo_workspace *w, ambulo_result *result) {
   return AMBULO_OK;
 }
 
+/* at a point whose gradients are there; what takes memory */
+static ambulo_status audit_rows(ambulo__engine *e, const ambulo_options *options,
+                                ambulo__pool *pool, ambulo_result *result) {
+  int *active = ambulo__pool_ints(pool, (size_t)e->setup->inequalities);
+  if (!active) return AMBULO_E_MEMORY;
+  audit_first_order(e, options, active, result);
+  if (ambulo__run_late(e->run)) return AMBULO_OK;
+  return audit_rank(e, active, pool, result);
+}
+
 ambulo_status ambulo__audit(ambulo__engine *e, const ambulo_options *options,
                             ambulo_result *result) {
   if (ambulo__audit_values(e->workspace, result)) return AMBULO_OK; /* the fault tells */
-  result->audit.dropped_equalities = e->rows.dropped;
+  result->audit.dropped_equalities = e->setup->rows->dropped;
   result->audit.at_lower_bound = ambulo__engine_at_lower_bound(e);
   if (ambulo__run_late(e->run)) return AMBULO_OK;
   if (ambulo__evaluate_jacobian(e->workspace, result->x) || take_gradients(e)) {
     result->audit.fault = e->workspace->fault;
     return AMBULO_OK;
   }
-  audit_first_order(e, options, result);
-  if (ambulo__run_late(e->run)) return AMBULO_OK;
-  return audit_rank(e, result);
+  ambulo__pool pool; /* audits are many, their memory is not kept */
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  ambulo_status status = audit_rows(e, options, &pool, result);
+  ambulo__pool_clear(&pool);
+  return status;
 }

@@ -1,6 +1,7 @@
 /* judge/candidates.c - see candidates.h. */
 #include "judge/candidates.h"
 #include "base/worst.h"
+#include "method/engine_point.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,13 +10,13 @@
 static const double start_advantage = 1e-6;
 
 static ambulo_status create_one(ambulo__candidate *c, ambulo__engine *e) {
-  c->x = ambulo__pool_doubles(&e->pool, (size_t)e->n);
+  c->x = ambulo__pool_doubles(&e->pool, (size_t)e->setup->n);
   c->violation = c->objective = HUGE_VAL;
   return c->x ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
 ambulo_status ambulo__candidates_create(ambulo__candidates *c, ambulo__engine *e) {
-  c->n = e->n;
+  c->n = e->setup->n;
   c->tolerance = e->run->options->feasibility_tolerance;
   ambulo_status status = create_one(&c->start, e);
   return status ? status : create_one(&c->found, e);
@@ -24,12 +25,12 @@ ambulo_status ambulo__candidates_create(ambulo__candidates *c, ambulo__engine *e
 double ambulo__violation_at(ambulo__engine *e, const double *x) {
   if (ambulo__evaluate(e->workspace, x)) return HUGE_VAL;
   double error = ambulo__engine_equality_error(e);
-  return ambulo__worse(error, ambulo__engine_excess(e, e->held.excess));
+  return ambulo__worse(error, ambulo__engine_excess(e, e->measured.excess));
 }
 
 /* x is one point of several, measured at the workspace */
 static void keep(ambulo__candidate *c, const ambulo__engine *e, const double *x, double violation) {
-  memcpy(c->x, x, (size_t)e->n * sizeof *x);
+  memcpy(c->x, x, (size_t)e->setup->n * sizeof *x);
   c->violation = violation;
   c->objective = e->workspace->objective;
 }

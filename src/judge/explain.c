@@ -24,9 +24,9 @@ static const double on_limit_gap = 1e-4;                   /* relative to the ro
 static void list_contradictions(const ambulo__engine *e, const ambulo_result *result,
                                 ambulo__explanation *out) {
   double tolerance = e->run->options->feasibility_tolerance;
-  for (int r = 0; r < e->problem->rows; r++) {
-    if (e->rows.rank[r] != AMBULO__ROW_CONTRADICTORY) continue;
-    ambulo_violation v = ambulo__violation_of(e->problem, r, result->row[r]);
+  for (int r = 0; r < e->setup->problem->rows; r++) {
+    if (e->setup->rows->rank[r] != AMBULO__ROW_CONTRADICTORY) continue;
+    ambulo_violation v = ambulo__violation_of(e->setup->problem, r, result->row[r]);
     if (!(ambulo__relative(&v) > tolerance)) continue;
     if (out->view.contradictory_count >= AMBULO__MOST_CONTRADICTIONS) break;
     out->contradictory[out->view.contradictory_count++] = v;
@@ -98,9 +98,9 @@ static int explain_residue(const ambulo_result *result, ambulo__explanation *out
 
 /* the point to start from: the result, or zero where that has no finite values */
 static ambulo_status start_point(const ambulo__engine *e, const ambulo_result *result, double *x) {
-  memcpy(x, result->x, (size_t)e->n * sizeof *x);
+  memcpy(x, result->x, (size_t)e->setup->n * sizeof *x);
   if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return AMBULO_OK;
-  memset(x, 0, (size_t)e->n * sizeof *x);
+  memset(x, 0, (size_t)e->setup->n * sizeof *x);
   return ambulo__evaluate(e->workspace, x);
 }
 
@@ -108,19 +108,20 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
                              ambulo__explanation *out) {
   ambulo__elastic elastic;
   ambulo__remedy remedy = {.conflict = -1, .row = -1};
-  double *x = ambulo__pool_doubles(pool, (size_t)e->n);
+  double *x = ambulo__pool_doubles(pool, (size_t)e->setup->n);
   if (pool->failed) return AMBULO_E_MEMORY;
   if (explain_residue(result, out)) {
-    ambulo__explain_lines(e->problem, result, out);
+    ambulo__explain_lines(e->setup->problem, result, out);
     return AMBULO_OK;
   }
   list_contradictions(e, result, out);
   if (e->run->ending == AMBULO_ENDING_TIME || e->run->ending == AMBULO_ENDING_CALLER) {
-    ambulo__explain_lines(e->problem, result, out); /* no time is left to look further */
+    ambulo__explain_lines(e->setup->problem, result, out); /* no time is left to look further */
     return AMBULO_OK;
   }
   ambulo_status status = start_point(e, result, x);
-  if (!status) status = ambulo__elastic_create(e->problem, e->workspace, e->run, pool, &elastic);
+  if (!status)
+    status = ambulo__elastic_create(e->setup->problem, e->workspace, e->run, pool, &elastic);
   if (status == AMBULO_E_MEMORY) return status;
   if (!status) {
     const ambulo__run *run = e->run;
@@ -130,9 +131,9 @@ static ambulo_status explain(ambulo__engine *e, const ambulo_result *result, amb
     status = ambulo__relax(&elastic, e->run->options->feasibility_tolerance, x, pool, out, &remedy);
     if (status) return status;
     list_on_limits(&elastic, out);
-    ambulo__suggest(e->problem, &remedy, out);
+    ambulo__suggest(e->setup->problem, &remedy, out);
   }
-  ambulo__explain_lines(e->problem, result, out);
+  ambulo__explain_lines(e->setup->problem, result, out);
   return AMBULO_OK;
 }
 

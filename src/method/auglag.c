@@ -34,19 +34,20 @@
  * row is violated, with 10 where none is and f > 0: S makes R of it.
  */
 #include "method/auglag.h"
-#include "method/parameters.h"
+#include "method/augmented.h"
 #include "method/chart.h"
 #include "method/mirror.h"
+#include "method/model_step.h"
 #include "method/nlopt_direct.h"
 #include "method/nlopt_memory.h"
+#include "method/parameters.h"
 
 #include <math.h>
 #include <nlopt.h>
 #include <string.h>
 
-enum {
-  BLOCK = 8
-}; /* rows that NLopt is given as one vector: it keeps n doubles for each of them */
+/* rows that NLopt is given as one vector: it keeps n doubles for each of them */
+enum { BLOCK = 8 };
 
 typedef struct session session;
 
@@ -65,6 +66,7 @@ struct session {
   int block_count;
   double *row, *shift; /* c, sigma: [inequalities] */
   double *x;           /* where the last inner solve ended; the caller's */
+  double *w;           /* [n]: NLopt's point, in and out */
   double *gradient;    /* [n]: where NLopt asks for none */
   double *share;       /* [n]: of row `bearer`, the sum of all */
   int bearer;          /* -1: the objective */
@@ -85,22 +87,22 @@ struct session {
 /* the model step, mu raised until it can be factored; why it could not be, or none */
 static ambulo_ending model(session *s) {
   ambulo__engine *e = s->engine;
-  double mu = e->mu;
+  double *mu = &e->iterate.mu, first = *mu;
   do {
-    e->mu = mu;
+    *mu = first;
     for (int trial = 0; trial < AMBULO__DAMPING_RAISES; trial++) {
       int failed = ambulo__model_step(e, &s->predicted);
       if (failed == 0) return AMBULO_ENDING_NONE;
       if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
-      e->mu *= AMBULO__DAMPING_RAISE;
+      *mu *= AMBULO__DAMPING_RAISE;
     }
-  } while (ambulo__kkt_by_row(&e->kkt));
+  } while (ambulo__kkt_by_row(&e->linearized.kkt));
   return AMBULO_ENDING_BREAKDOWN;
 }
 
 static ambulo_ending lay_chart(session *s, const double *w) {
   ambulo__engine *e = s->engine;
-  memcpy(e->center, s->x, (size_t)e->n * sizeof *w);
+  memcpy(e->iterate.x, s->x, (size_t)e->setup->n * sizeof *w);
   ambulo_ending failed = model(s);
   if (failed) return failed;
   s->trials = 0;
@@ -112,50 +114,51 @@ static ambulo_ending lay_chart(session *s, const double *w) {
 
 /* how well the model foretold the descent says whether it is damped too much */
 static void update_damping(session *s, double reached) {
-  ambulo__engine *e = s->engine;
+  double *mu = &s->engine->iterate.mu;
   double promised = fmin(s->predicted, -1e-14);
   double by_step = (s->tried - s->chart.start) / promised;
   double in_all = (reached - s->chart.start) / promised;
   if (in_all > AMBULO__DAMPING_LOWER_ALL)
-    e->mu = fmax(AMBULO__DAMPING_LEAST * s->damping, e->mu / AMBULO__DAMPING_CHANGE);
+    *mu = fmax(AMBULO__DAMPING_LEAST * s->damping, *mu / AMBULO__DAMPING_CHANGE);
   if (by_step < AMBULO__DAMPING_RAISE_STEP)
-    e->mu = fmax(e->mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * e->mu));
+    *mu = fmax(*mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * *mu));
 }
 
 /* -------------------------------------------------------- after an inner solve */
 
 /* the engine's lambda and R are NLopt's */
 static void take_multipliers(session *s) {
-  ambulo__engine *e = s->engine;
-  e->rho = s->scale * s->mirror.penalty;
-  for (int i = 0; i < e->inequalities; i++)
-    e->lambda[i] = s->mirror.multiplier[i] + s->mirror.penalty * s->shift[i];
+  ambulo__iterate *iterate = &s->engine->iterate;
+  iterate->rho = s->scale * s->mirror.penalty;
+  for (int i = 0; i < s->mirror.rows; i++)
+    iterate->lambda[i] = s->mirror.multiplier[i] + s->mirror.penalty * s->shift[i];
 }
 
 /* (P.12): NLopt's update, and the growth of R that it leads to */
 static void update_multipliers(session *s) {
   ambulo__engine *e = s->engine;
   if (ambulo__mirror_update(&s->mirror, s->row)) {
-    double room = s->stopping->penalty_limit / e->rho;
+    double room = s->stopping->penalty_limit / e->iterate.rho;
     s->scale *= fmax(1.0, fmin(AMBULO__PENALTY_GROWTH, room)) / AMBULO__NLOPT_GROWTH;
   }
-  memset(s->shift, 0, (size_t)e->inequalities * sizeof *s->shift);
+  memset(s->shift, 0, (size_t)e->setup->inequalities * sizeof *s->shift);
   take_multipliers(s);
 }
 
 /* an inner solve has ended at the point held, where F is `value` */
 static void inner_ended(session *s, double value) {
   ambulo__engine *e = s->engine;
+  const ambulo__trial *held = &e->held->trial;
   ambulo__run *run = e->run;
-  ambulo__trial_copy(e, &e->held, &e->reached);
-  memcpy(s->x, e->held.x, (size_t)e->n * sizeof *s->x);
+  ambulo__trial_copy(held, &e->reached);
+  memcpy(s->x, held->x, (size_t)e->setup->n * sizeof *s->x);
   update_damping(s, value);
   update_multipliers(s);
   ambulo__run_forgive(run);
   run->iterations++;
   run->nlopt.outer++;
-  int stop =
-      ambulo__run_progress(run, e->reached.objective / e->objective_scale, e->reached.violation);
+  int stop = ambulo__run_progress(run, e->reached.objective / e->setup->objective_scale,
+                                  e->reached.violation);
   s->ending = ambulo__stopping_test(s->stopping, e, s->x);
   if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
@@ -180,15 +183,15 @@ static double give_up(session *s, unsigned n, double *gradient) {
 /* what the rows are at the point held; where there is none, far from any bound: then F, which has
  * the objective's place, is high enough */
 static void take_rows(session *s) {
-  const ambulo__engine *e = s->engine;
-  int none = !(e->held.value < HUGE_VAL);
-  for (int i = 0; i < e->inequalities; i++)
-    s->row[i] = none ? -HUGE_VAL : s->scale * e->held.excess[i] + s->shift[i];
+  const ambulo__trial *held = &s->engine->held->trial;
+  int none = !(held->value < HUGE_VAL);
+  for (int i = 0; i < s->mirror.rows; i++)
+    s->row[i] = none ? -HUGE_VAL : s->scale * held->excess[i] + s->shift[i];
 }
 
 static double value_of(const session *s, double merit) {
-  const ambulo__engine *e = s->engine;
-  return s->scale * (e->held.value < HUGE_VAL ? e->held.objective : merit) + s->constant;
+  const ambulo__trial *held = &s->engine->held->trial;
+  return s->scale * (held->value < HUGE_VAL ? held->objective : merit) + s->constant;
 }
 
 /* moves the sum to the row whose force is largest */
@@ -210,6 +213,7 @@ static void give_to_bearer(session *s, unsigned n, double *gradient) {
 /* a trial of L-BFGS */
 static double trial(session *s, unsigned n, const double *w, double *gradient) {
   ambulo__engine *e = s->engine;
+  const ambulo__trial *held = &e->held->trial;
   if (s->lay && !is_over(s)) s->ending = lay_chart(s, w);
   if (is_over(s)) return give_up(s, n, gradient);
   double merit = ambulo__chart_value(&s->chart, e, w, gradient);
@@ -217,8 +221,8 @@ static double trial(session *s, unsigned n, const double *w, double *gradient) {
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
   if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
-  double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(e->held.objective));
-  if (e->held.value < HUGE_VAL && e->held.gradient_norm <= least)
+  double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(held->objective));
+  if (held->value < HUGE_VAL && held->gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);
   take_rows(s);
   give_to_bearer(s, n, gradient);
@@ -231,7 +235,7 @@ static double between(session *s, unsigned n, const double *w) {
   if (is_over(s)) return give_up(s, n, NULL);
   double merit = ambulo__chart_value(&s->chart, e, w, s->gradient);
   if (e->run->stopped) return give_up(s, n, NULL);
-  if (!(e->held.value < HUGE_VAL)) {
+  if (!(e->held->trial.value < HUGE_VAL)) {
     s->ending = AMBULO_ENDING_NO_DESCENT;
     return give_up(s, n, NULL);
   }
@@ -280,7 +284,7 @@ static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
   int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
                nlopt_set_vector_storage(local, AMBULO__STORED_VECTORS) < 0 ||
-               !ambulo__nlopt_can_copy((unsigned)s->engine->n) ||
+               !ambulo__nlopt_can_copy((unsigned)s->engine->setup->n) ||
                nlopt_set_local_optimizer(outer, local) < 0 ||
                nlopt_set_min_objective(outer, objective, s) < 0;
   for (int i = 0; i < s->block_count && !failed; i++)
@@ -292,13 +296,13 @@ static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
 /* NLopt from w = 0; its result */
 static int call(session *s) {
   ambulo__engine *e = s->engine;
-  unsigned n = (unsigned)e->n;
+  unsigned n = (unsigned)e->setup->n;
   double least, begin = ambulo__seconds_now(), inside = s->seconds;
   nlopt_opt local = nlopt_create(NLOPT_LD_LBFGS, n), outer = nlopt_create(NLOPT_AUGLAG, n);
   int result = NLOPT_OUT_OF_MEMORY;
   if (local && outer && !set_up(s, outer, local)) {
     s->outer = outer;
-    result = nlopt_optimize(outer, e->iterate, &least);
+    result = nlopt_optimize(outer, s->w, &least);
   }
   nlopt_destroy(outer);
   nlopt_destroy(local);
@@ -310,51 +314,57 @@ static int call(session *s) {
 /* S, sigma and the constant for which NLopt starts with the engine's lambda and R; the chart */
 static ambulo_ending prepare(session *s) {
   ambulo__engine *e = s->engine;
+  const ambulo__trial *held = &e->held->trial;
+  const ambulo__iterate *iterate = &e->iterate;
+  const int inequalities = e->setup->inequalities;
   double penalty = AMBULO__NLOPT_LEAST_PENALTY, violated = 0.0;
-  memset(e->iterate, 0, (size_t)e->n * sizeof *e->iterate);
-  s->started = e->inequalities == 0; /* NLopt does not ask then */
+  memset(s->w, 0, (size_t)e->setup->n * sizeof *s->w);
+  s->started = inequalities == 0; /* NLopt does not ask then */
   s->again = 0;
   s->bearer = s->dirty = -1;
-  s->scale = e->rho / penalty;
-  ambulo_ending failed = lay_chart(s, e->iterate);
+  s->scale = iterate->rho / penalty;
+  ambulo_ending failed = lay_chart(s, s->w);
   if (failed) return failed;
-  for (int i = 0; i < e->inequalities; i++) {
-    double c = s->scale * e->held.excess[i] + e->lambda[i] / penalty;
+  for (int i = 0; i < inequalities; i++) {
+    double c = s->scale * held->excess[i] + iterate->lambda[i] / penalty;
     if (c > 0.0) violated = c;
   }
-  s->constant = -s->scale * e->held.objective;
+  s->constant = -s->scale * held->objective;
   if (violated == 0.0) {
-    penalty = e->inequalities > 0 ? AMBULO__NLOPT_FIRST_PENALTY : 1.0; /* as mirror.c */
-    s->scale = e->rho / penalty;
+    penalty = inequalities > 0 ? AMBULO__NLOPT_FIRST_PENALTY : 1.0; /* as mirror.c */
+    s->scale = iterate->rho / penalty;
     s->chart.stretch = sqrt(s->scale);
-    s->constant = 1.0 - s->scale * e->held.objective;
+    s->constant = 1.0 - s->scale * held->objective;
   }
-  for (int i = 0; i < e->inequalities; i++) s->shift[i] = e->lambda[i] / penalty;
-  if (e->inequalities == 0) ambulo__mirror_start(&s->mirror, 0.0, s->row);
+  for (int i = 0; i < inequalities; i++) s->shift[i] = iterate->lambda[i] / penalty;
+  if (inequalities == 0) ambulo__mirror_start(&s->mirror, 0.0, s->row);
   return AMBULO_ENDING_NONE;
 }
 
 static ambulo_status create(session *s, ambulo__pool *pool) {
   ambulo__engine *e = s->engine;
-  size_t n = (size_t)e->n, m = (size_t)e->inequalities;
-  s->block_count = (e->inequalities + BLOCK - 1) / BLOCK;
+  const int inequalities = e->setup->inequalities;
+  size_t n = (size_t)e->setup->n, m = (size_t)inequalities;
+  s->block_count = (inequalities + BLOCK - 1) / BLOCK;
   s->blocks = ambulo__pool_blocks(pool, (size_t)s->block_count, sizeof *s->blocks);
   s->row = ambulo__pool_doubles(pool, m);
   s->shift = ambulo__pool_doubles(pool, m);
+  s->w = ambulo__pool_doubles(pool, n);
   s->gradient = ambulo__pool_doubles(pool, n);
   s->share = ambulo__pool_doubles(pool, n);
-  ambulo_status status = ambulo__chart_create(e->n, pool, &s->chart);
-  if (!status) status = ambulo__mirror_create(e->inequalities, pool, &s->mirror);
+  ambulo_status status = ambulo__chart_create(e->setup->n, pool, &s->chart);
+  if (!status) status = ambulo__mirror_create(inequalities, pool, &s->mirror);
   if (status || pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < s->block_count; i++) {
-    int left = e->inequalities - i * BLOCK;
+    int left = inequalities - i * BLOCK;
     s->blocks[i] = (block){s, i * BLOCK, left < BLOCK ? left : BLOCK};
   }
   return AMBULO_OK;
 }
 
-/* calls until something ends it: more than one where NLopt ended by a test of its own: all rows
- * hold without a multiplier; or its line search found nothing, after a chart is laid anew once */
+/* Calls until something ends it. One more follows a call that NLopt ended by a test of its own,
+ * since all rows hold without a multiplier; that had to be repeated; or whose line search found
+ * nothing after at least one inner solve, for which the chart is laid anew. */
 static ambulo_status run(session *s) {
   ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {
@@ -375,7 +385,7 @@ static ambulo_status run(session *s) {
 
 ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, double *x,
                              ambulo_ending *ending) {
-  session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->mu};
+  session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->iterate.mu};
   ambulo__pool pool;
   ambulo__pool_init(&pool, &e->pool.allocator);
   ambulo_status status = create(&s, &pool);

@@ -1,7 +1,7 @@
 /* method/augmented.c - the function that the inner solver minimizes.
  *
  *     F(w) = f(y) + sum_i ( p_i^2 - lambda_i^2 ) / (2 rho),   p = max(0, lambda + rho v(y)),
- *     y = R(y_k + L^-T w)
+ *     y = R(x_k + L^-T w)
  *
  * with R the retraction and L L' the metric of the model step: in w the metric is the
  * identity, which is what every solver starts from. Gradient: with G = grad f + sum p grad v
@@ -11,82 +11,97 @@
  * separately.
  *
  * A point that cannot be reached, or where something is not finite, gets a value of a bowl above
- * everything seen since the centre was set, F_max + (1 + |F_max|) (1 + |w|^2): no scale of the
+ * everything seen since the iterate was set, F_max + (1 + |F_max|) (1 + |w|^2): no scale of the
  * objective makes it look like a descent, and its slope sends line searches back.
  */
-#include "method/engine.h"
+#include "method/augmented.h"
 #include "base/worst.h"
+#include "method/engine_point.h"
+#include "method/retraction.h"
 
 #include <math.h>
 #include <string.h>
 
-void ambulo__trial_copy(const ambulo__engine *e, const ambulo__trial *from, ambulo__trial *to) {
-  to->value = from->value;
-  to->objective = from->objective;
-  to->violation = from->violation;
-  to->gradient_norm = from->gradient_norm;
-  memcpy(to->x, from->x, (size_t)e->n * sizeof *to->x);
-  memcpy(to->excess, from->excess, (size_t)e->inequalities * sizeof *to->excess);
-  memcpy(to->multiplier, from->multiplier, (size_t)e->inequalities * sizeof *to->multiplier);
-  memcpy(to->equality_multiplier, e->equality_multiplier,
-         (size_t)e->equalities * sizeof *to->equality_multiplier);
+ambulo_status ambulo__held_create(ambulo__engine *e) {
+  const ambulo__setup *s = e->setup;
+  ambulo__held *held = ambulo__pool_blocks(&e->pool, 1, sizeof *held);
+  if (!held) return AMBULO_E_MEMORY;
+  e->held = held;
+  held->w = ambulo__pool_doubles(&e->pool, (size_t)s->n);
+  held->gradient = ambulo__pool_doubles(&e->pool, (size_t)s->n);
+  ambulo__held_forget(e);
+  return ambulo__trial_create(s->n, s->inequalities, s->equalities, &e->pool, &held->trial);
 }
 
-/* (P.7): value at w into engine->held; HUGE_VAL as value when there is no point */
+void ambulo__held_forget(ambulo__engine *e) {
+  e->held->is_there = 0;
+  e->held->ceiling = -HUGE_VAL;
+}
+
+/* (P.7): value at w; HUGE_VAL when there is no point */
 static void evaluate(ambulo__engine *e, const double *w) {
-  ambulo__trial *held = &e->held;
-  memcpy(e->w, w, (size_t)e->n * sizeof *w);
-  memcpy(held->x, w, (size_t)e->n * sizeof *w);
-  held->value = HUGE_VAL;
-  e->has_held = 1;
-  e->has_held_gradient = 0;
+  const ambulo__setup *s = e->setup;
+  const ambulo__iterate *iterate = &e->iterate;
+  ambulo__held *held = e->held;
+  ambulo__trial *trial = &held->trial;
+  memcpy(held->w, w, (size_t)s->n * sizeof *w);
+  memcpy(trial->x, w, (size_t)s->n * sizeof *w);
+  trial->value = HUGE_VAL;
+  held->is_there = 1;
+  held->has_gradient = 0;
   ambulo__run_count(e->run);
-  ambulo__band_backward(&e->whitener, held->x);
-  for (int j = 0; j < e->n; j++) held->x[j] += e->center[j];
-  if (!ambulo__retract(e, held->x)) return;
-  held->violation = ambulo__engine_excess(e, held->excess);
-  held->objective = e->objective_scale * e->workspace->objective;
+  ambulo__band_backward(&e->linearized.whitener, trial->x);
+  for (int j = 0; j < s->n; j++) trial->x[j] += iterate->x[j];
+  if (!ambulo__retract(e, trial->x)) return;
+  trial->violation = ambulo__engine_excess(e, trial->excess);
+  trial->objective = s->objective_scale * e->workspace->objective;
   double sum = 0.0;
-  for (int i = 0; i < e->inequalities; i++) {
-    double p = ambulo__worse(0.0, e->lambda[i] + e->rho * held->excess[i]);
-    held->multiplier[i] = p;
-    sum += p * p - e->lambda[i] * e->lambda[i];
+  for (int i = 0; i < s->inequalities; i++) {
+    double p = ambulo__worse(0.0, iterate->lambda[i] + iterate->rho * trial->excess[i]);
+    trial->multiplier[i] = p;
+    sum += p * p - iterate->lambda[i] * iterate->lambda[i];
   }
-  held->value = held->objective + sum / (2.0 * e->rho);
-  held->gradient_norm = -1.0;
-  if (!isfinite(held->value)) held->value = HUGE_VAL;
-  if (held->value < HUGE_VAL && held->value > e->ceiling) e->ceiling = held->value;
+  trial->value = trial->objective + sum / (2.0 * iterate->rho);
+  trial->gradient_norm = -1.0;
+  if (!isfinite(trial->value)) trial->value = HUGE_VAL;
+  if (trial->value < HUGE_VAL && trial->value > held->ceiling) held->ceiling = trial->value;
 }
 
-/* gradient at the point held into engine->w_gradient; without one the point is given up */
+/* gradient at the point held; without one the point is given up */
 static void differentiate(ambulo__engine *e) {
-  ambulo__trial *held = &e->held;
-  double sum = 0.0;
-  e->has_held_gradient = 1;
-  if (ambulo__reduced_gradient(e, held->multiplier, e->w_gradient)) {
-    held->value = HUGE_VAL;
+  const ambulo__setup *s = e->setup;
+  ambulo__held *held = e->held;
+  ambulo__trial *trial = &held->trial;
+  double sum = 0.0, *l = e->iterate.equality_multiplier;
+  held->has_gradient = 1;
+  if (ambulo__reduced_gradient(e, s->objective_scale, trial->multiplier, l, held->gradient)) {
+    trial->value = HUGE_VAL;
     return;
   }
-  ambulo__band_upper_multiply(&e->whitener, e->w_gradient);
-  for (int j = 0; j < e->n; j++) sum += e->w_gradient[j] * e->w_gradient[j];
-  held->gradient_norm = sqrt(sum);
-  if (!isfinite(sum)) held->value = HUGE_VAL;
+  memcpy(trial->equality_multiplier, l, (size_t)s->equalities * sizeof *l);
+  ambulo__band_upper_multiply(&e->linearized.whitener, held->gradient);
+  for (int j = 0; j < s->n; j++) sum += held->gradient[j] * held->gradient[j];
+  trial->gradient_norm = sqrt(sum);
+  if (!isfinite(sum)) trial->value = HUGE_VAL;
 }
 
 /* the bowl: see above */
-static double given_up(const ambulo__engine *e, const double *w, double *gradient) {
-  double top = e->ceiling > -HUGE_VAL ? e->ceiling : 0.0, height = 1.0 + fabs(top), sum = 1.0;
-  for (int j = 0; j < e->n; j++) sum += w[j] * w[j];
-  for (int j = 0; gradient && j < e->n; j++) gradient[j] = 2.0 * height * w[j];
+static double given_up(const ambulo__held *held, int n, const double *w, double *gradient) {
+  double top = held->ceiling > -HUGE_VAL ? held->ceiling : 0.0;
+  double height = 1.0 + fabs(top), sum = 1.0;
+  for (int j = 0; j < n; j++) sum += w[j] * w[j];
+  for (int j = 0; gradient && j < n; j++) gradient[j] = 2.0 * height * w[j];
   return top + height * sum;
 }
 
-/* (P.6) F at y = R(y_k + L^-T w), and its gradient by w */
+/* (P.6) F at y = R(x_k + L^-T w), and its gradient by w */
 double ambulo__augmented(ambulo__engine *e, const double *w, double *gradient) {
-  int same = e->has_held && memcmp(w, e->w, (size_t)e->n * sizeof *w) == 0;
+  ambulo__held *held = e->held;
+  size_t bytes = (size_t)e->setup->n * sizeof *w;
+  int same = held->is_there && memcmp(w, held->w, bytes) == 0;
   if (!same) evaluate(e, w);
-  if (e->held.value < HUGE_VAL && gradient && !e->has_held_gradient) differentiate(e);
-  if (!(e->held.value < HUGE_VAL)) return given_up(e, w, gradient);
-  if (gradient) memcpy(gradient, e->w_gradient, (size_t)e->n * sizeof *gradient);
-  return e->held.value;
+  if (held->trial.value < HUGE_VAL && gradient && !held->has_gradient) differentiate(e);
+  if (!(held->trial.value < HUGE_VAL)) return given_up(held, e->setup->n, w, gradient);
+  if (gradient) memcpy(gradient, held->gradient, bytes);
+  return held->trial.value;
 }

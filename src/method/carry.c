@@ -31,17 +31,17 @@ static double share_of(const ambulo_problem *p, const ambulo__table_row *row) {
 
 ambulo_status ambulo__carry_from(const ambulo__engine *e, const ambulo_allocator *allocator,
                                  ambulo__carried *carried) {
-  const ambulo_problem *p = e->problem;
-  const ambulo__sparse_rows *rows = &e->rows.inequality;
+  const ambulo_problem *p = e->setup->problem;
+  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
   ambulo__carry_clear(allocator, carried);
-  carried->row = ambulo__alloc(allocator, (size_t)e->inequalities, sizeof *carried->row);
+  carried->row = ambulo__alloc(allocator, (size_t)e->setup->inequalities, sizeof *carried->row);
   if (!carried->row) return AMBULO_E_MEMORY;
   carried->interval = p->definition.duration / (double)p->definition.intervals;
-  carried->count = e->inequalities;
-  carried->objective = e->reached.objective / e->objective_scale;
-  for (int i = 0; i < e->inequalities; i++) {
+  carried->count = e->setup->inequalities;
+  carried->objective = e->reached.objective / e->setup->objective_scale;
+  for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
-    double multiplier = -rows->scale[i] * e->lambda[i] / e->objective_scale;
+    double multiplier = -rows->scale[i] * e->iterate.lambda[i] / e->setup->objective_scale;
     carried->row[i] =
         (ambulo__carried_row){series_of(row), row->time, multiplier / share_of(p, row)};
   }
@@ -80,14 +80,14 @@ static double density_at(const ambulo__carried *carried, unsigned long long seri
 
 /* (P.13) densities of the coarse grid times w_k of this one */
 void ambulo__carry_to(const ambulo__carried *carried, ambulo__engine *e) {
-  const ambulo_problem *p = e->problem;
-  const ambulo__sparse_rows *rows = &e->rows.inequality;
-  for (int i = 0; i < e->inequalities; i++) {
+  const ambulo_problem *p = e->setup->problem;
+  const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
+  for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
     double multiplier = share_of(p, row) * density_at(carried, series_of(row), row->time);
-    e->lambda[i] = fmax(0.0, e->objective_scale * multiplier / -rows->scale[i]);
+    e->iterate.lambda[i] = fmax(0.0, e->setup->objective_scale * multiplier / -rows->scale[i]);
   }
-  e->carried_objective = carried->count > 0 ? fabs(carried->objective) : -1.0;
+  e->iterate.carried_objective = carried->count > 0 ? fabs(carried->objective) : -1.0;
 }
 
 void ambulo__carry_clear(const ambulo_allocator *allocator, ambulo__carried *carried) {

@@ -1,5 +1,8 @@
 /* method/chart.c - see chart.h */
 #include "method/chart.h"
+#include "method/augmented.h"
+#include "method/engine_point.h"
+#include "method/model_step.h"
 #include "method/parameters.h"
 
 #include <math.h>
@@ -21,24 +24,25 @@ ambulo_status ambulo__chart_create(int n, ambulo__pool *pool, ambulo__chart *c) 
 
 /* (P.10) s and a for which NLopt's first step is the model step */
 int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, double stretch) {
-  int n = e->n;
+  int n = e->setup->n;
   size_t bytes = (size_t)n * sizeof *w;
-  double share = ambulo__engine_step_limit(e, e->total, AMBULO__MODEL_STEP_CAP);
+  const double *model_step = e->quadratic->total;
+  double part = ambulo__step_limit(e->setup, model_step, AMBULO__MODEL_STEP_CAP);
   memcpy(c->origin, w, bytes);
   memset(c->turn, 0, bytes);
   c->stretch = stretch;
-  ambulo__band_upper_multiply(&e->whitener, e->total);
-  for (int j = 0; j < n; j++) c->step[j] = share * e->total[j];
+  memcpy(c->step, model_step, bytes);
+  ambulo__band_upper_multiply(&e->linearized.whitener, c->step);
+  for (int j = 0; j < n; j++) c->step[j] *= part;
   memset(c->whitened, 0, bytes);
-  e->has_held = 0;
-  e->ceiling = -HUGE_VAL;
+  ambulo__held_forget(e);
   c->start = ambulo__augmented(e, c->whitened, c->gradient);
-  if (!(e->held.value < HUGE_VAL)) return 0;
+  if (!(e->held->trial.value < HUGE_VAL)) return 0;
   double slope = dot(c->gradient, c->step, n), size = dot(c->step, c->step, n);
   double steep = dot(c->gradient, c->gradient, n);
   if (slope < 0.0 && slope * slope > AMBULO__COSINE_LEAST * AMBULO__COSINE_LEAST * steep * size) {
-    double share_of_step = 1.0 / sqrt(-slope * size);
-    for (int j = 0; j < n; j++) c->turn[j] = share_of_step * c->step[j] - c->gradient[j] / slope;
+    double length = 1.0 / sqrt(-slope * size);
+    for (int j = 0; j < n; j++) c->turn[j] = length * c->step[j] - c->gradient[j] / slope;
   } else {
     memset(c->step, 0, bytes);
   }
@@ -46,7 +50,7 @@ int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, doub
 }
 
 double ambulo__chart_value(ambulo__chart *c, ambulo__engine *e, const double *w, double *gradient) {
-  int n = e->n;
+  int n = e->setup->n;
   for (int j = 0; j < n; j++) c->whitened[j] = (w[j] - c->origin[j]) / c->stretch;
   double turned = dot(c->turn, c->whitened, n);
   for (int j = 0; j < n; j++) c->whitened[j] += turned * c->step[j];

@@ -2,7 +2,7 @@
  *
  *     x = R( x_k + L^-T (1 + s a') (w - w_k) / t )
  *
- * x_k centre (an earlier point), w_k what NLopt calls it, R the retraction onto the equalities
+ * x_k the iterate (an earlier point), w_k what NLopt calls it, R the retraction onto the equalities
  * (retraction.c), L L' the metric of the model step at x_k, t > 0 a factor. w_k stays x_k when the
  * chart is laid anew, so NLopt's own point does not jump.
  *
@@ -34,8 +34,8 @@ typedef struct ambulo__chart {
 
 ambulo_status ambulo__chart_create(int n, ambulo__pool *pool, ambulo__chart *chart);
 
-/* Lays the chart at engine->center, which NLopt calls w, after a model step whose result is in
- * engine->total. 0 when F or its gradient is not to be had there, which the run remembers. */
+/* Lays the chart at the iterate, which NLopt calls w, after a model step whose result is in
+ * engine->quadratic. 0 when F or its gradient is not to be had there, which the run remembers. */
 int ambulo__chart_lay(ambulo__chart *chart, ambulo__engine *engine, const double *w,
                       double stretch);
 

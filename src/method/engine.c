@@ -1,15 +1,15 @@
-/* method/engine.c - setting up a solve on one grid; shared small steps. */
+/* method/engine.c - setting up a solve on one grid. */
 #include "method/engine.h"
+#include "gait/bounds.h"
+#include "method/augmented.h"
+#include "method/model_step.h"
 #include "method/parameters.h"
-
-#include "base/worst.h"
-#include "nlp/fault.h"
+#include "method/polish.h"
+#include "method/restore.h"
+#include "method/retraction.h"
 #include "nlp/user_term.h"
 
-#include "gait/bounds.h"
-
 #include <math.h>
-#include <string.h>
 
 /* A coordinate whose range is wide (the way a walker travels) may move further at once. */
 static double cap_of(const ambulo_problem *problem, int i) {
@@ -20,117 +20,123 @@ static double cap_of(const ambulo_problem *problem, int i) {
   return isfinite(width) ? fmax(AMBULO__USUAL_CAP, AMBULO__RANGE_CAP * width) : HUGE_VAL;
 }
 
-static ambulo_status create_trial(ambulo__engine *e, ambulo__trial *trial) {
-  trial->value = HUGE_VAL;
-  trial->x = ambulo__pool_doubles(&e->pool, (size_t)e->n);
-  trial->excess = ambulo__pool_doubles(&e->pool, (size_t)e->inequalities);
-  trial->multiplier = ambulo__pool_doubles(&e->pool, (size_t)e->inequalities);
-  trial->equality_multiplier = ambulo__pool_doubles(&e->pool, (size_t)e->equalities);
-  return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
-}
-
-static void create_vectors(ambulo__engine *e) {
-  ambulo__pool *pool = &e->pool;
-  size_t n = (size_t)e->n, m = (size_t)e->inequalities, q = (size_t)e->equalities;
-  double **long_vectors[] = {&e->center,       &e->gradient,   &e->step,           &e->total,
-                             &e->curved,       &e->previous,   &e->previous_right, &e->w,
-                             &e->curved_total, &e->w_gradient, &e->iterate,        &e->best_total,
-                             &e->best_curved};
-  for (size_t i = 0; i < sizeof long_vectors / sizeof *long_vectors; i++)
-    *long_vectors[i] = ambulo__pool_doubles(pool, n);
-  e->lambda = ambulo__pool_doubles(pool, m);
-  e->along = ambulo__pool_doubles(pool, m);
-  e->linear = ambulo__pool_doubles(pool, m);
-  e->active = ambulo__pool_ints(pool, m);
-  e->added = ambulo__pool_ints(pool, m);
-  e->best_linear = ambulo__pool_doubles(pool, m);
-  e->active_next = ambulo__pool_ints(pool, m);
-  e->equality_multiplier = ambulo__pool_doubles(pool, q);
-  e->h = ambulo__pool_doubles(pool, q);
-  e->dual = ambulo__pool_doubles(pool, q);
-  e->balanced = ambulo__pool_doubles(pool, q);
-  e->b = ambulo__pool_doubles(pool, (size_t)e->borders);
-  e->border_multiplier = ambulo__pool_doubles(pool, (size_t)e->borders);
-  e->row_weight = ambulo__pool_doubles(pool, (size_t)e->problem->rows);
-  e->negligible_term = ambulo__pool_doubles(pool, (size_t)e->problem->definition.term_count);
-  e->cap = ambulo__pool_doubles(pool, (size_t)e->problem->coordinates);
-}
-
 /* An objective of terms that cannot be negative is at its lower bound, for all purposes, when each
  * of them is this small beside its value for the motionless body. Multipliers and gradient vanish
  * there together, and their ratio says nothing. Distances to a reference have no such measure: a
  * motionless body is far from it by any standard. */
-static double negligible_objective(ambulo__engine *e) {
-  const ambulo_problem_definition *d = &e->problem->definition;
+static double negligible_objective(const ambulo__engine *e, const double *zero, ambulo__setup *s) {
+  const ambulo_problem_definition *d = &s->problem->definition;
   double tolerance = e->run->options->optimality_tolerance;
-  if (ambulo__evaluate(e->workspace, e->center)) return -1.0; /* zeros so far */
-  e->at_rest = fabs(e->workspace->objective);
+  if (ambulo__evaluate(e->workspace, zero)) return -1.0;
+  s->at_rest = fabs(e->workspace->objective);
   for (int t = 0; t < d->term_count; t++) {
     if (ambulo__is_user_term(&d->terms[t]) || d->terms[t].kind == AMBULO_TRACKING) return -1.0;
   }
   for (int t = 0; t < d->term_count; t++) {
-    e->negligible_term[t] = tolerance * e->workspace->term_value[t];
+    s->negligible_term[t] = tolerance * e->workspace->term_value[t];
   }
   return tolerance * e->workspace->objective;
-}
-
-int ambulo__engine_at_lower_bound(const ambulo__engine *e) {
-  for (int t = 0; t < e->problem->definition.term_count; t++) {
-    if (e->negligible < 0.0 || e->workspace->term_value[t] > e->negligible_term[t]) return 0;
-  }
-  return e->negligible >= 0.0;
 }
 
 /* Of an objective without curvature (linear terms of the caller): the factor that gives its
  * gradient at the start the length 1 in the metric, where those of walks have 1 to 2.5. */
 static double scale_by_gradient(ambulo__engine *e, const double *start) {
-  const ambulo_problem *p = e->problem;
-  double sum = 0.0;
+  const ambulo_problem *p = e->setup->problem;
+  ambulo__band *base = &e->linearized.base;
+  double sum = 0.0, *gradient = e->quadratic->gradient;
   if (ambulo__evaluate_jacobian(e->workspace, start) ||
-      ambulo__gradient(e->workspace, 1.0, NULL, e->gradient))
+      ambulo__gradient(e->workspace, 1.0, NULL, gradient))
     return 1.0;
-  ambulo__metric_fill(&e->metric, e->workspace, 0.0, &e->base);
-  ambulo__band_add_diagonal(&e->base, p->definition.duration / ambulo__basis_intervals(p->basis));
-  if (ambulo__band_factor(&e->base)) return 1.0;
-  ambulo__band_forward(&e->base, e->gradient);
-  for (int j = 0; j < e->n; j++) sum += e->gradient[j] * e->gradient[j];
+  ambulo__metric_fill(&e->linearized.metric, e->workspace, 0.0, base);
+  ambulo__band_add_diagonal(base, p->definition.duration / ambulo__basis_intervals(p->basis));
+  if (ambulo__band_factor(base)) return 1.0;
+  ambulo__band_forward(base, gradient);
+  for (int j = 0; j < p->variables; j++) sum += gradient[j] * gradient[j];
   return sum > 0.0 && isfinite(sum) ? 1.0 / sqrt(sum) : 1.0;
 }
 
-static ambulo_status create_parts(ambulo__engine *e, const double *start,
-                                  ambulo_diagnostics *diagnostics) {
-  const ambulo_problem *p = e->problem;
-  ambulo__pool *pool = &e->pool;
-  const double *zero = ambulo__pool_doubles(pool, (size_t)p->variables);
-  if (!zero) return AMBULO_E_MEMORY;
-  if (ambulo__evaluate(e->workspace, zero) == AMBULO_OK) start = zero;
-  ambulo_status status =
-      ambulo__rows_split_create(p, e->workspace, start, e->run, pool, diagnostics, &e->rows);
-  if (status) return status;
-  e->n = p->variables;
-  e->equalities = e->rows.equality.count;
-  e->inequalities = e->rows.inequality.count;
-  e->borders = e->rows.border.count;
+static ambulo_status create_iterate(ambulo__engine *e) {
+  const ambulo__setup *s = e->setup;
+  ambulo__iterate *iterate = &e->iterate;
+  iterate->lambda = ambulo__pool_doubles(&e->pool, (size_t)s->inequalities);
+  iterate->equality_multiplier = ambulo__pool_doubles(&e->pool, (size_t)s->equalities);
+  iterate->border_multiplier = ambulo__pool_doubles(&e->pool, (size_t)s->borders);
+  iterate->carried_objective = -1.0;
+  return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static ambulo_status create_measured(ambulo__engine *e) {
+  const ambulo__setup *s = e->setup;
+  ambulo__measured *m = &e->measured;
+  m->equality = ambulo__pool_doubles(&e->pool, (size_t)s->equalities);
+  m->border = ambulo__pool_doubles(&e->pool, (size_t)s->borders);
+  m->excess = ambulo__pool_doubles(&e->pool, (size_t)s->inequalities);
+  m->row_weight = ambulo__pool_doubles(&e->pool, (size_t)s->problem->rows);
+  return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static ambulo_status create_matrices(ambulo__engine *e) {
+  const ambulo_problem *p = e->setup->problem;
+  ambulo__linearized *at = &e->linearized;
   int kd = ambulo__metric_diagonals(p);
-  status = ambulo__metric_create(p, pool, &e->metric);
-  if (!status) status = ambulo__band_create(pool, e->n, kd, &e->base);
-  if (!status) status = ambulo__band_create(pool, e->n, kd, &e->whitener);
-  if (!status) status = ambulo__kkt_create(&e->rows.equality, &e->rows.border, kd, pool, &e->kkt);
-  if (!status) status = ambulo__mixing_create(pool, e->n, e->equalities, &e->retraction);
-  if (!status) status = ambulo__mixing_create(pool, e->equalities, e->equalities, &e->adjoint);
+  ambulo_status status = ambulo__metric_create(p, &e->pool, &at->metric);
+  if (!status) status = ambulo__band_create(&e->pool, p->variables, kd, &at->base);
+  if (!status) status = ambulo__band_create(&e->pool, p->variables, kd, &at->whitener);
   if (status) return status;
-  create_vectors(e);
-  status = create_trial(e, &e->held);
-  if (!status) status = create_trial(e, &e->reached);
+  return ambulo__kkt_create(&at->rows.equality, &at->rows.border, kd, &e->pool, &at->kkt);
+}
+
+/* what each module works with */
+static ambulo_status create_parts(ambulo__engine *e) {
+  const ambulo__setup *s = e->setup;
+  ambulo_status status = create_iterate(e);
+  if (!status) status = create_measured(e);
+  if (!status) status = create_matrices(e);
+  if (!status) status = ambulo__quadratic_create(e);
+  if (!status) status = ambulo__retraction_create(e);
+  if (!status) status = ambulo__held_create(e);
+  if (!status) status = ambulo__restore_create(e);
+  if (!status) status = ambulo__polish_create(e);
   if (status) return status;
-  for (int i = 0; i < p->coordinates; i++) e->cap[i] = cap_of(p, i);
-  e->objective_scale = ambulo__metric_objective_scale(&e->metric, e->workspace);
-  if (e->objective_scale == 0.0) e->objective_scale = scale_by_gradient(e, start);
-  e->adjoint_tolerance = AMBULO__ADJOINT_TOLERANCE;
-  e->retraction_tolerance = fmin(AMBULO__RETRACTION_TOLERANCE,
-                                 AMBULO__RETRACTION_SHARE * e->run->options->feasibility_tolerance);
-  e->carried_objective = -1.0;
-  e->negligible = negligible_objective(e);
+  return ambulo__trial_create(s->n, s->inequalities, s->equalities, &e->pool, &e->reached);
+}
+
+/* sizes and roles of the rows, at zero or at the start: *at */
+static ambulo_status classify(ambulo__engine *e, const double **at, ambulo_diagnostics *diagnostics,
+                              ambulo__setup *s) {
+  const ambulo_problem *p = s->problem;
+  ambulo__rows_split *rows = &e->linearized.rows;
+  ambulo__pool *pool = &e->pool;
+  s->negligible_term = ambulo__pool_doubles(pool, (size_t)p->definition.term_count);
+  s->cap = ambulo__pool_doubles(pool, (size_t)p->coordinates);
+  e->iterate.x = ambulo__pool_doubles(pool, (size_t)p->variables);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  if (ambulo__evaluate(e->workspace, e->iterate.x) == AMBULO_OK) *at = e->iterate.x; /* zero */
+  ambulo_status status =
+      ambulo__rows_split_create(p, e->workspace, *at, e->run, pool, diagnostics, rows);
+  if (status) return status;
+  s->rows = rows;
+  s->n = p->variables;
+  s->equalities = rows->equality.count;
+  s->inequalities = rows->inequality.count;
+  s->borders = rows->border.count;
+  for (int i = 0; i < p->coordinates; i++) s->cap[i] = cap_of(p, i);
+  return AMBULO_OK;
+}
+
+/* the set-up is written here, and by nobody else */
+static ambulo_status set_up(ambulo__engine *e, const ambulo_problem *problem, const double *start,
+                            ambulo_diagnostics *diagnostics) {
+  ambulo__setup *s = ambulo__pool_blocks(&e->pool, 1, sizeof *s);
+  if (!s) return AMBULO_E_MEMORY;
+  s->problem = problem;
+  e->setup = s;
+  ambulo_status status = classify(e, &start, diagnostics, s);
+  if (!status) status = create_parts(e);
+  if (status) return status;
+  s->objective_scale = ambulo__metric_objective_scale(&e->linearized.metric, e->workspace);
+  if (s->objective_scale == 0.0) s->objective_scale = scale_by_gradient(e, start);
+  s->negligible = negligible_objective(e, e->iterate.x, s); /* zero so far */
   return AMBULO_OK;
 }
 
@@ -141,10 +147,9 @@ ambulo_status ambulo__engine_create(const ambulo_problem *problem, const double 
   ambulo__engine *e = ambulo__alloc(&own, 1, sizeof *e);
   if (!e) return AMBULO_E_MEMORY;
   ambulo__pool_init(&e->pool, &own);
-  e->problem = problem;
   e->run = run;
   ambulo_status status = ambulo_workspace_create(problem, &own, &e->workspace);
-  if (!status) status = create_parts(e, start, diagnostics);
+  if (!status) status = set_up(e, problem, start, diagnostics);
   if (status) {
     ambulo__engine_free(e);
     return status;
@@ -160,63 +165,4 @@ void ambulo__engine_free(ambulo__engine *e) {
   ambulo_workspace_free(e->workspace);
   ambulo__pool_clear(&e->pool);
   ambulo__free(&a, e);
-}
-
-/* worst of a set of equalities whose values are there, relative to the sizes of the rows */
-static double worst_equality(const ambulo__engine *e, const ambulo__sparse_rows *rows,
-                             const double *value) {
-  const ambulo__table_row *table = e->problem->table.rows;
-  double worst = 0.0;
-  for (int i = 0; i < rows->count; i++)
-    worst = ambulo__worse(worst, fabs(value[i]) / table[rows->row[i]].size);
-  return worst;
-}
-
-double ambulo__engine_equality_error(ambulo__engine *e) {
-  ambulo__sparse_rows_values(&e->rows.equality, e->workspace, e->h);
-  ambulo__sparse_rows_values(&e->rows.border, e->workspace, e->b);
-  return ambulo__worse(worst_equality(e, &e->rows.equality, e->h),
-                       worst_equality(e, &e->rows.border, e->b));
-}
-
-double ambulo__engine_excess(const ambulo__engine *e, double *excess) {
-  const ambulo__sparse_rows *rows = &e->rows.inequality;
-  const ambulo__table_row *table = e->problem->table.rows;
-  double worst = 0.0;
-  ambulo__sparse_rows_values(rows, e->workspace, excess);
-  for (int i = 0; i < e->inequalities; i++) {
-    if (excess[i] <= 0.0) continue;
-    worst = ambulo__worse(worst, excess[i] / (-rows->scale[i] * table[rows->row[i]].size));
-  }
-  return worst;
-}
-
-ambulo_status ambulo__engine_gradient(ambulo__engine *e, const double *p, const double *l,
-                                      double *gradient) {
-  memset(e->row_weight, 0, (size_t)e->problem->rows * sizeof *e->row_weight);
-  for (int i = 0; p && i < e->inequalities; i++)
-    e->row_weight[e->rows.inequality.row[i]] = e->rows.inequality.scale[i] * p[i];
-  for (int i = 0; l && i < e->equalities; i++)
-    e->row_weight[e->rows.equality.row[i]] = e->rows.equality.scale[i] * l[i];
-  ambulo_status status =
-      ambulo__gradient(e->workspace, e->objective_scale, e->row_weight, gradient);
-  if (status) ambulo__run_fault(e->run, &e->workspace->fault);
-  return status;
-}
-
-int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
-  ambulo__metric_fill(&e->metric, e->workspace, e->objective_scale, &e->base);
-  ambulo__band_add_diagonal(&e->base, mu);
-  double largest = ambulo__band_largest(&e->base);
-  if (isfinite(largest)) return 0;
-  ambulo__fault_of_curvature(e->workspace, largest);
-  ambulo__run_fault(e->run, &e->workspace->fault);
-  return 1;
-}
-
-double ambulo__engine_step_limit(const ambulo__engine *e, const double *step, double share) {
-  int d = e->problem->coordinates;
-  double largest = 0.0;
-  for (int j = 0; j < e->n; j++) largest = ambulo__worse(largest, fabs(step[j]) / e->cap[j % d]);
-  return largest <= share ? 1.0 : share / largest;
 }

@@ -11,8 +11,11 @@
  * violates joins them, and SLSQP starts again from the point before.
  */
 #include "method/finisher.h"
-#include "method/parameters.h"
+#include "method/engine_point.h"
+#include "method/model_step.h"
 #include "method/nlopt_direct.h"
+#include "method/parameters.h"
+#include "method/retraction.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -21,27 +24,33 @@
 typedef struct finisher {
   ambulo__engine *engine;
   nlopt_opt opt;
-  int count;   /* rows handed to SLSQP */
-  int *row;    /* [inequalities]: which */
-  double *one; /* [inequalities]: weights of a single row */
-  double *tolerance, *multiplier;
-  int held, failed; /* engine->w is the point in the workspace; it could not be reached */
+  int count;            /* rows handed to SLSQP */
+  int *row;             /* [inequalities]: which */
+  int *handed;          /* [inequalities]: whether */
+  double *start;        /* [n]: SLSQP's point, whitened, in and out */
+  double *w, *x;        /* [n]: the point in the workspace, whitened and not */
+  double *excess;       /* [inequalities]: there */
+  double *one;          /* [inequalities]: weights of a single row */
+  double *tolerance;    /* [inequalities] */
+  double *l, *l_of_row; /* [equalities]: multipliers of the objective's gradient, of a row's */
+  int held, failed;     /* w is the point in the workspace; it could not be reached */
   double seconds;
 } finisher;
 
 /* the workspace at w; 1 on failure */
 static int move_to(finisher *s, const double *w) {
   ambulo__engine *e = s->engine;
-  size_t bytes = (size_t)e->n * sizeof *w;
-  if (s->held && memcmp(w, e->w, bytes) == 0) return s->failed;
-  memcpy(e->w, w, bytes);
-  memcpy(e->held.x, w, bytes);
+  const int n = e->setup->n;
+  size_t bytes = (size_t)n * sizeof *w;
+  if (s->held && memcmp(w, s->w, bytes) == 0) return s->failed;
+  memcpy(s->w, w, bytes);
+  memcpy(s->x, w, bytes);
   s->held = 1;
   ambulo__run_count(e->run);
-  ambulo__band_backward(&e->whitener, e->held.x);
-  for (int j = 0; j < e->n; j++) e->held.x[j] += e->center[j];
-  s->failed = !ambulo__retract(e, e->held.x);
-  if (!s->failed) ambulo__engine_excess(e, e->held.excess);
+  ambulo__band_backward(&e->linearized.whitener, s->x);
+  for (int j = 0; j < n; j++) s->x[j] += e->iterate.x[j];
+  s->failed = !ambulo__retract(e, s->x);
+  if (!s->failed) ambulo__engine_excess(e, s->excess);
   if (e->run->stopped) nlopt_force_stop(s->opt);
   return s->failed;
 }
@@ -50,23 +59,17 @@ static int move_to(finisher *s, const double *w) {
  * when it is not finite */
 static int differentiate(ambulo__engine *e, double scale, const double *p, double *l,
                          double *gradient) {
-  double objective_scale = e->objective_scale;
-  size_t bytes = (size_t)e->equalities * sizeof *l;
-  e->objective_scale = scale;
-  memcpy(e->equality_multiplier, l, bytes);
-  int failed = ambulo__reduced_gradient(e, p, gradient) != AMBULO_OK;
-  ambulo__band_upper_multiply(&e->whitener, gradient);
-  memcpy(l, e->equality_multiplier, bytes);
-  e->objective_scale = objective_scale;
+  int failed = ambulo__reduced_gradient(e, scale, p, l, gradient) != AMBULO_OK;
+  ambulo__band_upper_multiply(&e->linearized.whitener, gradient);
   return failed;
 }
 
 static double objective(unsigned n, const double *w, double *gradient, void *data) {
   finisher *s = data;
   double begin = ambulo__seconds_now(), value = HUGE_VAL;
-  if (!move_to(s, w)) value = s->engine->objective_scale * s->engine->workspace->objective;
+  if (!move_to(s, w)) value = s->engine->setup->objective_scale * s->engine->workspace->objective;
   if (!s->failed && gradient)
-    s->failed = differentiate(s->engine, s->engine->objective_scale, NULL, s->multiplier, gradient);
+    s->failed = differentiate(s->engine, s->engine->setup->objective_scale, NULL, s->l, gradient);
   if (s->failed) {
     value = HUGE_VAL;
     if (gradient) memset(gradient, 0, n * sizeof *gradient);
@@ -84,14 +87,12 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
   if (gradient) memset(gradient, 0, (size_t)m * (size_t)n * sizeof *gradient);
   for (unsigned i = 0; i < m; i++) {
     int r = s->row[i];
-    result[i] = failed ? 1.0 : e->held.excess[r];
+    result[i] = failed ? 1.0 : s->excess[r];
     if (failed || !gradient) continue;
     s->one[r] = 1.0;
-    memset(e->held.equality_multiplier, 0,
-           (size_t)e->equalities * sizeof *e->held.equality_multiplier);
+    memset(s->l_of_row, 0, (size_t)e->setup->equalities * sizeof *s->l_of_row);
     double *row = gradient + (size_t)i * (size_t)n;
-    if (differentiate(e, 0.0, s->one, e->held.equality_multiplier, row))
-      memset(row, 0, n * sizeof *row);
+    if (differentiate(e, 0.0, s->one, s->l_of_row, row)) memset(row, 0, n * sizeof *row);
     s->one[r] = 0.0;
   }
   s->seconds += ambulo__seconds_now() - begin;
@@ -102,13 +103,13 @@ static int screen(finisher *s) {
   ambulo__engine *e = s->engine;
   double tolerance = e->run->options->feasibility_tolerance;
   int found = 0;
-  for (int i = 0; i < e->inequalities; i++) {
-    if (e->active_next[i]) continue;
-    int row = e->rows.inequality.row[i];
-    double size = e->problem->table.rows[row].size;
-    double excess = e->held.excess[i] / (-e->rows.inequality.scale[i] * size);
+  for (int i = 0; i < e->setup->inequalities; i++) {
+    if (s->handed[i]) continue;
+    int row = e->setup->rows->inequality.row[i];
+    double size = e->setup->problem->table.rows[row].size;
+    double excess = s->excess[i] / (-e->setup->rows->inequality.scale[i] * size);
     if (excess < -AMBULO__FINISHER_MARGIN) continue;
-    e->active_next[i] = 1;
+    s->handed[i] = 1;
     s->row[s->count++] = i;
     found += excess > tolerance;
   }
@@ -117,7 +118,7 @@ static int screen(finisher *s) {
 
 static int minimize(finisher *s, double *w) {
   ambulo__engine *e = s->engine;
-  unsigned n = (unsigned)e->n;
+  unsigned n = (unsigned)e->setup->n;
   double least;
   for (int i = 0; i < s->count; i++) s->tolerance[i] = AMBULO__FINISHER_ROW;
   s->opt = nlopt_create(NLOPT_LD_SLSQP, n);
@@ -135,41 +136,62 @@ static int minimize(finisher *s, double *w) {
   return result;
 }
 
-static ambulo_status create(ambulo__engine *e, finisher *s) {
-  size_t m = (size_t)e->inequalities;
+static ambulo_status create(ambulo__engine *e, ambulo__pool *pool, finisher *s) {
+  size_t n = (size_t)e->setup->n, m = (size_t)e->setup->inequalities;
+  size_t equalities = (size_t)e->setup->equalities;
   s->engine = e;
-  s->row = ambulo__pool_ints(&e->pool, m);
-  s->one = ambulo__pool_doubles(&e->pool, m);
-  s->tolerance = ambulo__pool_doubles(&e->pool, m);
-  s->multiplier = ambulo__pool_doubles(&e->pool, (size_t)e->equalities);
-  return e->pool.failed ? AMBULO_E_MEMORY : AMBULO_OK;
+  s->row = ambulo__pool_ints(pool, m);
+  s->handed = ambulo__pool_ints(pool, m);
+  s->start = ambulo__pool_doubles(pool, n);
+  s->w = ambulo__pool_doubles(pool, n);
+  s->x = ambulo__pool_doubles(pool, n);
+  s->excess = ambulo__pool_doubles(pool, m);
+  s->one = ambulo__pool_doubles(pool, m);
+  s->tolerance = ambulo__pool_doubles(pool, m);
+  s->l = ambulo__pool_doubles(pool, equalities);
+  s->l_of_row = ambulo__pool_doubles(pool, equalities);
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+/* from the iterate, with the whitener there; the point found is s->x */
+static ambulo_status rounds(finisher *s, const char **message) {
+  ambulo__run *run = s->engine->run;
+  if (!move_to(s, s->start)) (void)screen(s);
+  for (int round = 0; round < AMBULO__FINISHER_ROUNDS && !s->failed; round++) {
+    int result = minimize(s, s->start);
+    *message = ambulo__nlopt_name(result);
+    ambulo__run_nlopt(run, result, *message, 0.0); /* seconds: see ambulo__finish */
+    if (result == NLOPT_OUT_OF_MEMORY) return AMBULO_E_MEMORY;
+    if (move_to(s, s->start) || screen(s) == 0) break;
+  }
+  return AMBULO_OK;
+}
+
+static ambulo_status finish(finisher *s, double *x, const char **message) {
+  ambulo__engine *e = s->engine;
+  ambulo__retraction *r = e->retraction;
+  double predicted, adjoint = r->adjoint_tolerance, retraction = r->tolerance;
+  size_t bytes = (size_t)e->setup->n * sizeof *x;
+  memcpy(e->iterate.x, x, bytes);
+  if (ambulo__model_step(e, &predicted)) return AMBULO_OK;
+  double begin = ambulo__seconds_now();
+  r->adjoint_tolerance = AMBULO__FINISHER_ADJOINT;
+  r->tolerance = AMBULO__FINISHER_RETRACTION;
+  ambulo_status status = rounds(s, message);
+  if (!status && s->held && !s->failed) memcpy(x, s->x, bytes);
+  r->adjoint_tolerance = adjoint;
+  r->tolerance = retraction;
+  e->run->iterations++;
+  e->run->nlopt.seconds += ambulo__seconds_now() - begin - s->seconds;
+  return status;
 }
 
 ambulo_status ambulo__finish(ambulo__engine *e, double *x, const char **message) {
   finisher s = {0};
-  double predicted, adjoint = e->adjoint_tolerance, retraction = e->retraction_tolerance;
-  size_t bytes = (size_t)e->n * sizeof *x;
-  ambulo_status status = create(e, &s);
-  if (status) return status;
-  memcpy(e->center, x, bytes);
-  if (ambulo__model_step(e, &predicted)) return AMBULO_OK;
-  double begin = ambulo__seconds_now();
-  e->adjoint_tolerance = AMBULO__FINISHER_ADJOINT;
-  e->retraction_tolerance = AMBULO__FINISHER_RETRACTION;
-  memset(e->active_next, 0, (size_t)e->inequalities * sizeof *e->active_next);
-  memset(e->iterate, 0, bytes);
-  if (!move_to(&s, e->iterate)) (void)screen(&s);
-  for (int round = 0; round < AMBULO__FINISHER_ROUNDS && !s.failed; round++) {
-    int result = minimize(&s, e->iterate);
-    *message = ambulo__nlopt_name(result);
-    ambulo__run_nlopt(e->run, result, *message, 0.0); /* seconds below */
-    if (result == NLOPT_OUT_OF_MEMORY) status = AMBULO_E_MEMORY;
-    if (status || move_to(&s, e->iterate) || screen(&s) == 0) break;
-  }
-  if (!status && s.held && !s.failed) memcpy(x, e->held.x, bytes);
-  e->adjoint_tolerance = adjoint;
-  e->retraction_tolerance = retraction;
-  e->run->iterations++;
-  e->run->nlopt.seconds += ambulo__seconds_now() - begin - s.seconds;
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  ambulo_status status = create(e, &pool, &s);
+  if (!status) status = finish(&s, x, message);
+  ambulo__pool_clear(&pool);
   return status;
 }

@@ -29,15 +29,15 @@
 #include <string.h>
 
 static void prepare(ambulo__engine *e, ambulo__direct *d) {
-  d->problem = e->problem;
+  d->problem = e->setup->problem;
   d->workspace = e->workspace;
   d->run = e->run;
-  d->set[0] = &e->rows.equality;
-  d->set[1] = &e->rows.border;
-  d->set[2] = &e->rows.inequality;
+  d->set[0] = &e->linearized.rows.equality;
+  d->set[1] = &e->linearized.rows.border;
+  d->set[2] = &e->linearized.rows.inequality;
   d->is_equality[0] = d->is_equality[1] = 1;
   d->sets = AMBULO__DIRECT_SETS;
-  d->objective_scale = e->objective_scale;
+  d->objective_scale = e->setup->objective_scale;
 }
 
 static size_t bytes_of(const ambulo__direct *d) {
@@ -117,7 +117,7 @@ static ambulo_status solve(ambulo__engine *e, ambulo__direct *d, ambulo_algorith
   prepare(e, d);
   ambulo_status status = ambulo__direct_create(d, &e->pool);
   if (status) return status;
-  memcpy(d->center, x, (size_t)e->n * sizeof *x);
+  memcpy(d->center, x, (size_t)e->setup->n * sizeof *x);
   status = reach(d);
   ambulo_ending ending = AMBULO_ENDING_NLOPT;
   for (int k = 0; !status && !done && !is_over(d); k++) {
@@ -138,9 +138,9 @@ ambulo_status ambulo__solve_plain(ambulo__engine *e, ambulo_algorithm algorithm,
   ambulo_status status = solve(e, &d, algorithm, x);
   if (status == AMBULO_E_LIMIT)
     (void)ambulo__error(diagnostics, status, ambulo__nowhere, "use solver.algorithm: auto",
-                        "%d unknowns and %d rows need more memory than 4 GB in dense form", e->n,
-                        e->problem->rows);
-  if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->n * sizeof *x);
+                        "%d unknowns and %d rows need more memory than 4 GB in dense form",
+                        e->setup->n, e->setup->problem->rows);
+  if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->setup->n * sizeof *x);
   *message = d.message;
   return status;
 }

@@ -6,22 +6,24 @@
  * run->ending says why they ended.
  */
 #include "method/nlopt_direct.h"
+#include "method/model_step.h"
 #include "method/parameters.h"
+#include "method/restore.h"
 
 #include <math.h>
 #include <string.h>
 
 static ambulo_status prepare(ambulo__engine *e, ambulo__direct *d) {
-  d->problem = e->problem;
+  d->problem = e->setup->problem;
   d->workspace = e->workspace;
   d->run = e->run;
-  d->whitener = &e->whitener;
-  d->set[0] = &e->rows.equality;
-  d->set[1] = &e->rows.border;
-  d->set[2] = &e->rows.inequality;
+  d->whitener = &e->linearized.whitener;
+  d->set[0] = &e->linearized.rows.equality;
+  d->set[1] = &e->linearized.rows.border;
+  d->set[2] = &e->linearized.rows.inequality;
   d->is_equality[0] = d->is_equality[1] = 1;
   d->sets = AMBULO__DIRECT_SETS;
-  d->objective_scale = e->objective_scale;
+  d->objective_scale = e->setup->objective_scale;
   return ambulo__direct_create(d, &e->pool);
 }
 
@@ -30,13 +32,13 @@ static ambulo_status prepare(ambulo__engine *e, ambulo__direct *d) {
 static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_algorithm algorithm,
                                 const double *x, int *idle, ambulo_ending *ending) {
   double predicted, before = d->best_objective, violation = d->best_violation;
-  memcpy(e->center, x, (size_t)e->n * sizeof *x);
+  memcpy(e->iterate.x, x, (size_t)e->setup->n * sizeof *x);
   int failed = ambulo__model_step(e, &predicted);
   if (failed) {
     *ending = failed == 2 ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_BREAKDOWN;
     return AMBULO_OK;
   }
-  memcpy(d->center, x, (size_t)e->n * sizeof *x);
+  memcpy(d->center, x, (size_t)e->setup->n * sizeof *x);
   int most = algorithm == AMBULO_AUGLAG ? AMBULO__AUGLAG_ROUND : AMBULO__ROUND_EVALUATIONS;
   ambulo_status status = ambulo__direct_minimize(d, algorithm, most);
   if (status) return status;
@@ -74,17 +76,17 @@ ambulo_status ambulo__solve_whitened(ambulo__engine *e, ambulo_algorithm algorit
                                      const char **message) {
   ambulo__direct d = {.message = "not called"};
   double error;
-  e->mu = AMBULO__DAMPING_START * e->problem->definition.duration /
-          (double)ambulo__basis_intervals(e->problem->basis);
-  e->rho = AMBULO__PENALTY_START;
+  e->iterate.mu = AMBULO__DAMPING_START * e->setup->problem->definition.duration /
+                  (double)ambulo__basis_intervals(e->setup->problem->basis);
+  e->iterate.rho = AMBULO__PENALTY_START;
   ambulo_status status = ambulo__restore(e, x, &error);
   if (!status) status = prepare(e, &d);
   if (!status) status = rounds(e, &d, algorithm, most, x);
   if (status == AMBULO_E_LIMIT)
     (void)ambulo__error(diagnostics, status, ambulo__nowhere, "use solver.algorithm: auto",
-                        "%d unknowns and %d rows need more memory than 4 GB in dense form", e->n,
-                        e->problem->rows);
-  if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->n * sizeof *x);
+                        "%d unknowns and %d rows need more memory than 4 GB in dense form",
+                        e->setup->n, e->setup->problem->rows);
+  if (!status && d.best_violation < HUGE_VAL) memcpy(x, d.best_x, (size_t)e->setup->n * sizeof *x);
   *message = d.message;
   return status;
 }

@@ -8,13 +8,15 @@
  *
  * Equalities hold all along: every point is a retracted one.
  *
- * Reading order: engine.h, rows_split.h, metric.h, pipeline.c, restore.c, auglag.c, chart.h,
- * mirror.h, model_step.c, augmented.c, retraction.c, stopping.h, polish.c; refine.c and carry.h
- * around it. Besides: nlopt_whitened.c and nlopt_plain.c with nlopt_direct.h, finisher.h,
+ * Reading order: engine.h, rows_split.h, metric.h, engine_point.h, pipeline.c, restore.c, auglag.c,
+ * chart.h, mirror.h, model_step.c, augmented.c, retraction.c, stopping.h, polish.c; refine.c and
+ * carry.h around it. Besides: nlopt_whitened.c and nlopt_plain.c with nlopt_direct.h, finisher.h,
  * smooth.h.
  */
+#include "method/pipeline.h"
 #include "method/auglag.h"
 #include "method/parameters.h"
+#include "method/restore.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,17 +25,18 @@
  * is about the one of its solution here. */
 static void begin_multipliers(ambulo__engine *e, ambulo__stage stage) {
   double objective = fabs(e->workspace->objective);
-  int carried =
-      e->carried_objective >= 0.0 && objective <= AMBULO__CARRIED_OBJECTIVE * e->carried_objective;
-  e->rho = stage == AMBULO__NEAR ? AMBULO__PENALTY_LIMIT : AMBULO__PENALTY_START;
+  int carried = e->iterate.carried_objective >= 0.0 &&
+                objective <= AMBULO__CARRIED_OBJECTIVE * e->iterate.carried_objective;
+  e->iterate.rho = stage == AMBULO__NEAR ? AMBULO__PENALTY_LIMIT : AMBULO__PENALTY_START;
   if (carried) {
-    e->rho = AMBULO__PENALTY_CARRIED;
-    e->mu *= AMBULO__DAMPING_CARRIED;
+    e->iterate.rho = AMBULO__PENALTY_CARRIED;
+    e->iterate.mu *= AMBULO__DAMPING_CARRIED;
   } else {
-    memset(e->lambda, 0, (size_t)e->inequalities * sizeof *e->lambda);
+    memset(e->iterate.lambda, 0, (size_t)e->setup->inequalities * sizeof *e->iterate.lambda);
   }
-  e->carried_objective = -1.0;
-  memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *e->equality_multiplier);
+  e->iterate.carried_objective = -1.0;
+  memset(e->iterate.equality_multiplier, 0,
+         (size_t)e->setup->equalities * sizeof *e->iterate.equality_multiplier);
 }
 
 static ambulo_status solve(ambulo__engine *e, ambulo__stage stage, ambulo__stopping *stopping,
@@ -50,12 +53,13 @@ static ambulo_status solve(ambulo__engine *e, ambulo__stage stage, ambulo__stopp
 }
 
 ambulo_status ambulo__pipeline(ambulo__engine *e, ambulo__stage stage, double *x) {
-  const ambulo_problem *p = e->problem;
+  const ambulo_problem *p = e->setup->problem;
   double interval = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   ambulo__stopping stopping = ambulo__stopping_begin(stage == AMBULO__COARSE);
   ambulo_ending ending = AMBULO_ENDING_NONE;
   int differences = p->definition.discretization == AMBULO_CENTRAL_DIFFERENCE;
-  e->mu = (differences ? AMBULO__DAMPING_START_DIFFERENCES : AMBULO__DAMPING_START) * interval;
+  e->iterate.mu =
+      (differences ? AMBULO__DAMPING_START_DIFFERENCES : AMBULO__DAMPING_START) * interval;
   e->reached.value = HUGE_VAL;
   ambulo_status status = solve(e, stage, &stopping, x, &ending);
   int cut = e->run->stopped || ending == AMBULO_ENDING_ITERATIONS || ending == AMBULO_ENDING_NLOPT;

@@ -4,11 +4,12 @@
  * its solution over exactly. Grids go by halves while at least 24 intervals remain, then by
  * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones.
  */
-#include "nlp/problem.h"
-#include "method/parameters.h"
-#include "nlp/user_term.h"
-#include "method/carry.h"
 #include "method/refine.h"
+#include "method/carry.h"
+#include "method/parameters.h"
+#include "method/pipeline.h"
+#include "nlp/problem.h"
+#include "nlp/user_term.h"
 
 #include <math.h>
 #include <string.h>
@@ -63,7 +64,7 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
   ambulo_status status = create_level(problem, intervals, spline, a, before, &new);
   if (!status) status = ambulo__engine_create(new.problem, new.x, a, run, NULL, &engine);
   if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
-  if (!status && engine && engine->rows.regular) {
+  if (!status && engine && engine->setup->rows->regular) {
     if (before->problem) ambulo__carry_to(&before->carried, engine);
     status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
     useful = !status && engine->reached.value < HUGE_VAL;
@@ -81,7 +82,7 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
 
 ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocator, double *x,
                              int *levels) {
-  const ambulo_problem *p = e->problem;
+  const ambulo_problem *p = e->setup->problem;
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
   int grid[MAX_LEVELS], count = 0, nodes = p->definition.intervals;
   int spline = ambulo__basis_intervals(p->basis);

@@ -8,26 +8,44 @@
  * damped so that no angle changes by more than 0.3 rad at once. The metric makes the motion
  * that it arrives at a smooth one: a step that bends the motion costs torque.
  */
-#include "method/engine.h"
+#include "method/restore.h"
+#include "method/engine_point.h"
 #include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
 
+ambulo_status ambulo__restore_create(ambulo__engine *e) {
+  ambulo__pool *pool = &e->pool;
+  ambulo__restore_scratch *s = ambulo__pool_blocks(pool, 1, sizeof *s);
+  if (!s) return AMBULO_E_MEMORY;
+  s->best = ambulo__pool_doubles(pool, (size_t)e->setup->n);
+  s->step = ambulo__pool_doubles(pool, (size_t)e->setup->n);
+  s->equality = ambulo__pool_doubles(pool, (size_t)e->setup->equalities);
+  s->border = ambulo__pool_doubles(pool, (size_t)e->setup->borders);
+  s->multiplier = ambulo__pool_doubles(pool, (size_t)e->setup->equalities);
+  e->restoring = s;
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+/* the step of least length from the point held; 1 when it cannot be had */
 static int direction(ambulo__engine *e, double *d) {
+  ambulo__linearized *at = &e->linearized;
+  ambulo__restore_scratch *s = e->restoring;
+  int equalities = e->setup->equalities, borders = e->setup->borders;
   double begin = ambulo__seconds_now();
-  if (ambulo__sparse_rows_fill(&e->rows.equality, e->workspace, 0)) {
+  if (ambulo__sparse_rows_fill(&at->rows.equality, e->workspace, 0)) {
     ambulo__run_fault(e->run, &e->workspace->fault);
     return 1;
   }
-  int failed = ambulo__engine_fill_metric(e, AMBULO__RESTORE_DAMPING * e->mu);
-  if (!failed) failed = ambulo__kkt_factor(&e->kkt, &e->base);
-  if (failed && ambulo__kkt_by_row(&e->kkt)) failed = ambulo__kkt_factor(&e->kkt, &e->base);
+  int failed = ambulo__engine_fill_metric(e, AMBULO__RESTORE_DAMPING * e->iterate.mu);
+  if (!failed) failed = ambulo__kkt_factor(&at->kkt, &at->base);
+  if (failed && ambulo__kkt_by_row(&at->kkt)) failed = ambulo__kkt_factor(&at->kkt, &at->base);
   if (!failed) {
-    for (int i = 0; i < e->equalities; i++) e->h[i] = -e->h[i];
-    for (int i = 0; i < e->borders; i++) e->b[i] = -e->b[i];
-    memset(e->dual, 0, (size_t)e->equalities * sizeof *e->dual);
-    ambulo__kkt_solve(&e->kkt, NULL, e->h, e->b, d, e->dual, NULL);
+    for (int i = 0; i < equalities; i++) s->equality[i] = -e->measured.equality[i];
+    for (int i = 0; i < borders; i++) s->border[i] = -e->measured.border[i];
+    memset(s->multiplier, 0, (size_t)equalities * sizeof *s->multiplier);
+    ambulo__kkt_solve(&at->kkt, NULL, s->equality, s->border, d, s->multiplier, NULL);
   }
   e->run->seconds_linear += ambulo__seconds_now() - begin;
   return failed;
@@ -35,20 +53,23 @@ static int direction(ambulo__engine *e, double *d) {
 
 /* x + t d with the largest t, halved while the point is not finite; 0 on success */
 static int advance(ambulo__engine *e, const double *d, double *x) {
-  double t = ambulo__engine_step_limit(e, d, AMBULO__RESTORE_STEP_CAP);
-  memcpy(e->center, x, (size_t)e->n * sizeof *x);
+  int n = e->setup->n;
+  double *from = e->iterate.x, t = ambulo__step_limit(e->setup, d, AMBULO__RESTORE_STEP_CAP);
+  memcpy(from, x, (size_t)n * sizeof *x);
   for (int trial = 0; trial < AMBULO__RESTORE_HALVINGS; trial++) {
-    for (int j = 0; j < e->n; j++) x[j] = e->center[j] + t * d[j];
+    for (int j = 0; j < n; j++) x[j] = from[j] + t * d[j];
     if (ambulo__evaluate(e->workspace, x) == AMBULO_OK) return 0;
     ambulo__run_fault(e->run, &e->workspace->fault);
     t *= 0.5;
   }
-  memcpy(x, e->center, (size_t)e->n * sizeof *x);
+  memcpy(x, from, (size_t)n * sizeof *x);
   return 1;
 }
 
 /* (P.4) Newton steps of least length onto the equalities */
 ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
+  ambulo__restore_scratch *s = e->restoring;
+  size_t bytes = (size_t)e->setup->n * sizeof *x;
   double least = HUGE_VAL;
   *error = HUGE_VAL;
   for (int k = 0; k < AMBULO__RESTORE_STEPS; k++) {
@@ -57,13 +78,13 @@ ambulo_status ambulo__restore(ambulo__engine *e, double *x, double *error) {
     *error = ambulo__engine_equality_error(e);
     if (*error < least) {
       least = *error;
-      memcpy(e->previous, x, (size_t)e->n * sizeof *x);
+      memcpy(s->best, x, bytes);
     }
     if (*error < AMBULO__RESTORE_TARGET || ambulo__run_over(e->run)) break;
-    if (direction(e, e->step) || advance(e, e->step, x)) break;
+    if (direction(e, s->step) || advance(e, s->step, x)) break;
   }
   if (least < *error) {
-    memcpy(x, e->previous, (size_t)e->n * sizeof *x);
+    memcpy(x, s->best, bytes);
     *error = least;
   }
   return AMBULO_OK;

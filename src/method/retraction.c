@@ -1,6 +1,6 @@
 /* method/retraction.c - points on the equalities' surface, and gradients along it.
  *
- * Around a centre y_k with metric H, gradients J_k of the local equalities h and the border
+ * Around the iterate x_k with metric H, gradients J_k of the local equalities h and the border
  * rows C, a point y_0 is carried to
  *
  *     y = R(y_0):   h(y) = 0,   C y = b,   y - y_0 in H^-1 range(J_k', C')
@@ -23,83 +23,114 @@
  * whose error shrinks as J - J_k does; mixed as well, which for this linear problem is
  * GMRES. |z - z'|^2 in the metric M is (z - z') . (r - r'), r the right-hand sides.
  */
-#include "method/engine.h"
+#include "method/retraction.h"
+#include "method/engine_point.h"
 #include "method/parameters.h"
 
 #include <math.h>
 #include <string.h>
 
+ambulo_status ambulo__retraction_create(ambulo__engine *e) {
+  ambulo__pool *pool = &e->pool;
+  int n = e->setup->n, equalities = e->setup->equalities;
+  ambulo__retraction *r = ambulo__pool_blocks(pool, 1, sizeof *r);
+  if (!r) return AMBULO_E_MEMORY;
+  e->retraction = r;
+  r->tolerance = fmin(AMBULO__RETRACTION_TOLERANCE,
+                      AMBULO__RETRACTION_SHARE * e->run->options->feasibility_tolerance);
+  r->adjoint_tolerance = AMBULO__ADJOINT_TOLERANCE;
+  double **vectors[] = {&r->step, &r->gradient, &r->previous, &r->previous_gradient};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    *vectors[i] = ambulo__pool_doubles(pool, (size_t)n);
+  r->along = ambulo__pool_doubles(pool, (size_t)equalities);
+  r->force = ambulo__pool_doubles(pool, (size_t)equalities);
+  r->balanced = ambulo__pool_doubles(pool, (size_t)equalities);
+  r->border = ambulo__pool_doubles(pool, (size_t)e->setup->borders);
+  ambulo_status status = ambulo__mixing_create(pool, n, equalities, &r->points);
+  if (!status) status = ambulo__mixing_create(pool, equalities, equalities, &r->adjoint);
+  return pool->failed ? AMBULO_E_MEMORY : status;
+}
+
 static void chord(ambulo__engine *e, double *y) {
+  ambulo__retraction *r = e->retraction;
+  ambulo__kkt *kkt = &e->linearized.kkt;
+  const double *h = e->measured.equality;
+  const int n = e->setup->n;
   double begin = ambulo__seconds_now();
-  for (int i = 0; i < e->equalities; i++) {
-    e->dual[i] = -e->kkt.penalty[i] * e->h[i];
-    e->balanced[i] = sqrt(e->kkt.penalty[i]) * e->h[i];
+  for (int i = 0; i < e->setup->equalities; i++) {
+    r->force[i] = -kkt->penalty[i] * h[i];
+    r->balanced[i] = sqrt(kkt->penalty[i]) * h[i];
   }
-  for (int i = 0; i < e->borders; i++) e->b[i] = -e->b[i];
-  memset(e->step, 0, (size_t)e->n * sizeof *e->step);
-  ambulo__sparse_rows_add_transpose(&e->rows.equality, 1.0, e->dual, e->step);
-  ambulo__kkt_pass(&e->kkt, e->step, e->b, NULL);
-  for (int j = 0; j < e->n; j++) y[j] += e->step[j];
-  ambulo__mixing_apply(&e->retraction, e->balanced, y);
+  for (int i = 0; i < e->setup->borders; i++) r->border[i] = -e->measured.border[i];
+  memset(r->step, 0, (size_t)n * sizeof *r->step);
+  ambulo__sparse_rows_add_transpose(&e->setup->rows->equality, 1.0, r->force, r->step);
+  ambulo__kkt_pass(kkt, r->step, r->border, NULL);
+  for (int j = 0; j < n; j++) y[j] += r->step[j];
+  ambulo__mixing_apply(&r->points, r->balanced, y);
   e->run->seconds_linear += ambulo__seconds_now() - begin;
 }
 
 /* (P.8) chord steps onto h = 0, C y = b */
 int ambulo__retract(ambulo__engine *e, double *y) {
   double least = HUGE_VAL;
-  ambulo__mixing_reset(&e->retraction);
+  ambulo__mixing_reset(&e->retraction->points);
   for (int k = 0; k < AMBULO__CHORD_STEPS; k++) {
     if (ambulo__evaluate(e->workspace, y)) {
       ambulo__run_fault(e->run, &e->workspace->fault);
       return 0;
     }
     double error = ambulo__engine_equality_error(e);
-    if (error <= e->retraction_tolerance) return 1;
+    if (error <= e->retraction->tolerance) return 1;
     if (least <= AMBULO__ROUNDING && error > 0.5 * least)
       return 1; /* as near as rounding lets it */
     if (isnan(error)) return 0;
     least = fmin(least, error);
     chord(e, y);
-    for (int j = 0; j < e->n; j++) {
+    for (int j = 0; j < e->setup->n; j++) {
       if (!isfinite(y[j])) return 0;
     }
   }
   return 0;
 }
 
-/* one pass of (A); l moves. Right-hand side in engine->gradient. */
-static ambulo_status adjoint_pass(ambulo__engine *e, const double *p, double *z) {
-  double *l = e->equality_multiplier;
-  ambulo_status status = ambulo__engine_gradient(e, p, l, e->gradient);
+/* one pass of (A); l moves. Right-hand side in the scratch's gradient. */
+static ambulo_status adjoint_pass(ambulo__engine *e, double scale, const double *p, double *l,
+                                  double *z) {
+  ambulo__retraction *r = e->retraction;
+  ambulo__kkt *kkt = &e->linearized.kkt;
+  ambulo_status status = ambulo__engine_gradient(e, scale, p, l, r->gradient);
   if (status) return status;
   double begin = ambulo__seconds_now();
-  memcpy(z, e->gradient, (size_t)e->n * sizeof *z);
-  ambulo__kkt_pass(&e->kkt, z, NULL, NULL);
-  ambulo__sparse_rows_multiply(&e->rows.equality, z, e->h);
-  for (int i = 0; i < e->equalities; i++) {
-    l[i] -= e->kkt.penalty[i] * e->h[i];
-    e->balanced[i] = sqrt(e->kkt.penalty[i]) * e->h[i];
+  memcpy(z, r->gradient, (size_t)e->setup->n * sizeof *z);
+  ambulo__kkt_pass(kkt, z, NULL, NULL);
+  ambulo__sparse_rows_multiply(&e->setup->rows->equality, z, r->along);
+  for (int i = 0; i < e->setup->equalities; i++) {
+    l[i] -= kkt->penalty[i] * r->along[i];
+    r->balanced[i] = sqrt(kkt->penalty[i]) * r->along[i];
   }
-  ambulo__mixing_apply(&e->adjoint, e->balanced, l);
+  ambulo__mixing_apply(&r->adjoint, r->balanced, l);
   e->run->seconds_linear += ambulo__seconds_now() - begin;
   return AMBULO_OK;
 }
 
 /* (P.9) H z + C'm = G + J'l */
-ambulo_status ambulo__reduced_gradient(ambulo__engine *e, const double *p, double *z) {
-  ambulo__mixing_reset(&e->adjoint);
+ambulo_status ambulo__reduced_gradient(ambulo__engine *e, double scale, const double *p, double *l,
+                                       double *z) {
+  ambulo__retraction *r = e->retraction;
+  const int n = e->setup->n;
+  ambulo__mixing_reset(&r->adjoint);
   for (int k = 0; k < AMBULO__ADJOINT_PASSES; k++) {
-    ambulo_status status = adjoint_pass(e, p, z);
+    ambulo_status status = adjoint_pass(e, scale, p, l, z);
     if (status) return status;
     double size = 0.0, change = 0.0;
-    for (int j = 0; j < e->n; j++) {
-      size += z[j] * e->gradient[j];
-      change += (z[j] - e->previous[j]) * (e->gradient[j] - e->previous_right[j]);
+    for (int j = 0; j < n; j++) {
+      size += z[j] * r->gradient[j];
+      change += (z[j] - r->previous[j]) * (r->gradient[j] - r->previous_gradient[j]);
     }
-    memcpy(e->previous, z, (size_t)e->n * sizeof *z);
-    memcpy(e->previous_right, e->gradient, (size_t)e->n * sizeof *z);
-    if (e->equalities == 0) break;
-    double limit = e->adjoint_tolerance * sqrt(fabs(size)) + AMBULO__ADJOINT_FLOOR;
+    memcpy(r->previous, z, (size_t)n * sizeof *z);
+    memcpy(r->previous_gradient, r->gradient, (size_t)n * sizeof *z);
+    if (e->setup->equalities == 0) break;
+    double limit = r->adjoint_tolerance * sqrt(fabs(size)) + AMBULO__ADJOINT_FLOOR;
     if (k > 0 && fabs(change) <= limit * limit) break;
   }
   return AMBULO_OK;

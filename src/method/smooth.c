@@ -17,8 +17,10 @@
  * plus penalty on the inequalities is the start: an optimum is not smoothed away.
  */
 #include "method/smooth.h"
-#include "method/parameters.h"
 #include "base/worst.h"
+#include "method/engine_point.h"
+#include "method/parameters.h"
+#include "method/restore.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +28,7 @@
 /* integral of |qdd|^2 / a^2 at the point held */
 static double bending(const ambulo__engine *e) {
   const ambulo_workspace *w = e->workspace;
-  const ambulo_problem *p = e->problem;
+  const ambulo_problem *p = e->setup->problem;
   double sum = 0.0;
   for (int k = 0; k < p->nodes; k++) {
     for (int i = 0; i < p->coordinates; i++) {
@@ -39,58 +41,86 @@ static double bending(const ambulo__engine *e) {
   return sum;
 }
 
-/* the matrix of the quadratic, factored, in engine->base; its diagonal part in engine->step.
- * 1 when it cannot be factored */
-static int assemble(ambulo__engine *e) {
-  const ambulo_problem *p = e->problem;
+/* m / s_j^2 */
+static double weight_of(const ambulo_problem *p, int j) {
   double time = p->definition.duration / (double)ambulo__basis_intervals(p->basis);
   double rate = sqrt(AMBULO__ROUGH_DEVIATION * AMBULO__ROUGH_ACCELERATION);
-  ambulo__metric_accelerations(&e->metric, e->workspace,
+  int is_value = 1;
+  (void)ambulo__basis_abscissa(p->basis, j / p->coordinates, &is_value);
+  double size = is_value ? AMBULO__ROUGH_DEVIATION : rate;
+  return time / (size * size);
+}
+
+/* the matrix of the quadratic, factored; 1 when it cannot be */
+static int assemble(const ambulo__engine *e, ambulo__band *filter) {
+  const ambulo_problem *p = e->setup->problem;
+  ambulo__metric_accelerations(&e->linearized.metric, e->workspace,
                                1.0 / (AMBULO__ROUGH_ACCELERATION * AMBULO__ROUGH_ACCELERATION),
-                               &e->base);
-  for (int j = 0; j < e->n; j++) {
-    int is_value = 1;
-    (void)ambulo__basis_abscissa(p->basis, j / p->coordinates, &is_value);
-    double size = is_value ? AMBULO__ROUGH_DEVIATION : rate;
-    e->step[j] = time / (size * size);
-    e->base.a[(size_t)j * (size_t)e->base.ld] += e->step[j];
-  }
-  return ambulo__band_factor(&e->base);
+                               filter);
+  for (int j = 0; j < p->variables; j++)
+    filter->a[(size_t)j * (size_t)filter->ld] += weight_of(p, j);
+  return ambulo__band_factor(filter);
 }
 
 /* objective and penalty after x was carried to the equalities; HUGE_VAL when it could not be */
 static double merit(ambulo__engine *e, double *x) {
-  double error, sum = 0.0;
+  double error, sum = 0.0, *excess = e->measured.excess;
   if (ambulo__restore(e, x, &error) || ambulo__evaluate(e->workspace, x)) return HUGE_VAL;
-  ambulo__engine_excess(e, e->held.excess);
-  for (int i = 0; i < e->inequalities; i++) {
-    double v = ambulo__worse(0.0, e->held.excess[i]);
+  ambulo__engine_excess(e, excess);
+  for (int i = 0; i < e->setup->inequalities; i++) {
+    double v = ambulo__worse(0.0, excess[i]);
     sum += v * v;
   }
-  double value = e->objective_scale * e->workspace->objective + 0.5 * AMBULO__PENALTY_START * sum;
+  double value =
+      e->setup->objective_scale * e->workspace->objective + 0.5 * AMBULO__PENALTY_START * sum;
   return error <= AMBULO__RESTORED && isfinite(value) ? value : HUGE_VAL;
 }
 
-int ambulo__smooth_curve(ambulo__engine *e, const double *x, double *smooth) {
-  if (ambulo__evaluate_jacobian(e->workspace, x) || assemble(e)) return 1;
-  for (int j = 0; j < e->n; j++) smooth[j] = e->step[j] * x[j];
-  ambulo__band_forward(&e->base, smooth);
-  ambulo__band_backward(&e->base, smooth);
-  return 0;
+ambulo_status ambulo__smooth_curve(ambulo__engine *e, const double *x, double *smooth) {
+  const ambulo_problem *p = e->setup->problem;
+  ambulo__pool pool; /* of the start alone: the solve has the memory again */
+  ambulo__band filter;
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  ambulo_status status =
+      ambulo__band_create(&pool, p->variables, ambulo__metric_diagonals(p), &filter);
+  if (!status) status = ambulo__evaluate_jacobian(e->workspace, x);
+  if (!status && assemble(e, &filter)) status = AMBULO_E_NUMERIC;
+  if (!status) {
+    for (int j = 0; j < p->variables; j++) smooth[j] = weight_of(p, j) * x[j];
+    ambulo__band_forward(&filter, smooth);
+    ambulo__band_backward(&filter, smooth);
+  }
+  ambulo__pool_clear(&pool);
+  return status;
+}
+
+/* smooth, rough: [n] each, for points that are moved */
+static ambulo_status choose(ambulo__engine *e, double *x, double *smooth, double *rough,
+                            int *smoothed) {
+  const ambulo_problem *p = e->setup->problem;
+  size_t bytes = (size_t)p->variables * sizeof *x;
+  ambulo_status status = ambulo__smooth_curve(e, x, smooth);
+  if (status) return status == AMBULO_E_NUMERIC ? AMBULO_OK : status; /* a start like any other */
+  double before = bending(e);
+  if (ambulo__evaluate(e->workspace, smooth) || bending(e) > AMBULO__ROUGH_KEPT * before)
+    return AMBULO_OK;
+  memcpy(rough, x, bytes);
+  e->iterate.mu =
+      AMBULO__DAMPING_START * (p->definition.duration / ambulo__basis_intervals(p->basis));
+  double of_rough = merit(e, rough), of_smooth = merit(e, smooth);
+  *smoothed = of_smooth < of_rough;
+  if (*smoothed) memcpy(x, smooth, bytes);
+  return AMBULO_OK;
 }
 
 /* (P.2b) the smoothest motion near x */
-int ambulo__smooth_start(ambulo__engine *e, double *x) {
-  size_t bytes = (size_t)e->n * sizeof *x;
-  double *smooth = e->total, *rough = e->iterate;
-  if (ambulo__smooth_curve(e, x, smooth)) return 0;
-  double before = bending(e);
-  if (ambulo__evaluate(e->workspace, smooth) || bending(e) > AMBULO__ROUGH_KEPT * before) return 0;
-  memcpy(rough, x, bytes);
-  double interval = e->problem->definition.duration / ambulo__basis_intervals(e->problem->basis);
-  e->mu = AMBULO__DAMPING_START * interval;
-  double of_rough = merit(e, rough), of_smooth = merit(e, smooth);
-  if (!(of_smooth < of_rough)) return 0;
-  memcpy(x, smooth, bytes);
-  return 1;
+ambulo_status ambulo__smooth_start(ambulo__engine *e, double *x, int *smoothed) {
+  size_t n = (size_t)e->setup->n;
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, &e->pool.allocator);
+  double *smooth = ambulo__pool_doubles(&pool, n), *rough = ambulo__pool_doubles(&pool, n);
+  *smoothed = 0;
+  ambulo_status status = pool.failed ? AMBULO_E_MEMORY : choose(e, x, smooth, rough, smoothed);
+  ambulo__pool_clear(&pool);
+  return status;
 }

@@ -1,6 +1,7 @@
 /* method/stopping.c - see stopping.h */
 #include "method/stopping.h"
 #include "method/parameters.h"
+#include "method/polish.h"
 
 #include <math.h>
 
@@ -14,10 +15,10 @@ ambulo__stopping ambulo__stopping_begin(int loose) {
 
 static int has_vanished(const ambulo__engine *e, const ambulo__stopping *s) {
   double objective = fabs(e->reached.objective); /* terms of the caller may be negative */
-  if (e->negligible < 0.0)
-    return objective <= AMBULO__VANISHED_AT_REST * e->objective_scale * e->at_rest;
+  if (e->setup->negligible < 0.0)
+    return objective <= AMBULO__VANISHED_AT_REST * e->setup->objective_scale * e->setup->at_rest;
   return objective <= AMBULO__VANISHED * s->first &&
-         objective <= e->objective_scale * e->negligible;
+         objective <= e->setup->objective_scale * e->setup->negligible;
 }
 
 /* follows the point; whether its objective has settled, and how */
@@ -59,7 +60,7 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, doub
   double tolerance = s->loose ? AMBULO__COARSE_VIOLATION : e->run->options->feasibility_tolerance;
   ambulo_ending settled = settle(s, e, tolerance);
   double violation = e->reached.violation;
-  int bound = e->rho >= 0.999 * s->penalty_limit;
+  int bound = e->iterate.rho >= 0.999 * s->penalty_limit;
   if (violation <= tolerance) return settled;
   int stalled = bound && s->since_better > AMBULO__STALL;
   double reach = stalled ? AMBULO__POLISH_LAST_REACH : AMBULO__NEAR_VIOLATION;

@@ -5,7 +5,8 @@
  *
  *     8 n (k + 32)       each of three band matrices: metric, whitener, KKT factor
  *     16 J               gradients: value, column, run
- *     8 n (11 + 12)      vectors, and the mixing of five iterates
+ *     8 n (16 + 12)      vectors, and the mixing of five iterates
+ *     8 * 14 m           values, multipliers and marks of rows
  *     8 n q              the border's wing
  *
  * Meanwhile a coarser grid may be solved (half as much again at the most); afterwards an audit on a
@@ -53,7 +54,7 @@ static double entries_of(const ambulo_problem *p) {
 ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
   double n = p->variables, k = ambulo__metric_diagonals(p) + 32.0, word = sizeof(double);
   double entries = 16.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
-  double bands = 3.0 * word * n * k, vectors = word * (23.0 * n + 12.0 * p->rows);
+  double bands = 3.0 * word * n * k, vectors = word * (28.0 * n + 14.0 * p->rows);
   double wing = word * n * borders;
   ambulo_memory memory;
   memory.problem = ambulo__row_bytes(p, p->rows) + 400.0 * p->nodes;

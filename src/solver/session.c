@@ -10,6 +10,7 @@
 #include "judge/ending.h"
 #include "judge/explain.h"
 #include "judge/verdict.h"
+#include "method/pipeline.h"
 #include "solver/memory.h"
 #include "solver/options.h"
 
@@ -46,7 +47,7 @@ static void describe(const ambulo__session *s) {
     (void)snprintf(limit, sizeof limit, " (%d)", run->options->maximum_evaluations);
   if (run->ending == AMBULO_ENDING_TIME)
     (void)snprintf(limit, sizeof limit, " (%g s)", run->options->time_limit);
-  if (s->engine && ambulo__rows_contradict(&s->engine->rows, s->problem->rows))
+  if (s->engine && ambulo__rows_contradict(s->engine->setup->rows, s->problem->rows))
     (void)snprintf(dropped, sizeof dropped, "; of equalities that contradict, the first was kept");
   if (s->nlopt && !run->stopped)
     (void)snprintf(message, sizeof message, " (its last call: %s)", s->nlopt);
@@ -69,7 +70,8 @@ static ambulo_status look_again(ambulo__session *s) {
   ambulo_result *r = s->result;
   ambulo_status status = AMBULO_OK;
   const ambulo_options *o = s->run.options;
-  int able = o->presolve && o->equalities == AMBULO_EQUALITIES_HELD && s->engine->rows.regular;
+  int able =
+      o->presolve && o->equalities == AMBULO_EQUALITIES_HELD && s->engine->setup->rows->regular;
   for (int k = 0; k < SECOND_LOOKS && !status; k++) {
     double before = r->objective;
     int cut = ambulo__run_over(&s->run) || s->run.ending == AMBULO_ENDING_ITERATIONS;

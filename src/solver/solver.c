@@ -16,6 +16,7 @@
 #include "solver/session.h"
 #include "method/finisher.h"
 #include "method/nlopt_direct.h"
+#include "method/pipeline.h"
 #include "method/refine.h"
 #include "method/smooth.h"
 
@@ -110,7 +111,7 @@ static ambulo_status solve_presolved(ambulo__session *s) {
   const ambulo_options *o = s->run.options;
   int small = s->problem->variables < SMALL;
   if (o->algorithm == AMBULO_SLSQP) return solve_small(s, AMBULO_SLSQP, INT_MAX);
-  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->rows.regular;
+  int all_rows = o->equalities == AMBULO_EQUALITIES_NLOPT || !s->engine->setup->rows->regular;
   if (all_rows) return solve_small(s, AMBULO_AUGLAG, INT_MAX);
   if (o->algorithm == AMBULO_AUGLAG || !small) return solve_by_pipeline(s);
   ambulo_status status = solve_small(s, AMBULO_SLSQP, SMALL_ROUNDS);
@@ -145,10 +146,11 @@ static ambulo_status search(ambulo__session *s) {
   ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
   if (status) return status;
   if (s->start) {
+    int smoothed = 0;
     ambulo__candidates_offer_start(&s->candidates, s->engine, x);
-    if (s->run.options->presolve) ambulo__smooth_start(s->engine, x);
+    if (s->run.options->presolve) status = ambulo__smooth_start(s->engine, x, &smoothed);
   }
-  status = attempt(s);
+  if (!status) status = attempt(s);
   if (status) return status;
   if (s->start && !ambulo__candidates_solved(&s->candidates) && !ambulo__run_over(&s->run)) {
     memset(x, 0, bytes);

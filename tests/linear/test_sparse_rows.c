@@ -21,7 +21,7 @@ static void check_gradients(const char *name, const char *override, double size)
   engine_fixture f;
   unsigned seed = 5;
   engine_open_with(&f, name, override);
-  ambulo__rows_split *rows = &f.engine->rows;
+  ambulo__rows_split *rows = &f.engine->linearized.rows;
   for (int j = 0; j < f.n; j++) f.x[j] = size * random_number(&seed);
   assert_int_equal(ambulo__evaluate_jacobian(f.engine->workspace, f.x), AMBULO_OK);
   ambulo__sparse_rows_fill(&rows->equality, f.engine->workspace, 0);
@@ -46,7 +46,7 @@ static void transpose_is_adjoint_of_product(void **state) {
   engine_fixture f;
   unsigned seed = 6;
   engine_open(&f, "yardstick_12");
-  ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  ambulo__sparse_rows *rows = &f.engine->linearized.rows.inequality;
   size_t n = (size_t)f.n, m = (size_t)rows->count;
   double *d = calloc(n, sizeof *d), *y = calloc(n, sizeof *y);
   double *w = calloc(m, sizeof *w), *v = calloc(m, sizeof *v);
@@ -129,7 +129,7 @@ static void scales_multiply_values_and_gradients(void **state) {
   (void)state;
   engine_fixture f;
   engine_open(&f, "yardstick_12");
-  ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  ambulo__sparse_rows *rows = &f.engine->linearized.rows.inequality;
   double *plain = calloc((size_t)rows->count, sizeof *plain);
   double *scaled = calloc((size_t)rows->count, sizeof *scaled);
   unsigned seed = 4;
@@ -157,7 +157,7 @@ static void a_gradient_that_is_not_finite_is_named(void **state) {
   (void)state;
   engine_fixture f;
   engine_open(&f, "yardstick_12");
-  ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  ambulo__sparse_rows *rows = &f.engine->linearized.rows.inequality;
   assert_int_equal(ambulo__evaluate_jacobian(f.engine->workspace, f.x), AMBULO_OK);
   assert_int_equal(ambulo__sparse_rows_fill(rows, f.engine->workspace, 1), AMBULO_OK);
   int bad = rows->count / 2;
@@ -175,7 +175,7 @@ static void hosts_have_all_columns(void **state) {
   (void)state;
   engine_fixture f;
   engine_open_with(&f, "yardstick_12", "constraints.joint_limits=control_points");
-  const ambulo__sparse_rows *rows = &f.engine->rows.inequality;
+  const ambulo__sparse_rows *rows = &f.engine->linearized.rows.inequality;
   for (int i = 0; i < rows->count; i++) {
     const ambulo__table_row *row = &f.problem->table.rows[rows->row[i]];
     int from = ambulo__node_first(f.problem, rows->host[i]);

@@ -103,7 +103,8 @@ static int write_multipliers(void *user, const ambulo_progress *progress) {
   heard *h = user;
   if (isnan(progress->objective)) return 0;
   fprintf(h->file, "mu = ");
-  for (int i = 0; i < h->engine->inequalities; i++) fprintf(h->file, " %g", h->engine->lambda[i]);
+  for (int i = 0; i < h->engine->setup->inequalities; i++)
+    fprintf(h->file, " %g", h->engine->iterate.lambda[i]);
   fputc('\n', h->file);
   h->count++;
   return 0;
@@ -178,15 +179,15 @@ static void nlopt_starts_where_the_engine_is(void **state) {
     ambulo__engine *e = f.engine;
     ambulo__stopping stopping = ambulo__stopping_begin(0);
     assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
-    assert_int_equal(ambulo__engine_excess(e, e->held.excess) > 0.0, run < 2);
-    for (int i = 0; i < e->inequalities; i++) e->lambda[i] = run == 1 ? 0.25 : 0.0;
-    e->rho = 160.0;
+    assert_int_equal(ambulo__engine_excess(e, e->measured.excess) > 0.0, run < 2);
+    for (int i = 0; i < e->setup->inequalities; i++) e->iterate.lambda[i] = run == 1 ? 0.25 : 0.0;
+    e->iterate.rho = 160.0;
     f.options.maximum_evaluations = f.run.evaluations + 3; /* in the first inner solve */
     assert_int_equal(ambulo__auglag(e, &stopping, f.x, &ending), AMBULO_OK);
     assert_int_equal(f.run.nlopt.outer, 0);
-    assert_close(e->rho, 160.0, 1e-9);
-    for (int i = 0; i < e->inequalities; i++)
-      assert_close(e->lambda[i], run == 1 ? 0.25 : 0.0, 1e-12);
+    assert_close(e->iterate.rho, 160.0, 1e-9);
+    for (int i = 0; i < e->setup->inequalities; i++)
+      assert_close(e->iterate.lambda[i], run == 1 ? 0.25 : 0.0, 1e-12);
     engine_close(&f);
   }
 }
@@ -202,7 +203,7 @@ static void the_penalty_keeps_its_bound(void **state) {
   assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
   assert_int_equal(ending, AMBULO_ENDING_ITERATIONS);
   assert_int_equal(f.run.nlopt.outer, 6);
-  assert_close(f.engine->rho, 15.0, 1e-9);
+  assert_close(f.engine->iterate.rho, 15.0, 1e-9);
   engine_close(&f);
 }
 
@@ -231,10 +232,10 @@ static void no_rows_need_no_penalty(void **state) {
   f.x = calloc((size_t)f.n, sizeof *f.x);
   ambulo__run_begin(&f.run, &f.options);
   assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
-  assert_int_equal(f.engine->inequalities, 0);
+  assert_int_equal(f.engine->setup->inequalities, 0);
   assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
   assert_int_equal(f.run.ending, AMBULO_ENDING_CONVERGED);
-  assert_close(f.engine->rho, 10.0, 1e-9);
+  assert_close(f.engine->iterate.rho, 10.0, 1e-9);
   engine_close(&f);
   ambulo_model_free(model);
 }

@@ -5,9 +5,9 @@
 static void open_at_model_step(engine_fixture *f) {
   double predicted;
   engine_open_restored(f, "yardstick_12");
-  for (int i = 0; i < f->engine->inequalities; i += 5) f->engine->lambda[i] = 0.1;
+  for (int i = 0; i < f->engine->setup->inequalities; i += 5) f->engine->iterate.lambda[i] = 0.1;
   assert_int_equal(ambulo__model_step(f->engine, &predicted), 0);
-  f->engine->has_held = 0;
+  ambulo__held_forget(f->engine);
 }
 
 static void gradient_is_the_slope(void **state) {
@@ -61,22 +61,23 @@ static void values_are_the_formula(void **state) {
   double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
   int counted = f.run.evaluations;
   double sum = 0.0, squares = 0.0;
-  e->ceiling = -HUGE_VAL;
+  e->held->ceiling = -HUGE_VAL;
   double value = ambulo__augmented(e, w, NULL);
   assert_int_equal(f.run.evaluations, counted + 1);
   assert_true(ambulo__augmented(e, w, g) == value);
   assert_int_equal(f.run.evaluations, counted + 1);
-  for (int i = 0; i < e->inequalities; i++) {
-    double p = fmax(0.0, e->lambda[i] + e->rho * e->held.excess[i]);
-    assert_true(e->held.multiplier[i] == p);
-    sum += p * p - e->lambda[i] * e->lambda[i];
+  for (int i = 0; i < e->setup->inequalities; i++) {
+    double p = fmax(0.0, e->iterate.lambda[i] + e->iterate.rho * e->held->trial.excess[i]);
+    assert_true(e->held->trial.multiplier[i] == p);
+    sum += p * p - e->iterate.lambda[i] * e->iterate.lambda[i];
   }
   assert_true(sum != 0.0);
-  assert_close(value, e->objective_scale * e->workspace->objective + sum / (2.0 * e->rho), 1e-12);
-  assert_true(e->ceiling == value);
-  e->equality_multiplier[0] = 17.0;
-  ambulo__trial_copy(e, &e->held, &e->reached);
-  assert_true(e->reached.equality_multiplier[0] == 17.0 && e->reached.value == value);
+  assert_close(value,
+               e->setup->objective_scale * e->workspace->objective + sum / (2.0 * e->iterate.rho),
+               1e-12);
+  assert_true(e->held->ceiling == value);
+  for (int i = 0; i < e->setup->equalities; i++)
+    assert_true(e->held->trial.equality_multiplier[i] == e->iterate.equality_multiplier[i]);
   for (int j = 0; j < f.n; j++) {
     w[j] = 1e6 * (j % 2 ? 1.0 : -1.0);
     squares += w[j] * w[j];
@@ -84,7 +85,7 @@ static void values_are_the_formula(void **state) {
   double bowl = ambulo__augmented(e, w, g), height = 1.0 + fabs(value);
   assert_close(bowl / (value + height * (1.0 + squares)), 1.0, 1e-12);
   for (int j = 0; j < f.n; j++) assert_close(g[j] / (2.0 * height * w[j]), 1.0, 1e-12);
-  assert_true(e->ceiling == value);
+  assert_true(e->held->ceiling == value);
   free(w);
   free(g);
   engine_close(&f);
@@ -98,12 +99,12 @@ static void what_is_not_finite_is_given_up(void **state) {
     open_at_model_step(&f);
     ambulo__engine *e = f.engine;
     double *w = calloc((size_t)f.n, sizeof *w), *g = calloc((size_t)f.n, sizeof *g);
-    e->ceiling = -HUGE_VAL;
-    if (run == 0) e->lambda[0] = INFINITY;
+    e->held->ceiling = -HUGE_VAL;
+    if (run == 0) e->iterate.lambda[0] = INFINITY;
     double value = ambulo__augmented(e, w, NULL);
     if (run == 0) assert_true(value == 1.0); /* the bottom of the bowl */
-    if (run == 1) e->objective_scale = NAN;
-    if (run == 2) e->whitener.a[0] = INFINITY;
+    if (run == 1) setup_to_break(e)->objective_scale = NAN;
+    if (run == 2) e->linearized.whitener.a[0] = INFINITY;
     double bowl = run == 0 ? 1.0 : value + 1.0 + fabs(value);
     assert_close(ambulo__augmented(e, w, g), bowl, 1e-12);
     for (int j = 0; j < f.n; j++) assert_true(g[j] == 0.0);

@@ -3,7 +3,7 @@
 #include "support/engine_fixture.h"
 
 static const ambulo__table_row *row_of(const ambulo__engine *e, int i) {
-  return &e->problem->table.rows[e->rows.inequality.row[i]];
+  return &e->setup->problem->table.rows[e->linearized.rows.inequality.row[i]];
 }
 
 /* to the same grid: as they are */
@@ -14,15 +14,17 @@ static void on_the_same_grid_nothing_changes(void **state) {
   const ambulo_allocator a = ambulo__allocator_or_default(NULL);
   engine_open(&f, "walk_normal");
   ambulo__engine *e = f.engine;
-  double *was = calloc((size_t)e->inequalities, sizeof *was);
-  for (int i = 0; i < e->inequalities; i++) e->lambda[i] = was[i] = i % 3 ? 0.0 : 0.01 * i;
-  e->reached.objective = 3.0 * e->objective_scale;
+  double *was = calloc((size_t)e->setup->inequalities, sizeof *was);
+  for (int i = 0; i < e->setup->inequalities; i++)
+    e->iterate.lambda[i] = was[i] = i % 3 ? 0.0 : 0.01 * i;
+  e->reached.objective = 3.0 * e->setup->objective_scale;
   assert_int_equal(ambulo__carry_from(e, &a, &carried), AMBULO_OK);
-  for (int i = 0; i < e->inequalities; i++) e->lambda[i] = -1.0;
-  assert_true(e->carried_objective < 0.0);
+  for (int i = 0; i < e->setup->inequalities; i++) e->iterate.lambda[i] = -1.0;
+  assert_true(e->iterate.carried_objective < 0.0);
   ambulo__carry_to(&carried, e);
-  assert_close(e->carried_objective, 3.0, 1e-12);
-  for (int i = 0; i < e->inequalities; i++) assert_close(e->lambda[i], was[i], 1e-12);
+  assert_close(e->iterate.carried_objective, 3.0, 1e-12);
+  for (int i = 0; i < e->setup->inequalities; i++)
+    assert_close(e->iterate.lambda[i], was[i], 1e-12);
   ambulo__carry_clear(&a, &carried);
   assert_null(carried.row);
   free(was);
@@ -39,24 +41,25 @@ static void densities_are_linear_between_nodes(void **state) {
   engine_open_with(&coarse, "walk_normal", "time.intervals=24");
   engine_open_with(&fine, "walk_normal", "time.intervals=48");
   ambulo__engine *c = coarse.engine, *e = fine.engine;
-  for (int i = 0; i < c->inequalities; i++) {
+  for (int i = 0; i < c->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(c, i);
     if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) continue;
-    double density = 2.0 + row->time, scale = -c->rows.inequality.scale[i];
-    c->lambda[i] = density * coarse.problem->quadrature[row->node] * c->objective_scale / scale;
+    double density = 2.0 + row->time, scale = -c->linearized.rows.inequality.scale[i];
+    c->iterate.lambda[i] =
+        density * coarse.problem->quadrature[row->node] * c->setup->objective_scale / scale;
   }
   assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
   ambulo__carry_to(&carried, e);
   int seen = 0;
-  for (int i = 0; i < e->inequalities; i++) {
+  for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(e, i);
     if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) {
-      assert_true(e->lambda[i] == 0.0);
+      assert_true(e->iterate.lambda[i] == 0.0);
       continue;
     }
-    double scale = -e->rows.inequality.scale[i];
-    double density =
-        e->lambda[i] * scale / (e->objective_scale * fine.problem->quadrature[row->node]);
+    double scale = -e->linearized.rows.inequality.scale[i];
+    double density = e->iterate.lambda[i] * scale /
+                     (e->setup->objective_scale * fine.problem->quadrature[row->node]);
     assert_close(density, 2.0 + row->time, 1e-9);
     seen++;
   }
@@ -76,13 +79,14 @@ static void holes_stay_empty(void **state) {
   engine_open_with(&fine, "walk_normal", "time.intervals=96");
   ambulo__engine *c = coarse.engine, *e = fine.engine;
   double T = coarse.problem->definition.duration, interval = T / 24.0, worst = 0.0;
-  for (int i = 0; i < c->inequalities; i++) {
+  for (int i = 0; i < c->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(c, i);
-    double scale = -c->rows.inequality.scale[i];
+    double scale = -c->linearized.rows.inequality.scale[i];
     if (strcmp(row->family, "joint_limit") == 0 && row->node >= 0)
-      c->lambda[i] = coarse.problem->quadrature[row->node] * c->objective_scale / scale;
+      c->iterate.lambda[i] =
+          coarse.problem->quadrature[row->node] * c->setup->objective_scale / scale;
   }
-  c->reached.objective = -3.0 * c->objective_scale;
+  c->reached.objective = -3.0 * c->setup->objective_scale;
   assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
   int kept = 0; /* the rows from 5 to 10 intervals go */
   for (int k = 0; k < carried.count; k++) {
@@ -91,19 +95,19 @@ static void holes_stay_empty(void **state) {
   }
   carried.count = kept;
   ambulo__carry_to(&carried, e);
-  assert_close(e->carried_objective, 3.0, 1e-12);
-  for (int i = 0; i < e->inequalities; i++) {
+  assert_close(e->iterate.carried_objective, 3.0, 1e-12);
+  for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = row_of(e, i);
     if (strcmp(row->family, "joint_limit") != 0 || row->node < 0) continue;
-    double scale = -e->rows.inequality.scale[i], at = row->time / interval;
-    double density =
-        e->lambda[i] * scale / (e->objective_scale * fine.problem->quadrature[row->node]);
+    double scale = -e->linearized.rows.inequality.scale[i], at = row->time / interval;
+    double density = e->iterate.lambda[i] * scale /
+                     (e->setup->objective_scale * fine.problem->quadrature[row->node]);
     worst = fmax(worst, fabs(density - (at > 4.6 && at < 10.4 ? 0.0 : 1.0)));
   }
   assert_close(worst, 0.0, 1e-9);
   ambulo__carry_to(&none, e);
-  assert_true(e->carried_objective == -1.0);
-  for (int i = 0; i < e->inequalities; i++) assert_true(e->lambda[i] == 0.0);
+  assert_true(e->iterate.carried_objective == -1.0);
+  for (int i = 0; i < e->setup->inequalities; i++) assert_true(e->iterate.lambda[i] == 0.0);
   ambulo__carry_clear(&a, &carried);
   engine_close(&coarse);
   engine_close(&fine);

@@ -14,7 +14,8 @@ static void lay(laid *l, double stretch) {
   double predicted;
   memset(l, 0, sizeof *l);
   engine_open_restored(&l->f, "yardstick_12");
-  for (int i = 0; i < l->f.engine->inequalities; i += 5) l->f.engine->lambda[i] = 0.1;
+  for (int i = 0; i < l->f.engine->setup->inequalities; i += 5)
+    l->f.engine->iterate.lambda[i] = 0.1;
   ambulo__pool_init(&l->pool, NULL);
   assert_int_equal(ambulo__chart_create(l->f.n, &l->pool, &l->chart), AMBULO_OK);
   l->w = ambulo__pool_doubles(&l->pool, (size_t)l->f.n);
@@ -37,7 +38,8 @@ static void centre_stays(void **state) {
   lay(&l, 30.0);
   double value = ambulo__chart_value(&l.chart, l.f.engine, l.w, NULL);
   assert_true(value == l.chart.start);
-  for (int j = 0; j < l.f.n; j++) assert_close(l.f.engine->held.x[j], l.f.engine->center[j], 1e-12);
+  for (int j = 0; j < l.f.n; j++)
+    assert_close(l.f.engine->held->trial.x[j], l.f.engine->iterate.x[j], 1e-12);
   end(&l);
 }
 
@@ -47,9 +49,9 @@ static void gradient_is_the_slope(void **state) {
   unsigned seed = 8;
   const double stretch = 30.0, h = 3e-3;
   lay(&l, stretch);
-  l.f.engine->adjoint_tolerance = 1e-7;
-  l.f.engine->retraction_tolerance = 1e-11;
-  l.f.engine->has_held = 0;
+  l.f.engine->retraction->adjoint_tolerance = 1e-7;
+  l.f.engine->retraction->tolerance = 1e-11;
+  ambulo__held_forget(l.f.engine);
   double slope = 0.0, *d = calloc((size_t)l.f.n, sizeof *d);
   for (int j = 0; j < l.f.n; j++) {
     l.w[j] += 0.3 * random_number(&seed);
@@ -90,8 +92,8 @@ static void only_descents_turn_the_chart(void **state) {
   laid l;
   lay(&l, 1.0);
   for (int j = 0; j < l.f.n; j++) l.v[j] = -l.chart.step[j];
-  ambulo__band_backward(&l.f.engine->whitener, l.v);
-  memcpy(l.f.engine->total, l.v, (size_t)l.f.n * sizeof *l.v);
+  ambulo__band_backward(&l.f.engine->linearized.whitener, l.v);
+  memcpy(l.f.engine->quadratic->total, l.v, (size_t)l.f.n * sizeof *l.v);
   assert_int_equal(ambulo__chart_lay(&l.chart, l.f.engine, l.w, 1.0), 1);
   for (int j = 0; j < l.f.n; j++) assert_true(l.chart.step[j] == 0.0 && l.chart.turn[j] == 0.0);
   end(&l);
@@ -103,13 +105,13 @@ static void no_step_is_wild(void **state) {
   lay(&l, 1.0);
   double largest = 0.0;
   memcpy(l.v, l.chart.step, (size_t)l.f.n * sizeof *l.v);
-  ambulo__band_backward(&l.f.engine->whitener, l.v);
-  for (int j = 0; j < l.f.n; j++) l.f.engine->total[j] = 1e3 * l.v[j];
+  ambulo__band_backward(&l.f.engine->linearized.whitener, l.v);
+  for (int j = 0; j < l.f.n; j++) l.f.engine->quadratic->total[j] = 1e3 * l.v[j];
   assert_int_equal(ambulo__chart_lay(&l.chart, l.f.engine, l.w, 1.0), 1);
   memcpy(l.v, l.chart.step, (size_t)l.f.n * sizeof *l.v);
-  ambulo__band_backward(&l.f.engine->whitener, l.v);
+  ambulo__band_backward(&l.f.engine->linearized.whitener, l.v);
   for (int j = 0; j < l.f.n; j++) {
-    double cap = l.f.engine->cap[j % l.f.problem->coordinates];
+    double cap = l.f.engine->setup->cap[j % l.f.problem->coordinates];
     largest = fmax(largest, fabs(l.v[j]) / cap);
   }
   assert_close(largest, 0.5, 1e-9);
@@ -123,20 +125,20 @@ static void a_new_centre_is_evaluated(void **state) {
   lay(&l, 1.0);
   ambulo__engine *e = l.f.engine;
   double before = l.chart.start, predicted;
-  assert_true(e->ceiling == before);
-  double t = ambulo__engine_step_limit(e, e->total, 0.1);
+  assert_true(e->held->ceiling == before);
+  double t = ambulo__step_limit(e->setup, e->quadratic->total, 0.1);
   (void)t;
   memcpy(l.v, l.chart.step, (size_t)l.f.n * sizeof *l.v);
   memset(l.chart.whitened, 0, (size_t)l.f.n * sizeof *l.v);
   (void)ambulo__augmented(e, l.v, NULL);
-  memcpy(e->center, e->held.x, (size_t)l.f.n * sizeof *l.v);
+  memcpy(e->iterate.x, e->held->trial.x, (size_t)l.f.n * sizeof *l.v);
   (void)ambulo__augmented(e, l.chart.whitened, NULL);
   assert_int_equal(ambulo__model_step(e, &predicted), 0);
-  e->ceiling = 1e9;
+  e->held->ceiling = 1e9;
   assert_int_equal(ambulo__chart_lay(&l.chart, e, l.w, 1.0), 1);
   assert_true(l.chart.start != before && l.chart.start < before);
-  assert_true(e->ceiling == l.chart.start);
-  for (int j = 0; j < l.f.n; j++) e->center[j] += j % 3 ? 50.0 : -70.0;
+  assert_true(e->held->ceiling == l.chart.start);
+  for (int j = 0; j < l.f.n; j++) e->iterate.x[j] += j % 3 ? 50.0 : -70.0;
   assert_int_equal(ambulo__chart_lay(&l.chart, e, l.w, 1.0), 0);
   end(&l);
 }
@@ -162,8 +164,8 @@ static void a_step_across_the_slope_is_left_out(void **state) {
     }
     for (int j = 0; j < l.f.n; j++)
       l.v[j] = 0.01 * (l.v[j] / sqrt(norm) - along * l.chart.gradient[j] / sqrt(size));
-    ambulo__band_backward(&l.f.engine->whitener, l.v);
-    memcpy(l.f.engine->total, l.v, (size_t)l.f.n * sizeof *l.v);
+    ambulo__band_backward(&l.f.engine->linearized.whitener, l.v);
+    memcpy(l.f.engine->quadratic->total, l.v, (size_t)l.f.n * sizeof *l.v);
     assert_int_equal(ambulo__chart_lay(&l.chart, l.f.engine, l.w, 1.0), 1);
     double left = 0.0;
     for (int j = 0; j < l.f.n; j++) left = fmax(left, fabs(l.chart.step[j]));

@@ -64,17 +64,17 @@ static void the_engine_is_given_back(void **state) {
   f.options.feasibility_tolerance = 1e-4;
   assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
   ambulo__engine *e = f.engine;
-  double scale = e->objective_scale, adjoint = e->adjoint_tolerance;
-  double retraction = e->retraction_tolerance;
+  double scale = e->setup->objective_scale, adjoint = e->retraction->adjoint_tolerance;
+  double retraction = e->retraction->tolerance;
   assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
   double before = e->workspace->objective;
   assert_int_equal(ambulo__finish(e, f.x, &message), AMBULO_OK);
   assert_non_null(message);
-  assert_true(e->objective_scale == scale && e->adjoint_tolerance == adjoint);
-  assert_true(e->retraction_tolerance == retraction);
+  assert_true(e->setup->objective_scale == scale && e->retraction->adjoint_tolerance == adjoint);
+  assert_true(e->retraction->tolerance == retraction);
   assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
   assert_true(ambulo__engine_equality_error(e) <= 1e-9);
-  assert_true(ambulo__engine_excess(e, e->held.excess) <= 1e-8);
+  assert_true(ambulo__engine_excess(e, e->measured.excess) <= 1e-8);
   assert_close(e->workspace->objective / before, 1.0, 1e-3);
   engine_close(&f);
 }

@@ -17,8 +17,8 @@ static void band_is_the_sum_over_nodes(void **state) {
   for (int j = 0; j < f.n; j++) f.x[j] = 0.2 * random_number(&seed);
   for (int j = 0; j < f.n; j++) d[j] = random_number(&seed);
   assert_int_equal(ambulo__evaluate_jacobian(e->workspace, f.x), AMBULO_OK);
-  ambulo__metric_fill(&e->metric, e->workspace, 2.0, &e->base);
-  ambulo__band_multiply(&e->base, d, got);
+  ambulo__metric_fill(&e->linearized.metric, e->workspace, 2.0, &e->linearized.base);
+  ambulo__band_multiply(&e->linearized.base, d, got);
   for (int k = 0; k < p->nodes; k++) {
     int first = ambulo__node_first(p, k), width = ambulo__node_width(p, k);
     memset(local, 0, widest * widest * sizeof *local);
@@ -38,7 +38,7 @@ static void band_is_the_sum_over_nodes(void **state) {
 static double scale_with(const char *name, const char *override) {
   engine_fixture f;
   engine_open_with(&f, name, override);
-  double scale = f.engine->objective_scale;
+  double scale = f.engine->setup->objective_scale;
   engine_close(&f);
   return scale;
 }
@@ -92,7 +92,7 @@ static double slider_scale(double mass) {
   f.x = calloc((size_t)ambulo_problem_variable_count(f.problem), sizeof *f.x);
   ambulo__run_begin(&f.run, &f.options);
   assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
-  double scale = f.engine->objective_scale;
+  double scale = f.engine->setup->objective_scale;
   engine_close(&f);
   ambulo_model_free(model);
   return scale;
@@ -109,11 +109,11 @@ static void problem_without_objective_has_a_metric(void **state) {
   engine_fixture f;
   engine_open(&f, "fig5a_feasible");
   ambulo__engine *e = f.engine;
-  assert_int_equal(e->metric.channels, 0);
-  ambulo__metric_fill(&e->metric, e->workspace, 1.0, &e->base);
-  assert_true(ambulo__band_largest(&e->base) > 0.0);
-  ambulo__band_add_diagonal(&e->base, 1e-6);
-  assert_int_equal(ambulo__band_factor(&e->base), 0);
+  assert_int_equal(e->linearized.metric.channels, 0);
+  ambulo__metric_fill(&e->linearized.metric, e->workspace, 1.0, &e->linearized.base);
+  assert_true(ambulo__band_largest(&e->linearized.base) > 0.0);
+  ambulo__band_add_diagonal(&e->linearized.base, 1e-6);
+  assert_int_equal(ambulo__band_factor(&e->linearized.base), 0);
   engine_close(&f);
 }
 

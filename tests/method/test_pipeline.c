@@ -8,7 +8,7 @@ static double solve(double *violation, int *evaluations) {
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   double objective = f.engine->workspace->objective;
   *violation = fmax(ambulo__engine_equality_error(f.engine),
-                    ambulo__engine_excess(f.engine, f.engine->held.excess));
+                    ambulo__engine_excess(f.engine, f.engine->measured.excess));
   *evaluations = f.run.evaluations;
   engine_close(&f);
   return objective;
@@ -34,10 +34,10 @@ static void polish_closes_what_is_left(void **state) {
   f.options.feasibility_tolerance = 1e-8;
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   double before = f.engine->workspace->objective;
-  assert_true(ambulo__engine_excess(f.engine, f.engine->held.excess) > 1e-8);
+  assert_true(ambulo__engine_excess(f.engine, f.engine->measured.excess) > 1e-8);
   assert_int_equal(ambulo__polish(f.engine, f.x), 1);
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
-  assert_true(ambulo__engine_excess(f.engine, f.engine->held.excess) <= 1e-8);
+  assert_true(ambulo__engine_excess(f.engine, f.engine->measured.excess) <= 1e-8);
   assert_close(f.engine->workspace->objective, before, 1e-2);
   engine_close(&f);
 }
@@ -92,8 +92,8 @@ static void tracking_has_no_lower_bound_to_rest_on(void **state) {
   for (int i = 0; i < 2; i++) {
     engine_fixture f;
     engine_open(&f, names[i]);
-    assert_int_equal(f.engine->negligible < 0.0, i == 0);
-    assert_int_equal(ambulo__evaluate(f.engine->workspace, f.engine->center), AMBULO_OK);
+    assert_int_equal(f.engine->setup->negligible < 0.0, i == 0);
+    assert_int_equal(ambulo__evaluate(f.engine->workspace, f.engine->iterate.x), AMBULO_OK);
     assert_int_equal(ambulo__engine_at_lower_bound(f.engine), 0);
     /* every term at its bound, but for one */
     int terms = f.problem->definition.term_count;
@@ -112,8 +112,9 @@ static void open_stopped(engine_fixture *f, ambulo_discretization discretization
   f->problem->definition.discretization = discretization;
   assert_int_equal(ambulo__restore(f->engine, f->x, &error), AMBULO_OK);
   f->run.stopped = 1;
-  for (int i = 0; i < f->engine->inequalities; i++) f->engine->lambda[i] = 0.25;
-  for (int i = 0; i < f->engine->equalities; i++) f->engine->equality_multiplier[i] = 0.5;
+  for (int i = 0; i < f->engine->setup->inequalities; i++) f->engine->iterate.lambda[i] = 0.25;
+  for (int i = 0; i < f->engine->setup->equalities; i++)
+    f->engine->iterate.equality_multiplier[i] = 0.5;
   f->engine->reached.value = 1.0;
 }
 
@@ -136,13 +137,15 @@ static void each_start_has_its_penalty_and_damping(void **state) {
     open_stopped(&f, cases[c].discretization);
     ambulo__engine *e = f.engine;
     assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
-    e->carried_objective = cases[c].carried < 0 ? -1.0 : cases[c].carried * e->workspace->objective;
+    e->iterate.carried_objective =
+        cases[c].carried < 0 ? -1.0 : cases[c].carried * e->workspace->objective;
     assert_int_equal(ambulo__pipeline(e, cases[c].stage, f.x), AMBULO_OK);
     double interval = f.problem->definition.duration / ambulo__basis_intervals(f.problem->basis);
-    assert_close(e->rho, cases[c].rho, 0.0);
-    assert_close(e->mu / interval, cases[c].mu, 1e-12);
-    assert_true(e->lambda[3] == cases[c].lambda && e->equality_multiplier[0] == 0.0);
-    assert_true(e->carried_objective == -1.0 && e->reached.value == HUGE_VAL);
+    assert_close(e->iterate.rho, cases[c].rho, 0.0);
+    assert_close(e->iterate.mu / interval, cases[c].mu, 1e-12);
+    assert_true(e->iterate.lambda[3] == cases[c].lambda &&
+                e->iterate.equality_multiplier[0] == 0.0);
+    assert_true(e->iterate.carried_objective == -1.0 && e->reached.value == HUGE_VAL);
     engine_close(&f);
   }
 }
@@ -159,7 +162,7 @@ static void a_start_that_leads_nowhere_is_told(void **state) {
     assert_int_equal(status, run ? AMBULO_E_NUMERIC : AMBULO_OK);
     if (run) assert_int_equal(f.run.ending, AMBULO_ENDING_NOT_FINITE);
     assert_true(f.engine->reached.value == HUGE_VAL);
-    assert_true(f.engine->rho == 10.0 && f.run.nlopt.calls == 0);
+    assert_true(f.engine->iterate.rho == 10.0 && f.run.nlopt.calls == 0);
     engine_close(&f);
   }
 }
@@ -177,7 +180,7 @@ static void what_is_cut_short_is_polished(void **state) {
       assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
       double before = f.engine->reached.violation;
       assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
-      double after = ambulo__engine_excess(f.engine, f.engine->held.excess);
+      double after = ambulo__engine_excess(f.engine, f.engine->measured.excess);
       if (f.engine->reached.value < HUGE_VAL && before > 1e-4 && before < 1e-2) {
         assert_true(after <= 1e-6);
         polished++;
@@ -198,25 +201,25 @@ static void polish_gives_back_what_it_takes(void **state) {
     f.options.feasibility_tolerance = 1e-3;
     assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
     ambulo__engine *e = f.engine;
-    double *x = calloc((size_t)f.n, sizeof *x), rho = e->rho, moved = 0.0;
+    double *x = calloc((size_t)f.n, sizeof *x), rho = e->iterate.rho, moved = 0.0;
     assert_true(rho < 1e5);
     memcpy(x, f.x, (size_t)f.n * sizeof *x);
-    for (int i = 0; i < e->equalities; i++) e->equality_multiplier[i] = 1e3;
+    for (int i = 0; i < e->setup->equalities; i++) e->iterate.equality_multiplier[i] = 1e3;
     f.options.feasibility_tolerance = run ? 1e-30 : 1e-8;
     assert_int_equal(ambulo__polish(e, f.x), !run);
-    assert_true(e->rho == rho);
-    for (int i = 0; i < e->equalities; i++)
-      assert_true(e->equality_multiplier[i] == e->reached.equality_multiplier[i]);
+    assert_true(e->iterate.rho == rho);
+    for (int i = 0; i < e->setup->equalities; i++)
+      assert_true(e->iterate.equality_multiplier[i] == e->reached.equality_multiplier[i]);
     for (int j = 0; j < f.n; j++) moved = fmax(moved, fabs(f.x[j] - x[j]));
     assert_int_equal(moved > 0.0, !run);
     if (!run) {
-      for (int i = 0; i < e->inequalities; i++)
-        assert_true(e->lambda[i] == e->reached.multiplier[i]);
+      for (int i = 0; i < e->setup->inequalities; i++)
+        assert_true(e->iterate.lambda[i] == e->reached.multiplier[i]);
       assert_int_equal(ambulo__evaluate(e->workspace, f.x), AMBULO_OK);
       /* to a fifth of the tolerance, and rows with a force to it from both sides */
-      assert_true(ambulo__engine_excess(e, e->held.excess) <= 0.2e-8);
-      for (int i = 0; i < e->inequalities; i++) {
-        if (e->reached.multiplier[i] > 0.1) assert_close(e->held.excess[i], 0.0, 1e-6);
+      assert_true(ambulo__engine_excess(e, e->measured.excess) <= 0.2e-8);
+      for (int i = 0; i < e->setup->inequalities; i++) {
+        if (e->reached.multiplier[i] > 0.1) assert_close(e->held->trial.excess[i], 0.0, 1e-6);
       }
     }
     free(x);

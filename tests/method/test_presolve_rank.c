@@ -9,7 +9,7 @@ static void flat_soles_and_the_periodic_end_are_dropped(void **state) {
   const ambulo_problem *p = f.problem;
   int soles = 0, copies = 0;
   for (int r = 0; r < p->rows; r++) {
-    if (f.engine->rows.rank[r] != AMBULO__ROW_DEPENDENT) continue;
+    if (f.engine->linearized.rows.rank[r] != AMBULO__ROW_DEPENDENT) continue;
     const ambulo__table_row *row = &p->table.rows[r];
     if (row->node == p->nodes - 1) {
       copies++;
@@ -20,8 +20,8 @@ static void flat_soles_and_the_periodic_end_are_dropped(void **state) {
   }
   assert_int_equal(soles, 8);
   assert_int_equal(copies, 8);
-  assert_int_equal(f.engine->rows.dropped, 16);
-  assert_int_equal(f.engine->equalities + f.engine->borders + 16, p->equalities);
+  assert_int_equal(f.engine->linearized.rows.dropped, 16);
+  assert_int_equal(f.engine->setup->equalities + f.engine->setup->borders + 16, p->equalities);
   engine_close(&f);
 }
 
@@ -95,7 +95,7 @@ static void rows_are_measured_by_their_sizes(void **state) {
   (void)state;
   engine_fixture f;
   engine_open_with(&f, "walk_normal", "constraints.torque_limits=true");
-  ambulo__rows_split *rows = &f.engine->rows;
+  ambulo__rows_split *rows = &f.engine->linearized.rows;
   int other = 0;
   for (int i = 0; i < rows->inequality.count; i++) {
     double size = f.problem->table.rows[rows->inequality.row[i]].size;

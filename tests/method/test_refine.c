@@ -14,13 +14,13 @@ static void the_next_grid_is_carried_over(void **state) {
   engine_fixture f;
   int levels = -1, forces = 0;
   engine_open(&f, "yardstick_36");
-  for (int i = 0; i < f.engine->inequalities; i++) f.engine->lambda[i] = -1.0;
+  for (int i = 0; i < f.engine->setup->inequalities; i++) f.engine->iterate.lambda[i] = -1.0;
   (void)refine(&f, &levels);
   assert_int_equal(levels, 1);
-  assert_close(f.engine->carried_objective / 0.35640, 1.0, 2e-2); /* it is left early */
-  for (int i = 0; i < f.engine->inequalities; i++) {
-    assert_true(f.engine->lambda[i] >= 0.0);
-    forces += f.engine->lambda[i] > 0.0;
+  assert_close(f.engine->iterate.carried_objective / 0.35640, 1.0, 2e-2); /* it is left early */
+  for (int i = 0; i < f.engine->setup->inequalities; i++) {
+    assert_true(f.engine->iterate.lambda[i] >= 0.0);
+    forces += f.engine->iterate.lambda[i] > 0.0;
   }
   assert_true(forces > 10);
   engine_close(&f);
@@ -34,7 +34,7 @@ static void few_intervals_have_no_coarser_grid(void **state) {
   (void)refine(&f, &levels);
   assert_int_equal(levels, 0);
   for (int j = 0; j < f.n; j++) assert_true(f.x[j] == 0.0);
-  assert_true(f.engine->carried_objective < 0.0);
+  assert_true(f.engine->iterate.carried_objective < 0.0);
   assert_int_equal(f.run.evaluations, 0);
   engine_close(&f);
 }

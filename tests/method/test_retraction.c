@@ -11,13 +11,13 @@ static void point_nearby_is_carried_to_the_surface(void **state) {
   (void)state;
   engine_fixture f;
   open_factored(&f);
-  double t = ambulo__engine_step_limit(f.engine, f.engine->total, 0.2);
-  for (int j = 0; j < f.n; j++) f.x[j] += t * f.engine->total[j];
+  double t = ambulo__step_limit(f.engine->setup, f.engine->quadratic->total, 0.2);
+  for (int j = 0; j < f.n; j++) f.x[j] += t * f.engine->quadratic->total[j];
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   assert_true(ambulo__engine_equality_error(f.engine) > 1e-4);
   assert_int_equal(ambulo__retract(f.engine, f.x), 1);
-  assert_true(ambulo__engine_equality_error(f.engine) <= f.engine->retraction_tolerance);
-  assert_true(f.engine->retraction_tolerance <= 1e-7);
+  assert_true(ambulo__engine_equality_error(f.engine) <= f.engine->retraction->tolerance);
+  assert_true(f.engine->retraction->tolerance <= 1e-7);
   engine_close(&f);
 }
 
@@ -27,13 +27,16 @@ static void reduced_gradient_is_tangent(void **state) {
   open_factored(&f);
   double *z = calloc((size_t)f.n, sizeof *z);
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
-  ambulo__reduced_gradient(f.engine, f.engine->lambda, z);
+  ambulo__reduced_gradient(f.engine, f.engine->setup->objective_scale, f.engine->iterate.lambda,
+                           f.engine->iterate.equality_multiplier, z);
   double size = 0.0, off = 0.0;
   for (int j = 0; j < f.n; j++) size = fmax(size, fabs(z[j]));
-  ambulo__sparse_rows_multiply(&f.engine->rows.equality, z, f.engine->h);
-  for (int i = 0; i < f.engine->equalities; i++) off = fmax(off, fabs(f.engine->h[i]));
-  ambulo__sparse_rows_multiply(&f.engine->rows.border, z, f.engine->b);
-  for (int i = 0; i < f.engine->borders; i++) off = fmax(off, fabs(f.engine->b[i]));
+  ambulo__sparse_rows_multiply(&f.engine->linearized.rows.equality, z, f.engine->measured.equality);
+  for (int i = 0; i < f.engine->setup->equalities; i++)
+    off = fmax(off, fabs(f.engine->measured.equality[i]));
+  ambulo__sparse_rows_multiply(&f.engine->linearized.rows.border, z, f.engine->measured.border);
+  for (int i = 0; i < f.engine->setup->borders; i++)
+    off = fmax(off, fabs(f.engine->measured.border[i]));
   assert_true(size > 1e-6);
   assert_true(off <= 1e-5 * size);
   free(z);
@@ -54,9 +57,9 @@ static void tight_tolerances_and_faults(void **state) {
   (void)state;
   engine_fixture f;
   open_factored(&f);
-  f.engine->retraction_tolerance = 0.0;
-  double t = ambulo__engine_step_limit(f.engine, f.engine->total, 0.05);
-  for (int j = 0; j < f.n; j++) f.x[j] += t * f.engine->total[j];
+  f.engine->retraction->tolerance = 0.0;
+  double t = ambulo__step_limit(f.engine->setup, f.engine->quadratic->total, 0.05);
+  for (int j = 0; j < f.n; j++) f.x[j] += t * f.engine->quadratic->total[j];
   assert_int_equal(ambulo__retract(f.engine, f.x), 1);
   assert_true(ambulo__engine_equality_error(f.engine) <= 1e-11);
   f.x[0] = NAN;
@@ -73,16 +76,21 @@ static void gradients_are_as_exact_as_asked(void **state) {
   open_factored(&f);
   ambulo__engine *e = f.engine;
   double *exact = calloc((size_t)f.n, sizeof *exact), *z = calloc((size_t)f.n, sizeof *z);
-  double t = ambulo__engine_step_limit(e, e->total, 0.3), size = 0.0, off[2] = {0.0, 0.0};
-  for (int j = 0; j < f.n; j++) f.x[j] += t * e->total[j];
+  double t = ambulo__step_limit(e->setup, e->quadratic->total, 0.3), size = 0.0,
+         off[2] = {0.0, 0.0};
+  for (int j = 0; j < f.n; j++) f.x[j] += t * e->quadratic->total[j];
   assert_int_equal(ambulo__retract(e, f.x), 1);
-  e->adjoint_tolerance = 1e-12;
+  e->retraction->adjoint_tolerance = 1e-12;
   for (int k = 0; k < 6; k++) /* each goes on from the last */
-    assert_int_equal(ambulo__reduced_gradient(e, e->lambda, exact), AMBULO_OK);
+    assert_int_equal(ambulo__reduced_gradient(e, e->setup->objective_scale, e->iterate.lambda,
+                                              e->iterate.equality_multiplier, exact),
+                     AMBULO_OK);
   for (int run = 0; run < 2; run++) {
-    e->adjoint_tolerance = run ? 1e-8 : 1e-3;
-    memset(e->equality_multiplier, 0, (size_t)e->equalities * sizeof *z);
-    assert_int_equal(ambulo__reduced_gradient(e, e->lambda, z), AMBULO_OK);
+    e->retraction->adjoint_tolerance = run ? 1e-8 : 1e-3;
+    memset(e->iterate.equality_multiplier, 0, (size_t)e->setup->equalities * sizeof *z);
+    assert_int_equal(ambulo__reduced_gradient(e, e->setup->objective_scale, e->iterate.lambda,
+                                              e->iterate.equality_multiplier, z),
+                     AMBULO_OK);
     for (int j = 0; j < f.n; j++) {
       size = fmax(size, fabs(exact[j]));
       off[run] = fmax(off[run], fabs(z[j] - exact[j]));

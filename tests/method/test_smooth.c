@@ -2,6 +2,7 @@
  * nowhere the solver tries its own. */
 #include "method/smooth.h"
 #include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
 
 typedef struct started {
   ambulo_problem *problem;
@@ -210,10 +211,12 @@ static void optima_stay(void **state) {
     engine_fixture f;
     open_started(&s, names[i]);
     engine_open(&f, names[i]);
-    assert_int_equal(ambulo__smooth_start(f.engine, s.x), 0);
+    int rough = -1;
+    assert_int_equal(ambulo__smooth_start(f.engine, s.x, &rough), AMBULO_OK);
+    assert_int_equal(rough, 0);
     assert_memory_equal(s.x, s.optimum, (size_t)s.n * sizeof *s.x);
     add_noise(&s, 0.02, 3);
-    int rough = ambulo__smooth_start(f.engine, s.x);
+    assert_int_equal(ambulo__smooth_start(f.engine, s.x, &rough), AMBULO_OK);
     if (i < 2) assert_int_equal(rough, 1);
     engine_close(&f);
     close_started(&s);
@@ -249,25 +252,63 @@ static void rates_have_their_own_size(void **state) {
   (void)state;
   engine_fixture f;
   engine_open_with(&f, "two_link_reach", "trajectory={basis: hermite}");
-  double *smooth = calloc((size_t)f.n, sizeof *smooth);
+  double *smooth = calloc((size_t)f.n, sizeof *smooth), *back = calloc((size_t)f.n, sizeof *back);
+  double *weight = calloc((size_t)f.n, sizeof *weight);
+  ambulo__band *base = &f.engine->linearized.base;
   const ambulo_problem *p = f.problem;
+  unsigned seed = 3;
   double time = p->definition.duration / ambulo__basis_intervals(p->basis);
   int rates = 0;
-  assert_int_equal(ambulo__smooth_curve(f.engine, f.x, smooth), 0);
+  for (int j = 0; j < f.n; j++) f.x[j] = random_number(&seed);
+  assert_int_equal(ambulo__smooth_curve(f.engine, f.x, smooth), AMBULO_OK);
+  ambulo__metric_accelerations(&f.engine->linearized.metric, f.engine->workspace, 1.0 / 900.0,
+                               base);
   for (int j = 0; j < f.n; j++) {
     int is_value = 1;
     (void)ambulo__basis_abscissa(p->basis, j / p->coordinates, &is_value);
     double size = is_value ? 0.02 : 0.02 * sqrt(30.0 / 0.02);
-    assert_close(f.engine->step[j], time / (size * size), 1e-12 * time / (size * size));
+    weight[j] = time / (size * size);
+    base->a[(size_t)j * (size_t)base->ld] += weight[j];
     rates += !is_value;
   }
   assert_int_equal(rates, f.n / 2);
+  ambulo__band_multiply(base, smooth, back); /* to what the rough curve was weighed with */
+  for (int j = 0; j < f.n; j++) assert_close(back[j], weight[j] * f.x[j], 1e-9 * weight[j]);
   free(smooth);
+  free(back);
+  free(weight);
   engine_close(&f);
+}
+
+/* a start that cannot be weighed for want of memory is no start that stays */
+static void memory_that_is_out_is_told(void **state) {
+  (void)state;
+  started s;
+  open_started(&s, "two_link_reach");
+  for (long k = 0; k < 100; k++) {
+    engine_fixture f = {.options = ambulo_options_default()};
+    fail_alloc memory = fail_alloc_at(-1);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    int smoothed = 0;
+    ambulo__run_begin(&f.run, &f.options);
+    assert_int_equal(ambulo__engine_create(s.problem, s.x, &hook, &f.run, NULL, &f.engine),
+                     AMBULO_OK);
+    memory.fail_at = memory.requests + k;
+    ambulo_status status = ambulo__smooth_start(f.engine, s.x, &smoothed);
+    assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
+    ambulo__engine_free(f.engine);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) {
+      assert_true(k > 3);
+      break;
+    }
+  }
+  close_started(&s);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(noise_is_smoothed_away),
+                                     cmocka_unit_test(memory_that_is_out_is_told),
                                      cmocka_unit_test(lines_over_the_index_are_no_conflict),
                                      cmocka_unit_test(starts_from_another_grid),
                                      cmocka_unit_test(valid_starts_are_not_made_worse),

@@ -56,7 +56,7 @@ static void what_vanishes_ends_it(void **state) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(0);
-  double tiny = 0.5 * f.engine->negligible * f.engine->objective_scale;
+  double tiny = 0.5 * f.engine->setup->negligible * f.engine->setup->objective_scale;
   assert_true(tiny > 0.0);
   (void)at(&s, &f, 1e4 * tiny, 1e-7, 1.0);
   assert_int_equal(at(&s, &f, 3.0 * tiny, 1e-7, 1.0), AMBULO_ENDING_NONE);
@@ -79,7 +79,7 @@ static void stalls_raise_the_bound(void **state) {
   bounds[0] = s.penalty_limit;
   for (; points < 200 && !ending; points++) {
     double bound = s.penalty_limit;
-    f.engine->rho = bound;
+    f.engine->iterate.rho = bound;
     ending = at(&s, &f, 2.0, 0.3, 1.0);
     if (s.penalty_limit != bound) bounds[++raised] = s.penalty_limit;
   }
@@ -88,7 +88,7 @@ static void stalls_raise_the_bound(void **state) {
   assert_close(bounds[1] / bounds[0], 10.0, 1e-12);
   assert_close(bounds[2] / bounds[0], 100.0, 1e-12);
   s = ambulo__stopping_begin(0); /* below the bound nothing is a stall */
-  f.engine->rho = 0.5 * s.penalty_limit;
+  f.engine->iterate.rho = 0.5 * s.penalty_limit;
   for (int k = 0; k < 60; k++) assert_int_equal(at(&s, &f, 2.0, 0.3, 1.0), AMBULO_ENDING_NONE);
   assert_true(s.penalty_limit == bounds[0]);
   engine_close(&f);
@@ -101,7 +101,7 @@ static void slow_rows_raise_the_bound(void **state) {
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(0);
   double first = s.penalty_limit, violation = 0.3, objective = 2.0;
-  f.engine->rho = first;
+  f.engine->iterate.rho = first;
   for (int k = 0; k < 18; k++) {
     assert_int_equal(at(&s, &f, objective, violation, 1.0), AMBULO_ENDING_NONE);
     violation *= 0.99;
@@ -117,10 +117,10 @@ static void only_points_near_the_rows_count(void **state) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(0);
-  f.engine->rho = 10.0;
+  f.engine->iterate.rho = 10.0;
   for (int k = 0; k < 6; k++) assert_int_equal(at(&s, &f, 2.0, 1e-3, 1.0), AMBULO_ENDING_NONE);
   assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
-  double tiny = 0.1 * f.engine->negligible * f.engine->objective_scale;
+  double tiny = 0.1 * f.engine->setup->negligible * f.engine->setup->objective_scale;
   s = ambulo__stopping_begin(0);
   (void)at(&s, &f, 1e6 * tiny, 1e-7, 1.0);
   assert_int_equal(at(&s, &f, tiny, 1e-3, 1.0), AMBULO_ENDING_NONE);
@@ -132,8 +132,8 @@ static void terms_without_a_measure_vanish_too(void **state) {
   (void)state;
   engine_fixture f;
   engine_open(&f, "walk_tracking");
-  assert_true(f.engine->negligible < 0.0 && f.engine->at_rest > 0.0);
-  double rest = f.engine->at_rest * f.engine->objective_scale;
+  assert_true(f.engine->setup->negligible < 0.0 && f.engine->setup->at_rest > 0.0);
+  double rest = f.engine->setup->at_rest * f.engine->setup->objective_scale;
   ambulo__stopping s = ambulo__stopping_begin(0);
   assert_int_equal(at(&s, &f, 2e-6 * rest, 1e-7, 1.0), AMBULO_ENDING_NONE);
   assert_int_equal(at(&s, &f, -5e-7 * rest, 1e-7, 1.0), AMBULO_ENDING_VANISHED);
@@ -151,7 +151,7 @@ static void what_counts_as_progress(void **state) {
     ambulo_ending ending = AMBULO_ENDING_NONE;
     double violation = 0.9, objective = 2.0;
     int points = 0;
-    f.engine->rho = s.penalty_limit = 3e5;
+    f.engine->iterate.rho = s.penalty_limit = 3e5;
     for (; points < 20 && !ending; points++) {
       ending = at(&s, &f, objective, violation, 1.0);
       violation *= violations[run];
@@ -176,7 +176,7 @@ static void open_off_the_rows(engine_fixture *f) {
 
 static int rows_hold(engine_fixture *f) {
   assert_int_equal(ambulo__evaluate(f->engine->workspace, f->x), AMBULO_OK);
-  return ambulo__engine_excess(f->engine, f->engine->held.excess) <=
+  return ambulo__engine_excess(f->engine, f->engine->measured.excess) <=
          f->options.feasibility_tolerance;
 }
 
@@ -190,7 +190,7 @@ static void a_stall_reaches_further(void **state) {
     s.least_violation = s.halved = f.engine->reached.violation;
     s.since_better = stalled ? 100 : 0;
     s.points = 1;
-    f.engine->rho = s.penalty_limit;
+    f.engine->iterate.rho = s.penalty_limit;
     assert_int_equal(ambulo__stopping_test(&s, f.engine, f.x),
                      stalled ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE);
     assert_int_equal(rows_hold(&f), stalled);

@@ -2,7 +2,13 @@
 #ifndef AMBULO_TESTS_ENGINE_FIXTURE_H
 #define AMBULO_TESTS_ENGINE_FIXTURE_H
 
-#include "method/engine.h"
+#include "method/augmented.h"
+#include "method/engine_point.h"
+#include "method/model_step.h"
+#include "method/pipeline.h"
+#include "method/polish.h"
+#include "method/restore.h"
+#include "method/retraction.h"
 #include "support/test.h"
 
 typedef struct engine_fixture {
@@ -38,8 +44,8 @@ static inline void engine_open_with(engine_fixture *f, const char *name, const c
   ambulo__run_begin(&f->run, &f->options);
   assert_int_equal(ambulo__engine_create(f->problem, f->x, NULL, &f->run, NULL, &f->engine),
                    AMBULO_OK);
-  f->engine->mu = 0.05;
-  f->engine->rho = 10.0;
+  f->engine->iterate.mu = 0.05;
+  f->engine->iterate.rho = 10.0;
 }
 
 static inline void engine_open(engine_fixture *f, const char *name) {
@@ -52,7 +58,12 @@ static inline void engine_open_restored(engine_fixture *f, const char *name) {
   engine_open(f, name);
   assert_int_equal(ambulo__restore(f->engine, f->x, &error), AMBULO_OK);
   assert_true(error < 1e-9);
-  memcpy(f->engine->center, f->x, (size_t)f->n * sizeof *f->x);
+  memcpy(f->engine->iterate.x, f->x, (size_t)f->n * sizeof *f->x);
+}
+
+/* what only ambulo__engine_create writes */
+static inline ambulo__setup *setup_to_break(ambulo__engine *engine) {
+  return (ambulo__setup *)engine->setup;
 }
 
 static inline void engine_close(engine_fixture *f) {

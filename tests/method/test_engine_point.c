@@ -1,0 +1,90 @@
+/* What is measured at the point that the workspace holds: errors relative to sizes; and that
+ * nothing in it takes NaN for zero. */
+#include "judge/candidates.h"
+#include "support/engine_fixture.h"
+
+static void scatter(double *x, int n, double size) {
+  unsigned seed = 5;
+  for (int j = 0; j < n; j++) x[j] += size * random_number(&seed);
+}
+
+/* of rows whose values the problem has, relative to their sizes; those that depend are left out */
+static double worst_of(const engine_fixture *f, const ambulo__sparse_rows *rows, int equal) {
+  double worst = 0.0;
+  for (int i = 0; i < rows->count; i++) {
+    const ambulo__table_row *row = &f->problem->table.rows[rows->row[i]];
+    double value = f->engine->workspace->row_value[rows->row[i]];
+    worst = fmax(worst, (equal ? fabs(value) : fmax(0.0, -value)) / row->size);
+  }
+  return worst;
+}
+
+/* lengths, rates and torques, each beside its own size */
+static void errors_are_relative_to_sizes(void **state) {
+  (void)state;
+  static const char *const names[] = {"two_link_reach", "walker_2d_step", "walk_normal"};
+  for (int i = 0; i < 3; i++) {
+    for (int k = 0; k < 4; k++) {
+      engine_fixture f;
+      engine_open(&f, names[i]);
+      scatter(f.x, f.n, pow(10.0, -k));
+      assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+      double equal = fmax(worst_of(&f, &f.engine->linearized.rows.equality, 1),
+                          worst_of(&f, &f.engine->linearized.rows.border, 1));
+      double other = worst_of(&f, &f.engine->linearized.rows.inequality, 0);
+      assert_close(ambulo__engine_equality_error(f.engine), equal, 1e-12 * equal);
+      assert_close(ambulo__engine_excess(f.engine, f.engine->measured.excess), other,
+                   1e-12 * other);
+      assert_close(ambulo__violation_at(f.engine, f.x), fmax(equal, other),
+                   1e-12 * (equal + other));
+      engine_close(&f);
+    }
+  }
+}
+
+/* border rows alone: matching ends */
+static void ends_count_among_the_equalities(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "walker_2d_step");
+  assert_true(f.engine->setup->borders > 0);
+  assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+  memset(f.engine->workspace->row_value, 0,
+         (size_t)f.problem->rows * sizeof *f.engine->workspace->row_value);
+  int row = f.engine->linearized.rows.border.row[0];
+  f.engine->workspace->row_value[row] = 0.25 * f.problem->table.rows[row].size;
+  assert_close(ambulo__engine_equality_error(f.engine), 0.25, 1e-12);
+  engine_close(&f);
+}
+
+static void nan_is_no_zero(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "two_link_reach");
+  ambulo__engine *e = f.engine;
+  assert_int_equal(ambulo__evaluate_jacobian(e->workspace, f.x), AMBULO_OK);
+  double *weights = calloc((size_t)e->setup->inequalities, sizeof *weights);
+  assert_int_equal(ambulo__engine_gradient(e, 1.0, weights, NULL, e->quadratic->gradient),
+                   AMBULO_OK);
+  assert_int_equal(e->run->faults, 0);
+  weights[e->setup->inequalities / 2] = NAN;
+  assert_int_equal(ambulo__engine_gradient(e, 1.0, weights, NULL, e->quadratic->gradient),
+                   AMBULO_E_NUMERIC);
+  assert_int_equal(e->run->faults, 1);
+  free(weights);
+  e->workspace->row_value[e->linearized.rows.inequality.row[0]] = NAN;
+  assert_true(isnan(ambulo__engine_excess(e, e->measured.excess)));
+  e->workspace->row_value[e->linearized.rows.equality.row[0]] = NAN;
+  assert_true(isnan(ambulo__engine_equality_error(e)));
+  memset(e->quadratic->step, 0, (size_t)e->setup->n * sizeof *e->quadratic->step);
+  e->quadratic->step[1] = NAN;
+  assert_true(isnan(ambulo__step_limit(e->setup, e->quadratic->step, 0.5)));
+  engine_close(&f);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_are_relative_to_sizes),
+                                     cmocka_unit_test(ends_count_among_the_equalities),
+                                     cmocka_unit_test(nan_is_no_zero)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
