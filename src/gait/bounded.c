@@ -15,27 +15,27 @@ void ambulo__linear_add(ambulo__linear *form, int first, const double direction[
   }
 }
 
-static void side(const ambulo__gait_frame *frame, int node, const ambulo__bounded_name *name,
+static void side(const ambulo__gait_context *context, int node, const ambulo__bounded_name *name,
                  const ambulo__linear *form, double sign, double bound, ambulo__row_table *table) {
   if (!isfinite(bound)) return;
   ambulo__row_begin(table, name->kind, name->subject, sign > 0.0 ? name->lower : name->upper,
-                    name->measure, AMBULO_NOT_NEGATIVE, node, frame->times[node],
+                    name->measure, AMBULO_NOT_NEGATIVE, node, context->times[node],
                     sign * (form->constant - bound));
   for (int t = 0; t < form->count; t++)
     ambulo__row_term_add(table, node, form->channel[t], sign * form->coefficient[t]);
 }
 
-void ambulo__bounded_rows(const ambulo__gait_frame *frame, int node,
+void ambulo__bounded_rows(const ambulo__gait_context *context, int node,
                           const ambulo__bounded_name *name, const ambulo__linear *form, double low,
                           double high, ambulo__row_table *table) {
   if (form->overflow && !table->status) table->status = AMBULO_E_INTERNAL;
-  side(frame, node, name, form, 1.0, low, table);
-  side(frame, node, name, form, -1.0, high, table);
+  side(context, node, name, form, 1.0, low, table);
+  side(context, node, name, form, -1.0, high, table);
 }
 
-int ambulo__distinct_nodes(const ambulo__gait_frame *frame, int order) {
-  const ambulo_problem_definition *d = frame->definition;
+int ambulo__distinct_nodes(const ambulo__gait_context *context, int order) {
+  const ambulo_problem_definition *d = context->definition;
   int repeats = d->ends != AMBULO_ENDS_FREE && d->ends_order >= order &&
                 (d->ground_reaction.kind != AMBULO_REACTION_NONE || d->contact_tolerance > 0.0);
-  return repeats ? frame->nodes - 1 : frame->nodes;
+  return repeats ? context->nodes - 1 : context->nodes;
 }

@@ -27,7 +27,7 @@ void ambulo__linear_add(ambulo__linear *form, int first, const double direction[
 
 /* form - low >= 0 and high - form >= 0; an infinite bound has no row. A form that overflowed makes
  * the table fail with E_INTERNAL. */
-void ambulo__bounded_rows(const ambulo__gait_frame *frame, int node,
+void ambulo__bounded_rows(const ambulo__gait_context *context, int node,
                           const ambulo__bounded_name *name, const ambulo__linear *form, double low,
                           double high, ambulo__row_table *table);
 
@@ -37,6 +37,6 @@ enum { AMBULO__OF_PLACES = 0, AMBULO__OF_FORCES = 2 };
 /* Number of nodes that have rows of contact (`order` AMBULO__OF_PLACES) or force
  * (AMBULO__OF_FORCES): with ground reaction or tolerances and ends that match up to that
  * derivative, the last node is the first one again and has none. */
-int ambulo__distinct_nodes(const ambulo__gait_frame *frame, int order);
+int ambulo__distinct_nodes(const ambulo__gait_context *context, int order);
 
 #endif

@@ -16,35 +16,35 @@
 #include <math.h>
 
 typedef struct swing {
-  const ambulo__gait_frame *frame;
+  const ambulo__gait_context *context;
   int node, foot;
   double phase; /* s */
   ambulo__row_table *table;
 } swing;
 
 static void height_bounds(const swing *w, int point, double low) {
-  const ambulo__gait_frame *frame = w->frame;
-  ambulo__linear form = {.constant = -frame->definition->ground_height};
-  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), frame->model->up,
+  const ambulo__gait_context *context = w->context;
+  ambulo__linear form = {.constant = -context->definition->ground_height};
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), context->model->up,
                      1.0);
-  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[point].name, "low",
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, context->model->points[point].name, "low",
                                "high", AMBULO__METRES};
-  double ceiling = frame->definition->clearance.ceiling;
-  ambulo__bounded_rows(frame, w->node, &name, &form, low, ceiling, w->table);
+  double ceiling = context->definition->clearance.ceiling;
+  ambulo__bounded_rows(context, w->node, &name, &form, low, ceiling, w->table);
 }
 
 static void turn_bounds(const swing *w, const ambulo__linear *form, const char *lower,
                         const char *upper) {
   if (form->count == 0) return;
-  double turn = w->frame->definition->clearance.turn;
-  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, w->frame->model->feet[w->foot].name, lower,
+  double turn = w->context->definition->clearance.turn;
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, w->context->model->feet[w->foot].name, lower,
                                upper, AMBULO__RADIANS};
-  ambulo__bounded_rows(w->frame, w->node, &name, form, -turn, turn, w->table);
+  ambulo__bounded_rows(w->context, w->node, &name, form, -turn, turn, w->table);
 }
 
 /* Lateral place of the foot's nearest contact, the next one first; 0 if it has none. */
-static int track_of(const ambulo__gait_frame *frame, int foot, double time, double *track) {
-  const ambulo_problem_definition *d = frame->definition;
+static int track_of(const ambulo__gait_context *context, int foot, double time, double *track) {
+  const ambulo_problem_definition *d = context->definition;
   double nearest = INFINITY;
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *c = &d->contacts[i];
@@ -58,50 +58,50 @@ static int track_of(const ambulo__gait_frame *frame, int foot, double time, doub
 }
 
 static void track_bounds(const swing *w) {
-  const ambulo__gait_frame *frame = w->frame;
-  const ambulo_clearance *c = &frame->definition->clearance;
-  int heel = frame->model->feet[w->foot].heel_center;
+  const ambulo__gait_context *context = w->context;
+  const ambulo_clearance *c = &context->definition->clearance;
+  int heel = context->model->feet[w->foot].heel_center;
   double track = 0.0, other = 0.0;
-  if (!track_of(frame, w->foot, frame->times[w->node], &track)) return;
+  if (!track_of(context, w->foot, context->times[w->node], &track)) return;
   int is_left = track >= 0.0;
-  if (frame->model->foot_count == 2 &&
-      track_of(frame, 1 - w->foot, frame->times[w->node], &other) && other != track)
+  if (context->model->foot_count == 2 &&
+      track_of(context, 1 - w->foot, context->times[w->node], &other) && other != track)
     is_left = track > other;
   ambulo__linear form = {.constant = -track};
-  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, heel, 0), frame->model->left,
-                     1.0);
-  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, frame->model->points[heel].name,
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, heel, 0),
+                     context->model->left, 1.0);
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, context->model->points[heel].name,
                                "to the right", "to the left", AMBULO__METRES};
-  ambulo__bounded_rows(frame, w->node, &name, &form, is_left ? -c->inward : -c->outward,
+  ambulo__bounded_rows(context, w->node, &name, &form, is_left ? -c->inward : -c->outward,
                        is_left ? c->outward : c->inward, w->table);
 }
 
 static void swing_rows(const swing *w) {
-  const ambulo_clearance *c = &w->frame->definition->clearance;
-  const ambulo_foot *foot = &w->frame->model->feet[w->foot];
+  const ambulo_clearance *c = &w->context->definition->clearance;
+  const ambulo_foot *foot = &w->context->model->feet[w->foot];
   double s = w->phase;
   double low = c->height * fmax(0.0, fmin(1.0, fmin(4.0 * s, 6.0 * (1.0 - s))));
   height_bounds(w, foot->heel_center, 0.5 * low);
   height_bounds(w, foot->toe_center, low);
   if (foot->has_tip && s >= c->tip_from) height_bounds(w, foot->tip, low);
-  if (!ambulo__foot_outline_of(w->frame->model, w->foot).moves_sideways) return;
-  ambulo__linear yaw = ambulo__foot_yaw(w->frame, w->foot);
-  ambulo__linear roll = ambulo__foot_roll(w->frame, w->foot);
+  if (!ambulo__foot_outline_of(w->context->model, w->foot).moves_sideways) return;
+  ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot);
+  ambulo__linear roll = ambulo__foot_roll(w->context, w->foot);
   turn_bounds(w, &yaw, "turned right", "turned left");
   turn_bounds(w, &roll, "left side low", "left side high");
   track_bounds(w);
 }
 
 /* (14.e) n.r - h of a foot in the air, at least its clearance */
-void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
-  int feet = frame->model->foot_count;
-  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
+void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  int feet = context->model->foot_count;
+  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
-      if (frame->active[node * feet + foot] >= 0) continue;
-      double time = frame->times[node];
-      ambulo__span air = ambulo__air_span(frame->definition, foot, time);
+      if (context->active[node * feet + foot] >= 0) continue;
+      double time = context->times[node];
+      ambulo__span air = ambulo__air_span(context->definition, foot, time);
       double length = air.to - air.from;
-      swing w = {frame, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, table};
+      swing w = {context, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, table};
       swing_rows(&w);
     }
   }

@@ -20,7 +20,7 @@
 static const double most_toes_up = 0.5, most_heel_up = 0.95; /* sines */
 
 typedef struct tube {
-  const ambulo__gait_frame *frame;
+  const ambulo__gait_context *context;
   const ambulo__foot_outline *outline;
   const ambulo_contact *contact;
   int node;
@@ -29,36 +29,36 @@ typedef struct tube {
 
 static void place_bounds(const tube *t, int point, const double direction[3], double place,
                          const char *lower, const char *upper) {
-  const ambulo__gait_frame *frame = t->frame;
-  double e = frame->definition->contact_tolerance;
+  const ambulo__gait_context *context = t->context;
+  double e = context->definition->contact_tolerance;
   ambulo__linear form = {.constant = -place};
-  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, point, 0), direction, 1.0);
-  ambulo__bounded_name name = {AMBULO__KIND_CONTACT, frame->model->points[point].name, lower, upper,
-                               AMBULO__METRES};
-  ambulo__bounded_rows(frame, t->node, &name, &form, -e, e, t->table);
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), direction, 1.0);
+  ambulo__bounded_name name = {AMBULO__KIND_CONTACT, context->model->points[point].name, lower,
+                               upper, AMBULO__METRES};
+  ambulo__bounded_rows(context, t->node, &name, &form, -e, e, t->table);
 }
 
 static void angle_bounds(const tube *t, const ambulo__linear *form, const char *lower,
                          const char *upper, double low, double high) {
   if (form->count == 0) return;
-  const char *foot = t->frame->model->feet[t->contact->foot].name;
+  const char *foot = t->context->model->feet[t->contact->foot].name;
   ambulo__bounded_name name = {AMBULO__KIND_CONTACT, foot, lower, upper, AMBULO__RADIANS};
-  ambulo__bounded_rows(t->frame, t->node, &name, form, low, high, t->table);
+  ambulo__bounded_rows(t->context, t->node, &name, form, low, high, t->table);
 }
 
 /* 1 at the first node of a loaded foot's contact */
 static int is_strike(const tube *t) {
-  const ambulo_problem_definition *d = t->frame->definition;
+  const ambulo_problem_definition *d = t->context->definition;
   ambulo__span span;
-  double time = t->frame->times[t->node], step = d->duration / d->intervals;
+  double time = t->context->times[t->node], step = d->duration / d->intervals;
   return ambulo__loaded_span(d, t->contact->foot, time, &span) &&
          time - span.from < step * (1.0 - 1e-6);
 }
 
 static void pitch_bounds(const tube *t) {
-  const ambulo_problem_definition *d = t->frame->definition;
+  const ambulo_problem_definition *d = t->context->definition;
   double o = d->orientation_tolerance, low = -o, high = o;
-  ambulo__linear pitch = ambulo__foot_pitch(t->frame, t->contact->foot);
+  ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact->foot);
   if (t->contact->mode == AMBULO_CONTACT_TOE) {
     low = -most_heel_up;
     high = 0.0;
@@ -71,8 +71,8 @@ static void pitch_bounds(const tube *t) {
 }
 
 static void contact_rows(const tube *t) {
-  const ambulo_model *model = t->frame->model;
-  const ambulo_problem_definition *d = t->frame->definition;
+  const ambulo_model *model = t->context->model;
+  const ambulo_problem_definition *d = t->context->definition;
   double place[2];
   int point = ambulo__contact_point(model, t->outline, t->contact, place);
   place_bounds(t, point, model->forward, place[0], "behind", "ahead");
@@ -81,25 +81,25 @@ static void contact_rows(const tube *t) {
   if (!t->outline->moves_sideways) return;
   place_bounds(t, point, model->left, place[1], "to the right", "to the left");
   double o = d->orientation_tolerance * (t->contact->mode == AMBULO_CONTACT_TOE ? 2.0 : 1.0);
-  ambulo__linear yaw = ambulo__foot_yaw(t->frame, t->contact->foot);
-  ambulo__linear roll = ambulo__foot_roll(t->frame, t->contact->foot);
+  ambulo__linear yaw = ambulo__foot_yaw(t->context, t->contact->foot);
+  ambulo__linear roll = ambulo__foot_roll(t->context, t->contact->foot);
   angle_bounds(t, &yaw, "turned right", "turned left", -o, o);
   angle_bounds(t, &roll, "left side low", "left side high", -o, o);
 }
 
 /* (14.e) corners within a tolerance of where they are due */
-void ambulo__contact_tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
-  int feet = frame->model->foot_count;
-  ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);
+void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  int feet = context->model->foot_count;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(context->model, &table->allocator);
   if (!outlines) {
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
-      int contact = frame->active[node * feet + foot];
+      int contact = context->active[node * feet + foot];
       if (contact < 0) continue;
-      tube t = {frame, &outlines[foot], &frame->definition->contacts[contact], node, table};
+      tube t = {context, &outlines[foot], &context->definition->contacts[contact], node, table};
       contact_rows(&t);
     }
   }

@@ -23,21 +23,22 @@ static int channel_of(const ambulo__channels *channels, int order, int coordinat
 
 static const char *const order_words[] = {"value", "rate", "acceleration"};
 
-static void prescribed_row(const ambulo__gait_frame *frame, const ambulo_end_value *end,
+static void prescribed_row(const ambulo__gait_context *context, const ambulo_end_value *end,
                            ambulo__row_table *table) {
-  const ambulo_coordinate *c = &frame->model->coordinates[end->coordinate];
+  const ambulo_coordinate *c = &context->model->coordinates[end->coordinate];
   ambulo__row_kind kind = end->final ? AMBULO__KIND_FINAL_STATE : AMBULO__KIND_INITIAL_STATE;
-  int node = end->final ? frame->nodes - 1 : 0;
+  int node = end->final ? context->nodes - 1 : 0;
   ambulo__row_begin(table, kind, c->name, order_words[end->order],
                     ambulo__row_measure(kind, c->type, end->order), AMBULO_EQUAL, node,
-                    frame->times[node], -end->value);
-  ambulo__row_term_add(table, node, channel_of(&frame->channels, end->order, end->coordinate), 1.0);
+                    context->times[node], -end->value);
+  ambulo__row_term_add(table, node, channel_of(&context->channels, end->order, end->coordinate),
+                       1.0);
 }
 
-static double order_scale(const ambulo__gait_frame *frame, int order) {
+static double order_scale(const ambulo__gait_context *context, int order) {
   if (order == 0) return 1.0;
   ambulo__basis_point start;
-  ambulo__basis_at(frame->basis, 0.0, &start);
+  ambulo__basis_at(context->basis, 0.0, &start);
   double largest = 0.0;
   for (int k = 0; k < start.span; k++) largest = fmax(largest, fabs(start.weight[order][k]));
   return largest > 0.0 ? 1.0 / largest : 1.0;
@@ -52,35 +53,35 @@ double ambulo__end_shift(const ambulo_problem_definition *definition, int i) {
   return definition->travel * along;
 }
 
-static void matching_row(const ambulo__gait_frame *frame, int i, int order, int mirrored,
+static void matching_row(const ambulo__gait_context *context, int i, int order, int mirrored,
                          ambulo__row_table *table) {
-  const ambulo_coordinate *from = &frame->model->coordinates[i];
+  const ambulo_coordinate *from = &context->model->coordinates[i];
   int target = mirrored ? from->mirror : i;
   double sign = mirrored ? from->mirror_sign : 1.0;
-  double scale = order_scale(frame, order);
-  double shift = order == 0 ? ambulo__end_shift(frame->definition, target) : 0.0;
-  const ambulo_coordinate *to = &frame->model->coordinates[target];
-  int last = frame->nodes - 1;
+  double scale = order_scale(context, order);
+  double shift = order == 0 ? ambulo__end_shift(context->definition, target) : 0.0;
+  const ambulo_coordinate *to = &context->model->coordinates[target];
+  int last = context->nodes - 1;
   ambulo__row_kind kind = mirrored ? AMBULO__KIND_MIRRORED : AMBULO__KIND_PERIODIC;
   ambulo__row_begin(table, kind, to->name, order_words[order],
-                    ambulo__row_measure(kind, to->type, 0), AMBULO_EQUAL, -1, frame->times[last],
+                    ambulo__row_measure(kind, to->type, 0), AMBULO_EQUAL, -1, context->times[last],
                     -shift);
-  ambulo__row_term_add(table, last, channel_of(&frame->channels, order, target), scale);
-  ambulo__row_term_add(table, 0, channel_of(&frame->channels, order, i), -sign * scale);
+  ambulo__row_term_add(table, last, channel_of(&context->channels, order, target), scale);
+  ambulo__row_term_add(table, 0, channel_of(&context->channels, order, i), -sign * scale);
 }
 
 /* (14.d) what is prescribed, repeated or mirrored at the ends */
-void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
-  const ambulo_problem_definition *definition = frame->definition;
+void ambulo__end_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  const ambulo_problem_definition *definition = context->definition;
   for (int e = 0; e < definition->end_value_count; e++) {
-    prescribed_row(frame, &definition->end_values[e], table);
+    prescribed_row(context, &definition->end_values[e], table);
   }
   if (definition->ends == AMBULO_ENDS_FREE) return;
   int mirrored = definition->ends == AMBULO_ENDS_MIRRORED;
   int highest = definition->ends_order < 2 ? definition->ends_order : 2;
-  for (int i = 0; i < frame->model->coordinate_count; i++) {
+  for (int i = 0; i < context->model->coordinate_count; i++) {
     for (int order = 0; order <= highest; order++) {
-      matching_row(frame, i, order, mirrored, table);
+      matching_row(context, i, order, mirrored, table);
     }
   }
 }

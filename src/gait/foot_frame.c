@@ -6,31 +6,31 @@
 #include <math.h>
 
 /* direction . (to - from) / |to - from|, the distance taken at q = 0 */
-static ambulo__linear cosine(const ambulo__gait_frame *frame, int from, int to,
+static ambulo__linear cosine(const ambulo__gait_context *context, int from, int to,
                              const double direction[3]) {
   ambulo__linear form = {.count = 0};
   double a[3], b[3], square = 0.0;
-  ambulo__neutral_point(frame->model, from, a);
-  ambulo__neutral_point(frame->model, to, b);
+  ambulo__neutral_point(context->model, from, a);
+  ambulo__neutral_point(context->model, to, b);
   for (int i = 0; i < 3; i++) square += (b[i] - a[i]) * (b[i] - a[i]);
   double factor = square > 0.0 ? 1.0 / sqrt(square) : 0.0;
-  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, to, 0), direction, factor);
-  ambulo__linear_add(&form, ambulo__channel_point(&frame->channels, from, 0), direction, -factor);
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, to, 0), direction, factor);
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, from, 0), direction, -factor);
   return form;
 }
 
-ambulo__linear ambulo__foot_yaw(const ambulo__gait_frame *frame, int foot) {
-  const ambulo_foot *f = &frame->model->feet[foot];
-  return cosine(frame, f->heel_center, f->toe_center, frame->model->left);
+ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot) {
+  const ambulo_foot *f = &context->model->feet[foot];
+  return cosine(context, f->heel_center, f->toe_center, context->model->left);
 }
 
-ambulo__linear ambulo__foot_pitch(const ambulo__gait_frame *frame, int foot) {
-  const ambulo_foot *f = &frame->model->feet[foot];
-  return cosine(frame, f->heel_center, f->toe_center, frame->model->up);
+ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot) {
+  const ambulo_foot *f = &context->model->feet[foot];
+  return cosine(context, f->heel_center, f->toe_center, context->model->up);
 }
 
-ambulo__linear ambulo__foot_roll(const ambulo__gait_frame *frame, int foot) {
-  const ambulo_model *model = frame->model;
+ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot) {
+  const ambulo_model *model = context->model;
   const int *corner = model->feet[foot].heel;
   ambulo__linear none = {.count = 0};
   if (corner[1] < 0) return none;
@@ -38,6 +38,6 @@ ambulo__linear ambulo__foot_roll(const ambulo__gait_frame *frame, int foot) {
   ambulo__neutral_point(model, corner[0], a);
   ambulo__neutral_point(model, corner[1], b);
   for (int i = 0; i < 3; i++) left += model->left[i] * (b[i] - a[i]);
-  return left >= 0.0 ? cosine(frame, corner[0], corner[1], model->up)
-                     : cosine(frame, corner[1], corner[0], model->up);
+  return left >= 0.0 ? cosine(context, corner[0], corner[1], model->up)
+                     : cosine(context, corner[1], corner[0], model->up);
 }

@@ -14,9 +14,9 @@
 #include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
-ambulo__linear ambulo__foot_yaw(const ambulo__gait_frame *frame, int foot);
-ambulo__linear ambulo__foot_pitch(const ambulo__gait_frame *frame, int foot);
+ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot);
+ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot);
 /* No terms for a foot with a single heel corner. */
-ambulo__linear ambulo__foot_roll(const ambulo__gait_frame *frame, int foot);
+ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot);
 
 #endif

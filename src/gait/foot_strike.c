@@ -9,42 +9,43 @@
 #include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
-static void place_row(const ambulo__gait_frame *frame, int node, int point, const char *detail,
+static void place_row(const ambulo__gait_context *context, int node, int point, const char *detail,
                       const double direction[3], double place, ambulo__row_table *table) {
-  ambulo__row_begin(table, AMBULO__KIND_FOOT_STRIKE, frame->model->points[point].name, detail,
-                    AMBULO__METRES, AMBULO_EQUAL, node, frame->times[node], -place);
+  ambulo__row_begin(table, AMBULO__KIND_FOOT_STRIKE, context->model->points[point].name, detail,
+                    AMBULO__METRES, AMBULO_EQUAL, node, context->times[node], -place);
   for (int axis = 0; axis < 3; axis++) {
-    ambulo__row_term_add(table, node, ambulo__channel_point(&frame->channels, point, axis),
+    ambulo__row_term_add(table, node, ambulo__channel_point(&context->channels, point, axis),
                          direction[axis]);
   }
 }
 
-static void contact_rows(const ambulo__gait_frame *frame, int node, const ambulo_contact *contact,
-                         const ambulo__foot_outline *outline, ambulo__row_table *table) {
-  const ambulo_model *model = frame->model;
+static void contact_rows(const ambulo__gait_context *context, int node,
+                         const ambulo_contact *contact, const ambulo__foot_outline *outline,
+                         ambulo__row_table *table) {
+  const ambulo_model *model = context->model;
   double place[2];
   int point = ambulo__contact_point(model, outline, contact, place);
-  place_row(frame, node, point, "forward", model->forward, place[0], table);
+  place_row(context, node, point, "forward", model->forward, place[0], table);
   if (!outline->moves_sideways) return;
-  place_row(frame, node, point, "left", model->left, place[1], table);
+  place_row(context, node, point, "left", model->left, place[1], table);
   if (contact->mode != AMBULO_CONTACT_FLAT) return;
   int toe = model->feet[contact->foot].toe_center;
-  place_row(frame, node, toe, "heading", model->left, place[1], table);
+  place_row(context, node, toe, "heading", model->left, place[1], table);
 }
 
 /* (14.b) r - foothold = 0 while a corner is down */
-void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
-  int feet = frame->model->foot_count;
-  ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);
+void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  int feet = context->model->foot_count;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(context->model, &table->allocator);
   if (!outlines) {
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
-      int contact = frame->active[node * feet + foot];
+      int contact = context->active[node * feet + foot];
       if (contact < 0) continue;
-      contact_rows(frame, node, &frame->definition->contacts[contact], &outlines[foot], table);
+      contact_rows(context, node, &context->definition->contacts[contact], &outlines[foot], table);
     }
   }
   ambulo__free(&table->allocator, outlines);

@@ -16,7 +16,7 @@
 #include "model/model.h"
 #include "trajectory/basis.h"
 
-typedef struct ambulo__gait_frame {
+typedef struct ambulo__gait_context {
   const ambulo_problem_definition *definition;
   const ambulo_model *model;
   const ambulo__basis *basis;
@@ -24,7 +24,7 @@ typedef struct ambulo__gait_frame {
   const double *times; /* [nodes] */
   int nodes;
   const int *active; /* [nodes][feet]: contact index or -1 */
-} ambulo__gait_frame;
+} ambulo__gait_context;
 
 /* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that
  * ends at `duration` includes it. */
@@ -72,37 +72,37 @@ ambulo_status ambulo__strength_check(const ambulo_problem_definition *definition
                                      ambulo_diagnostics *diagnostics);
 
 /* "ground_penetration": corner heights, = 0 in contact, >= 0 otherwise (m). */
-void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__ground_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "foot_strike": horizontal place of the contact point, and the heading of a flat foot (m).
  * Lateral rows are left out for models in which no coordinate moves the point sideways. */
-void ambulo__foot_strike_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "zmp" (Eq. 17', m) and "normal_force" (n.F / mg - minimum_force, body weights).
  * E_PROBLEM with the time when a support polygon is empty. */
-ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_table *table,
+ambulo_status ambulo__zmp_rows(const ambulo__gait_context *context, ambulo__row_table *table,
                                ambulo_diagnostics *diagnostics);
 /* One side of a region of the ZMP, or of a point that is the ZMP shifted by a constant (m). */
 typedef struct ambulo__half_plane ambulo__half_plane;
-void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
+void ambulo__zmp_side_row(const ambulo__gait_context *context, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table);
 /* "contact": a loaded foot within the tolerances of its place and direction (m, rad). */
-void ambulo__contact_tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "clearance": heights, directions and track of a foot in the air (m, rad). */
-void ambulo__clearance_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "pressure": centre of pressure of each loaded foot (m); "friction" (body weights);
  * "free_moment" (m). Needs ground reaction. */
-void ambulo__reaction_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__reaction_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "joint_limit", "speed_limit", "torque_limit". */
-void ambulo__limit_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__limit_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* Every tube has samples, a reference and widths >= 0; E_PROBLEM with its number otherwise. */
 ambulo_status ambulo__tubes_check(const ambulo_problem_definition *definition,
                                   ambulo_diagnostics *diagnostics);
 /* "tracking_tube": distance from reference motions. */
-void ambulo__tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__tube_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* How far the ends carry coordinate i from t = 0 to T, m: the travel along its axis, for a
  * translation of the root. */
 double ambulo__end_shift(const ambulo_problem_definition *definition, int i);
 /* "initial_state", "final_state", "periodic", "mirrored". */
-void ambulo__end_rows(const ambulo__gait_frame *frame, ambulo__row_table *table);
+void ambulo__end_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 
 #endif

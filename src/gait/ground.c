@@ -9,38 +9,39 @@
 #include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
-static void height_row(const ambulo__gait_frame *frame, int node, int point,
+static void height_row(const ambulo__gait_context *context, int node, int point,
                        ambulo_relation relation, ambulo__row_table *table) {
-  ambulo__row_begin(table, AMBULO__KIND_GROUND_PENETRATION, frame->model->points[point].name,
-                    "height", AMBULO__METRES, relation, node, frame->times[node],
-                    -frame->definition->ground_height);
+  ambulo__row_begin(table, AMBULO__KIND_GROUND_PENETRATION, context->model->points[point].name,
+                    "height", AMBULO__METRES, relation, node, context->times[node],
+                    -context->definition->ground_height);
   for (int axis = 0; axis < 3; axis++) {
-    ambulo__row_term_add(table, node, ambulo__channel_point(&frame->channels, point, axis),
-                         frame->model->up[axis]);
+    ambulo__row_term_add(table, node, ambulo__channel_point(&context->channels, point, axis),
+                         context->model->up[axis]);
   }
 }
 
-static void foot_rows(const ambulo__gait_frame *frame, int node, int contact,
+static void foot_rows(const ambulo__gait_context *context, int node, int contact,
                       const ambulo__foot_outline *outline, ambulo__row_table *table) {
-  if (contact >= 0 && frame->definition->contact_tolerance > 0.0) return;
+  if (contact >= 0 && context->definition->contact_tolerance > 0.0) return;
   for (int c = 0; c < outline->count; c++) {
-    int down = contact >= 0 && ambulo__corner_in_contact(frame->definition->contacts[contact].mode,
-                                                         outline->is_heel[c]);
-    height_row(frame, node, outline->point[c], down ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE, table);
+    int down =
+        contact >= 0 &&
+        ambulo__corner_in_contact(context->definition->contacts[contact].mode, outline->is_heel[c]);
+    height_row(context, node, outline->point[c], down ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE, table);
   }
 }
 
 /* (14.a) n.r - h = 0 in contact, >= 0 otherwise */
-void ambulo__ground_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
-  int feet = frame->model->foot_count;
-  ambulo__foot_outline *outlines = ambulo__foot_outlines(frame->model, &table->allocator);
+void ambulo__ground_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  int feet = context->model->foot_count;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(context->model, &table->allocator);
   if (!outlines) {
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
     for (int foot = 0; foot < feet; foot++) {
-      foot_rows(frame, node, frame->active[node * feet + foot], &outlines[foot], table);
+      foot_rows(context, node, context->active[node * feet + foot], &outlines[foot], table);
     }
   }
   ambulo__free(&table->allocator, outlines);

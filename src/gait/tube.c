@@ -50,32 +50,32 @@ static double reference_at(const ambulo_tube *tube, int coordinates, int i, doub
   return r[0] + fraction * (r[coordinates] - r[0]);
 }
 
-static void tube_row(const ambulo__gait_frame *frame, int node, int i, const char *detail,
+static void tube_row(const ambulo__gait_context *context, int node, int i, const char *detail,
                      ambulo_relation relation, double sign, double bound,
                      ambulo__row_table *table) {
-  const ambulo_coordinate *c = &frame->model->coordinates[i];
+  const ambulo_coordinate *c = &context->model->coordinates[i];
   ambulo__row_begin(table, AMBULO__KIND_TRACKING_TUBE, c->name, detail,
                     ambulo__row_measure(AMBULO__KIND_TRACKING_TUBE, c->type, 0), relation, node,
-                    frame->times[node], -sign * bound);
-  ambulo__row_term_add(table, node, ambulo__channel_q(&frame->channels, i), sign);
+                    context->times[node], -sign * bound);
+  ambulo__row_term_add(table, node, ambulo__channel_q(&context->channels, i), sign);
 }
 
-void ambulo__tube_rows(const ambulo__gait_frame *frame, ambulo__row_table *table) {
-  const ambulo_problem_definition *definition = frame->definition;
-  int coordinates = frame->model->coordinate_count;
+void ambulo__tube_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
+  const ambulo_problem_definition *definition = context->definition;
+  int coordinates = context->model->coordinate_count;
   for (int t = 0; t < definition->tube_count; t++) {
     const ambulo_tube *tube = &definition->tubes[t];
-    for (int node = 0; node < frame->nodes; node++) {
-      double share = frame->times[node] / definition->duration;
+    for (int node = 0; node < context->nodes; node++) {
+      double share = context->times[node] / definition->duration;
       for (int i = 0; i < coordinates; i++) {
         double width = tube->half_width[i];
         if (!isfinite(width)) continue;
         double r = reference_at(tube, coordinates, i, share);
         if (width == 0.0) {
-          tube_row(frame, node, i, "on", AMBULO_EQUAL, 1.0, r, table);
+          tube_row(context, node, i, "on", AMBULO_EQUAL, 1.0, r, table);
         } else {
-          tube_row(frame, node, i, "lower", AMBULO_NOT_NEGATIVE, 1.0, r - width, table);
-          tube_row(frame, node, i, "upper", AMBULO_NOT_NEGATIVE, -1.0, r + width, table);
+          tube_row(context, node, i, "lower", AMBULO_NOT_NEGATIVE, 1.0, r - width, table);
+          tube_row(context, node, i, "upper", AMBULO_NOT_NEGATIVE, -1.0, r + width, table);
         }
       }
     }

@@ -25,45 +25,45 @@
 static const double smallest_region = 1e-9;
 
 /* (17') one side of the support region, without the division by n.F */
-void ambulo__zmp_side_row(const ambulo__gait_frame *frame, int node, ambulo__row_kind kind,
+void ambulo__zmp_side_row(const ambulo__gait_context *context, int node, ambulo__row_kind kind,
                           const char *subject, const ambulo__half_plane *side,
                           ambulo__row_table *table) {
-  const ambulo_model *model = frame->model;
+  const ambulo_model *model = context->model;
   double a = side->normal[0], b = side->normal[1], c = side->offset;
-  double h = frame->definition->ground_height, mg = ambulo__model_weight(model);
+  double h = context->definition->ground_height, mg = ambulo__model_weight(model);
   ambulo__row_begin(table, kind, subject, side->detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node,
-                    frame->times[node], 0.0);
+                    context->times[node], 0.0);
   for (int i = 0; i < 3; i++) {
     double f = model->forward[i], l = model->left[i], n = model->up[i];
-    ambulo__row_term_add(table, node, ambulo__channel_moment(&frame->channels, i),
+    ambulo__row_term_add(table, node, ambulo__channel_moment(&context->channels, i),
                          (b * f - a * l) / mg);
-    ambulo__row_term_add(table, node, ambulo__channel_force(&frame->channels, i),
+    ambulo__row_term_add(table, node, ambulo__channel_force(&context->channels, i),
                          (h * (a * f + b * l) - c * n) / mg);
   }
 }
 
-static void force_row(const ambulo__gait_frame *frame, int node, ambulo__row_table *table) {
-  double mg = ambulo__model_weight(frame->model);
+static void force_row(const ambulo__gait_context *context, int node, ambulo__row_table *table) {
+  double mg = ambulo__model_weight(context->model);
   ambulo__row_begin(table, AMBULO__KIND_NORMAL_FORCE, "ground", "vertical", AMBULO__BODY_WEIGHTS,
-                    AMBULO_NOT_NEGATIVE, node, frame->times[node],
-                    -frame->definition->minimum_force);
+                    AMBULO_NOT_NEGATIVE, node, context->times[node],
+                    -context->definition->minimum_force);
   for (int i = 0; i < 3; i++) {
-    ambulo__row_term_add(table, node, ambulo__channel_force(&frame->channels, i),
-                         frame->model->up[i] / mg);
+    ambulo__row_term_add(table, node, ambulo__channel_force(&context->channels, i),
+                         context->model->up[i] / mg);
   }
 }
 
 static const char *const mode_words[] = {"on its heel", "flat", "on its toes"};
 
-static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, double size,
+static ambulo_status refuse_empty(const ambulo__gait_context *context, int node, double size,
                                   int planar, ambulo_diagnostics *diagnostics) {
-  const ambulo_problem_definition *definition = frame->definition;
-  const int *active = frame->active + node * frame->model->foot_count;
+  const ambulo_problem_definition *definition = context->definition;
+  const int *active = context->active + node * context->model->foot_count;
   const char *foot = "no foot", *mode = "loaded";
   int loaded = 0;
-  for (int i = 0; i < frame->model->foot_count; i++) {
+  for (int i = 0; i < context->model->foot_count; i++) {
     if (active[i] < 0) continue;
-    foot = frame->model->feet[i].name;
+    foot = context->model->feet[i].name;
     mode = mode_words[definition->contacts[active[i]].mode];
     loaded++;
   }
@@ -78,30 +78,30 @@ static ambulo_status refuse_empty(const ambulo__gait_frame *frame, int node, dou
   return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, hint,
                        "constraints.zmp: the support polygon is empty at t = %.6g s (%s %s, margin "
                        "%.6g m, %s %.3g %s); expected a positive %s",
-                       frame->times[node], foot, mode, definition->support_margin,
+                       context->times[node], foot, mode, definition->support_margin,
                        planar ? "length" : "area", size, planar ? "m" : "m^2",
                        planar ? "length" : "area");
 }
 
 /* the region of the feet loaded at a node, refused when it is empty */
-static ambulo_status region_at(const ambulo__gait_frame *frame, int node, int planar,
+static ambulo_status region_at(const ambulo__gait_context *context, int node, int planar,
                                ambulo__support_region *region, ambulo_diagnostics *diagnostics) {
-  const int *active = frame->active + node * frame->model->foot_count;
-  ambulo_status status = ambulo__support_region_of(frame->definition, active, planar, region);
+  const int *active = context->active + node * context->model->foot_count;
+  ambulo_status status = ambulo__support_region_of(context->definition, active, planar, region);
   if (status) {
     return ambulo__error(
         diagnostics, status, ambulo__nowhere, NULL,
         "constraints.zmp: too many foot corners at t = %.6g s; expected at most %d",
-        frame->times[node], AMBULO__POLYGON_CAPACITY - 1);
+        context->times[node], AMBULO__POLYGON_CAPACITY - 1);
   }
   if (region->size >= smallest_region) return AMBULO_OK;
-  return refuse_empty(frame, node, region->size, planar, diagnostics);
+  return refuse_empty(context, node, region->size, planar, diagnostics);
 }
 
 /* the same contacts as one node before: the region, a constant of the phase, is kept */
-static int same_contacts(const ambulo__gait_frame *frame, int node) {
-  int feet = frame->model->foot_count;
-  const int *active = frame->active + node * feet;
+static int same_contacts(const ambulo__gait_context *context, int node) {
+  int feet = context->model->foot_count;
+  const int *active = context->active + node * feet;
   if (node == 0) return 0;
   for (int foot = 0; foot < feet; foot++) {
     if (active[foot] != active[foot - feet]) return 0;
@@ -109,20 +109,20 @@ static int same_contacts(const ambulo__gait_frame *frame, int node) {
   return 1;
 }
 
-ambulo_status ambulo__zmp_rows(const ambulo__gait_frame *frame, ambulo__row_table *table,
+ambulo_status ambulo__zmp_rows(const ambulo__gait_context *context, ambulo__row_table *table,
                                ambulo_diagnostics *diagnostics) {
-  int planar = !ambulo__model_moves_sideways(frame->model);
+  int planar = !ambulo__model_moves_sideways(context->model);
   ambulo__support_region region = {.count = 0};
-  for (int node = 0; node < ambulo__distinct_nodes(frame, AMBULO__OF_FORCES); node++) {
-    if (frame->definition->support != AMBULO_SUPPORT_OFF) {
-      if (!same_contacts(frame, node)) {
-        ambulo_status status = region_at(frame, node, planar, &region, diagnostics);
+  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_FORCES); node++) {
+    if (context->definition->support != AMBULO_SUPPORT_OFF) {
+      if (!same_contacts(context, node)) {
+        ambulo_status status = region_at(context, node, planar, &region, diagnostics);
         if (status) return status;
       }
       for (int k = 0; k < region.count; k++)
-        ambulo__zmp_side_row(frame, node, AMBULO__KIND_ZMP, "support", &region.side[k], table);
+        ambulo__zmp_side_row(context, node, AMBULO__KIND_ZMP, "support", &region.side[k], table);
     }
-    if (frame->definition->minimum_force >= 0.0) force_row(frame, node, table);
+    if (context->definition->minimum_force >= 0.0) force_row(context, node, table);
   }
   return table->status;
 }

@@ -48,10 +48,10 @@ static int is_users(const ambulo_term *term) {
 ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
                                     ambulo__metric *metric) {
   int candidates = 4 * p->coordinates; /* q, qd, qdd, tau */
-  ambulo__term_frame frame = {.model = p->model, .channels = p->channels, .nodes = p->nodes};
+  ambulo__term_context context = {.model = p->model, .channels = p->channels, .nodes = p->nodes};
   int forms = 0; /* most residuals of a term at one node */
   for (int t = 0; t < p->definition.term_count; t++) {
-    int count = ambulo__term_forms(&p->definition.terms[t], &frame, 0);
+    int count = ambulo__term_forms(&p->definition.terms[t], &context, 0);
     if (count > forms) forms = count;
   }
   if (forms < p->coordinates) forms = p->coordinates; /* accelerations */
@@ -126,15 +126,15 @@ static int form_row(const ambulo__metric *metric, const ambulo_workspace *worksp
 static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *workspace,
                           const ambulo_term *term, int node, double scale, int count) {
   const ambulo_problem *p = metric->problem;
-  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  ambulo__term_context context = ambulo__term_context_of(workspace);
   int width = ambulo__node_width(p, node), last = term->kind == AMBULO_TORQUE_RATE;
   for (int ahead = 0; ahead <= last && ahead <= node; ahead++) {
-    int base = node - ahead, forms = ambulo__term_forms(term, &frame, base), shared;
+    int base = node - ahead, forms = ambulo__term_forms(term, &context, base), shared;
     double weight = scale * term->weight * ambulo__term_quadrature(p, term, base);
     for (int j = 0; j < forms && count < metric->row_capacity; j++) {
       double *row = row_at(metric, count, width);
       ambulo__form form;
-      ambulo__term_form(term, &frame, base, j, &form);
+      ambulo__term_form(term, &context, base, j, &form);
       if (!form_row(metric, workspace, node, ahead, &form, row, &shared)) continue;
       double curvature = weight * ambulo__term_residual(term, form.u).curvature;
       /* 2 a^2 + 2 b^2 >= (a + b)^2 keeps a residual over two nodes local to each */
@@ -287,7 +287,7 @@ static double user_acceleration_curvature(const ambulo__metric *metric,
 static double acceleration_curvature(const ambulo__metric *metric,
                                      const ambulo_workspace *workspace, int node) {
   const ambulo_problem *p = metric->problem;
-  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  ambulo__term_context context = ambulo__term_context_of(workspace);
   double sum = 0.0;
   for (int c = 0; c < metric->channels; c++)
     sum += curvature_of(workspace, node, metric->channel[c]) *
@@ -296,10 +296,10 @@ static double acceleration_curvature(const ambulo__metric *metric,
     const ambulo_term *term = &p->definition.terms[t];
     if (!is_composite(term)) continue;
     double weight = term->weight * ambulo__term_quadrature(p, term, node);
-    int forms = ambulo__term_forms(term, &frame, node);
+    int forms = ambulo__term_forms(term, &context, node);
     for (int j = 0; j < forms; j++) {
       ambulo__form form;
-      ambulo__term_form(term, &frame, node, j, &form);
+      ambulo__term_form(term, &context, node, j, &form);
       double curvature = weight * ambulo__term_residual(term, form.u).curvature;
       for (int c = 0; c < form.count; c++)
         sum += curvature * form.slope[c] * form.slope[c] *

@@ -45,13 +45,13 @@ static void add_user_term(ambulo_workspace *workspace, const ambulo_term *term, 
 static void add_composite_term(ambulo_workspace *workspace, const ambulo_term *term,
                                double factor) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  ambulo__term_context context = ambulo__term_context_of(workspace);
   for (int k = 0; k < p->nodes; k++) {
     double weight = factor * ambulo__term_quadrature(p, term, k);
-    int count = ambulo__term_forms(term, &frame, k);
+    int count = ambulo__term_forms(term, &context, k);
     for (int j = 0; j < count; j++) {
       ambulo__form form;
-      ambulo__term_form(term, &frame, k, j, &form);
+      ambulo__term_form(term, &context, k, j, &form);
       double slope = weight * ambulo__term_residual(term, form.u).slope;
       for (int c = 0; c < form.count; c++)
         *weight_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];

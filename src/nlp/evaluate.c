@@ -78,14 +78,14 @@ static double residual_term_value(const ambulo_workspace *workspace, const ambul
 
 static double composite_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  ambulo__term_context context = ambulo__term_context_of(workspace);
   double sum = 0.0;
   for (int k = 0; k < p->nodes; k++) {
-    int count = ambulo__term_forms(term, &frame, k);
+    int count = ambulo__term_forms(term, &context, k);
     double node = 0.0;
     for (int j = 0; j < count; j++) {
       ambulo__form form;
-      ambulo__term_form(term, &frame, k, j, &form);
+      ambulo__term_form(term, &context, k, j, &form);
       if (form.count) node += ambulo__term_residual(term, form.u).value;
     }
     sum += ambulo__term_quadrature(p, term, k) * node;

@@ -60,11 +60,11 @@ static double node_value(ambulo_workspace *workspace, const ambulo_term *term, i
     }
     return sum;
   }
-  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
-  int forms = ambulo__term_forms(term, &frame, node);
+  ambulo__term_context context = ambulo__term_context_of(workspace);
+  int forms = ambulo__term_forms(term, &context, node);
   for (int j = 0; j < forms; j++) {
     ambulo__form form;
-    ambulo__term_form(term, &frame, node, j, &form);
+    ambulo__term_form(term, &context, node, j, &form);
     if (form.count) sum += ambulo__term_residual(term, form.u).value;
   }
   return sum;

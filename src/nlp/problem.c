@@ -96,22 +96,23 @@ static void add_user_rows(ambulo_problem *p) {
 
 static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
-  ambulo__gait_frame frame = {d, p->model, p->basis, p->channels, p->times, p->nodes, p->active};
+  ambulo__gait_context context = {d,        p->model, p->basis, p->channels,
+                                  p->times, p->nodes, p->active};
   ambulo_status status = AMBULO_OK;
   p->table.weight = ambulo__model_weight(p->model);
-  if (d->ground_penetration) ambulo__ground_rows(&frame, &p->table);
+  if (d->ground_penetration) ambulo__ground_rows(&context, &p->table);
   if (d->contact_tolerance > 0.0) {
-    ambulo__contact_tube_rows(&frame, &p->table);
+    ambulo__contact_tube_rows(&context, &p->table);
   } else if (d->foot_strike) {
-    ambulo__foot_strike_rows(&frame, &p->table);
+    ambulo__foot_strike_rows(&context, &p->table);
   }
-  if (d->clearance.height >= 0.0) ambulo__clearance_rows(&frame, &p->table);
-  status = ambulo__zmp_rows(&frame, &p->table, diagnostics);
+  if (d->clearance.height >= 0.0) ambulo__clearance_rows(&context, &p->table);
+  status = ambulo__zmp_rows(&context, &p->table, diagnostics);
   if (status) return status;
-  if (p->channels.feet) ambulo__reaction_rows(&frame, &p->table);
-  ambulo__limit_rows(&frame, &p->table);
-  ambulo__tube_rows(&frame, &p->table);
-  ambulo__end_rows(&frame, &p->table);
+  if (p->channels.feet) ambulo__reaction_rows(&context, &p->table);
+  ambulo__limit_rows(&context, &p->table);
+  ambulo__tube_rows(&context, &p->table);
+  ambulo__end_rows(&context, &p->table);
   add_user_rows(p);
   if (p->table.status == AMBULO_E_INTERNAL)
     return ambulo__error(diagnostics, AMBULO_E_INTERNAL, ambulo__nowhere, NULL,

@@ -19,17 +19,17 @@ static inline const double *ambulo__user_slope(const ambulo_workspace *workspace
 }
 
 /* What composite terms read their channels from. */
-static inline ambulo__term_frame ambulo__term_frame_of(const ambulo_workspace *workspace) {
+static inline ambulo__term_context ambulo__term_context_of(const ambulo_workspace *workspace) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__term_frame frame = {p->model,
-                              p->channels,
-                              workspace->channel_count,
-                              workspace->channel,
-                              p->nodes,
-                              p->definition.duration / p->definition.intervals,
-                              p->active,
-                              p->definition.ground_height};
-  return frame;
+  ambulo__term_context context = {p->model,
+                                  p->channels,
+                                  workspace->channel_count,
+                                  workspace->channel,
+                                  p->nodes,
+                                  p->definition.duration / p->definition.intervals,
+                                  p->active,
+                                  p->definition.ground_height};
+  return context;
 }
 
 /* Quadrature weight of a term at a node, s: trapezoidal; the torque rate is constant over the

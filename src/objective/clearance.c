@@ -11,22 +11,22 @@
 
 enum { POINTS_OF_A_FOOT = 3 };
 
-int ambulo__clearance_forms(const ambulo__term_frame *frame) {
-  return POINTS_OF_A_FOOT * ambulo_model_foot_count(frame->model);
+int ambulo__clearance_forms(const ambulo__term_context *context) {
+  return POINTS_OF_A_FOOT * ambulo_model_foot_count(context->model);
 }
 
-void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                             int j, ambulo__form *form) {
   int f = j / POINTS_OF_A_FOOT, which = j % POINTS_OF_A_FOOT;
-  const ambulo_foot *foot = ambulo_model_foot(frame->model, f);
-  int feet = ambulo_model_foot_count(frame->model);
-  if (frame->active[node * feet + f] >= 0 || (which == 2 && !foot->has_tip)) return;
+  const ambulo_foot *foot = ambulo_model_foot(context->model, f);
+  int feet = ambulo_model_foot_count(context->model);
+  if (context->active[node * feet + f] >= 0 || (which == 2 && !foot->has_tip)) return;
   int point = which == 0 ? foot->heel_center : which == 1 ? foot->toe_center : foot->tip;
-  const double *up = ambulo_model_up(frame->model);
-  double height = -frame->ground_height;
+  const double *up = ambulo_model_up(context->model);
+  double height = -context->ground_height;
   for (int axis = 0; axis < 3; axis++) {
-    int channel = ambulo__channel_point(&frame->channels, point, axis);
-    height += up[axis] * ambulo__frame_value(frame, node, channel);
+    int channel = ambulo__channel_point(&context->channels, point, axis);
+    height += up[axis] * ambulo__frame_value(context, node, channel);
   }
   form->u = 1.0 - height / term->height;
   if (form->u <= 0.0) {
@@ -35,7 +35,7 @@ void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_frame *f
   }
   for (int axis = 0; axis < 3; axis++) {
     if (up[axis] == 0.0) continue;
-    ambulo__form_add(form, ambulo__channel_point(&frame->channels, point, axis), 0,
+    ambulo__form_add(form, ambulo__channel_point(&context->channels, point, axis), 0,
                      -up[axis] / term->height);
   }
 }

@@ -9,8 +9,8 @@ double ambulo__term_scale(const ambulo_term *term, int i) {
   return term->scale ? term->scale[i] : 1.0;
 }
 
-double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channel) {
-  return frame->lanes[ambulo__lane_index(node, frame->channel_count, channel)];
+double ambulo__frame_value(const ambulo__term_context *context, int node, int channel) {
+  return context->lanes[ambulo__lane_index(node, context->channel_count, channel)];
 }
 
 void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope) {

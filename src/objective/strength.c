@@ -11,14 +11,14 @@
 #include "objective/term.h"
 
 /* (13.d) u: active torque over strength */
-void ambulo__strength_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+void ambulo__strength_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                            int i, ambulo__form *form) {
   double scale = ambulo__term_scale(term, i);
   if (scale == 0.0) return;
-  int tau_channel = ambulo__channel_tau(&frame->channels, i);
-  int q_channel = ambulo__channel_q(&frame->channels, i);
-  double q = ambulo__frame_value(frame, node, q_channel);
-  double active = ambulo__frame_value(frame, node, tau_channel);
+  int tau_channel = ambulo__channel_tau(&context->channels, i);
+  int q_channel = ambulo__channel_q(&context->channels, i);
+  double q = ambulo__frame_value(context, node, q_channel);
+  double active = ambulo__frame_value(context, node, tau_channel);
   if (term->offset) active -= term->offset[i];
   double passive_slope = 0.0, strength = 1.0, strength_slope = 0.0;
   if (term->passive) active -= ambulo__passive_torque(&term->passive[4 * i], q, &passive_slope);

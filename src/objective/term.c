@@ -70,19 +70,19 @@ ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
 
 /* --------------------------------------------------------- composite terms */
 
-int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame, int node) {
+int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *context, int node) {
   switch (term->kind) {
   case AMBULO_TORQUE_POWER:
   case AMBULO_MECHANICAL_POWER:
-    return frame->channels.coordinates;
+    return context->channels.coordinates;
   case AMBULO_TORQUE_RATE:
-    return node + 1 < frame->nodes ? frame->channels.coordinates : 0;
+    return node + 1 < context->nodes ? context->channels.coordinates : 0;
   case AMBULO_UPRIGHT:
     return 2;
   case AMBULO_GROUND_FORCE:
     return 3;
   case AMBULO_CLEARANCE:
-    return ambulo__clearance_forms(frame);
+    return ambulo__clearance_forms(context);
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:
   case AMBULO_ACCELERATION:
@@ -95,28 +95,28 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame,
   return 0;
 }
 
-void ambulo__term_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
-                       ambulo__form *form) {
+void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *context, int node,
+                       int j, ambulo__form *form) {
   form->u = 0.0;
   form->count = 0;
   switch (term->kind) {
   case AMBULO_TORQUE_POWER:
-    ambulo__strength_form(term, frame, node, j, form);
+    ambulo__strength_form(term, context, node, j, form);
     break;
   case AMBULO_MECHANICAL_POWER:
-    ambulo__mechanical_power_form(term, frame, node, j, form);
+    ambulo__mechanical_power_form(term, context, node, j, form);
     break;
   case AMBULO_TORQUE_RATE:
-    ambulo__torque_rate_form(term, frame, node, j, form);
+    ambulo__torque_rate_form(term, context, node, j, form);
     break;
   case AMBULO_UPRIGHT:
-    ambulo__upright_form(term, frame, node, j, form);
+    ambulo__upright_form(term, context, node, j, form);
     break;
   case AMBULO_GROUND_FORCE:
-    ambulo__ground_force_form(frame, node, j, form);
+    ambulo__ground_force_form(context, node, j, form);
     break;
   case AMBULO_CLEARANCE:
-    ambulo__clearance_form(term, frame, node, j, form);
+    ambulo__clearance_form(term, context, node, j, form);
     break;
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:

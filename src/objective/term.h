@@ -74,7 +74,7 @@ typedef struct ambulo__form {
 } ambulo__form;
 
 /* Where a composite term finds its channels. */
-typedef struct ambulo__term_frame {
+typedef struct ambulo__term_context {
   const ambulo_model *model;
   ambulo__channels channels;
   int channel_count;
@@ -83,32 +83,32 @@ typedef struct ambulo__term_frame {
   double step;       /* time between nodes, s */
   const int *active; /* [nodes][feet]: contact, or -1 in the air */
   double ground_height;
-} ambulo__term_frame;
+} ambulo__term_context;
 
 /* Residuals at one node (0 at nodes where the term says nothing). */
-int ambulo__term_forms(const ambulo_term *term, const ambulo__term_frame *frame, int node);
+int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *context, int node);
 /* Residual j of `term` at `node`. */
-void ambulo__term_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
-                       ambulo__form *form);
+void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *context, int node,
+                       int j, ambulo__form *form);
 
 /* The pieces, one file each. */
-void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_frame *frame,
+void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_context *context,
                                    int node, int i, ambulo__form *form);
-void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
-                          ambulo__form *form);
-void ambulo__ground_force_form(const ambulo__term_frame *frame, int node, int axis,
+void ambulo__upright_form(const ambulo_term *term, const ambulo__term_context *context, int node,
+                          int j, ambulo__form *form);
+void ambulo__ground_force_form(const ambulo__term_context *context, int node, int axis,
                                ambulo__form *form);
-int ambulo__clearance_forms(const ambulo__term_frame *frame);
-void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+int ambulo__clearance_forms(const ambulo__term_context *context);
+void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                             int j, ambulo__form *form);
-void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
-                              int i, ambulo__form *form);
-void ambulo__strength_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
+void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_context *context,
+                              int node, int i, ambulo__form *form);
+void ambulo__strength_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                            int i, ambulo__form *form);
 
 /* Value of a channel at a node; adds a channel with a slope to a form. A form that is full has no
  * value any more, u is NaN: a term that outgrows it fails loudly. */
-double ambulo__frame_value(const ambulo__term_frame *frame, int node, int channel);
+double ambulo__frame_value(const ambulo__term_context *context, int node, int channel);
 void ambulo__form_add(ambulo__form *form, int channel, int ahead, double slope);
 
 /* Passive torque b1 exp(k1 q) + b2 exp(k2 q) and its derivative (joint_curves.c). */

@@ -6,13 +6,13 @@
 #include "objective/term.h"
 
 /* (13.g) (tau_k+1 - tau_k) / dt */
-void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_frame *frame, int node,
-                              int i, ambulo__form *form) {
-  double factor = ambulo__term_scale(term, i) / frame->step;
+void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_context *context,
+                              int node, int i, ambulo__form *form) {
+  double factor = ambulo__term_scale(term, i) / context->step;
   if (factor == 0.0) return;
-  int channel = ambulo__channel_tau(&frame->channels, i);
-  double now = ambulo__frame_value(frame, node, channel);
-  double next = ambulo__frame_value(frame, node + 1, channel);
+  int channel = ambulo__channel_tau(&context->channels, i);
+  double now = ambulo__frame_value(context, node, channel);
+  double next = ambulo__frame_value(context, node + 1, channel);
   form->u = factor * (next - now);
   ambulo__form_add(form, channel, 0, -factor);
   ambulo__form_add(form, channel, 1, factor);

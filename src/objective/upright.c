@@ -29,18 +29,18 @@ static void horizontal(const ambulo_model *model, int j, double e[3]) {
 }
 
 /* (13.h) horizontal direction cosines of a line of the body */
-void ambulo__upright_form(const ambulo_term *term, const ambulo__term_frame *frame, int node, int j,
-                          ambulo__form *form) {
+void ambulo__upright_form(const ambulo_term *term, const ambulo__term_context *context, int node,
+                          int j, ambulo__form *form) {
   double e[3];
-  horizontal(frame->model, j, e);
-  double length = line_length(frame->model, term->point);
+  horizontal(context->model, j, e);
+  double length = line_length(context->model, term->point);
   for (int end = 0; end < 2; end++) {
     double sign = end ? 1.0 : -1.0;
     for (int axis = 0; axis < 3; axis++) {
       double slope = sign * e[axis] / length;
       if (slope == 0.0) continue;
-      int channel = ambulo__channel_point(&frame->channels, term->point[end], axis);
-      form->u += slope * ambulo__frame_value(frame, node, channel);
+      int channel = ambulo__channel_point(&context->channels, term->point[end], axis);
+      form->u += slope * ambulo__frame_value(context, node, channel);
       ambulo__form_add(form, channel, 0, slope);
     }
   }

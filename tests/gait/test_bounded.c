@@ -13,7 +13,7 @@ static void a_pair_of_rows(void **state) {
   const double direction[3] = {0.0, 2.0, -1.0};
   ambulo__linear_add(&form, 3, direction, 3.0);
   assert_int_equal(form.count, 2); /* no term of coefficient zero */
-  ambulo__bounded_rows(&f.frame, 1, &name, &form, -1.0, 4.0, &f.table);
+  ambulo__bounded_rows(&f.context, 1, &name, &form, -1.0, 4.0, &f.table);
   assert_int_equal(f.table.row_count, 2);
   *row_channel(&f, 1, 4) = 0.5;
   *row_channel(&f, 1, 5) = -0.2;
@@ -28,10 +28,10 @@ static void an_infinite_bound_has_no_row(void **state) {
   row_fixture f;
   row_fixture_open(&f, 1);
   ambulo__linear form = {.constant = 1.0};
-  ambulo__bounded_rows(&f.frame, 0, &name, &form, -INFINITY, 2.0, &f.table);
+  ambulo__bounded_rows(&f.context, 0, &name, &form, -INFINITY, 2.0, &f.table);
   assert_int_equal(f.table.row_count, 1);
   assert_string_equal(f.table.rows[0].detail, "high");
-  ambulo__bounded_rows(&f.frame, 0, &name, &form, -INFINITY, INFINITY, &f.table);
+  ambulo__bounded_rows(&f.context, 0, &name, &form, -INFINITY, INFINITY, &f.table);
   assert_int_equal(f.table.row_count, 1);
   row_fixture_close(&f);
 }
@@ -46,11 +46,11 @@ static void a_full_form_is_an_error(void **state) {
   for (int i = 0; i < AMBULO__FORM_TERMS / 3; i++) ambulo__linear_add(&form, 0, direction, 1.0);
   assert_int_equal(form.count, AMBULO__FORM_TERMS);
   assert_int_equal(form.overflow, 0);
-  ambulo__bounded_rows(&f.frame, 0, &name, &form, 0.0, 1.0, &f.table);
+  ambulo__bounded_rows(&f.context, 0, &name, &form, 0.0, 1.0, &f.table);
   assert_int_equal(f.table.status, AMBULO_OK);
   ambulo__linear_add(&form, 0, direction, 1.0);
   assert_int_equal(form.overflow, 1);
-  ambulo__bounded_rows(&f.frame, 0, &name, &form, 0.0, 1.0, &f.table);
+  ambulo__bounded_rows(&f.context, 0, &name, &form, 0.0, 1.0, &f.table);
   assert_int_equal(f.table.status, AMBULO_E_INTERNAL);
   row_fixture_close(&f);
 }

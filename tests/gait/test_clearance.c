@@ -17,7 +17,7 @@ static void open_with(row_fixture *f, int planar) {
   f->active[2 * (ROW_NODES - 1) + WALKER_RIGHT] = 2;
   f->model->feet[WALKER_RIGHT].has_tip = 1;
   f->model->feet[WALKER_RIGHT].tip = f->model->feet[WALKER_RIGHT].toe[0];
-  ambulo__clearance_rows(&f->frame, &f->table);
+  ambulo__clearance_rows(&f->context, &f->table);
 }
 
 static void expect(row_fixture *f, const char *subject, const char *detail, double time,
@@ -68,7 +68,7 @@ static void the_left_foot_is_the_mirror_image(void **state) {
   for (int k = 0; k < ROW_NODES; k++) f.active[2 * k + WALKER_RIGHT] = 1;
   f.active[WALKER_LEFT] = 0;
   f.active[2 * (ROW_NODES - 1) + WALKER_LEFT] = 2;
-  ambulo__clearance_rows(&f.frame, &f.table);
+  ambulo__clearance_rows(&f.context, &f.table);
   expect(&f, "l_heel", "to the left", 0.5, 0.06 - (0.09 - 0.1));
   expect(&f, "l_heel", "to the right", 0.5, 0.03 + (0.09 - 0.1));
   row_fixture_close(&f);

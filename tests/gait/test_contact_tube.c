@@ -15,7 +15,7 @@ static void open_with(row_fixture *f, int planar) {
   f->definition.strike_pitch[0] = 0.2;
   f->definition.strike_pitch[1] = 0.4;
   for (int k = 0; k < 3; k++) f->active[2 * k + WALKER_LEFT] = k;
-  ambulo__contact_tube_rows(&f->frame, &f->table);
+  ambulo__contact_tube_rows(&f->context, &f->table);
 }
 
 static void expect(row_fixture *f, const char *subject, const char *detail, double time,
@@ -52,11 +52,11 @@ static void directions_within_the_tolerance(void **state) {
   const ambulo_foot *foot = &f.model->feet[WALKER_LEFT];
   double width = 0.08, length = 0.22;
   for (int k = 0; k < 3; k++) {
-    *row_channel(&f, k, ambulo__channel_point(&f.frame.channels, foot->toe_center, 1)) += 0.022;
-    *row_channel(&f, k, ambulo__channel_point(&f.frame.channels, foot->toe_center, 2)) -= 0.0044;
-    *row_channel(&f, k, ambulo__channel_point(&f.frame.channels, foot->heel[0], 1)) += 0.0004;
+    *row_channel(&f, k, ambulo__channel_point(&f.context.channels, foot->toe_center, 1)) += 0.022;
+    *row_channel(&f, k, ambulo__channel_point(&f.context.channels, foot->toe_center, 2)) -= 0.0044;
+    *row_channel(&f, k, ambulo__channel_point(&f.context.channels, foot->heel[0], 1)) += 0.0004;
   }
-  double *corner = row_channel(&f, 0, ambulo__channel_point(&f.frame.channels, foot->heel[0], 2));
+  double *corner = row_channel(&f, 0, ambulo__channel_point(&f.context.channels, foot->heel[0], 2));
   double sign = corner[0] < -0.09 ? 1.0 : -1.0; /* left is -z: is heel[0] the left corner? */
   expect(&f, "left", "toes low", 0.0, 0.022 / length - sin(0.2)); /* the strike */
   expect(&f, "left", "toes high", 0.0, sin(0.4) - 0.022 / length);
@@ -80,8 +80,8 @@ static void planar_feet_have_four_places_and_a_pitch(void **state) {
 }
 
 static void expect_nodes(const row_fixture *f, int places, int forces) {
-  assert_int_equal(ambulo__distinct_nodes(&f->frame, AMBULO__OF_PLACES), places);
-  assert_int_equal(ambulo__distinct_nodes(&f->frame, AMBULO__OF_FORCES), forces);
+  assert_int_equal(ambulo__distinct_nodes(&f->context, AMBULO__OF_PLACES), places);
+  assert_int_equal(ambulo__distinct_nodes(&f->context, AMBULO__OF_FORCES), forces);
 }
 
 /* ends that match make the last node the first one; forces repeat only where accelerations do */

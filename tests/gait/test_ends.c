@@ -5,9 +5,9 @@
 #include "support/row_fixture.h"
 
 static void set(row_fixture *f, int node, int coordinate, double q, double qd, double qdd) {
-  *row_channel(f, node, ambulo__channel_q(&f->frame.channels, coordinate)) = q;
-  *row_channel(f, node, ambulo__channel_qd(&f->frame.channels, coordinate)) = qd;
-  *row_channel(f, node, ambulo__channel_qdd(&f->frame.channels, coordinate)) = qdd;
+  *row_channel(f, node, ambulo__channel_q(&f->context.channels, coordinate)) = q;
+  *row_channel(f, node, ambulo__channel_qd(&f->context.channels, coordinate)) = qd;
+  *row_channel(f, node, ambulo__channel_qdd(&f->context.channels, coordinate)) = qdd;
 }
 
 static void prescribed_values(void **state) {
@@ -17,7 +17,7 @@ static void prescribed_values(void **state) {
   const ambulo_end_value values[] = {{3, 0, 0, 0.4}, {2, 1, 1, 1.2}, {4, 2, 1, -1.0}};
   f.definition.end_values = values;
   f.definition.end_value_count = 3;
-  ambulo__end_rows(&f.frame, &f.table);
+  ambulo__end_rows(&f.context, &f.table);
   assert_int_equal(f.table.row_count, 3);
   set(&f, 0, 3, 0.5, 0.0, 0.0);
   set(&f, 4, 2, 9.0, 1.5, 9.0);
@@ -42,7 +42,7 @@ static void periodic_ends(void **state) {
   f.definition.ends = AMBULO_ENDS_PERIODIC;
   f.definition.ends_order = 2;
   f.definition.travel = 1.2;
-  ambulo__end_rows(&f.frame, &f.table);
+  ambulo__end_rows(&f.context, &f.table);
   assert_int_equal(f.table.row_count, 7 * 3);
   for (int i = 1; i < 3; i++) {
     set(&f, 0, i, 0.1, 2.0, 10.0);
@@ -64,7 +64,7 @@ static void mirrored_ends(void **state) {
   row_fixture_open(&f, 0);
   f.definition.ends = AMBULO_ENDS_MIRRORED;
   f.definition.travel = 0.6;
-  ambulo__end_rows(&f.frame, &f.table);
+  ambulo__end_rows(&f.context, &f.table);
   assert_int_equal(f.table.row_count, 7 * 2);
   set(&f, 0, 0, 0.02, 0.0, 0.0);
   set(&f, 4, 0, -0.05, 0.0, 0.0);

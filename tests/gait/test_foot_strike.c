@@ -5,7 +5,7 @@ static void open_with(row_fixture *f, int planar, const ambulo_contact *contacts
   row_fixture_open(f, planar);
   f->definition.contacts = contacts;
   for (int k = 0; k < 3; k++) f->active[2 * k + WALKER_LEFT] = k;
-  ambulo__foot_strike_rows(&f->frame, &f->table);
+  ambulo__foot_strike_rows(&f->context, &f->table);
 }
 
 static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, {0.6, 0.1}},

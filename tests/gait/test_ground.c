@@ -11,10 +11,10 @@ static void heights_by_mode(void **state) {
   f.definition.contacts = contacts;
   f.definition.ground_height = 0.3;
   for (int k = 0; k < 3; k++) f.active[2 * k + WALKER_LEFT] = k;
-  ambulo__ground_rows(&f.frame, &f.table);
+  ambulo__ground_rows(&f.context, &f.table);
   assert_int_equal(f.table.row_count, ROW_NODES * 8);
   *row_channel(&f, 1,
-               ambulo__channel_point(&f.frame.channels,
+               ambulo__channel_point(&f.context.channels,
                                      ambulo_model_find_point(f.model, "l_toe_in"), 1)) = 0.7;
   assert_close(row_value(&f, row_find(&f, "ground_penetration", "l_toe_in", "height", 0.25)), 0.4,
                1e-15);
@@ -36,7 +36,7 @@ static void planar_feet_have_two_corners(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 1);
-  ambulo__ground_rows(&f.frame, &f.table);
+  ambulo__ground_rows(&f.context, &f.table);
   assert_int_equal(f.table.row_count, ROW_NODES * 4);
   row_fixture_close(&f);
 }

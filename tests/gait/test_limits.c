@@ -8,12 +8,12 @@ static void limits_at_nodes(void **state) {
   f.definition.joint_limits = AMBULO_LIMIT_NODES;
   f.definition.speed_limits = 1;
   f.definition.torque_limits = 1;
-  ambulo__limit_rows(&f.frame, &f.table);
+  ambulo__limit_rows(&f.context, &f.table);
   assert_int_equal(f.table.row_count, 5 * ROW_NODES);
-  *row_channel(&f, 2, ambulo__channel_q(&f.frame.channels, 4)) = -0.5;
-  *row_channel(&f, 2, ambulo__channel_q(&f.frame.channels, 3)) = 1.6;
-  *row_channel(&f, 2, ambulo__channel_qd(&f.frame.channels, 3)) = -3.0;
-  *row_channel(&f, 2, ambulo__channel_tau(&f.frame.channels, 3)) = 20.0;
+  *row_channel(&f, 2, ambulo__channel_q(&f.context.channels, 4)) = -0.5;
+  *row_channel(&f, 2, ambulo__channel_q(&f.context.channels, 3)) = 1.6;
+  *row_channel(&f, 2, ambulo__channel_qd(&f.context.channels, 3)) = -3.0;
+  *row_channel(&f, 2, ambulo__channel_tau(&f.context.channels, 3)) = 20.0;
   static const struct {
     const char *family, *subject, *detail, *unit;
     double value;
@@ -36,10 +36,10 @@ static void open_with_a_fixed_coordinate(row_fixture *f, ambulo__basis_kind kind
   ambulo__basis_free(f->basis);
   f->basis = NULL;
   assert_int_equal(ambulo__basis_create(kind, 3, intervals, 1.0, NULL, NULL, &f->basis), AMBULO_OK);
-  f->frame.basis = f->basis;
+  f->context.basis = f->basis;
   f->definition.joint_limits = AMBULO_LIMIT_NODES;
   f->model->coordinates[1].range[0] = f->model->coordinates[1].range[1] = 0.2;
-  ambulo__limit_rows(&f->frame, &f->table);
+  ambulo__limit_rows(&f->context, &f->table);
 }
 
 static void a_range_of_no_width_is_one_equation(void **state) {
@@ -49,7 +49,7 @@ static void a_range_of_no_width_is_one_equation(void **state) {
   int row = row_find(&f, "joint_limit", "pelvis_ty", "fixed", 0.0);
   assert_int_equal(f.table.rows[row].relation, AMBULO_EQUAL);
   assert_string_equal(f.table.rows[row].unit, "m");
-  *row_channel(&f, 0, ambulo__channel_q(&f.frame.channels, 1)) = 0.5;
+  *row_channel(&f, 0, ambulo__channel_q(&f.context.channels, 1)) = 0.5;
   assert_close(row_value(&f, row), 0.3, 1e-15);
   row_fixture_close(&f);
 }
@@ -76,7 +76,7 @@ static void limits_on_control_points(void **state) {
   row_fixture f;
   row_fixture_open(&f, 0);
   f.definition.joint_limits = AMBULO_LIMIT_CONTROL_POINTS;
-  ambulo__limit_rows(&f.frame, &f.table);
+  ambulo__limit_rows(&f.context, &f.table);
   int points = ambulo__basis_control_points(f.basis);
   assert_int_equal(f.table.row_count, 3 * points);
   const ambulo__table_row *last = &f.table.rows[3 * points - 1];
@@ -101,9 +101,9 @@ static void rates_are_not_bounded(void **state) {
   f.basis = NULL;
   assert_int_equal(ambulo__basis_create(AMBULO__HERMITE, 3, 4, 1.0, NULL, NULL, &f.basis),
                    AMBULO_OK);
-  f.frame.basis = f.basis;
+  f.context.basis = f.basis;
   f.definition.joint_limits = AMBULO_LIMIT_CONTROL_POINTS;
-  ambulo__limit_rows(&f.frame, &f.table);
+  ambulo__limit_rows(&f.context, &f.table);
   assert_int_equal(ambulo__basis_control_points(f.basis), 10);
   assert_int_equal(f.table.row_count, 3 * 5);
   row_fixture_close(&f);
@@ -117,11 +117,11 @@ static void a_partners_limit_carries_its_name(void **state) {
   f.definition.ends = AMBULO_ENDS_MIRRORED;
   f.definition.joint_limits = AMBULO_LIMIT_NODES;
   f.definition.torque_limits = 1;
-  ambulo__limit_rows(&f.frame, &f.table);
+  ambulo__limit_rows(&f.context, &f.table);
   /* hip_r upper, hip_l by hip_r; knee_r both, knee_l by knee_r; torque of both hips by hip_r's */
   assert_int_equal(f.table.row_count, (2 + 4 + 2) * ROW_NODES);
-  *row_channel(&f, 2, ambulo__channel_q(&f.frame.channels, 5)) = 1.6;
-  *row_channel(&f, 2, ambulo__channel_tau(&f.frame.channels, 5)) = 20.0;
+  *row_channel(&f, 2, ambulo__channel_q(&f.context.channels, 5)) = 1.6;
+  *row_channel(&f, 2, ambulo__channel_tau(&f.context.channels, 5)) = 20.0;
   int row = row_find(&f, "joint_limit", "hip_r", "upper", 1.5);
   assert_int_equal(f.table.rows[row].node, 2);
   assert_close(row_value(&f, row), -0.1, 1e-14);
@@ -137,8 +137,8 @@ static void a_limit_turns_with_the_sign(void **state) {
   f.definition.ends = AMBULO_ENDS_MIRRORED;
   f.definition.joint_limits = AMBULO_LIMIT_NODES;
   f.model->coordinates[0].range[1] = 0.1;
-  ambulo__limit_rows(&f.frame, &f.table);
-  *row_channel(&f, 1, ambulo__channel_q(&f.frame.channels, 0)) = -0.3;
+  ambulo__limit_rows(&f.context, &f.table);
+  *row_channel(&f, 1, ambulo__channel_q(&f.context.channels, 0)) = -0.3;
   int row = row_find(&f, "joint_limit", "pelvis_tz", "upper", 0.25);
   assert_close(row_value(&f, row), 0.4, 1e-14);
   row = row_find(&f, "joint_limit", "pelvis_tz", "upper", 1.25);
@@ -155,7 +155,7 @@ static void a_fixed_partner_fixes(void **state) {
   f.definition.ends = AMBULO_ENDS_MIRRORED;
   f.definition.joint_limits = AMBULO_LIMIT_NODES;
   f.model->coordinates[5].range[0] = f.model->coordinates[5].range[1] = 0.2;
-  ambulo__limit_rows(&f.frame, &f.table);
+  ambulo__limit_rows(&f.context, &f.table);
   int fixed = 0;
   for (int r = 0; r < f.table.row_count; r++) {
     const ambulo__table_row *row = &f.table.rows[r];

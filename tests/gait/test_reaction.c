@@ -17,15 +17,15 @@ static void open_with(row_fixture *f, int planar) {
   f->definition.contact_count = 2;
   f->definition.ground_reaction.kind = AMBULO_REACTION_TWO_STEP;
   f->definition.ground_reaction.transfer = AMBULO_TRANSFER_LINEAR;
-  f->frame.channels.feet = 2;
+  f->context.channels.feet = 2;
   free(f->channel);
   f->channel =
-      calloc((size_t)(ROW_NODES * ambulo__channel_count(&f->frame.channels)), sizeof(double));
+      calloc((size_t)(ROW_NODES * ambulo__channel_count(&f->context.channels)), sizeof(double));
   for (int k = 0; k < ROW_NODES; k++) {
     f->active[2 * k + WALKER_LEFT] = 1;
     f->active[2 * k + WALKER_RIGHT] = k < 2 ? 0 : -1;
   }
-  ambulo__reaction_rows(&f->frame, &f->table);
+  ambulo__reaction_rows(&f->context, &f->table);
 }
 
 /* total force F (forward, up, left) at (x, y) on the ground */
@@ -33,9 +33,9 @@ static void press(row_fixture *f, int node, double x, double y, const double for
   double p[3] = {x, 0.0, -y}, v[3] = {force[0], force[1], -force[2]};
   for (int i = 0; i < 3; i++) {
     int a = (i + 1) % 3, b = (i + 2) % 3;
-    *row_channel(f, node, ambulo__channel_moment(&f->frame.channels, i)) =
+    *row_channel(f, node, ambulo__channel_moment(&f->context.channels, i)) =
         p[a] * v[b] - p[b] * v[a];
-    *row_channel(f, node, ambulo__channel_force(&f->frame.channels, i)) = v[i];
+    *row_channel(f, node, ambulo__channel_force(&f->context.channels, i)) = v[i];
   }
 }
 
@@ -94,7 +94,7 @@ static void friction_is_a_pyramid(void **state) {
   expect(&f, "friction", "total", "to the right", 0.25, 0.5 - 0.2);
   const double foot[3] = {-0.1 * mg, 0.4 * mg, -0.05 * mg};
   for (int i = 0; i < 3; i++)
-    *row_channel(&f, 1, ambulo__channel_foot_force(&f.frame.channels, WALKER_LEFT, i)) = foot[i];
+    *row_channel(&f, 1, ambulo__channel_foot_force(&f.context.channels, WALKER_LEFT, i)) = foot[i];
   expect(&f, "friction", "left", "backward", 0.25, 0.2 - 0.1);
   expect(&f, "friction", "left", "to the left", 0.25, 0.2 - 0.05); /* left is -z */
   row_fixture_close(&f);
@@ -104,8 +104,8 @@ static void free_moments_add_up(void **state) {
   (void)state;
   row_fixture f;
   open_with(&f, 0);
-  *row_channel(&f, 1, ambulo__channel_free_moment(&f.frame.channels, WALKER_RIGHT)) = 0.004 * mg;
-  *row_channel(&f, 1, ambulo__channel_free_moment(&f.frame.channels, WALKER_LEFT)) = 0.003 * mg;
+  *row_channel(&f, 1, ambulo__channel_free_moment(&f.context.channels, WALKER_RIGHT)) = 0.004 * mg;
+  *row_channel(&f, 1, ambulo__channel_free_moment(&f.context.channels, WALKER_LEFT)) = 0.003 * mg;
   expect(&f, "free_moment", "ground", "to the left", 0.25, 0.02 - 0.007);
   expect(&f, "free_moment", "ground", "to the right", 0.25, 0.02 + 0.007);
   row_fixture_close(&f);

@@ -31,11 +31,11 @@ static void both_sides_of_one_coordinate(void **state) {
   (void)state;
   tube_fixture f;
   tube_open(&f);
-  ambulo__tube_rows(&f.rows.frame, &f.rows.table);
+  ambulo__tube_rows(&f.rows.context, &f.rows.table);
   assert_int_equal(f.rows.table.row_count, 2 * ROW_NODES);
   static const double middle[ROW_NODES] = {0.0, 0.5, 1.0, 0.5, 0.0};
   for (int k = 0; k < ROW_NODES; k++) {
-    *row_channel(&f.rows, k, ambulo__channel_q(&f.rows.frame.channels, knee(&f))) = 0.4;
+    *row_channel(&f.rows, k, ambulo__channel_q(&f.rows.context.channels, knee(&f))) = 0.4;
     int low = row_find(&f.rows, "tracking_tube", "knee_r", "lower", 0.25 * k);
     int high = row_find(&f.rows, "tracking_tube", "knee_r", "upper", 0.25 * k);
     assert_close(row_value(&f.rows, low), 0.4 - (middle[k] - 0.25), 1e-14);
@@ -51,11 +51,11 @@ static void no_width_is_an_equation(void **state) {
   tube_fixture f;
   tube_open(&f);
   f.half_width[knee(&f)] = 0.0;
-  ambulo__tube_rows(&f.rows.frame, &f.rows.table);
+  ambulo__tube_rows(&f.rows.context, &f.rows.table);
   assert_int_equal(f.rows.table.row_count, ROW_NODES);
   int row = row_find(&f.rows, "tracking_tube", "knee_r", "on", 0.5);
   assert_int_equal(f.rows.table.rows[row].relation, AMBULO_EQUAL);
-  *row_channel(&f.rows, 2, ambulo__channel_q(&f.rows.frame.channels, knee(&f))) = 1.125;
+  *row_channel(&f.rows, 2, ambulo__channel_q(&f.rows.context.channels, knee(&f))) = 1.125;
   assert_close(row_value(&f.rows, row), 0.125, 1e-15);
   row_fixture_close(&f.rows);
 }

@@ -12,8 +12,8 @@ static void apply(row_fixture *f, const double p[3], const double force[3]) {
   for (int k = 0; k < ROW_NODES; k++) {
     for (int i = 0; i < 3; i++) {
       int j = (i + 1) % 3, l = (i + 2) % 3;
-      *row_channel(f, k, ambulo__channel_force(&f->frame.channels, i)) = force[i];
-      *row_channel(f, k, ambulo__channel_moment(&f->frame.channels, i)) =
+      *row_channel(f, k, ambulo__channel_force(&f->context.channels, i)) = force[i];
+      *row_channel(f, k, ambulo__channel_moment(&f->context.channels, i)) =
           p[j] * force[l] - p[l] * force[j];
     }
   }
@@ -34,7 +34,7 @@ static void box_rows_are_distances(void **state) {
   open_left(&f, 0, AMBULO_SUPPORT_BOX);
   f.definition.ground_height = 0.2;
   f.definition.support_margin = 0.01;
-  assert_int_equal(ambulo__zmp_rows(&f.frame, &f.table, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, NULL), AMBULO_OK);
   assert_int_equal(f.table.row_count, 4 * ROW_NODES);
   const double p[3] = {0.4, 0.2, -0.1}, force[3] = {35.0, body_weight, -20.0};
   apply(&f, p, force);
@@ -54,7 +54,7 @@ static void hull_rows_are_distances(void **state) {
   (void)state;
   row_fixture f;
   open_left(&f, 0, AMBULO_SUPPORT_HULL);
-  assert_int_equal(ambulo__zmp_rows(&f.frame, &f.table, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, NULL), AMBULO_OK);
   const double p[3] = {0.4, 0.0, -0.1}, force[3] = {35.0, body_weight, -20.0};
   apply(&f, p, force);
   static const double expected[] = {0.05, 0.12, 0.03, 0.1};
@@ -69,7 +69,7 @@ static void planar_models_have_two_rows(void **state) {
   (void)state;
   row_fixture f;
   open_left(&f, 1, AMBULO_SUPPORT_HULL);
-  assert_int_equal(ambulo__zmp_rows(&f.frame, &f.table, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, NULL), AMBULO_OK);
   assert_int_equal(f.table.row_count, 2 * ROW_NODES);
   const double p[3] = {0.4, 0.0, 0.0}, force[3] = {35.0, body_weight, 0.0};
   apply(&f, p, force);
@@ -83,7 +83,7 @@ static void normal_force_counts_body_weights(void **state) {
   row_fixture f;
   open_left(&f, 0, AMBULO_SUPPORT_OFF);
   f.definition.minimum_force = 0.3;
-  assert_int_equal(ambulo__zmp_rows(&f.frame, &f.table, NULL), AMBULO_OK);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, NULL), AMBULO_OK);
   assert_int_equal(f.table.row_count, ROW_NODES);
   const double p[3] = {0, 0, 0}, force[3] = {0, 2.0 * body_weight, 0};
   apply(&f, p, force);
@@ -98,12 +98,12 @@ static void empty_regions_are_refused(void **state) {
   f.active[2 * 3 + WALKER_LEFT] = -1;
   f.active[2 * 3 + WALKER_RIGHT] = 1;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  assert_int_equal(ambulo__zmp_rows(&f.frame, &f.table, list), AMBULO_E_PROBLEM);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, list), AMBULO_E_PROBLEM);
   expect_message(list, "the support polygon is empty at t = 0.75 s (right on its toes, margin 0 m");
   ambulo_diagnostics_clear(list);
   f.definition.support = AMBULO_SUPPORT_BOX;
   f.definition.support_margin = 0.04;
-  assert_int_equal(ambulo__zmp_rows(&f.frame, &f.table, list), AMBULO_E_PROBLEM);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, list), AMBULO_E_PROBLEM);
   expect_message(list, "empty at t = 0 s (left flat, margin 0.04 m");
   ambulo_diagnostics_free(list);
   row_fixture_close(&f);

@@ -12,7 +12,7 @@ enum { FORM_CHANNELS = 4 * 2 + 6 + 3 * 2, FORM_NODES = 3 };
 typedef struct form_fixture {
   ambulo_model *model;
   double lanes[FORM_CHANNELS * AMBULO__LANES];
-  ambulo__term_frame frame;
+  ambulo__term_context context;
 } form_fixture;
 
 static inline void form_open(form_fixture *f) {
@@ -20,9 +20,9 @@ static inline void form_open(form_fixture *f) {
   for (int k = 0; k < AMBULO__LANES; k++)
     for (int c = 0; c < FORM_CHANNELS; c++)
       f->lanes[ambulo__lane_index(k, FORM_CHANNELS, c)] = 1.0 + 0.1 * c + 0.01 * k * c;
-  ambulo__term_frame frame = {f->model,   {2, 2, 0}, FORM_CHANNELS, f->lanes,
-                              FORM_NODES, 0.1,       NULL,          0.0};
-  f->frame = frame;
+  ambulo__term_context context = {f->model,   {2, 2, 0}, FORM_CHANNELS, f->lanes,
+                                  FORM_NODES, 0.1,       NULL,          0.0};
+  f->context = context;
 }
 
 static inline double *form_at(form_fixture *f, int node, int channel) {
@@ -32,14 +32,14 @@ static inline double *form_at(form_fixture *f, int node, int channel) {
 /* every slope of the form against a central difference of u in its channel */
 static inline void check_form_slopes(form_fixture *f, const ambulo_term *term, int node, int j) {
   ambulo__form form, plus, minus;
-  ambulo__term_form(term, &f->frame, node, j, &form);
+  ambulo__term_form(term, &f->context, node, j, &form);
   assert_true(form.count > 0);
   for (int c = 0; c < form.count; c++) {
     double *value = form_at(f, node + form.ahead[c], form.channel[c]), kept = *value, h = 1e-6;
     *value = kept + h;
-    ambulo__term_form(term, &f->frame, node, j, &plus);
+    ambulo__term_form(term, &f->context, node, j, &plus);
     *value = kept - h;
-    ambulo__term_form(term, &f->frame, node, j, &minus);
+    ambulo__term_form(term, &f->context, node, j, &minus);
     *value = kept;
     assert_close(form.slope[c], (plus.u - minus.u) / (2.0 * h), 1e-8);
   }

@@ -28,25 +28,25 @@ static void low_feet_in_the_air_cost(void **state) {
   form_fixture f;
   form_open(&f);
   ambulo_model *model = footed_arm(f.model);
-  f.frame.model = model;
-  f.frame.active = active;
-  f.frame.ground_height = 0.5;
+  f.context.model = model;
+  f.context.active = active;
+  f.context.ground_height = 0.5;
   ambulo_term term = {.kind = AMBULO_CLEARANCE, .height = 0.04};
   ambulo__form form;
   for (int node = 0; node < FORM_NODES; node++) {
-    *form_at(&f, node, ambulo__channel_point(&f.frame.channels, 0, 1)) = 0.51;
-    *form_at(&f, node, ambulo__channel_point(&f.frame.channels, 1, 1)) = 0.55;
+    *form_at(&f, node, ambulo__channel_point(&f.context.channels, 0, 1)) = 0.51;
+    *form_at(&f, node, ambulo__channel_point(&f.context.channels, 1, 1)) = 0.55;
   }
-  assert_int_equal(ambulo__term_forms(&term, &f.frame, 0), 3);
-  ambulo__term_form(&term, &f.frame, 0, 0, &form);
+  assert_int_equal(ambulo__term_forms(&term, &f.context, 0), 3);
+  ambulo__term_form(&term, &f.context, 0, 0, &form);
   assert_close(form.u, 0.75, 1e-13);
   check_form_slopes(&f, &term, 0, 0);
-  ambulo__term_form(&term, &f.frame, 0, 1, &form); /* high enough */
+  ambulo__term_form(&term, &f.context, 0, 1, &form); /* high enough */
   assert_int_equal(form.count, 0);
   assert_close(ambulo__term_residual(&term, form.u).value, 0.0, 0.0);
-  ambulo__term_form(&term, &f.frame, 0, 2, &form); /* no tip */
+  ambulo__term_form(&term, &f.context, 0, 2, &form); /* no tip */
   assert_int_equal(form.count, 0);
-  ambulo__term_form(&term, &f.frame, 1, 0, &form); /* on the ground */
+  ambulo__term_form(&term, &f.context, 1, 0, &form); /* on the ground */
   assert_int_equal(form.count, 0);
   ambulo_model_free(model);
   form_close(&f);

@@ -75,16 +75,16 @@ static void terms_with_curves_are_composite(void **state) {
 
 static void composite_terms_count_their_residuals(void **state) {
   (void)state;
-  ambulo__term_frame frame = {.channels = channels, .nodes = 5};
+  ambulo__term_context context = {.channels = channels, .nodes = 5};
   ambulo_term term = {.kind = AMBULO_TORQUE_RATE};
-  assert_int_equal(ambulo__term_forms(&term, &frame, 3), 3);
-  assert_int_equal(ambulo__term_forms(&term, &frame, 4), 0);
+  assert_int_equal(ambulo__term_forms(&term, &context, 3), 3);
+  assert_int_equal(ambulo__term_forms(&term, &context, 4), 0);
   term.kind = AMBULO_UPRIGHT;
-  assert_int_equal(ambulo__term_forms(&term, &frame, 4), 2);
+  assert_int_equal(ambulo__term_forms(&term, &context, 4), 2);
   term.kind = AMBULO_GROUND_FORCE;
-  assert_int_equal(ambulo__term_forms(&term, &frame, 0), 3);
+  assert_int_equal(ambulo__term_forms(&term, &context, 0), 3);
   term.kind = AMBULO_TORQUE_SQUARED;
-  assert_int_equal(ambulo__term_forms(&term, &frame, 0), 0);
+  assert_int_equal(ambulo__term_forms(&term, &context, 0), 0);
 }
 
 /* what finds no room is no part that may be missing: the residual has no value any more */

@@ -6,11 +6,11 @@ static void the_rate_is_the_difference_over_the_step(void **state) {
   form_fixture f;
   form_open(&f);
   ambulo_term term = {.kind = AMBULO_TORQUE_RATE};
-  int channel = ambulo__channel_tau(&f.frame.channels, 1);
+  int channel = ambulo__channel_tau(&f.context.channels, 1);
   *form_at(&f, 0, channel) = 4.0;
   *form_at(&f, 1, channel) = 6.5;
   ambulo__form form;
-  ambulo__term_form(&term, &f.frame, 0, 1, &form);
+  ambulo__term_form(&term, &f.context, 0, 1, &form);
   assert_close(form.u, 25.0, 1e-14);
   assert_int_equal(form.count, 2);
   assert_int_equal(form.ahead[0] + form.ahead[1], 1);

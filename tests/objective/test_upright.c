@@ -9,14 +9,14 @@ static void a_leaning_line_has_its_cosines(void **state) {
   /* the two points of the arm are hypot(0.2, 0.05) apart on their link */
   double length = hypot(0.2, 0.05), lean = 0.3;
   for (int axis = 0; axis < 3; axis++)
-    *form_at(&f, 2, ambulo__channel_point(&f.frame.channels, 1, axis)) = 1.0;
-  *form_at(&f, 2, ambulo__channel_point(&f.frame.channels, 0, 0)) = 1.0 + length * sin(lean);
-  *form_at(&f, 2, ambulo__channel_point(&f.frame.channels, 0, 1)) = 1.0 + length * cos(lean);
-  *form_at(&f, 2, ambulo__channel_point(&f.frame.channels, 0, 2)) = 1.0;
+    *form_at(&f, 2, ambulo__channel_point(&f.context.channels, 1, axis)) = 1.0;
+  *form_at(&f, 2, ambulo__channel_point(&f.context.channels, 0, 0)) = 1.0 + length * sin(lean);
+  *form_at(&f, 2, ambulo__channel_point(&f.context.channels, 0, 1)) = 1.0 + length * cos(lean);
+  *form_at(&f, 2, ambulo__channel_point(&f.context.channels, 0, 2)) = 1.0;
   ambulo__form form;
-  ambulo__term_form(&term, &f.frame, 2, 0, &form);
+  ambulo__term_form(&term, &f.context, 2, 0, &form);
   assert_close(form.u, sin(lean), 1e-14);
-  ambulo__term_form(&term, &f.frame, 2, 1, &form);
+  ambulo__term_form(&term, &f.context, 2, 1, &form);
   assert_close(form.u, 0.0, 1e-14);
   check_form_slopes(&f, &term, 2, 0);
   check_form_slopes(&f, &term, 2, 1);

@@ -61,17 +61,17 @@ static inline int gn_form_gradient(const ambulo_workspace *workspace, int node, 
 static inline void gn_add_composite(const ambulo_workspace *workspace, const ambulo_term *term,
                                     int node, double *local) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__term_frame frame = ambulo__term_frame_of(workspace);
+  ambulo__term_context context = ambulo__term_context_of(workspace);
   double g[GN_WIDEST];
   int width = ambulo__node_width(p, node), last = term->kind == AMBULO_TORQUE_RATE;
   for (int ahead = 0; ahead <= last; ahead++) {
     int base = node - ahead;
     if (base < 0) continue;
     double weight = term->weight * ambulo__term_quadrature(p, term, base);
-    int count = ambulo__term_forms(term, &frame, base), shared = 0;
+    int count = ambulo__term_forms(term, &context, base), shared = 0;
     for (int j = 0; j < count; j++) {
       ambulo__form form;
-      ambulo__term_form(term, &frame, base, j, &form);
+      ambulo__term_form(term, &context, base, j, &form);
       if (!gn_form_gradient(workspace, node, ahead, &form, g, &shared)) continue;
       double curvature = weight * ambulo__term_residual(term, form.u).curvature;
       gn_add_outer(width, shared ? 2.0 * curvature : curvature, g, local);

@@ -1,4 +1,4 @@
-/* tests/support/row_fixture.h - a frame for the row families, and values of their rows. */
+/* tests/support/row_fixture.h - a context for the row families, and values of their rows. */
 #ifndef AMBULO_TESTS_ROW_FIXTURE_H
 #define AMBULO_TESTS_ROW_FIXTURE_H
 
@@ -13,7 +13,7 @@ typedef struct row_fixture {
   ambulo_model *model;
   ambulo__basis *basis;
   ambulo_problem_definition definition;
-  ambulo__gait_frame frame;
+  ambulo__gait_context context;
   ambulo__row_table table;
   double times[ROW_NODES];
   int active[2 * ROW_NODES];
@@ -29,22 +29,22 @@ static inline void row_fixture_open(row_fixture *f, int planar) {
   assert_int_equal(ambulo__basis_create(AMBULO__BSPLINE, 3, 4, 1.0, NULL, NULL, &f->basis),
                    AMBULO_OK);
   for (int k = 0; k < ROW_NODES; k++) f->times[k] = 0.25 * k;
-  f->frame =
-      (ambulo__gait_frame){.definition = &f->definition,
-                           .model = f->model,
-                           .basis = f->basis,
-                           .channels = {f->model->coordinate_count, f->model->point_count, 0},
-                           .times = f->times,
-                           .nodes = ROW_NODES,
-                           .active = f->active};
-  int count = ambulo__channel_count(&f->frame.channels);
+  f->context =
+      (ambulo__gait_context){.definition = &f->definition,
+                             .model = f->model,
+                             .basis = f->basis,
+                             .channels = {f->model->coordinate_count, f->model->point_count, 0},
+                             .times = f->times,
+                             .nodes = ROW_NODES,
+                             .active = f->active};
+  int count = ambulo__channel_count(&f->context.channels);
   f->channel = calloc((size_t)(ROW_NODES * count), sizeof(double));
   ambulo__row_table_init(&f->table, NULL);
   for (int k = 0; k < ROW_NODES; k++) {
     f->active[2 * k] = f->active[2 * k + 1] = -1;
     for (int p = 0; p < f->model->point_count; p++) {
       ambulo__neutral_point(
-          f->model, p, f->channel + k * count + ambulo__channel_point(&f->frame.channels, p, 0));
+          f->model, p, f->channel + k * count + ambulo__channel_point(&f->context.channels, p, 0));
     }
   }
 }
@@ -58,7 +58,7 @@ static inline void row_fixture_close(row_fixture *f) {
 
 /* where a channel of a node is kept */
 static inline double *row_channel(row_fixture *f, int node, int channel) {
-  return f->channel + node * ambulo__channel_count(&f->frame.channels) + channel;
+  return f->channel + node * ambulo__channel_count(&f->context.channels) + channel;
 }
 
 static inline double row_value(row_fixture *f, int row) {
