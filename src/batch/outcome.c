@@ -6,7 +6,7 @@
 #include "base/read_file.h"
 #include "base/clock.h"
 #include "batch/case_path.h"
-#include "batch/run.h"
+#include "batch/supervisor.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -23,21 +23,21 @@ static int from_outside(int number) {
 }
 
 /* first line of the worker's log in the message */
-static ambulo_status disk_trouble(ambulo__batch_run *run, const char *id) {
-  if (run->status) return run->status; /* said once */
-  char *path = ambulo__case_path(run->allocator, run->directory, id, ".log"), *text = NULL;
+static ambulo_status disk_trouble(ambulo__supervisor *batch, const char *id) {
+  if (batch->status) return batch->status; /* said once */
+  char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log"), *text = NULL;
   size_t length = 0;
-  if (path && ambulo__read_file(path, MOST_LOG_BYTES, run->allocator, NULL, &text, &length))
+  if (path && ambulo__read_file(path, MOST_LOG_BYTES, batch->allocator, NULL, &text, &length))
     text = NULL;
   const char *error = text ? strstr(text, "error[") : NULL;
   if (error && strstr(error, "]: ")) error = strstr(error, "]: ") + 3;
   if (!error) error = text && text[0] ? text : "its log says nothing";
-  ambulo__place place = {run->directory, 0, 0, NULL};
-  ambulo_status status = ambulo__error(run->diagnostics, AMBULO_E_IO, place,
+  ambulo__place place = {batch->directory, 0, 0, NULL};
+  ambulo_status status = ambulo__error(batch->diagnostics, AMBULO_E_IO, place,
                                        "what is finished is kept; run the same command again",
                                        "case %s: %.*s", id, (int)strcspn(error, "\n"), error);
-  ambulo__free(run->allocator, text);
-  ambulo__free(run->allocator, path);
+  ambulo__free(batch->allocator, text);
+  ambulo__free(batch->allocator, path);
   return status;
 }
 
@@ -78,25 +78,25 @@ static judgement judge(const ambulo__slot *slot, int wait_status, int taken,
 }
 
 /* an empty log says nothing; one of a case that was solved is kept when it has warnings */
-static ambulo_status drop_empty_log(const ambulo__batch_run *run, const char *id) {
+static ambulo_status drop_empty_log(const ambulo__supervisor *batch, const char *id) {
   struct stat entry;
-  char *path = ambulo__case_path(run->allocator, run->directory, id, ".log");
+  char *path = ambulo__case_path(batch->allocator, batch->directory, id, ".log");
   if (!path) return AMBULO_E_MEMORY;
   if (stat(path, &entry) == 0 && entry.st_size == 0) (void)unlink(path);
-  ambulo__free(run->allocator, path);
+  ambulo__free(batch->allocator, path);
   return AMBULO_OK;
 }
 
-static ambulo_status keep(ambulo__batch_run *run, int index, const ambulo__record *record) {
-  const ambulo__sweep_case *one = &run->sweep->cases[index];
+static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__record *record) {
+  const ambulo__sweep_case *one = &batch->sweep->cases[index];
   ambulo_status status =
-      ambulo__record_write(run->directory, one->id, record, run->allocator, run->diagnostics);
+      ambulo__record_write(batch->directory, one->id, record, batch->allocator, batch->diagnostics);
   if (status) return status;
-  ambulo_batch_progress *p = &run->progress;
-  run->state[index] = AMBULO__CASE_DONE;
-  run->solved[index] = (unsigned char)record->valid;
-  run->origin[index] = record->origin;
-  run->finished_now++;
+  ambulo_batch_progress *p = &batch->progress;
+  batch->state[index] = AMBULO__CASE_DONE;
+  batch->solved[index] = (unsigned char)record->valid;
+  batch->origin[index] = record->origin;
+  batch->finished_now++;
   p->done++;
   p->failed += !record->valid;
   p->last = one->name;
@@ -108,34 +108,34 @@ static ambulo_status keep(ambulo__batch_run *run, int index, const ambulo__recor
   return AMBULO_OK;
 }
 
-ambulo_status ambulo__outcome_record(ambulo__batch_run *run, const ambulo__slot *slot,
+ambulo_status ambulo__outcome_record(ambulo__supervisor *batch, const ambulo__slot *slot,
                                      int wait_status) {
-  const ambulo__sweep_case *one = &run->sweep->cases[slot->index];
+  const ambulo__sweep_case *one = &batch->sweep->cases[slot->index];
   ambulo__record record;
   memset(&record, 0, sizeof record);
   record.key = one->key;
   record.exit_code = -1;
   record.violation = -1.0;
-  record.origin = ambulo__schedule_origin(run, slot->index);
+  record.origin = ambulo__queue_origin(batch, slot->index);
   if (slot->from >= 0)
-    (void)snprintf(record.start, sizeof record.start, "%s", run->sweep->cases[slot->from].id);
+    (void)snprintf(record.start, sizeof record.start, "%s", batch->sweep->cases[slot->from].id);
   record.seconds = ambulo__seconds_now() - slot->begin;
-  record.limit_seconds = run->case_seconds;
-  record.limit_megabytes = run->case_megabytes;
+  record.limit_seconds = batch->case_seconds;
+  record.limit_megabytes = batch->case_megabytes;
   int taken = 0;
-  run->state[slot->index] = AMBULO__CASE_WAITING;
-  ambulo_status status = drop_empty_log(run, one->id);
+  batch->state[slot->index] = AMBULO__CASE_WAITING;
+  ambulo_status status = drop_empty_log(batch, one->id);
   if (!status)
-    status = ambulo__record_take_result(run->directory, one->id, run->allocator, run->diagnostics,
-                                        &record, &taken);
+    status = ambulo__record_take_result(batch->directory, one->id, batch->allocator,
+                                        batch->diagnostics, &record, &taken);
   if (status) return status;
   judgement judged = judge(slot, wait_status, taken, &record);
-  if (judged == RECORDED) return keep(run, slot->index, &record);
-  if (judged == DISK) return disk_trouble(run, one->id);
-  if (slot->cut == 0 && ++run->attempts[slot->index] == MOST_ATTEMPTS) {
-    run->state[slot->index] = AMBULO__CASE_GIVEN_UP;
-    ambulo__place place = {run->directory, 0, 0, NULL};
-    ambulo__warning(run->diagnostics, place, "is the machine out of memory?",
+  if (judged == RECORDED) return keep(batch, slot->index, &record);
+  if (judged == DISK) return disk_trouble(batch, one->id);
+  if (slot->cut == 0 && ++batch->attempts[slot->index] == MOST_ATTEMPTS) {
+    batch->state[slot->index] = AMBULO__CASE_GIVEN_UP;
+    ambulo__place place = {batch->directory, 0, 0, NULL};
+    ambulo__warning(batch->diagnostics, place, "is the machine out of memory?",
                     "case %s was killed from outside %d times; left out of this run", one->id,
                     MOST_ATTEMPTS);
   }

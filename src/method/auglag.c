@@ -5,11 +5,11 @@
  *
  *     S f(w) + constant,   c_i(w) = S v_i(w) + sigma_i <= 0,   each row a constraint
  *
- * and holds multipliers mu, penalty rho and the outer loop. In NLopt's inner problem
+ * and holds multipliers nu, penalty rho and the outer loop. In NLopt's inner problem
  *
- *     S f + rho/2 sum max(0, c + mu/rho)^2 = S F + constant,
+ *     S f + rho/2 sum max(0, c + nu/rho)^2 = S F + constant,
  *     F = f + 1/(2 R) sum ( max(0, lambda + R v)^2 - lambda^2 ),
- *     lambda = mu + rho sigma,   R = rho S
+ *     lambda = nu + rho sigma,   R = rho S
  *
  * F is augmented.c's. What is ours:
  *
@@ -17,11 +17,11 @@
  *              point where it ended: the metric there, whose rows with a force are those that the
  *              model step foresees. NLopt's point does not move by that, and its L-BFGS starts
  *              afresh at every inner solve.
- *   gradients  NLopt adds to the objective's gradient each row's, times rho c + mu. That sum is one
+ *   gradients  NLopt adds to the objective's gradient each row's, times rho c + nu. That sum is one
  *              reverse sweep, each gradient alone would be one too. So NLopt is given the sum in
  *              the place of one row, the one with the largest force, divided by the force that
  *              NLopt is going to multiply it with, and zeros elsewhere; with the objective when no
- *              row has a force. Forces by mu and rho as mirror.h knows them.
+ *              row has a force. Forces by nu and rho as mirror.h knows them.
  *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
  *              walks stand (docs/solver.md: left alone it stops some of them too high). S is
  *              lowered in the same moment, for objective and rows alike: lambda stays, and R
@@ -49,14 +49,14 @@
 /* rows that NLopt is given as one vector: it keeps n doubles for each of them */
 enum { BLOCK = 8 };
 
-typedef struct session session;
+typedef struct drive drive; /* one call of ambulo__auglag */
 
 typedef struct block {
-  session *session;
+  drive *drive;
   int first, count;
 } block;
 
-struct session {
+struct drive {
   ambulo__engine *engine;
   ambulo__stopping *stopping;
   ambulo__mirror mirror;
@@ -68,7 +68,7 @@ struct session {
   double *x;           /* where the last inner solve ended; the caller's */
   double *w;           /* [n]: NLopt's point, in and out */
   double *gradient;    /* [n]: where NLopt asks for none */
-  double *share;       /* [n]: of row `bearer`, the sum of all */
+  double *borne;       /* [n]: the sum of all rows, as row `bearer` is given it */
   int bearer;          /* -1: the objective */
   int dirty;           /* slot of NLopt's one buffer for all blocks that is not zero; -1: none */
   double scale, constant;
@@ -85,7 +85,7 @@ struct session {
 /* ------------------------------------------------------------------ the chart */
 
 /* the model step, mu raised until it can be factored; why it could not be, or none */
-static ambulo_ending model(session *s) {
+static ambulo_ending model(drive *s) {
   ambulo__engine *e = s->engine;
   double *mu = &e->iterate.mu, first = *mu;
   do {
@@ -100,7 +100,7 @@ static ambulo_ending model(session *s) {
   return AMBULO_ENDING_BREAKDOWN;
 }
 
-static ambulo_ending lay_chart(session *s, const double *w) {
+static ambulo_ending lay_chart(drive *s, const double *w) {
   ambulo__engine *e = s->engine;
   memcpy(e->iterate.x, s->x, (size_t)e->setup->n * sizeof *w);
   ambulo_ending failed = model(s);
@@ -113,7 +113,7 @@ static ambulo_ending lay_chart(session *s, const double *w) {
 }
 
 /* how well the model foretold the descent says whether it is damped too much */
-static void update_damping(session *s, double reached) {
+static void update_damping(drive *s, double reached) {
   double *mu = &s->engine->iterate.mu;
   double promised = fmin(s->predicted, -1e-14);
   double by_step = (s->tried - s->chart.start) / promised;
@@ -127,7 +127,7 @@ static void update_damping(session *s, double reached) {
 /* -------------------------------------------------------- after an inner solve */
 
 /* the engine's lambda and R are NLopt's */
-static void take_multipliers(session *s) {
+static void take_multipliers(drive *s) {
   ambulo__iterate *iterate = &s->engine->iterate;
   iterate->rho = s->scale * s->mirror.penalty;
   for (int i = 0; i < s->mirror.rows; i++)
@@ -135,7 +135,7 @@ static void take_multipliers(session *s) {
 }
 
 /* (P.12): NLopt's update, and the growth of R that it leads to */
-static void update_multipliers(session *s) {
+static void update_multipliers(drive *s) {
   ambulo__engine *e = s->engine;
   if (ambulo__mirror_update(&s->mirror, s->row)) {
     double room = s->stopping->penalty_limit / e->iterate.rho;
@@ -146,7 +146,7 @@ static void update_multipliers(session *s) {
 }
 
 /* an inner solve has ended at the point held, where F is `value` */
-static void inner_ended(session *s, double value) {
+static void inner_ended(drive *s, double value) {
   ambulo__engine *e = s->engine;
   const ambulo__trial *held = &e->held->trial;
   ambulo__run *run = e->run;
@@ -169,12 +169,12 @@ static void inner_ended(session *s, double value) {
 
 /* ---------------------------------------------------------------- what NLopt asks */
 
-static int is_over(const session *s) {
+static int is_over(const drive *s) {
   return s->ending != AMBULO_ENDING_NONE || s->again || s->engine->run->stopped;
 }
 
 /* ends NLopt's line search and then NLopt */
-static double give_up(session *s, unsigned n, double *gradient) {
+static double give_up(drive *s, unsigned n, double *gradient) {
   nlopt_force_stop(s->outer);
   if (gradient) memset(gradient, 0, n * sizeof *gradient);
   return -HUGE_VAL;
@@ -182,20 +182,20 @@ static double give_up(session *s, unsigned n, double *gradient) {
 
 /* what the rows are at the point held; where there is none, far from any bound: then F, which has
  * the objective's place, is high enough */
-static void take_rows(session *s) {
+static void take_rows(drive *s) {
   const ambulo__trial *held = &s->engine->held->trial;
   int none = !(held->value < HUGE_VAL);
   for (int i = 0; i < s->mirror.rows; i++)
     s->row[i] = none ? -HUGE_VAL : s->scale * held->excess[i] + s->shift[i];
 }
 
-static double value_of(const session *s, double merit) {
+static double value_of(const drive *s, double merit) {
   const ambulo__trial *held = &s->engine->held->trial;
   return s->scale * (held->value < HUGE_VAL ? held->objective : merit) + s->constant;
 }
 
 /* moves the sum to the row whose force is largest */
-static void give_to_bearer(session *s, unsigned n, double *gradient) {
+static void give_to_bearer(drive *s, unsigned n, double *gradient) {
   const ambulo__mirror *m = &s->mirror;
   double largest = 0.0;
   s->bearer = -1;
@@ -206,12 +206,12 @@ static void give_to_bearer(session *s, unsigned n, double *gradient) {
     s->bearer = i;
   }
   if (s->bearer < 0) return;
-  for (unsigned j = 0; j < n; j++) s->share[j] = gradient[j] / (m->penalty * largest);
+  for (unsigned j = 0; j < n; j++) s->borne[j] = gradient[j] / (m->penalty * largest);
   memset(gradient, 0, n * sizeof *gradient);
 }
 
 /* a trial of L-BFGS */
-static double trial(session *s, unsigned n, const double *w, double *gradient) {
+static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   ambulo__engine *e = s->engine;
   const ambulo__trial *held = &e->held->trial;
   if (s->lay && !is_over(s)) s->ending = lay_chart(s, w);
@@ -230,7 +230,7 @@ static double trial(session *s, unsigned n, const double *w, double *gradient) {
 }
 
 /* NLopt starts, or an inner solve has ended */
-static double between(session *s, unsigned n, const double *w) {
+static double between(drive *s, unsigned n, const double *w) {
   ambulo__engine *e = s->engine;
   if (is_over(s)) return give_up(s, n, NULL);
   double merit = ambulo__chart_value(&s->chart, e, w, s->gradient);
@@ -252,7 +252,7 @@ static double between(session *s, unsigned n, const double *w) {
 }
 
 static double objective(unsigned n, const double *w, double *gradient, void *data) {
-  session *s = data;
+  drive *s = data;
   double begin = ambulo__seconds_now();
   double value = gradient ? trial(s, n, w, gradient) : between(s, n, w);
   s->seconds += ambulo__seconds_now() - begin;
@@ -263,7 +263,7 @@ static double objective(unsigned n, const double *w, double *gradient, void *dat
 static void rows(unsigned m, double *result, unsigned n, const double *w, double *gradient,
                  void *data) {
   const block *b = data;
-  session *s = b->session;
+  drive *s = b->drive;
   int slot = s->bearer - b->first;
   (void)w;
   memcpy(result, s->row + b->first, m * sizeof *result);
@@ -273,13 +273,13 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
     s->dirty = -1;
   }
   if (s->bearer < 0 || slot < 0 || slot >= (int)m) return;
-  memcpy(gradient + (size_t)slot * n, s->share, n * sizeof *gradient);
+  memcpy(gradient + (size_t)slot * n, s->borne, n * sizeof *gradient);
   s->dirty = slot;
 }
 
 /* -------------------------------------------------------------------- one call */
 
-static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
+static int set_up(drive *s, nlopt_opt outer, nlopt_opt local) {
   static const double tolerance[BLOCK] = {0.0}; /* stopping.h has its own */
   int failed = nlopt_set_maxeval(local, AMBULO__INNER_EVALUATIONS) < 0 ||
                nlopt_set_ftol_rel(local, AMBULO__INNER_VALUE) < 0 ||
@@ -294,7 +294,7 @@ static int set_up(session *s, nlopt_opt outer, nlopt_opt local) {
 }
 
 /* NLopt from w = 0; its result */
-static int call(session *s) {
+static int call(drive *s) {
   ambulo__engine *e = s->engine;
   unsigned n = (unsigned)e->setup->n;
   double least, begin = ambulo__seconds_now(), inside = s->seconds;
@@ -312,7 +312,7 @@ static int call(session *s) {
 }
 
 /* S, sigma and the constant for which NLopt starts with the engine's lambda and R; the chart */
-static ambulo_ending prepare(session *s) {
+static ambulo_ending prepare(drive *s) {
   ambulo__engine *e = s->engine;
   const ambulo__trial *held = &e->held->trial;
   const ambulo__iterate *iterate = &e->iterate;
@@ -341,7 +341,7 @@ static ambulo_ending prepare(session *s) {
   return AMBULO_ENDING_NONE;
 }
 
-static ambulo_status create(session *s, ambulo__pool *pool) {
+static ambulo_status create(drive *s, ambulo__pool *pool) {
   ambulo__engine *e = s->engine;
   const int inequalities = e->setup->inequalities;
   size_t n = (size_t)e->setup->n, m = (size_t)inequalities;
@@ -351,7 +351,7 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
   s->shift = ambulo__pool_doubles(pool, m);
   s->w = ambulo__pool_doubles(pool, n);
   s->gradient = ambulo__pool_doubles(pool, n);
-  s->share = ambulo__pool_doubles(pool, n);
+  s->borne = ambulo__pool_doubles(pool, n);
   ambulo_status status = ambulo__chart_create(e->setup->n, pool, &s->chart);
   if (!status) status = ambulo__mirror_create(inequalities, pool, &s->mirror);
   if (status || pool->failed) return AMBULO_E_MEMORY;
@@ -365,7 +365,7 @@ static ambulo_status create(session *s, ambulo__pool *pool) {
 /* Calls until something ends it. One more follows a call that NLopt ended by a test of its own,
  * since all rows hold without a multiplier; that had to be repeated; or whose line search found
  * nothing after at least one inner solve, for which the chart is laid anew. */
-static ambulo_status run(session *s) {
+static ambulo_status run(drive *s) {
   ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {
     int before = r->nlopt.outer;
@@ -385,7 +385,7 @@ static ambulo_status run(session *s) {
 
 ambulo_status ambulo__auglag(ambulo__engine *e, ambulo__stopping *stopping, double *x,
                              ambulo_ending *ending) {
-  session s = {.engine = e, .stopping = stopping, .x = x, .damping = e->iterate.mu};
+  drive s = {.engine = e, .stopping = stopping, .x = x, .damping = e->iterate.mu};
   ambulo__pool pool;
   ambulo__pool_init(&pool, &e->pool.allocator);
   ambulo_status status = create(&s, &pool);

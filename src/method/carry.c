@@ -25,7 +25,7 @@ static int by_series_and_time(const void *a, const void *b) {
 }
 
 /* time that a row stands for, s */
-static double share_of(const ambulo_problem *p, const ambulo__table_row *row) {
+static double time_of(const ambulo_problem *p, const ambulo__table_row *row) {
   return row->node < 0 ? 1.0 : p->quadrature[row->node];
 }
 
@@ -43,7 +43,7 @@ ambulo_status ambulo__carry_from(const ambulo__engine *e, const ambulo_allocator
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
     double multiplier = -rows->scale[i] * e->iterate.lambda[i] / e->setup->objective_scale;
     carried->row[i] =
-        (ambulo__carried_row){series_of(row), row->time, multiplier / share_of(p, row)};
+        (ambulo__carried_row){series_of(row), row->time, multiplier / time_of(p, row)};
   }
   qsort(carried->row, (size_t)carried->count, sizeof *carried->row, by_series_and_time);
   return AMBULO_OK;
@@ -84,7 +84,7 @@ void ambulo__carry_to(const ambulo__carried *carried, ambulo__engine *e) {
   const ambulo__sparse_rows *rows = &e->setup->rows->inequality;
   for (int i = 0; i < e->setup->inequalities; i++) {
     const ambulo__table_row *row = &p->table.rows[rows->row[i]];
-    double multiplier = share_of(p, row) * density_at(carried, series_of(row), row->time);
+    double multiplier = time_of(p, row) * density_at(carried, series_of(row), row->time);
     e->iterate.lambda[i] = fmax(0.0, e->setup->objective_scale * multiplier / -rows->scale[i]);
   }
   e->iterate.carried_objective = carried->count > 0 ? fabs(carried->objective) : -1.0;

@@ -26,7 +26,7 @@ void ambulo__mirror_start(ambulo__mirror *m, double f, const double *row) {
   m->updates = 0;
 }
 
-/* (P.11) NLopt's rule for mu and rho */
+/* (P.11) NLopt's rule for nu and rho */
 int ambulo__mirror_update(ambulo__mirror *m, const double *row) {
   double before = m->measure;
   m->measure = 0.0;

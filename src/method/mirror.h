@@ -1,10 +1,11 @@
 /* method/mirror.h - what NLopt's AUGLAG makes of the rows that it is given.
  *
  * NLopt keeps multipliers and penalty to itself. Both follow from the values that it was given
- * (Birgin & Martinez 2008, algorithm 3.1; NLopt 2.7.1, algs/auglag/auglag.c), for rows c <= 0:
+ * (Birgin & Martinez 2008, algorithm 3.1; NLopt 2.7.1, algs/auglag/auglag.c), for rows c <= 0 with
+ * multipliers nu (mu in NLopt and in the paper; here mu is the damping):
  *
- *     at the start             rho = max(1e-6, min(10, 2 |f| / sum max(0, c)^2)),  mu = 0,  I = inf
- *     after every inner solve  I' = max |max(c, -mu / rho)|,  mu <- max(0, mu + rho c),
+ *     at the start             rho = max(1e-6, min(10, 2 |f| / sum max(0, c)^2)),  nu = 0,  I = inf
+ *     after every inner solve  I' = max |max(c, -nu / rho)|,  nu <- max(0, nu + rho c),
  *                              rho <- 10 rho where I' > I / 2
  *
  * Every operation in NLopt's order, so that the numbers are NLopt's to the last bit. They are
@@ -25,7 +26,7 @@
 
 typedef struct ambulo__mirror {
   int rows;
-  double *multiplier; /* mu, [rows] */
+  double *multiplier; /* nu, [rows] */
   double penalty;     /* rho */
   double measure;     /* I, infeasibility and complementarity in one */
   int updates;        /* inner solves since the start */

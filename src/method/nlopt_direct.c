@@ -21,9 +21,9 @@ typedef struct callback {
   ambulo__sparse_rows *set;
 } callback;
 
-typedef struct session {
+typedef struct callbacks {
   callback objective, rows[AMBULO__DIRECT_SETS];
-} session;
+} callbacks;
 
 ambulo_status ambulo__direct_create(ambulo__direct *d, ambulo__pool *pool) {
   size_t n = (size_t)d->problem->variables;
@@ -31,7 +31,7 @@ ambulo_status ambulo__direct_create(ambulo__direct *d, ambulo__pool *pool) {
   for (int s = 0; s < d->sets; s++) {
     if (d->set[s]->count > largest) largest = d->set[s]->count;
   }
-  d->center = ambulo__pool_doubles(pool, n);
+  d->start = ambulo__pool_doubles(pool, n);
   d->x = ambulo__pool_doubles(pool, n);
   d->w = ambulo__pool_doubles(pool, n);
   d->gradient = ambulo__pool_doubles(pool, n);
@@ -79,7 +79,7 @@ static int move_to(ambulo__direct *d, const double *w) {
   }
   memcpy(d->x, w, n * sizeof *w);
   if (d->whitener) ambulo__band_backward(d->whitener, d->x);
-  for (size_t j = 0; j < n; j++) d->x[j] += d->center[j];
+  for (size_t j = 0; j < n; j++) d->x[j] += d->start[j];
   if (!ambulo__evaluate(d->workspace, d->x)) return 0;
   ambulo__run_fault(d->run, &d->workspace->fault);
   return 1;
@@ -230,7 +230,7 @@ ambulo_status ambulo__direct_minimize(ambulo__direct *d, ambulo_algorithm algori
   }
   nlopt_opt opt = create_optimizer(n, algorithm, evaluations);
   if (!opt) return AMBULO_E_MEMORY;
-  session s = {0};
+  callbacks s = {0};
   s.objective.direct = d;
   s.objective.opt = opt;
   double least, begin = ambulo__seconds_now(), inside = d->workspace->seconds_evaluate;

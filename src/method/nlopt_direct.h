@@ -1,6 +1,6 @@
 /* method/nlopt_direct.h - every row handed straight to NLopt (dense gradients).
  *
- *     x = center + L^-T w     (L the whitener; without one x = center + w)
+ *     x = start + L^-T w     (L the whitener; without one x = start + w)
  */
 #ifndef AMBULO_METHOD_NLOPT_DIRECT_H
 #define AMBULO_METHOD_NLOPT_DIRECT_H
@@ -21,7 +21,7 @@ typedef struct ambulo__direct {
   int sets;
   double objective_scale;
   int nearest;                           /* minimize |w|^2 / 2 instead, until the rows hold */
-  double *center, *x, *w, *gradient;     /* [n] */
+  double *start, *x, *w, *gradient;      /* [n] */
   double *values;                        /* [largest set] */
   double *best_x;                        /* [n] */
   double *last_x;                        /* [n]: where AUGLAG's last inner problem ended */
@@ -33,7 +33,7 @@ typedef struct ambulo__direct {
 /* Vectors for problems of this size; the sets must be there. */
 ambulo_status ambulo__direct_create(ambulo__direct *direct, ambulo__pool *pool);
 
-/* Minimizes from direct->center with at most `evaluations`; the best point seen is kept.
+/* Minimizes from direct->start with at most `evaluations`; the best point seen is kept.
  * AMBULO_AUGLAG or AMBULO_SLSQP. E_LIMIT: the dense matrices would be too large;
  * E_MEMORY. */
 ambulo_status ambulo__direct_minimize(ambulo__direct *direct, ambulo_algorithm algorithm,

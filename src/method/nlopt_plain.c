@@ -41,7 +41,7 @@ static void prepare(ambulo__engine *e, ambulo__direct *d) {
 }
 
 static size_t bytes_of(const ambulo__direct *d) {
-  return (size_t)d->problem->variables * sizeof *d->center;
+  return (size_t)d->problem->variables * sizeof *d->start;
 }
 
 static int is_feasible(const ambulo__direct *d) {
@@ -52,7 +52,7 @@ static int is_over(const ambulo__direct *d) {
   return ambulo__run_over(d->run) || !(d->best_violation < HUGE_VAL);
 }
 
-/* from center to the rows, nearby; the point found is d->best_x and the new center */
+/* from start to the rows, nearby; the point found is d->best_x and the new start */
 static ambulo_status reach(ambulo__direct *d) {
   ambulo_status status = AMBULO_OK;
   d->nearest = 1;
@@ -61,7 +61,7 @@ static ambulo_status reach(ambulo__direct *d) {
     double before = d->best_violation;
     status = ambulo__direct_minimize(d, AMBULO_SLSQP, AMBULO__REACH_EVALUATIONS);
     if (status || is_over(d)) break;
-    memcpy(d->center, d->best_x, bytes_of(d));
+    memcpy(d->start, d->best_x, bytes_of(d));
     d->run->iterations++;
     if (d->best_violation >= before) break;
   }
@@ -69,7 +69,7 @@ static ambulo_status reach(ambulo__direct *d) {
   return status;
 }
 
-/* SLSQP from center; *done when it brought nothing new */
+/* SLSQP from start; *done when it brought nothing new */
 static ambulo_status improve(ambulo__direct *d, int *done) {
   double before = d->best_objective;
   int was_feasible = is_feasible(d);
@@ -79,11 +79,11 @@ static ambulo_status improve(ambulo__direct *d, int *done) {
   *done =
       is_over(d) || (was_feasible && is_feasible(d) &&
                      before - d->best_objective <= AMBULO__PLAIN_SETTLED * fabs(before) + 1e-15);
-  memcpy(d->center, d->best_x, bytes_of(d));
+  memcpy(d->start, d->best_x, bytes_of(d));
   return AMBULO_OK;
 }
 
-/* AUGLAG from center, then to the rows; x: the point before, kept when it is better */
+/* AUGLAG from start, then to the rows; x: the point before, kept when it is better */
 static ambulo_status improve_nearly(ambulo__direct *d, double *x, int *done) {
   double objective = d->best_objective, violation = d->best_violation;
   memcpy(x, d->best_x, bytes_of(d));
@@ -95,7 +95,7 @@ static ambulo_status improve_nearly(ambulo__direct *d, double *x, int *done) {
   if (status) return status;
   const char *message = d->message;
   d->run->iterations++;
-  memcpy(d->center, d->last_x, bytes_of(d));
+  memcpy(d->start, d->last_x, bytes_of(d));
   status = reach(d);
   d->message = message;
   int feasible = is_feasible(d);
@@ -117,7 +117,7 @@ static ambulo_status solve(ambulo__engine *e, ambulo__direct *d, ambulo_algorith
   prepare(e, d);
   ambulo_status status = ambulo__direct_create(d, &e->pool);
   if (status) return status;
-  memcpy(d->center, x, (size_t)e->setup->n * sizeof *x);
+  memcpy(d->start, x, (size_t)e->setup->n * sizeof *x);
   status = reach(d);
   ambulo_ending ending = AMBULO_ENDING_NLOPT;
   for (int k = 0; !status && !done && !is_over(d); k++) {

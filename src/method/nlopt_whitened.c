@@ -38,7 +38,7 @@ static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_alg
     *ending = failed == 2 ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_BREAKDOWN;
     return AMBULO_OK;
   }
-  memcpy(d->center, x, (size_t)e->setup->n * sizeof *x);
+  memcpy(d->start, x, (size_t)e->setup->n * sizeof *x);
   int most = algorithm == AMBULO_AUGLAG ? AMBULO__AUGLAG_ROUND : AMBULO__ROUND_EVALUATIONS;
   ambulo_status status = ambulo__direct_minimize(d, algorithm, most);
   if (status) return status;

@@ -1,6 +1,6 @@
-/* batch/run.h - the supervisor: which case is next, and what became of the last. */
-#ifndef AMBULO_BATCH_RUN_H
-#define AMBULO_BATCH_RUN_H
+/* batch/supervisor.h - the supervisor: which case is next, and what became of the last. */
+#ifndef AMBULO_BATCH_SUPERVISOR_H
+#define AMBULO_BATCH_SUPERVISOR_H
 
 #include "base/clock.h"
 #include "batch/lock.h"
@@ -25,7 +25,7 @@ typedef struct ambulo__slot {
   double begin;  /* s */
 } ambulo__slot;
 
-typedef struct ambulo__batch_run {
+typedef struct ambulo__supervisor {
   const ambulo_sweep *sweep;
   const char *directory;
   ambulo_batch_options options;
@@ -43,23 +43,23 @@ typedef struct ambulo__batch_run {
   int case_megabytes;
   ambulo_batch_progress progress;
   ambulo_status status; /* of the run: E_IO once a worker could not write */
-} ambulo__batch_run;
+} ambulo__supervisor;
 
-/* schedule.c: reads the records of this shard's cases and fills the tables. */
-ambulo_status ambulo__schedule_open(ambulo__batch_run *run);
-void ambulo__schedule_free(ambulo__batch_run *run);
+/* queue.c: reads the records of this shard's cases and fills the tables. */
+ambulo_status ambulo__queue_open(ambulo__supervisor *batch);
+void ambulo__queue_free(ambulo__supervisor *batch);
 /* The next case that may start, or -1. A case that continues another is taken from its record
  * only once that one is done, since only then it is known what it has to start from. */
-int ambulo__schedule_next(ambulo__batch_run *run);
+int ambulo__queue_next(ambulo__supervisor *batch);
 /* The case to go on with in the same slot, or -1. */
-int ambulo__schedule_follower(ambulo__batch_run *run, int index);
+int ambulo__queue_follower(ambulo__supervisor *batch, int index);
 /* The nearest case before it in its chain with a solution; -1: none. */
-int ambulo__schedule_start_of(const ambulo__batch_run *run, int index);
+int ambulo__queue_start_of(const ambulo__supervisor *batch, int index);
 /* Hash of the cases whose solutions lead to this start, one from another; 0: from zero. */
-unsigned long long ambulo__schedule_origin(const ambulo__batch_run *run, int index);
+unsigned long long ambulo__queue_origin(const ambulo__supervisor *batch, int index);
 
 /* outcome.c: judges an ended worker and records the case. */
-ambulo_status ambulo__outcome_record(ambulo__batch_run *run, const ambulo__slot *slot,
+ambulo_status ambulo__outcome_record(ambulo__supervisor *batch, const ambulo__slot *slot,
                                      int wait_status);
 
 #endif
