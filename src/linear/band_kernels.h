@@ -29,6 +29,9 @@ typedef struct ambulo__band_kernels {
   /* a += G'G for the first `width` unknowns of `a` in band storage, which need not be aligned, of
    * `count` rows G, aligned, `stride` whole tiles apart and zero from `width` on */
   void (*add_gram)(int count, int width, int stride, const double *g, int ld, double *a);
+  /* of X [n][8], aligned: y = W'X, y [width][8], aligned; X -= W y */
+  void (*cross)(int n, int width, const double *w, const double *x, double *y);
+  void (*subtract)(int n, int width, const double *w, const double *y, double *x);
   /* y = W'x, y [width] aligned; x -= W y */
   void (*gather)(int n, int width, const double *w, const double *x, double *y);
   void (*scatter)(int n, int width, const double *w, const double *y, double *x);

@@ -80,6 +80,30 @@ static inline wide product(const double *columns, size_t step, const double x[T]
   return even + odd;
 }
 
+/* the sums of the numbers in W vectors */
+#if AMBULO__WIDTH == 8
+#define EVEN(a, b) __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
+#define ODD(a, b) __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
+#define FIRST(a, b) __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
+#define SECOND(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+static inline wide sums_of(const wide v[W]) {
+  wide two[4], four[2];
+  for (int i = 0; i < 4; i++) two[i] = EVEN(v[2 * i], v[2 * i + 1]) + ODD(v[2 * i], v[2 * i + 1]);
+  for (int i = 0; i < 2; i++)
+    four[i] = FIRST(two[2 * i], two[2 * i + 1]) + SECOND(two[2 * i], two[2 * i + 1]);
+  return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+         __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+#else
+#define EVEN(a, b) __builtin_shufflevector(a, b, 0, 4, 2, 6)
+#define ODD(a, b) __builtin_shufflevector(a, b, 1, 5, 3, 7)
+static inline wide sums_of(const wide v[W]) {
+  wide low = EVEN(v[0], v[1]) + ODD(v[0], v[1]), high = EVEN(v[2], v[3]) + ODD(v[2], v[3]);
+  return __builtin_shufflevector(low, high, 0, 1, 4, 5) +
+         __builtin_shufflevector(low, high, 2, 3, 6, 7);
+}
+#endif
+
 static inline double sum_of(wide v) {
   double part[W], sum = 0.0;
   for (int i = 0; i < W; i++) part[i] = v[i];
@@ -175,7 +199,7 @@ static void backward(int n, int kd, int ld, const double *a, const double *corne
       wide other = load(at + i);
       for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
     }
-    for (int c = 0; c < T; c++) v[c] = at[c] - sum_of(sum[c]);
+    for (int c = 0; c < T; c += W) *(loose *)(v + c) = load(at + c) - sums_of(sum + c);
     for (int h = 0; h < T; h += W) store(at + h, product(inverse + h, T, v));
   }
 }
@@ -259,6 +283,41 @@ static void add_gram(int count, int width, int stride, const double *g, int ld, 
   }
 }
 
+/* W numbers of 8 rows of Y = W'X */
+static inline void cross_rows(int n, size_t width, const double *w, const double *x, double *y) {
+  wide sum[T] = {{0}};
+  for (size_t k = 0; k < (size_t)n; k++) {
+    wide value = load(x + k * T);
+    for (size_t r = 0; r < T; r++) sum[r] += value * w[k * width + r];
+  }
+  for (size_t r = 0; r < T; r++) store(y + r * T, sum[r]);
+}
+
+static void cross(int n, int width, const double *w, const double *x, double *y) {
+  for (int i = 0; i < width; i += T) {
+    for (int v = 0; v < T; v += W) cross_rows(n, (size_t)width, w + i, x + v, y + i * T + v);
+  }
+}
+
+/* W numbers of 8 rows of X -= W Y */
+static inline void subtract_rows(size_t width, const double *w, const double *y, double *x) {
+  wide sum[T];
+  for (size_t r = 0; r < T; r++) sum[r] = load(x + r * T);
+  for (size_t i = 0; i < width; i++) {
+    wide value = load(y + i * T);
+    for (size_t r = 0; r < T; r++) sum[r] -= value * w[r * width + i];
+  }
+  for (size_t r = 0; r < T; r++) store(x + r * T, sum[r]);
+}
+
+/* rows of W and X beyond n are there, and X's stay zero (band_kernels.h) */
+static void subtract(int n, int width, const double *w, const double *y, double *x) {
+  size_t stride = (size_t)width;
+  for (size_t k = 0; k < (size_t)blocks_of(n) * T; k += T) {
+    for (size_t v = 0; v < T; v += W) subtract_rows(stride, w + k * stride, y + v, x + k * T + v);
+  }
+}
+
 static void gather(int n, int width, const double *w, const double *x, double *y) {
   size_t stride = (size_t)width, from = 0, end = (size_t)n;
   for (size_t v = 0; v < stride; v++) y[v] = 0.0;
@@ -272,14 +331,20 @@ static void gather(int n, int width, const double *w, const double *x, double *y
   }
 }
 
+static inline wide row_product(size_t width, const double *row, const double *y) {
+  wide sum = load(row) * load(y);
+  for (size_t v = W; v < width; v += W) sum += load(row + v) * load(y + v);
+  return sum;
+}
+
 static void scatter(int n, int width, const double *w, const double *y, double *x) {
-  size_t stride = (size_t)width;
-  for (size_t k = 0; k < (size_t)n; k++) {
-    const double *row = w + k * stride;
-    wide sum = load(row) * load(y);
-    for (size_t v = W; v < stride; v += W) sum += load(row + v) * load(y + v);
-    x[k] -= sum_of(sum);
+  size_t stride = (size_t)width, k = 0, end = (size_t)n;
+  for (; k + W <= end; k += W) {
+    wide row[W];
+    for (size_t r = 0; r < W; r++) row[r] = row_product(stride, w + (k + r) * stride, y);
+    *(loose *)(x + k) -= sums_of(row);
   }
+  for (; k < end; k++) x[k] -= sum_of(row_product(stride, w + k * stride, y));
 }
 
 const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_NAME,
@@ -290,5 +355,7 @@ const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_
                                                    .forward_many = forward_many,
                                                    .gram = gram,
                                                    .add_gram = add_gram,
+                                                   .cross = cross,
+                                                   .subtract = subtract,
                                                    .gather = gather,
                                                    .scatter = scatter};

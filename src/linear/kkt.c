@@ -11,7 +11,8 @@
  * Dependent rows do no harm: M does not notice them. Rows that nearly depend on each other
  * make s small: S is then raised for the next factorization.
  *
- * Border rows by their Schur complement (border.h).
+ * Border rows by their Schur complement (border.h); rows that H gains or loses, a few at a time, by
+ * theirs (update.h).
  *
  * Every pass moves d by M^-1 J'(...) only, that is within H^-1 range(J', C'): retractions
  * built from single passes stay on the same curved surface as exact solves would
@@ -34,6 +35,7 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
   size_t e = (size_t)kkt->equalities;
   ambulo_status status = ambulo__band_create(pool, kkt->n, kd, &kkt->factor);
   if (!status) status = ambulo__border_create(border, pool, &kkt->border);
+  if (!status) status = ambulo__update_create(&kkt->factor, &kkt->border, pool, &kkt->update);
   if (status) return status;
   kkt->penalty = ambulo__pool_doubles(pool, e);
   kkt->residual = ambulo__pool_doubles(pool, e);
@@ -68,10 +70,19 @@ static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
 }
 
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
+  ambulo__update_clear(&kkt->update);
   int failed = factor(kkt, h);
   if (!failed || kkt->stiffness <= AMBULO__STIFFNESS_START) return failed;
   kkt->stiffness = AMBULO__STIFFNESS_START;
   return factor(kkt, h);
+}
+
+void ambulo__kkt_change(ambulo__kkt *kkt, const ambulo__sparse_rows *rows, int i, double weight) {
+  ambulo__update_row(&kkt->update, rows, i, weight);
+}
+
+int ambulo__kkt_renew(ambulo__kkt *kkt, const ambulo__band *h) {
+  return ambulo__update_factor(&kkt->update) ? ambulo__kkt_factor(kkt, h) : 0;
 }
 
 int ambulo__kkt_by_row(ambulo__kkt *kkt) {
@@ -84,6 +95,7 @@ void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *
   const ambulo__border *border = &kkt->border;
   ambulo__band_forward(&kkt->factor, right);
   ambulo__border_eliminate(&kkt->border, b, right);
+  ambulo__update_eliminate(&kkt->update, b, right);
   if (m && border->count) memcpy(m, border->rest, (size_t)border->count * sizeof *m);
   ambulo__band_backward(&kkt->factor, right);
 }
@@ -126,6 +138,8 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
     if (error <= AMBULO__KKT_TOLERANCE || !(error <= AMBULO__KKT_PROGRESS * before)) break;
     before = error;
   }
-  if (error > AMBULO__KKT_SLOW)
+  if (error > AMBULO__KKT_SLOW) {
     kkt->stiffness = fmin(AMBULO__STIFFNESS_LARGEST, AMBULO__STIFFNESS_FACTOR * kkt->stiffness);
+    kkt->update.full = 1; /* which takes a factor */
+  }
 }

@@ -9,12 +9,14 @@
 #define AMBULO_LINEAR_KKT_H
 
 #include "linear/border.h"
+#include "linear/update.h"
 
 typedef struct ambulo__kkt {
   int n, equalities;
   const ambulo__sparse_rows *equality;
   ambulo__band factor; /* L of M = H + J' S J */
   ambulo__border border;
+  ambulo__update update; /* rows that H has gained or lost since then */
   double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H, */
   int by_row;       /* or to what H has along the row */
   double *penalty;  /* [equalities]: diagonal of S */
@@ -28,6 +30,11 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
 /* Factors (KKT) for metric H and the gradients that the row sets hold; they must not change
  * while the factor is in use. 0, or 1 when H is not positive definite. */
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h);
+/* H plus weight J_i'J_i for row i of a set of hosted rows: noted, for ambulo__kkt_renew. */
+void ambulo__kkt_change(ambulo__kkt *kkt, const ambulo__sparse_rows *rows, int i, double weight);
+/* The factor of the last H with all changes since, which is h: by an update of few columns, or
+ * anew. As ambulo__kkt_factor. */
+int ambulo__kkt_renew(ambulo__kkt *kkt, const ambulo__band *h);
 /* Where no H can be factored: from now on stiffness row by row. 0 when it already is. */
 int ambulo__kkt_by_row(ambulo__kkt *kkt);
 

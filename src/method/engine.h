@@ -51,6 +51,7 @@ typedef struct ambulo__linearized {
   ambulo__metric metric;
   ambulo__band base;     /* H0 + mu I */
   ambulo__band whitener; /* L of H0 + mu I + rho J_A' J_A */
+  int assembled;         /* whitener and kkt were made of this base (model_step.c) */
   ambulo__kkt kkt;       /* the same H with the equalities' gradients */
 } ambulo__linearized;
 

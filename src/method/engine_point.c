@@ -64,6 +64,7 @@ int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
   ambulo__band *base = &e->linearized.base;
   ambulo__metric_fill(&e->linearized.metric, e->workspace, e->setup->objective_scale, base);
   ambulo__band_add_diagonal(base, mu);
+  e->linearized.assembled = 0;
   double largest = ambulo__band_largest(base);
   if (isfinite(largest)) return 0;
   ambulo__fault_of_curvature(e->workspace, largest);

@@ -128,22 +128,26 @@ static int mark_active(ambulo__quadratic *q) {
   return changed;
 }
 
-/* H0 + rho J_A'J_A into the whitener, not yet factored; 1 when it is another matrix than before */
-static int assemble(ambulo__linearized *at, ambulo__quadratic *q) {
-  int moved = !q->assembled;
-  if (!q->assembled) {
+/* H0 + rho J_A'J_A into the whitener, and the KKT matrix with it factored: anew, or by an update with
+ * the rows that came and went. 1 when it cannot be. */
+static int factor(ambulo__linearized *at, ambulo__quadratic *q) {
+  const ambulo__sparse_rows *rows = &at->rows.inequality;
+  int fresh = !at->assembled, moved = 0;
+  if (fresh) {
     ambulo__band_copy(&at->base, &at->whitener);
     memset(q->added, 0, (size_t)q->inequalities * sizeof *q->added);
-    q->assembled = 1;
   }
   for (int i = 0; i < q->inequalities; i++) {
     if (q->active[i] == q->added[i]) continue;
-    ambulo__band_add_sparse(&at->whitener, &at->rows.inequality, i,
-                            q->active[i] ? q->rho : -q->rho);
+    double weight = q->active[i] ? q->rho : -q->rho;
+    ambulo__band_add_sparse(&at->whitener, rows, i, weight);
+    if (!fresh) ambulo__kkt_change(&at->kkt, rows, i, weight);
     q->added[i] = q->active[i];
     moved = 1;
   }
-  return moved;
+  at->assembled = 1;
+  if (fresh) return ambulo__kkt_factor(&at->kkt, &at->whitener);
+  return moved && ambulo__kkt_renew(&at->kkt, &at->whitener);
 }
 
 /* -------------------------------------------------------------------- one step */
@@ -154,7 +158,7 @@ static int direction(ambulo__engine *e, double *slope) {
   ambulo__linearized *at = &e->linearized;
   ambulo__quadratic *q = e->quadratic;
   const ambulo__sparse_rows *rows = &at->rows.inequality;
-  if (assemble(at, q) && ambulo__kkt_factor(&at->kkt, &at->whitener)) return 1;
+  if (factor(at, q)) return 1;
   for (int i = 0; i < q->inequalities; i++)
     q->force[i] = q->active[i] ? q->lambda[i] + q->rho * q->linear[i] : 0.0;
   for (int j = 0; j < q->n; j++) q->right[j] = -(q->gradient[j] + q->curved_total[j]);
@@ -231,11 +235,11 @@ int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *p
   ambulo__quadratic *q = e->quadratic;
   size_t bytes = (size_t)q->n * sizeof *q->total;
   int settled = 0;
+  if (q->rho != rho) e->linearized.assembled = 0;
   q->rho = rho;
   memset(q->total, 0, bytes);
   memset(q->curved_total, 0, bytes);
   memset(q->along, 0, (size_t)q->inequalities * sizeof *q->along);
-  q->assembled = 0;
   if (!roughly || !q->warm) (void)mark_active(q);
   q->warm = 0;
   descent d = {.before = HUGE_VAL,
@@ -261,7 +265,8 @@ int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *p
 /* the metric of the rows that were active when the KKT matrix was factored */
 static int finish(ambulo__linearized *at, ambulo__quadratic *q) {
   memcpy(q->active, q->added, (size_t)q->inequalities * sizeof *q->active);
-  if (at->kkt.equalities > 0) return ambulo__band_factor(&at->whitener);
+  if (at->kkt.equalities > 0 || at->kkt.update.taken > 0)
+    return ambulo__band_factor(&at->whitener);
   ambulo__band_copy_factor(&at->kkt.factor, &at->whitener);
   return 0;
 }

@@ -1,0 +1,222 @@
+/* linear/update.c - see update.h. */
+#include "linear/update.h"
+#include "base/lapack.h"
+#include "linear/parameters.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { T = AMBULO__TILE, ROOM = AMBULO__UPDATE_TILES * T };
+
+ambulo_status ambulo__update_create(const ambulo__band *factor, ambulo__border *border,
+                                    ambulo__pool *pool, ambulo__update *u) {
+  size_t n = (size_t)ambulo__whole_tiles(factor->n), square = (size_t)ROOM * ROOM;
+  memset(u, 0, sizeof *u);
+  u->factor = factor;
+  u->border = border;
+  u->n = factor->n;
+  u->row = ambulo__pool_ints(pool, ROOM);
+  u->weight = ambulo__pool_doubles(pool, ROOM);
+  u->wing = ambulo__pool_doubles(pool, n * ROOM);
+  u->cross = ambulo__pool_doubles(pool, (size_t)border->width * ROOM);
+  u->products = ambulo__pool_doubles(pool, square);
+  u->complement = ambulo__pool_doubles(pool, square);
+  u->rest = ambulo__pool_doubles(pool, ROOM);
+  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+void ambulo__update_clear(ambulo__update *u) {
+  u->taken = u->pending = u->full = 0;
+}
+
+static double *wing_of(const ambulo__update *u, int tile) {
+  return u->wing + (size_t)tile * (size_t)ambulo__whole_tiles(u->n) * T;
+}
+
+static double *cross_of(const ambulo__update *u, int tile) {
+  return u->cross + (size_t)tile * (size_t)u->border->width * T;
+}
+
+void ambulo__update_row(ambulo__update *u, const ambulo__sparse_rows *rows, int i, double weight) {
+  for (int k = 0; k < u->taken; k++) {
+    if (u->row[k] != i) continue;
+    u->weight[k] += weight; /* a row that came goes, or the other way round: exactly zero */
+    return;
+  }
+  /* columns of a tile are solved together: each call's begin a new one */
+  int at = u->pending > 0 ? u->taken : ambulo__whole_tiles(u->taken);
+  if (at >= ROOM) {
+    u->full = 1;
+    return;
+  }
+  double *wing = wing_of(u, at / T);
+  if (at % T == 0) memset(wing, 0, (size_t)ambulo__whole_tiles(u->n) * T * sizeof *wing);
+  for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
+    wing[(size_t)rows->column[e] * T + (size_t)(at % T)] = rows->value[e];
+  for (int k = u->taken; k < at; k++) {
+    u->row[k] = -1;
+    u->weight[k] = 0.0;
+  }
+  u->row[at] = i;
+  u->weight[at] = weight;
+  u->taken = at + 1;
+  u->pending++;
+}
+
+/* A'B of columns side by side, A [n][width], B [n][T]: [width][T] */
+static void multiply(const ambulo__border *border, int n, int width, const double *a,
+                     const double *b, double *product) {
+  int columns = T;
+  double one = 1.0, zero = 0.0;
+  if (border->kernels) {
+    border->kernels->cross(n, width, a, b, product);
+  } else {
+    dgemm_("N", "T", &columns, &width, &n, &one, b, &columns, a, &width, &zero, product, &columns);
+  }
+}
+
+/* B -= A X, X [width][T] */
+static void subtract(const ambulo__border *border, int n, int width, const double *a,
+                     const double *x, double *b) {
+  int columns = T;
+  double one = 1.0, minus = -1.0;
+  if (border->kernels) {
+    border->kernels->subtract(n, width, a, x, b);
+  } else {
+    dgemm_("N", "N", &columns, &n, &width, &minus, x, &columns, a, &width, &one, b, &columns);
+  }
+}
+
+/* Z and T of a tile whose place holds U' */
+static void solve_tile(ambulo__update *u, int tile) {
+  ambulo__border *border = u->border;
+  double *wing = wing_of(u, tile), *cross = cross_of(u, tile);
+  ambulo__band_forward_many(u->factor, T, wing);
+  if (border->count == 0) return;
+  multiply(border, u->n, border->width, border->wing, wing, cross);
+  for (int c = 0; c < T; c++) {
+    for (int i = 0; i < border->count; i++) border->rest[i] = cross[i * T + c];
+    ambulo__band_forward(&border->schur, border->rest);
+    ambulo__band_backward(&border->schur, border->rest);
+    for (int i = 0; i < border->count; i++) cross[i * T + c] = border->rest[i];
+  }
+  subtract(border, u->n, border->width, border->wing, cross, wing);
+}
+
+/* Z'Z of a tile with those before it and with itself */
+static void multiply_tile(ambulo__update *u, int tile) {
+  double product[T * T] __attribute__((aligned(64)));
+  for (int other = 0; other <= tile; other++) {
+    multiply(u->border, u->n, T, wing_of(u, tile), wing_of(u, other), product);
+    for (int i = 0; i < T; i++)
+      memcpy(u->products + (tile * T + i) * ROOM + other * T, product + i * T,
+             T * sizeof *product);
+  }
+}
+
+/* one row of L D L'; 1 when its pivot is rounding */
+static int eliminate_row(ambulo__update *u, int i) {
+  double *l = u->complement + i * ROOM;
+  for (int j = 0; j < i; j++) {
+    const double *above = u->complement + j * ROOM;
+    for (int k = 0; k < j; k++) l[j] -= l[k] * above[k];
+  }
+  double pivot = l[i];
+  for (int j = 0; j < i; j++) {
+    double scaled = l[j] / u->complement[j * ROOM + j];
+    pivot -= scaled * l[j];
+    l[j] = scaled;
+  }
+  l[i] = pivot;
+  double size = u->products[i * ROOM + i] + fabs(1.0 / u->weight[i]);
+  return !(fabs(pivot) > AMBULO__UPDATE_LOSS * size);
+}
+
+/* columns without a weight have a row of the unit matrix */
+static int factor_complement(ambulo__update *u) {
+  for (int i = 0; i < u->taken; i++) {
+    double *l = u->complement + i * ROOM;
+    int none = u->weight[i] == 0.0;
+    for (int j = 0; j <= i; j++)
+      l[j] = none || u->weight[j] == 0.0 ? 0.0 : u->products[i * ROOM + j];
+    if (none) {
+      l[i] = 1.0;
+      continue;
+    }
+    l[i] += 1.0 / u->weight[i];
+    if (eliminate_row(u, i)) return 1;
+  }
+  return 0;
+}
+
+int ambulo__update_factor(ambulo__update *u) {
+  if (u->full) return 1;
+  if (u->pending > 0) {
+    int last = (u->taken - 1) / T;
+    for (int tile = (u->taken - u->pending) / T; tile <= last; tile++) {
+      solve_tile(u, tile);
+      multiply_tile(u, tile);
+    }
+    u->pending = 0;
+  }
+  return factor_complement(u);
+}
+
+/* y from its right-hand side */
+static void solve_complement(const ambulo__update *u, double *y) {
+  for (int i = 0; i < u->taken; i++) {
+    const double *l = u->complement + i * ROOM;
+    for (int j = 0; j < i; j++) y[i] -= l[j] * y[j];
+  }
+  for (int i = 0; i < u->taken; i++) y[i] /= u->complement[i * ROOM + i];
+  for (int i = u->taken - 1; i >= 0; i--) {
+    const double *l = u->complement + i * ROOM;
+    for (int j = 0; j < i; j++) y[j] -= l[j] * y[i];
+  }
+}
+
+/* Z'z and z -= Z y of one tile */
+static void gather(const ambulo__update *u, int tile, const double *z, double *y) {
+  const double *wing = wing_of(u, tile);
+  if (u->border->kernels) {
+    u->border->kernels->gather(u->n, T, wing, z, y);
+    return;
+  }
+  for (int c = 0; c < T; c++) y[c] = 0.0;
+  for (int k = 0; k < u->n; k++) {
+    for (int c = 0; c < T; c++) y[c] += wing[k * T + c] * z[k];
+  }
+}
+
+static void scatter(const ambulo__update *u, int tile, const double *y, double *z) {
+  const double *wing = wing_of(u, tile);
+  if (u->border->kernels) {
+    u->border->kernels->scatter(u->n, T, wing, y, z);
+    return;
+  }
+  for (int k = 0; k < u->n; k++) {
+    for (int c = 0; c < T; c++) z[k] -= wing[k * T + c] * y[c];
+  }
+}
+
+/* (P.14) the changed rows' part of a pass */
+void ambulo__update_eliminate(ambulo__update *u, const double *b, double *z) {
+  const ambulo__border *border = u->border;
+  int tiles = (u->taken + T - 1) / T;
+  double *y = u->rest;
+  for (int tile = 0; tile < tiles; tile++) gather(u, tile, z, y + tile * T);
+  for (int c = 0; c < u->taken; c++) {
+    const double *cross = cross_of(u, c / T) + c % T;
+    for (int i = 0; b && i < border->count; i++) y[c] += cross[i * T] * b[i];
+    if (u->weight[c] == 0.0) y[c] = 0.0;
+  }
+  for (int c = u->taken; c < tiles * T; c++) y[c] = 0.0;
+  solve_complement(u, y);
+  for (int tile = 0; tile < tiles; tile++) {
+    scatter(u, tile, y + tile * T, z);
+    const double *cross = cross_of(u, tile);
+    for (int i = 0; i < border->count; i++) {
+      for (int c = 0; c < T; c++) border->rest[i] -= cross[i * T + c] * y[tile * T + c];
+    }
+  }
+}
