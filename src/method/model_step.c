@@ -20,8 +20,8 @@
  *           is the exact minimum of phi along it (phi' is monotone and piecewise linear)
  *   end     when A repeats, or when a step brought less than a thousandth of the whole gain
  *
- * Rows that come or go are added to or taken from the band; it is factored only when one did. No
- * evaluation but the first is needed. The metric of the iterations that follow is the one with this
+ * Rows that come or go are added to or taken from the band; few of them update its factor
+ * (update.h), more have it factored anew. No evaluation but the first is needed. The metric of the iterations that follow is the one with this
  * predicted A: rows that the step is about to meet are felt before they are hit, which is what
  * plain Gauss-Newton steps lack.
  */
@@ -265,6 +265,7 @@ int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *p
 /* the metric of the rows that were active when the KKT matrix was factored */
 static int finish(ambulo__linearized *at, ambulo__quadratic *q) {
   memcpy(q->active, q->added, (size_t)q->inequalities * sizeof *q->active);
+  at->assembled = 0; /* but factored */
   if (at->kkt.equalities > 0 || at->kkt.update.taken > 0)
     return ambulo__band_factor(&at->whitener);
   ambulo__band_copy_factor(&at->kkt.factor, &at->whitener);

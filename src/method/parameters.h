@@ -199,7 +199,7 @@
  * eleven walks and yardsticks; 1e-1 ends yardstick_72 9 % higher. 0 (as on the last): +4 %, +9 %
  * iterations. T: stopping. */
 #define AMBULO__COARSE_VIOLATION 1e-2
-#define AMBULO__COARSE_CHANGE 1e-2
+#define AMBULO__COARSE_CHANGE 3e-3
 
 /* ------------------------------------------------------------------------ polishing (polish.c) */
 
