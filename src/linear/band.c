@@ -18,7 +18,7 @@ ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__ban
   if (band->kernels)
     band->corner =
         ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) / AMBULO__TILE * AMBULO__CORNER);
-  band->work = ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n));
+  band->work = ambulo__pool_doubles(pool, 2 * (size_t)ambulo__whole_tiles(n));
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -108,17 +108,6 @@ static int height(const ambulo__band *band, int j) {
   return band->n - j <= band->kd ? band->n - j : band->kd + 1;
 }
 
-/* not by dsbmv and dtbmv, which start threads for matrices of this size */
-void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y) {
-  memset(y, 0, (size_t)band->n * sizeof *y);
-  for (int j = 0; j < band->n; j++) {
-    const double *column = band->a + (size_t)j * (size_t)band->ld;
-    int rows = height(band, j);
-    y[j] += dot(rows, column, x + j);
-    add_scaled(rows - 1, x[j], column + 1, y + j + 1);
-  }
-}
-
 int ambulo__band_factor(ambulo__band *band) {
   int info = 0;
   if (band->kernels)
@@ -135,6 +124,24 @@ static void take_right_side(const ambulo__band *l, const double *x) {
   size_t n = (size_t)l->n, padding = (size_t)ambulo__whole_tiles(l->n) - n;
   memcpy(l->work, x, n * sizeof *x);
   memset(l->work + n, 0, padding * sizeof *x);
+}
+
+/* not by dsbmv and dtbmv, which start threads for matrices of this size */
+void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y) {
+  size_t padded = (size_t)ambulo__whole_tiles(band->n);
+  if (band->kernels) {
+    take_right_side(band, x);
+    band->kernels->multiply(band->n, band->kd, band->ld, band->a, band->work, band->work + padded);
+    memcpy(y, band->work + padded, (size_t)band->n * sizeof *y);
+    return;
+  }
+  memset(y, 0, (size_t)band->n * sizeof *y);
+  for (int j = 0; j < band->n; j++) {
+    const double *column = band->a + (size_t)j * (size_t)band->ld;
+    int rows = height(band, j);
+    y[j] += dot(rows, column, x + j);
+    add_scaled(rows - 1, x[j], column + 1, y + j + 1);
+  }
 }
 
 void ambulo__band_forward(const ambulo__band *l, double *x) {
@@ -162,6 +169,12 @@ void ambulo__band_backward(const ambulo__band *l, double *x) {
 }
 
 void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
+  if (l->kernels) {
+    take_right_side(l, x);
+    l->kernels->upper_multiply(l->n, l->kd, l->ld, l->a, l->work);
+    memcpy(x, l->work, (size_t)l->n * sizeof *x);
+    return;
+  }
   for (int j = 0; j < l->n; j++) x[j] = dot(height(l, j), l->a + (size_t)j * (size_t)l->ld, x + j);
 }
 

@@ -21,7 +21,7 @@ typedef struct ambulo__band {
   const ambulo__band_kernels *kernels; /* NULL: LAPACK */
   double *a;                           /* [n rounded up to 8][ld] */
   double *corner;                      /* with kernels: inverses of the factor's corners */
-  double *work;                        /* [n rounded up to 8]: a right-hand side */
+  double *work;                        /* [2][n rounded up to 8]: a right-hand side and a product */
 } ambulo__band;
 
 /* n unknowns, kd diagonals below the main one, zero. */

@@ -21,6 +21,9 @@ typedef struct ambulo__band_kernels {
   /* x = L^-1 x and x = L^-T x */
   void (*forward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
   void (*backward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
+  /* with the factor: x = L' x; with the matrix: y = A x */
+  void (*upper_multiply)(int n, int kd, int ld, const double *a, double *x);
+  void (*multiply)(int n, int kd, int ld, const double *a, const double *x, double *y);
   /* Of rows W [n][width], aligned, width whole tiles: W = L^-1 W, with room for n rounded up */
   void (*forward_many)(int n, int kd, int ld, const double *a, const double *corner, int width,
                        double *w);

@@ -187,19 +187,65 @@ static void forward(int n, int kd, int ld, const double *a, const double *corner
   }
 }
 
+/* the elements of a corner on and below the diagonal; above it stand those of other columns */
+static inline void take_corner(const double *a, size_t step, double l[T][T]) {
+  for (size_t c = 0; c < T; c++) {
+    for (size_t i = 0; i < T; i++) l[c][i] = i < c ? 0.0 : a[c * step + i];
+  }
+}
+
+/* y = sums[0 .. 7] of the columns of a block: those below the corner, times x */
+static inline void sums_below(const double *corner, size_t step, int rows, const double *x,
+                              double *sums) {
+  wide sum[T] = {{0}};
+  for (int i = T; i < T + rows; i += W) {
+    wide other = load(x + i);
+    for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
+  }
+  for (int c = 0; c < T; c += W) *(loose *)(sums + c) = sums_of(sum + c);
+}
+
+static void upper_multiply(int n, int kd, int ld, const double *a, double *x) {
+  size_t step = (size_t)ld - 1;
+  for (int block = 0; block < blocks_of(n); block++) {
+    const double *corner = a + (size_t)(block * T) * (size_t)ld;
+    double *at = x + block * T, l[T][T], sum[T];
+    take_corner(corner, step, l);
+    sums_below(corner, step, tiles_below(n, kd, block) * T, at, sum);
+    for (int c = 0; c < T; c++) {
+      for (int i = c; i < T; i++) sum[c] += l[c][i] * at[i];
+    }
+    for (int c = 0; c < T; c++) at[c] = sum[c];
+  }
+}
+
+static void multiply(int n, int kd, int ld, const double *a, const double *x, double *y) {
+  size_t step = (size_t)ld - 1;
+  for (int j = 0; j < blocks_of(n) * T; j++) y[j] = 0.0;
+  for (int block = 0; block < blocks_of(n); block++) {
+    const double *corner = a + (size_t)(block * T) * (size_t)ld, *v = x + block * T;
+    double *at = y + block * T, l[T][T], sum[T];
+    int rows = tiles_below(n, kd, block) * T;
+    take_corner(corner, step, l);
+    sums_below(corner, step, rows, v, sum);
+    for (int c = 0; c < T; c++) {
+      for (int i = c; i < T; i++) sum[c] += l[c][i] * v[i];
+      for (int i = 0; i < c; i++) sum[c] += l[i][c] * v[i];
+    }
+    for (int c = 0; c < T; c++) at[c] += sum[c];
+    for (int i = T; i < T + rows; i += W)
+      store(at + i, load(at + i) + product(corner + i, step, v));
+  }
+}
+
 static void backward(int n, int kd, int ld, const double *a, const double *corners, double *x) {
   size_t step = (size_t)ld - 1;
   for (int block = blocks_of(n) - 1; block >= 0; block--) {
     const double *corner = a + (size_t)(block * T) * (size_t)ld;
     const double *inverse = corners + (size_t)block * AMBULO__CORNER + T * T;
     double *at = x + block * T, v[T];
-    int rows = tiles_below(n, kd, block) * T;
-    wide sum[T] = {{0}};
-    for (int i = T; i < T + rows; i += W) {
-      wide other = load(at + i);
-      for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
-    }
-    for (int c = 0; c < T; c += W) *(loose *)(v + c) = load(at + c) - sums_of(sum + c);
+    sums_below(corner, step, tiles_below(n, kd, block) * T, at, v);
+    for (int c = 0; c < T; c++) v[c] = at[c] - v[c];
     for (int h = 0; h < T; h += W) store(at + h, product(inverse + h, T, v));
   }
 }
@@ -352,6 +398,8 @@ const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_
                                                    .factor = factor,
                                                    .forward = forward,
                                                    .backward = backward,
+                                                   .upper_multiply = upper_multiply,
+                                                   .multiply = multiply,
                                                    .forward_many = forward_many,
                                                    .gram = gram,
                                                    .add_gram = add_gram,

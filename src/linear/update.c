@@ -26,7 +26,7 @@ ambulo_status ambulo__update_create(const ambulo__band *factor, ambulo__border *
 }
 
 void ambulo__update_clear(ambulo__update *u) {
-  u->taken = u->pending = u->full = 0;
+  u->taken = u->solved = u->full = 0;
 }
 
 static double *wing_of(const ambulo__update *u, int tile) {
@@ -43,24 +43,13 @@ void ambulo__update_row(ambulo__update *u, const ambulo__sparse_rows *rows, int 
     u->weight[k] += weight; /* a row that came goes, or the other way round: exactly zero */
     return;
   }
-  /* columns of a tile are solved together: each call's begin a new one */
-  int at = u->pending > 0 ? u->taken : ambulo__whole_tiles(u->taken);
-  if (at >= ROOM) {
+  if (u->taken == ROOM) {
     u->full = 1;
     return;
   }
-  double *wing = wing_of(u, at / T);
-  if (at % T == 0) memset(wing, 0, (size_t)ambulo__whole_tiles(u->n) * T * sizeof *wing);
-  for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
-    wing[(size_t)rows->column[e] * T + (size_t)(at % T)] = rows->value[e];
-  for (int k = u->taken; k < at; k++) {
-    u->row[k] = -1;
-    u->weight[k] = 0.0;
-  }
-  u->row[at] = i;
-  u->weight[at] = weight;
-  u->taken = at + 1;
-  u->pending++;
+  u->row[u->taken] = i;
+  u->weight[u->taken++] = weight;
+  u->rows = rows;
 }
 
 /* A'B of columns side by side, A [n][width], B [n][T]: [width][T] */
@@ -87,10 +76,18 @@ static void subtract(const ambulo__border *border, int n, int width, const doubl
   }
 }
 
-/* Z and T of a tile whose place holds U' */
+/* Z and T of a tile from its rows */
 static void solve_tile(ambulo__update *u, int tile) {
+  const ambulo__sparse_rows *rows = u->rows;
   ambulo__border *border = u->border;
   double *wing = wing_of(u, tile), *cross = cross_of(u, tile);
+  int columns = u->taken - tile * T < T ? u->taken - tile * T : T;
+  memset(wing, 0, (size_t)ambulo__whole_tiles(u->n) * T * sizeof *wing);
+  for (int c = 0; c < columns; c++) {
+    int i = u->row[tile * T + c];
+    for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
+      wing[rows->column[e] * T + c] = rows->value[e];
+  }
   ambulo__band_forward_many(u->factor, T, wing);
   if (border->count == 0) return;
   multiply(border, u->n, border->width, border->wing, wing, cross);
@@ -151,14 +148,11 @@ static int factor_complement(ambulo__update *u) {
 
 int ambulo__update_factor(ambulo__update *u) {
   if (u->full) return 1;
-  if (u->pending > 0) {
-    int last = (u->taken - 1) / T;
-    for (int tile = (u->taken - u->pending) / T; tile <= last; tile++) {
-      solve_tile(u, tile);
-      multiply_tile(u, tile);
-    }
-    u->pending = 0;
+  for (int tile = u->solved / T; tile * T < u->taken && u->solved < u->taken; tile++) {
+    solve_tile(u, tile);
+    multiply_tile(u, tile);
   }
+  u->solved = u->taken;
   return factor_complement(u);
 }
 

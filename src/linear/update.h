@@ -22,9 +22,10 @@
 typedef struct ambulo__update {
   const ambulo__band *factor; /* of M */
   ambulo__border *border;
-  int n, taken, pending; /* columns in use; the last `pending` of them wait for their Z */
-  int full;              /* a row found no room */
-  int *row;              /* [room]: of each column */
+  const ambulo__sparse_rows *rows;
+  int n, taken, solved; /* columns in use; of these, with their Z */
+  int full;             /* a row found no room */
+  int *row;             /* [room]: of each column */
   double *weight;        /* [room]: D; 0: the row came and went */
   double *wing;          /* [tiles][n rounded up][8]: Z */
   double *cross;         /* [tiles][border width][8]: T */
