@@ -22,7 +22,9 @@ ambulo__residual ambulo__squared(double u) {
 
 /* (13.b) sqrt(u^2 + s^2) - s */
 ambulo__residual ambulo__absolute(double u, double smoothing) {
-  double root = hypot(u, smoothing);
+  double square = u * u + smoothing * smoothing;
+  /* where squares neither overflow nor vanish, which a root is quicker for */
+  double root = square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(u, smoothing);
   ambulo__residual r = {u * (u / (root + smoothing)), u / root, 1.0 / root};
   return r;
 }
@@ -32,7 +34,8 @@ ambulo__residual ambulo__power_law(double u, double power, double smoothing) {
   double square = u * u + smoothing * smoothing;
   double lower = power == 3.0 ? sqrt(square) : pow(square, 0.5 * power - 1.0);
   double share = square > 0.0 ? u * u / square : 0.0;
-  ambulo__residual r = {square * lower - pow(smoothing, power), power * u * lower,
+  double least = power == 3.0 ? smoothing * smoothing * smoothing : pow(smoothing, power);
+  ambulo__residual r = {square * lower - least, power * u * lower,
                         power * lower * (1.0 + (power - 2.0) * share)};
   return r;
 }
