@@ -80,27 +80,37 @@ static inline wide product(const double *columns, size_t step, const double x[T]
   return even + odd;
 }
 
-/* the sums of the numbers in W vectors */
+/* numbers of two vectors, those of the second counted from W on */
+#if defined(__clang__) || __GNUC__ >= 12
+#define PICK(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#else
+typedef long long places __attribute__((vector_size(8 * AMBULO__WIDTH)));
+#define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
+#endif
+
+/* the sums of W vectors, by halves: pairs, pairs of these, ... */
 #if AMBULO__WIDTH == 8
-#define EVEN(a, b) __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
-#define ODD(a, b) __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
-#define FIRST(a, b) __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
-#define SECOND(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+static inline wide sum_of_pairs(wide a, wide b) {
+  return PICK(a, b, 0, 8, 2, 10, 4, 12, 6, 14) + PICK(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+
+static inline wide sum_of_quarters(wide a, wide b) {
+  return PICK(a, b, 0, 1, 8, 9, 4, 5, 12, 13) + PICK(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
 static inline wide sums_of(const wide v[W]) {
-  wide two[4], four[2];
-  for (int i = 0; i < 4; i++) two[i] = EVEN(v[2 * i], v[2 * i + 1]) + ODD(v[2 * i], v[2 * i + 1]);
-  for (int i = 0; i < 2; i++)
-    four[i] = FIRST(two[2 * i], two[2 * i + 1]) + SECOND(two[2 * i], two[2 * i + 1]);
-  return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
-         __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
+  wide low = sum_of_quarters(sum_of_pairs(v[0], v[1]), sum_of_pairs(v[2], v[3]));
+  wide high = sum_of_quarters(sum_of_pairs(v[4], v[5]), sum_of_pairs(v[6], v[7]));
+  return PICK(low, high, 0, 1, 2, 3, 8, 9, 10, 11) + PICK(low, high, 4, 5, 6, 7, 12, 13, 14, 15);
 }
 #else
-#define EVEN(a, b) __builtin_shufflevector(a, b, 0, 4, 2, 6)
-#define ODD(a, b) __builtin_shufflevector(a, b, 1, 5, 3, 7)
+static inline wide sum_of_pairs(wide a, wide b) {
+  return PICK(a, b, 0, 4, 2, 6) + PICK(a, b, 1, 5, 3, 7);
+}
+
 static inline wide sums_of(const wide v[W]) {
-  wide low = EVEN(v[0], v[1]) + ODD(v[0], v[1]), high = EVEN(v[2], v[3]) + ODD(v[2], v[3]);
-  return __builtin_shufflevector(low, high, 0, 1, 4, 5) +
-         __builtin_shufflevector(low, high, 2, 3, 6, 7);
+  wide low = sum_of_pairs(v[0], v[1]), high = sum_of_pairs(v[2], v[3]);
+  return PICK(low, high, 0, 1, 4, 5) + PICK(low, high, 2, 3, 6, 7);
 }
 #endif
 

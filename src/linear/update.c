@@ -1,7 +1,6 @@
 /* linear/update.c - see update.h. */
 #include "linear/update.h"
 #include "base/lapack.h"
-#include "linear/parameters.h"
 
 #include <math.h>
 #include <string.h>

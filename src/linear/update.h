@@ -18,6 +18,7 @@
 #define AMBULO_LINEAR_UPDATE_H
 
 #include "linear/border.h"
+#include "linear/parameters.h"
 
 typedef struct ambulo__update {
   const ambulo__band *factor; /* of M */

@@ -171,7 +171,7 @@
  * that is too long. T: stopping. */
 #define AMBULO__STALL 15
 /* points without a change that end a solve whose gradient is not small. x: free. T: stopping. */
-#define AMBULO__SETTLED 3
+#define AMBULO__SETTLED 6
 /* relative change of f that is none. x: +3 %, -1 % iterations. T: stopping. */
 #define AMBULO__VALUE_CHANGE 1e-5
 /* relative change of f that is progress. x: no change. Never: a step that is too long is explained

@@ -52,10 +52,16 @@ static void equals_lapack(const ambulo__band_kernels *set, sizes size) {
     ambulo__band_forward_many(&ours, WIDTH, wing);
     ambulo__band_forward_many(&theirs, WIDTH, other);
     for (size_t i = 0; i < n * WIDTH; i++) assert_close(wing[i], other[i], 1e-13);
+    ambulo__band_upper_multiply(&ours, x);
+    ambulo__band_upper_multiply(&theirs, y);
+    for (size_t i = 0; i < n; i++) assert_close(x[i], y[i], 1e-13);
     ambulo__band_clear(&ours);
     ambulo__band_clear(&theirs);
     fill(&ours);
     fill(&theirs);
+    ambulo__band_multiply(&ours, x, wing);
+    ambulo__band_multiply(&theirs, y, other);
+    for (size_t i = 0; i < n; i++) assert_close(wing[i], other[i], 1e-13);
   }
   ours.a[(n - 1) * (size_t)ours.ld] = -1.0;
   assert_int_equal(ambulo__band_factor(&ours), 1);
@@ -104,10 +110,37 @@ static void products_are_plain_sums(const ambulo__band_kernels *set, int n, int 
   ambulo__pool_clear(&pool);
 }
 
+/* W [n][width], X [n][8], both with room for n rounded up: Y = W'X, X -= W Y */
+static void eight_columns_at_once(const ambulo__band_kernels *set, int n, int width) {
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, NULL);
+  size_t columns = (size_t)width, rows = (size_t)n, padded = (size_t)ambulo__whole_tiles(n);
+  double *w = ambulo__pool_doubles(&pool, padded * columns);
+  double *x = ambulo__pool_doubles(&pool, padded * 8);
+  double *y = ambulo__pool_doubles(&pool, columns * 8);
+  for (size_t e = 0; e < rows * columns; e++) w[e] = sin(1.0 + 0.7 * (double)e);
+  for (size_t e = 0; e < rows * 8; e++) x[e] = cos(0.3 * (double)e);
+  for (size_t e = 0; e < columns * 8; e++) y[e] = 77.0;
+  set->cross(n, width, w, x, y);
+  for (size_t e = 0; e < columns * 8; e++) {
+    double sum = 0.0;
+    for (size_t k = 0; k < rows; k++) sum += w[k * columns + e / 8] * x[k * 8 + e % 8];
+    assert_close(y[e], sum, 1e-13);
+  }
+  set->subtract(n, width, w, y, x);
+  for (size_t e = 0; e < padded * 8; e++) {
+    double sum = e < rows * 8 ? cos(0.3 * (double)e) : 0.0;
+    for (size_t j = 0; j < columns; j++) sum -= w[e / 8 * columns + j] * y[j * 8 + e % 8];
+    assert_close(x[e], sum, 1e-12);
+  }
+  ambulo__pool_clear(&pool);
+}
+
 static void test_set(const ambulo__band_kernels *set, int runs) {
   if (!runs || !set->factor) skip();
   for (int i = 0; i < CASES; i++) equals_lapack(set, cases[i]);
   for (int i = 0; i < CASES; i++) products_are_plain_sums(set, cases[i].n, 8 * (1 + i));
+  for (int i = 0; i < CASES; i++) eight_columns_at_once(set, cases[i].n, 8 * (1 + i));
 }
 
 static void avx2_equals_lapack(void **state) {
