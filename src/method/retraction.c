@@ -21,10 +21,9 @@
  *     M z + C' m = G + J' l,   l <- l - S J_k z
  *
  * whose error shrinks as J - J_k does; mixed as well, which for this linear problem is
- * GMRES. With M nearly J_k'S J_k across the surface, |J_k z|^2 in S is what the next pass would
- * take off z, squared in the metric, where |z|^2 = z . (G + J'l). Once that is little, the next pass
- * is done with J_k in the place of J, which saves its sweep: what is left is smaller by the share
- * that J has moved.
+ * GMRES. |z - z'|^2 in the metric M is (z - z') . (r - r'), r the right-hand sides: the change. The
+ * next one will be smaller as |J_k z| was, which the pass has measured already: this product is
+ * what is asked to be small.
  */
 #include "method/retraction.h"
 #include "method/engine_point.h"
@@ -42,8 +41,9 @@ ambulo_status ambulo__retraction_create(ambulo__engine *e) {
   r->tolerance = fmin(AMBULO__RETRACTION_TOLERANCE,
                       AMBULO__RETRACTION_SHARE * e->run->options->feasibility_tolerance);
   r->adjoint_tolerance = AMBULO__ADJOINT_TOLERANCE;
-  r->step = ambulo__pool_doubles(pool, (size_t)n);
-  r->gradient = ambulo__pool_doubles(pool, (size_t)n);
+  double **vectors[] = {&r->step, &r->gradient, &r->previous, &r->previous_gradient};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    *vectors[i] = ambulo__pool_doubles(pool, (size_t)n);
   r->along = ambulo__pool_doubles(pool, (size_t)equalities);
   r->force = ambulo__pool_doubles(pool, (size_t)equalities);
   r->balanced = ambulo__pool_doubles(pool, (size_t)equalities);
@@ -95,56 +95,56 @@ int ambulo__retract(ambulo__engine *e, double *y) {
   return 0;
 }
 
-/* one pass of (A): z, and S J_k z and its weighted form, whose square is *left; the right-hand side
- * in the scratch's gradient */
-static ambulo_status adjoint_pass(ambulo__engine *e, double scale, const double *p, const double *l,
+/* one pass of (A); l moves. Right-hand side in the scratch's gradient; *left: |S^1/2 J_k z|. */
+static ambulo_status adjoint_pass(ambulo__engine *e, double scale, const double *p, double *l,
                                   double *z, double *left) {
   ambulo__retraction *r = e->retraction;
   ambulo__kkt *kkt = &e->linearized.kkt;
   ambulo_status status = ambulo__engine_gradient(e, scale, p, l, r->gradient);
   if (status) return status;
-  double begin = ambulo__seconds_now();
+  double begin = ambulo__seconds_now(), sum = 0.0;
   memcpy(z, r->gradient, (size_t)e->setup->n * sizeof *z);
   ambulo__kkt_pass(kkt, z, NULL, NULL);
   ambulo__sparse_rows_multiply(&e->setup->rows->equality, z, r->along);
-  *left = 0.0;
   for (int i = 0; i < e->setup->equalities; i++) {
-    r->force[i] = -kkt->penalty[i] * r->along[i];
+    l[i] -= kkt->penalty[i] * r->along[i];
     r->balanced[i] = sqrt(kkt->penalty[i]) * r->along[i];
-    *left += r->balanced[i] * r->balanced[i];
+    sum += r->balanced[i] * r->balanced[i];
   }
+  *left = sqrt(sum);
   e->run->seconds_linear += ambulo__seconds_now() - begin;
   return AMBULO_OK;
 }
 
-/* the next pass with J_k in the place of J: no sweep */
-static void adjoint_chord(ambulo__engine *e, double *z) {
-  ambulo__retraction *r = e->retraction;
-  double begin = ambulo__seconds_now();
-  memset(r->step, 0, (size_t)e->setup->n * sizeof *r->step);
-  ambulo__sparse_rows_add_transpose(&e->setup->rows->equality, 1.0, r->force, r->step);
-  ambulo__kkt_pass(&e->linearized.kkt, r->step, NULL, NULL);
-  for (int j = 0; j < e->setup->n; j++) z[j] += r->step[j];
-  e->run->seconds_linear += ambulo__seconds_now() - begin;
+/* |z - z'|, and |z| in *size, since the last pass */
+static double moved_by(ambulo__retraction *r, int n, const double *z, double *size) {
+  double square = 0.0, change = 0.0;
+  for (int j = 0; j < n; j++) {
+    square += z[j] * r->gradient[j];
+    change += (z[j] - r->previous[j]) * (r->gradient[j] - r->previous_gradient[j]);
+  }
+  memcpy(r->previous, z, (size_t)n * sizeof *z);
+  memcpy(r->previous_gradient, r->gradient, (size_t)n * sizeof *z);
+  *size = sqrt(fabs(square));
+  return sqrt(fabs(change));
 }
 
 /* (P.9) H z + C'm = G + J'l */
 ambulo_status ambulo__reduced_gradient(ambulo__engine *e, double scale, const double *p, double *l,
                                        double *z) {
   ambulo__retraction *r = e->retraction;
+  double before = 0.0, left, size;
   ambulo__mixing_reset(&r->adjoint);
   for (int k = 0; k < AMBULO__ADJOINT_PASSES; k++) {
-    double left, size = 0.0;
     ambulo_status status = adjoint_pass(e, scale, p, l, z, &left);
     if (status || e->setup->equalities == 0) return status;
-    for (int i = 0; i < e->setup->equalities; i++) l[i] += r->force[i];
-    for (int j = 0; j < e->setup->n; j++) size += z[j] * r->gradient[j];
-    double limit = r->adjoint_tolerance * sqrt(fabs(size)) + AMBULO__ADJOINT_FLOOR;
-    if (left <= limit * limit) {
-      adjoint_chord(e, z);
-      break;
-    }
+    double change = moved_by(r, e->setup->n, z, &size);
+    double limit = r->adjoint_tolerance * size + AMBULO__ADJOINT_FLOOR;
+    if (k > 0 && change * fmin(1.0, left / before) <= limit) break;
+    before = left;
+    double begin = ambulo__seconds_now();
     ambulo__mixing_apply(&r->adjoint, r->balanced, l);
+    e->run->seconds_linear += ambulo__seconds_now() - begin;
   }
   return AMBULO_OK;
 }

@@ -8,13 +8,14 @@
 
 /* The first two are for whoever needs other tolerances for a while, the rest is scratch. */
 typedef struct ambulo__retraction {
-  double tolerance;               /* worst equality of a retracted point */
-  double adjoint_tolerance;       /* relative error of a reduced gradient */
-  ambulo__mixing points, adjoint; /* of points; of multipliers l */
-  double *step, *gradient;        /* [n]: of a chord; G + J' l */
-  double *along;                  /* [equalities]: J_k z */
-  double *force, *balanced;       /* [equalities]: -S h, S^1/2 h (or of J_k z) */
-  double *border;                 /* [borders]: b - C y */
+  double tolerance;                     /* worst equality of a retracted point */
+  double adjoint_tolerance;             /* relative error of a reduced gradient */
+  ambulo__mixing points, adjoint;       /* of points; of multipliers l */
+  double *step, *gradient;              /* [n]: of a chord; G + J' l */
+  double *previous, *previous_gradient; /* [n]: z and right-hand side of the pass before */
+  double *along;                        /* [equalities]: J_k z */
+  double *force, *balanced;             /* [equalities]: S h, S^1/2 h (or of J_k z) */
+  double *border;                       /* [borders]: b - C y */
 } ambulo__retraction;
 
 ambulo_status ambulo__retraction_create(ambulo__engine *engine);

@@ -30,9 +30,8 @@ static void a_value_that_stays_ends_it(void **state) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(0);
-  assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
+  for (int k = 0; k < 6; k++)
+    assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
   assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_SETTLED);
   engine_close(&f);
 }
@@ -43,11 +42,11 @@ static void coarse_grids_are_content_with_less(void **state) {
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(1);
   assert_int_equal(at(&s, &f, 2.0, 9e-3, 1.0), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 2.018, 9e-3, 1.0), AMBULO_ENDING_CONVERGED);
+  assert_int_equal(at(&s, &f, 2.005, 9e-3, 1.0), AMBULO_ENDING_CONVERGED);
   s = ambulo__stopping_begin(1);
   (void)at(&s, &f, 2.0, 9e-3, 1.0);
-  assert_int_equal(at(&s, &f, 2.022, 9e-3, 1.0), AMBULO_ENDING_NONE);
-  assert_int_equal(at(&s, &f, 2.022, 1.1e-2, 1.0), AMBULO_ENDING_NONE);
+  assert_int_equal(at(&s, &f, 2.007, 9e-3, 1.0), AMBULO_ENDING_NONE);
+  assert_int_equal(at(&s, &f, 2.007, 1.1e-2, 1.0), AMBULO_ENDING_NONE);
   engine_close(&f);
 }
 
