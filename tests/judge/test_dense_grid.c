@@ -51,8 +51,8 @@ static void contacts_move_but_for_the_ends(void **state) {
     dense_open(&f, 20);
     const ambulo_problem_definition *d = &f.problem->definition;
     int moved = 0;
-    assert_int_equal(
-        ambulo__dense_open(f.problem, f.x, 5, shifts[k], NULL, NULL, &f.dense), AMBULO_OK);
+    assert_int_equal(ambulo__dense_open(f.problem, f.x, 5, shifts[k], NULL, NULL, &f.dense),
+                     AMBULO_OK);
     const ambulo_problem_definition *fine = &f.dense.fine->definition;
     assert_int_equal(fine->contact_count, d->contact_count);
     for (int i = 0; i < d->contact_count; i++) {

@@ -5,8 +5,8 @@
 #include "support/sliders.h"
 
 static void relax(sliders *s, double tolerance) {
-  assert_int_equal(
-      ambulo__relax(&s->elastic, tolerance, s->x, &s->pool, &s->out, &s->remedy), AMBULO_OK);
+  assert_int_equal(ambulo__relax(&s->elastic, tolerance, s->x, &s->pool, &s->out, &s->remedy),
+                   AMBULO_OK);
 }
 
 static const ambulo_conflict *conflict_of(const sliders *s, const char *family) {
@@ -216,8 +216,8 @@ static cut *open_cut(const char *name, double steps) {
   ambulo__pool_init(&c->pool, &allocator);
   ambulo_workspace *w = c->f.engine->workspace;
   assert_int_equal(ambulo__evaluate(w, c->f.x), AMBULO_OK);
-  assert_int_equal(
-      ambulo__elastic_create(c->f.problem, w, &c->f.run, &c->pool, &c->elastic), AMBULO_OK);
+  assert_int_equal(ambulo__elastic_create(c->f.problem, w, &c->f.run, &c->pool, &c->elastic),
+                   AMBULO_OK);
   c->elastic.deadline = steps;
   assert_int_equal(ambulo__relax(&c->elastic, 1e-6, c->f.x, &c->pool, &c->out, &c->remedy),
                    AMBULO_OK);

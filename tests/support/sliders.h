@@ -67,8 +67,8 @@ static inline void sliders_ask(sliders *s, ambulo_problem_definition *d, const s
   ambulo__pool_init(&s->pool, &allocator);
   assert_int_equal(ambulo_workspace_create(s->problem, NULL, &s->workspace), AMBULO_OK);
   assert_int_equal(ambulo__evaluate(s->workspace, s->x), AMBULO_OK);
-  assert_int_equal(
-      ambulo__elastic_create(s->problem, s->workspace, &s->run, &s->pool, &s->elastic), AMBULO_OK);
+  assert_int_equal(ambulo__elastic_create(s->problem, s->workspace, &s->run, &s->pool, &s->elastic),
+                   AMBULO_OK);
 }
 
 /* rows up to the first without a name; no place above `upper`, at the nodes (INFINITY: none).
