@@ -130,7 +130,7 @@ ambulo_status ambulo__reduced_gradient(ambulo__engine *e, double scale, const do
     memcpy(r->previous, z, (size_t)n * sizeof *z);
     memcpy(r->previous_gradient, r->gradient, (size_t)n * sizeof *z);
     if (e->setup->equalities == 0) break;
-    double limit = r->adjoint_tolerance * sqrt(fabs(size)) + AMBULO__ADJOINT_FLOOR;
+    double limit = r->adjoint_tolerance * sqrt(fabs(size));
     if (k > 0 && fabs(change) <= limit * limit) break;
   }
   return AMBULO_OK;
