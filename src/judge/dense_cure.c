@@ -16,7 +16,6 @@
  */
 #include "judge/dense.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -108,13 +107,17 @@ static ambulo_status find_rates(forecast *f, const double *x, const ambulo_alloc
 
 /* ---------------------------------------------------------------- forecast */
 
+/* the power of the number of intervals with which a rule goes down between nodes */
+static double order_of(const forecast *f, const ambulo__dense_rule *rule) {
+  return ambulo__dense_is_strict(f->problem) ? rule->order_both : rule->order_alone;
+}
+
 /* (A.2c) error expected on a grid of N' intervals */
 static double foretold(const forecast *f, int rule, int intervals) {
   const ambulo_problem_definition *d = &f->problem->definition;
   const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);
-  double order = ambulo__dense_is_strict(f->problem) ? r->order_both : r->order_alone;
   double finer = (double)d->intervals / intervals;
-  double ratio = f->worst->entry[rule].between * pow(finer, order);
+  double ratio = f->worst->entry[rule].between * pow(finer, order_of(f, r));
   for (int i = 0; r->at_events && i < f->events->count; i++) {
     double e = f->events->time[i];
     double before = ambulo__dense_gap_before(e, d->duration, intervals);
@@ -128,17 +131,14 @@ static double foretold(const forecast *f, int rule, int intervals) {
 /* whether more intervals help this rule at all */
 static int helps(const forecast *f, int rule) {
   const ambulo__dense_entry *entry = &f->worst->entry[rule];
-  const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);
-  int strict = ambulo__dense_is_strict(f->problem);
-  double order = strict ? r->order_both : r->order_alone;
-  if (strict && f->problem->definition.breakpoints) return 0; /* those would have to be new */
-  return entry->present && !isnan(entry->ratio) && order > 0.0;
+  if (ambulo__dense_is_strict(f->problem) && f->problem->definition.breakpoints)
+    return 0; /* those would have to be new */
+  return entry->present && !isnan(entry->ratio) && order_of(f, ambulo__dense_rule_at(rule)) > 0.0;
 }
 
 static int most_intervals(const forecast *f) {
   int own = f->problem->definition.intervals;
-  if (own < MOST_INTERVALS / 4) return MOST_INTERVALS;
-  return own < INT_MAX / 4 ? 4 * own : own;
+  return own < MOST_INTERVALS / 4 ? MOST_INTERVALS : 4 * own; /* a problem has 100000 at most */
 }
 
 /* the fewest intervals that are foretold to suffice for this rule; 0: not within the limit */

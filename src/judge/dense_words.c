@@ -125,7 +125,7 @@ static void write_line(const wording *w, int i) {
 
 /* ---------------------------------------------------------------- sentence */
 
-/* 1 if the sentence says the same about both */
+/* 1 if the sentence says the same about both; of what holds it says nothing */
 static int is_alike(const wording *w, int a, int b) {
   return w->brief[a] == w->brief[b] && strcmp(w->report->settings[a], w->report->settings[b]) == 0;
 }
@@ -140,7 +140,7 @@ static void append_group(const wording *w, int i, char *text) {
   const char *last = NULL;
   for (int k = i; k < report->view.family_count; k++) {
     int kind = kind_of(w, k), named = 0;
-    if (report->family[k].holds || !is_alike(w, i, k)) continue;
+    if (!is_alike(w, i, k)) continue;
     for (int j = i; j < k; j++) named |= is_alike(w, i, j) && kind_of(w, j) == kind;
     if (named) continue;
     if (last) append(text, AMBULO__DENSE_SUMMARY_SIZE, ", ");
@@ -164,7 +164,7 @@ static void write_summary(const wording *w, const char *verdict) {
   for (int i = 0; i < report->view.family_count; i++) {
     int said = 0;
     if (report->family[i].holds) continue;
-    for (int k = 0; k < i; k++) said |= !report->family[k].holds && is_alike(w, k, i);
+    for (int k = 0; k < i; k++) said |= is_alike(w, k, i);
     if (said) continue;
     append(text, AMBULO__DENSE_SUMMARY_SIZE, "; ");
     append_group(w, i, text);

@@ -21,7 +21,7 @@
 enum { LAWSON_PASSES = 5 };
 static const double stiff = 1e3;         /* weight of the other families */
 static const double share = 1e-3;        /* of the worst: what still counts as in conflict */
-static const double least_share = 0.03;  /* of a weight that Lawson's iteration leaves */
+static const double least_share = 0.03;  /* of the worst: a row below it keeps that much */
 static const double narrowed_most = 4.0; /* how much more one limit may give than a family */
 static const double main_part = 0.5;     /* of the time, for the first solve */
 
@@ -131,15 +131,11 @@ static void shift_weights(const relaxing *s) {
   const double *value = e->workspace->row_value;
   int worst = worst_row(s, value);
   if (worst < 0) return;
-  double largest = ambulo__elastic_excess(e, worst, value[worst]), top = 0.0;
+  double largest = ambulo__elastic_excess(e, worst, value[worst]);
   for (int r = 0; r < e->problem->rows; r++) {
     if (!gives(s, r)) continue;
     double part = ambulo__elastic_excess(e, r, value[r]) / largest;
     e->weight[r] *= sqrt(fmax(least_share, part));
-    top = fmax(top, e->weight[r]);
-  }
-  for (int r = 0; r < e->problem->rows; r++) {
-    if (gives(s, r)) e->weight[r] = fmax(least_share, e->weight[r] / top);
   }
 }
 

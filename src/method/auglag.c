@@ -74,10 +74,7 @@ struct drive {
   double scale, constant;
   double damping;   /* the engine's mu at the beginning */
   double predicted; /* by the model step */
-  double tried;     /* F at the model step, NLopt's first trial */
-  int trials;       /* with gradient, since the chart was laid */
   int started, lay; /* NLopt knows rho; the chart is to be laid at NLopt's next point */
-  int again;        /* the call has to be repeated */
   ambulo_ending ending;
   double seconds; /* spent in callbacks */
 };
@@ -105,23 +102,16 @@ static ambulo_ending lay_chart(drive *s, const double *w) {
   memcpy(e->iterate.x, s->x, (size_t)e->setup->n * sizeof *w);
   ambulo_ending failed = model(s);
   if (failed) return failed;
-  s->trials = 0;
   s->lay = 0;
-  if (!ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale))) return AMBULO_ENDING_NOT_FINITE;
-  s->tried = s->chart.start;
-  return AMBULO_ENDING_NONE;
+  return ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale)) ? AMBULO_ENDING_NONE
+                                                            : AMBULO_ENDING_NOT_FINITE;
 }
 
-/* how well the model foretold the descent says whether it is damped too much */
+/* an inner solve that brought more than the model foretold says that it is damped too much */
 static void update_damping(drive *s, double reached) {
-  double *mu = &s->engine->iterate.mu;
-  double promised = fmin(s->predicted, -1e-14);
-  double by_step = (s->tried - s->chart.start) / promised;
-  double in_all = (reached - s->chart.start) / promised;
-  if (in_all > AMBULO__DAMPING_LOWER_ALL)
+  double *mu = &s->engine->iterate.mu, promised = fmin(s->predicted, -1e-14);
+  if ((reached - s->chart.start) / promised > AMBULO__DAMPING_LOWER)
     *mu = fmax(AMBULO__DAMPING_LEAST * s->damping, *mu / AMBULO__DAMPING_CHANGE);
-  if (by_step < AMBULO__DAMPING_RAISE_STEP)
-    *mu = fmax(*mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * *mu));
 }
 
 /* -------------------------------------------------------- after an inner solve */
@@ -163,14 +153,13 @@ static void inner_ended(drive *s, double value) {
   if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;
-  s->again = s->scale < AMBULO__SCALE_LEAST;
   s->lay = 1;
 }
 
 /* ---------------------------------------------------------------- what NLopt asks */
 
 static int is_over(const drive *s) {
-  return s->ending != AMBULO_ENDING_NONE || s->again || s->engine->run->stopped;
+  return s->ending != AMBULO_ENDING_NONE || s->engine->run->stopped;
 }
 
 /* ends NLopt's line search and then NLopt */
@@ -220,7 +209,6 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   e->run->nlopt.inner++;
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
-  if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
   double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(held->objective));
   if (held->value < HUGE_VAL && held->gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);
@@ -320,7 +308,6 @@ static ambulo_ending prepare(drive *s) {
   double penalty = AMBULO__NLOPT_LEAST_PENALTY, violated = 0.0;
   memset(s->w, 0, (size_t)e->setup->n * sizeof *s->w);
   s->started = inequalities == 0; /* NLopt does not ask then */
-  s->again = 0;
   s->bearer = s->dirty = -1;
   s->scale = iterate->rho / penalty;
   ambulo_ending failed = lay_chart(s, s->w);
@@ -363,8 +350,8 @@ static ambulo_status create(drive *s, ambulo__pool *pool) {
 }
 
 /* Calls until something ends it. One more follows a call that NLopt ended by a test of its own,
- * since all rows hold without a multiplier; that had to be repeated; or whose line search found
- * nothing after at least one inner solve, for which the chart is laid anew. */
+ * since all rows hold without a multiplier; or whose line search found nothing after at least one
+ * inner solve, for which the chart is laid anew. */
 static ambulo_status run(drive *s) {
   ambulo__run *r = s->engine->run;
   while (!s->ending && !ambulo__run_over(r)) {

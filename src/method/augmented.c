@@ -63,7 +63,6 @@ static void evaluate(ambulo__engine *e, const double *w) {
   }
   trial->value = trial->objective + sum / (2.0 * iterate->rho);
   trial->gradient_norm = -1.0;
-  if (!isfinite(trial->value)) trial->value = HUGE_VAL;
   if (trial->value < HUGE_VAL && trial->value > held->ceiling) held->ceiling = trial->value;
 }
 

@@ -39,8 +39,7 @@ int ambulo__chart_lay(ambulo__chart *c, ambulo__engine *e, const double *w, doub
   c->start = ambulo__augmented(e, c->whitened, c->gradient);
   if (!(e->held->trial.value < HUGE_VAL)) return 0;
   double slope = dot(c->gradient, c->step, n), size = dot(c->step, c->step, n);
-  double steep = dot(c->gradient, c->gradient, n);
-  if (slope < 0.0 && slope * slope > AMBULO__COSINE_LEAST * AMBULO__COSINE_LEAST * steep * size) {
+  if (slope < 0.0) {
     double length = 1.0 / sqrt(-slope * size);
     for (int j = 0; j < n; j++) c->turn[j] = length * c->step[j] - c->gradient[j] / slope;
   } else {

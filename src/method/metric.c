@@ -316,6 +316,5 @@ double ambulo__metric_objective_scale(const ambulo__metric *metric,
   double sum = 0.0;
   for (int k = 0; k < p->nodes; k++) sum += acceleration_curvature(metric, workspace, k);
   double mean = sum / (p->definition.duration * (double)p->coordinates);
-  if (!(mean > 0.0) || !isfinite(mean)) return 0.0;
-  return AMBULO__REFERENCE_CURVATURE / mean;
+  return mean > 0.0 ? AMBULO__REFERENCE_CURVATURE / mean : 0.0;
 }

@@ -16,7 +16,7 @@
  *   start   A is the set that the last model step ended with; its rows count with whatever force
  *           they have, which is where a full step from d = 0 with that set leads
  *   steps   are full while phi stays below the larger of its last two values: sets settle in a few
- *           of them. When it does not, or after some, back to the best point: from there the step
+ *           of them. When it does not, back to the best point: from there the step
  *           is the exact minimum of phi along it (phi' is monotone and piecewise linear)
  *   end     when A repeats, or when a step brought less than a thousandth of the whole gain
  *
@@ -207,8 +207,7 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   double slope, t = 1.0;
   if (direction(e, &slope)) return -1;
   double now = value_at(q, 1.0);
-  if (!d->searching && k > 0 &&
-      (now > fmax(d->before, d->value) || k >= AMBULO__MODEL_FULL_STEPS)) {
+  if (!d->searching && k > 0 && now > fmax(d->before, d->value)) {
     d->searching = 1;
     go_back(q, d);
     (void)mark_active(q);
@@ -221,11 +220,11 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   take(q, t);
   d->before = d->value;
   d->value = now;
-  int better = now < d->least, whole = t >= 1.0;
+  int better = now < d->least;
   keep(q, d);
   double gained = d->start - d->least;
   int changed = mark_active(q);
-  if (changed == 0 && whole) return 1;
+  if (changed == 0) return 1;
   if (!better) return 0;
   if (k > 0 && fabs(d->before - now) < d->tolerance * gained) return 1;
   return slope < AMBULO__MODEL_EXACT * gained;

@@ -56,8 +56,7 @@ int ambulo__polish(ambulo__engine *e, double *x) {
     memcpy(iterate->x, moved, bytes);
     if (ambulo__evaluate_jacobian(e->workspace, iterate->x)) break;
     double worst = ambulo__engine_excess(e, e->quadratic->linear);
-    done = worst <= target ||
-           (k == AMBULO__POLISH_STEPS - 1 && worst <= target / AMBULO__POLISH_SHARE);
+    done = worst <= target;
     if (!done && step(e, moved)) break;
   }
   memcpy(iterate->equality_multiplier, e->reached.equality_multiplier,

@@ -73,7 +73,6 @@ static void satisfy_border(const ambulo__sparse_rows *s, const double *at0, cons
       if (s->host[i] >= 0 || !s->constant[i]) continue;
       double value = linear_value(s, i, at0[i], x0, x), norm = ambulo__sparse_rows_norm(s, i);
       worst = ambulo__worse(worst, fabs(value));
-      if (norm == 0.0) continue;
       double factor = value / (norm * norm);
       for (int e = s->start[i]; e < s->start[i + 1]; e++) x[s->column[e]] -= factor * s->value[e];
     }
@@ -146,7 +145,7 @@ static void sort_group(group *g, int *rank) {
   g->basis = 0;
   for (int m = 0; m < g->members; m++) {
     int row = g->rows->row[g->member[m]];
-    if (rank[row] == AMBULO__ROW_INDEPENDENT) rank[row] = (int)add_member(g, g->member[m]);
+    rank[row] = (int)add_member(g, g->member[m]);
   }
   clear_columns(g);
 }

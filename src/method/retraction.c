@@ -139,8 +139,7 @@ ambulo_status ambulo__reduced_gradient(ambulo__engine *e, double scale, const do
     ambulo_status status = adjoint_pass(e, scale, p, l, z, &left);
     if (status || e->setup->equalities == 0) return status;
     double change = moved_by(r, e->setup->n, z, &size);
-    double limit = r->adjoint_tolerance * size + AMBULO__ADJOINT_FLOOR;
-    if (k > 0 && change * fmin(1.0, left / before) <= limit) break;
+    if (k > 0 && change * fmin(1.0, left / before) <= r->adjoint_tolerance * size) break;
     before = left;
     double begin = ambulo__seconds_now();
     ambulo__mixing_apply(&r->adjoint, r->balanced, l);

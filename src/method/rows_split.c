@@ -76,8 +76,5 @@ ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspac
     out->size[i] = ambulo__rows_size(p, &out->inequality, i);
     ambulo__sparse_rows_set_scale(&out->inequality, i, -1.0 / out->size[i]);
   }
-  for (int i = 0; i < l.borders; i++) {
-    if (!out->border.constant[i]) out->regular = 0;
-  }
   return AMBULO_OK;
 }

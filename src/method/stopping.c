@@ -43,7 +43,7 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
     s->since_halved = 0;
   }
   if (s->settled >= 1 && (small || s->loose)) return AMBULO_ENDING_CONVERGED;
-  if (near && has_vanished(e, s)) return AMBULO_ENDING_VANISHED;
+  if (has_vanished(e, s)) return AMBULO_ENDING_VANISHED;
   return s->settled >= AMBULO__SETTLED ? AMBULO_ENDING_SETTLED : AMBULO_ENDING_NONE;
 }
 

@@ -6,7 +6,7 @@
 
 typedef struct ambulo__trial {
   int n, inequalities, equalities;
-  double value;                /* augmented Lagrangian; HUGE_VAL: none */
+  double value;                /* augmented Lagrangian; not < HUGE_VAL: none */
   double objective;            /* f, scaled */
   double violation;            /* worst inequality, relative to its size */
   double gradient_norm;        /* of the reduced, whitened gradient; < 0: not computed */

@@ -165,6 +165,20 @@ static void what_is_not_finite_comes_first(void **state) {
   ambulo_problem_free(p);
 }
 
+/* what holds at the nodes is advised about, the best motion or not */
+static void a_feasible_motion_is_told_too(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_result *r = result_of(p, 0.0);
+  r->verdict = AMBULO_FEASIBLE;
+  assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK);
+  assert_int_equal(ambulo__dense_advise(p, 0, NULL, NULL, r), AMBULO_OK);
+  assert_non_null(
+      strstr(ambulo_result_dense_audit(r)->summary, "feasible at the nodes, not between them; "));
+  ambulo_result_free(r);
+  ambulo_problem_free(p);
+}
+
 static void without_time_nothing_is_foretold(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("walk_normal");
@@ -213,6 +227,8 @@ static void a_grid_that_cannot_be_is_not_a_motion_that_holds(void **state) {
   assert_int_equal(ambulo__dense_audit(p, 10, 0, NULL, r), AMBULO_OK);
   assert_string_equal(ambulo_result_dense_audit(r)->reason, "no time was left");
   assert_int_equal(ambulo__dense_audit(p, 9, 0, NULL, r), AMBULO_OK);
+  assert_string_equal(ambulo_result_dense_audit(r)->reason, "");
+  assert_int_equal(ambulo__dense_audit(p, 10, 1, NULL, r), AMBULO_OK); /* there is time */
   assert_string_equal(ambulo_result_dense_audit(r)->reason, "");
   ambulo_result_free(r);
   ambulo_problem_free(p);
@@ -287,6 +303,7 @@ int main(void) {
       cmocka_unit_test(an_audit_says_what_the_solve_said),
       cmocka_unit_test(a_motion_that_overflows_is_named),
       cmocka_unit_test(what_is_not_finite_comes_first),
+      cmocka_unit_test(a_feasible_motion_is_told_too),
       cmocka_unit_test(without_time_nothing_is_foretold),
       cmocka_unit_test(a_grid_that_cannot_be_is_not_a_motion_that_holds),
       cmocka_unit_test(a_refusal_between_the_nodes_is_told),

@@ -166,6 +166,172 @@ static void gaps_to_come_are_foretold_from_the_motion(void **state) {
               2.0 * longest);
 }
 
+/* Two rules that fail between nodes or beside toe-off, at the end of a step that moves as a whole
+ * at `speed`. No number is in the audit but what is given here. */
+typedef struct asked {
+  dense_fixture f;
+  double event;
+  ambulo__dense_events events;
+  ambulo__dense_worst worst;
+  ambulo__dense_cure cure;
+  int slip, force;
+} asked;
+
+static void open_asked(asked *a, int intervals, double speed) {
+  memset(a, 0, sizeof *a);
+  ambulo__table_row friction = {.kind = AMBULO__KIND_FRICTION, .measure = AMBULO__BODY_WEIGHTS};
+  a->slip = ambulo__dense_rule_of_slip();
+  a->force = ambulo__dense_rule_of_row(&friction);
+  a->event = 0.24 * 0.55;
+  a->events = (ambulo__dense_events){speed > 0.0, &a->event};
+  dense_open(&a->f, intervals);
+  dense_move(&a->f, 0, 0.0, speed, 0.0);
+}
+
+static void fails(asked *a, int rule, double ratio, double between) {
+  a->worst.entry[rule].present = 1;
+  a->worst.entry[rule].ratio = ratio;
+  a->worst.entry[rule].between = between;
+}
+
+static void ask(asked *a) {
+  assert_int_equal(
+      ambulo__dense_cure_find(a->f.problem, a->f.x, &a->events, &a->worst, NULL, &a->cure),
+      AMBULO_OK);
+}
+
+static double gap_at(int intervals) {
+  return ambulo__dense_gap_before(0.24 * 0.55, 0.55, intervals);
+}
+
+/* 2 (20 / N)^1.5 <= 0.7 from N = 41 on: where only what lies between nodes fails */
+static void between_nodes_the_order_says_how_many(void **state) {
+  (void)state;
+  asked a;
+  open_asked(&a, 20, 0.0);
+  fails(&a, a.slip, 2.0, 2.0);
+  ask(&a);
+  assert_int_equal(a.cure.intervals, 41);
+  assert_int_equal(a.cure.cured[a.slip], 1);
+  assert_int_equal(a.cure.out_of_reach[a.slip], 0);
+  fails(&a, a.slip, 1.0, 1.0); /* holds: nothing is to be cured */
+  ask(&a);
+  assert_int_equal(a.cure.intervals + a.cure.cured[a.slip], 0);
+  dense_close(&a.f);
+}
+
+/* beside an event only the gap counts, however bad it is today: 0.4 m/s for 1.75 ms are 0.7 mm.
+ * Between nodes 40 times the tolerance would take 370 intervals. */
+static void beside_an_event_the_gap_says_how_many(void **state) {
+  (void)state;
+  asked a;
+  open_asked(&a, 25, 0.4);
+  fails(&a, a.slip, 40.0, 0.0);
+  ask(&a);
+  assert_in_range(a.cure.intervals, 26, 100);
+  assert_true(gap_at(a.cure.intervals) <= 0.0007 / 0.4);
+  dense_close(&a.f);
+}
+
+/* a thousand intervals, or four times as many as there are, are tried: 400 (3.637 / 0.7)^(2/3) is
+ * 1200; five times as many are too far off */
+static void fine_grids_are_made_finer_still(void **state) {
+  (void)state;
+  asked a;
+  open_asked(&a, 400, 0.0);
+  fails(&a, a.slip, 3.637, 0.7 * pow(3.0, 1.5));
+  ask(&a);
+  assert_in_range(a.cure.intervals, 1200, 1201);
+  fails(&a, a.slip, 8.0, 0.7 * pow(5.0, 1.5));
+  ask(&a);
+  assert_int_equal(a.cure.intervals + a.cure.cured[a.slip], 0);
+  assert_int_equal(a.cure.out_of_reach[a.slip], 1);
+  dense_close(&a.f);
+  open_asked(&a, 20, 0.0);
+  fails(&a, a.slip, 100.0, 0.7 * pow(49.0, 1.5));
+  ask(&a);
+  assert_in_range(a.cure.intervals, 980, 981);
+  dense_close(&a.f);
+}
+
+/* what suffices for one rule need not for another: more intervals have other gaps */
+static void a_number_suffices_for_all_at_once(void **state) {
+  (void)state;
+  asked a;
+  open_asked(&a, 25, 0.4);
+  a.f.problem->definition.contact_tolerance = 0.002; /* with exact contacts none help friction */
+  fails(&a, a.slip, 9.0, 0.0);
+  fails(&a, a.force, 3.0, 0.7 * 98.0 / 25.0);
+  ask(&a);
+  assert_true(gap_at(98) > 0.0007 / 0.4); /* enough for friction alone, not for slip */
+  assert_in_range(a.cure.intervals, 99, 150);
+  assert_true(gap_at(a.cure.intervals) <= 0.0007 / 0.4);
+  assert_int_equal(a.cure.cured[a.slip] + a.cure.cured[a.force], 2);
+  dense_close(&a.f);
+}
+
+/* toe-off at 0.24 has its smallest gap after a node, 0.04 intervals, on grids of 25 k + 21. Slip
+ * at 20 m/s asks for one of these, friction for 998 intervals, and the next such grid is 1021: the
+ * one that asks for most is left out. */
+static void what_asks_for_most_is_left_out(void **state) {
+  (void)state;
+  asked a;
+  open_asked(&a, 25, 20.0);
+  a.f.problem->definition.contact_tolerance = 0.002;
+  fails(&a, a.slip, 400.0, 0.0);
+  fails(&a, a.force, 40.0, 0.7 * 998.0 / 25.0);
+  ask(&a);
+  assert_int_equal(a.cure.intervals % 25, 21);
+  assert_true(gap_at(a.cure.intervals) <= 0.0007 / 20.0);
+  assert_int_equal(a.cure.cured[a.slip], 1);
+  assert_int_equal(a.cure.cured[a.force], 0);
+  assert_int_equal(a.cure.out_of_reach[a.force], 1);
+  dense_close(&a.f);
+}
+
+/* heights or places as equations bind the grids; within a tolerance neither does */
+static void equations_of_either_kind_are_strict(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 20);
+  ambulo_problem_definition *d = &f.problem->definition;
+  for (int kinds = 0; kinds < 4; kinds++) {
+    d->ground_penetration = kinds & 1;
+    d->foot_strike = kinds >> 1;
+    d->contact_tolerance = 0.0;
+    assert_int_equal(ambulo__dense_is_strict(f.problem), kinds != 0);
+    d->contact_tolerance = 0.002;
+    assert_false(ambulo__dense_is_strict(f.problem));
+  }
+  dense_close(&f);
+}
+
+/* moved by half an interval, the toes of one foot would have to carry the body at a time that is
+ * looked at: there is no such motion, and what was measured at the nodes has to do */
+static void motions_that_cannot_be_moved_are_foretold_from_the_nodes(void **state) {
+  (void)state;
+  static const char *const overrides[] = {"constraints.zmp=hull", "gait.phases.heel_strike=0",
+                                          "gait.phases.heel_off=0.49", "gait.phases.toe_off=0.6",
+                                          "time.intervals=16"};
+  ambulo_problem *p = NULL;
+  ambulo__dense_events events;
+  ambulo__dense_worst worst;
+  ambulo__dense_cure cure;
+  ambulo_allocator allocator = ambulo__allocator_or_default(NULL);
+  int slip = ambulo__dense_rule_of_slip();
+  memset(&worst, 0, sizeof worst);
+  worst.entry[slip] = (ambulo__dense_entry){.present = 1, .ratio = 2.0, .between = 2.0};
+  assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
+                   AMBULO_OK);
+  double *x = calloc((size_t)p->variables, sizeof *x);
+  assert_int_equal(ambulo__dense_events_create(p, &allocator, &events), AMBULO_OK);
+  assert_int_equal(ambulo__dense_cure_find(p, x, &events, &worst, NULL, &cure), AMBULO_OK);
+  assert_int_equal(cure.intervals, 33); /* 2 (16 / N)^1.5 <= 0.7 */
+  ambulo__free(&allocator, events.time);
+  free(x);
+  ambulo_problem_free(p);
+}
+
 /* breakpoints of the caller's own would have to be new ones: nothing is foretold then */
 static void given_breakpoints_are_left_alone(void **state) {
   (void)state;
@@ -208,6 +374,13 @@ int main(void) {
       cmocka_unit_test(no_failure_is_left_without_a_word),
       cmocka_unit_test(the_number_named_has_nodes_where_they_count),
       cmocka_unit_test(gaps_to_come_are_foretold_from_the_motion),
+      cmocka_unit_test(between_nodes_the_order_says_how_many),
+      cmocka_unit_test(beside_an_event_the_gap_says_how_many),
+      cmocka_unit_test(fine_grids_are_made_finer_still),
+      cmocka_unit_test(a_number_suffices_for_all_at_once),
+      cmocka_unit_test(what_asks_for_most_is_left_out),
+      cmocka_unit_test(equations_of_either_kind_are_strict),
+      cmocka_unit_test(motions_that_cannot_be_moved_are_foretold_from_the_nodes),
       cmocka_unit_test(given_breakpoints_are_left_alone),
       cmocka_unit_test(grids_keep_their_proportion_where_contacts_are_equations),
   };

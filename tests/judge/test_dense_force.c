@@ -112,12 +112,25 @@ static void a_body_that_nothing_carries_has_none(void **state) {
   ambulo_problem_free(p);
 }
 
+/* without gravity nothing weighs: there is no share of the weight to be off by */
+static void without_weight_there_is_no_share_of_it(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open(&f, 20);
+  dense_move(&f, 1, 0.8, 0.1, 2.0);
+  dense_look(&f, 10);
+  for (int i = 0; i < 3; i++) f.model->gravity[i] = 0.0;
+  assert_int_equal(largest_of(&f.dense, NULL).count, 0);
+  dense_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_straight_force_has_no_error),
       cmocka_unit_test(a_bent_force_is_off_by_what_the_basis_says),
       cmocka_unit_test(each_foot_has_its_own),
       cmocka_unit_test(a_body_that_nothing_carries_has_none),
+      cmocka_unit_test(without_weight_there_is_no_share_of_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The one table of tolerances: every row of every shipped problem has a line of its own in it, and
  * docs/results.md says the same. */
 #include "judge/dense.h"
+#include "support/arm.h"
 #include "support/engine_fixture.h"
 
 static const char *const names[] = {"walk_normal",    "walk_normal_21", "walk_slow",
@@ -65,8 +66,38 @@ static void limits_are_compared_with_the_larger_bound(void **state) {
   assert_close(ambulo__dense_limit_size(p, row), 20.0, 0.0);
   shoulder->torque[0] = shoulder->torque[1] = 0.0;
   assert_close(ambulo__dense_limit_size(p, row), 0.1 * ambulo__model_weight(p->model), 1e-12);
+  ambulo_model *model = (ambulo_model *)p->model;
+  double gravity[3], none[3] = {0.0, 0.0, 0.0};
+  memcpy(gravity, model->gravity, sizeof gravity);
+  memcpy(model->gravity, none, sizeof none); /* then 1 N m, not a ratio to nothing */
+  assert_close(ambulo__dense_limit_size(p, row), 1.0, 0.0);
+  memcpy(model->gravity, gravity, sizeof gravity);
   memcpy(shoulder->torque, keep, sizeof keep);
   ambulo_problem_free(p);
+}
+
+/* 1 rad/s where a joint is not to move */
+static void speeds_have_limits_of_their_own(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition definition = arm_definition(model);
+  ambulo_problem *p = NULL;
+  assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &p), AMBULO_OK);
+  ambulo_coordinate *elbow = &model->coordinates[1];
+  int rows = 0;
+  for (int r = 0; r < p->rows; r++) {
+    const ambulo__table_row *row = &p->table.rows[r];
+    if (row->kind != AMBULO__KIND_SPEED_LIMIT || strcmp(row->subject, elbow->name)) continue;
+    rows++;
+    elbow->speed[0] = -3.0;
+    elbow->speed[1] = 7.0;
+    assert_close(ambulo__dense_limit_size(p, row), 7.0, 0.0);
+    elbow->speed[0] = elbow->speed[1] = 0.0;
+    assert_close(ambulo__dense_limit_size(p, row), 1.0, 0.0);
+  }
+  assert_true(rows > 0);
+  ambulo_problem_free(p);
+  ambulo_model_free(model);
 }
 
 static char *read_all(const char *path) {
@@ -103,6 +134,7 @@ int main(void) {
       cmocka_unit_test(every_shipped_row_has_a_rule),
       cmocka_unit_test(every_kind_has_a_rule_but_ends_and_own_rows),
       cmocka_unit_test(limits_are_compared_with_the_larger_bound),
+      cmocka_unit_test(speeds_have_limits_of_their_own),
       cmocka_unit_test(the_documentation_says_the_same),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

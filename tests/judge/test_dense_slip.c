@@ -87,6 +87,49 @@ static void a_coarse_grid_still_has_a_place_to_start_from(void **state) {
   dense_close(&f);
 }
 
+/* Both feet flat; the left one comes 0.3 m further within its flight, on four intervals of 1 s. */
+static void open_leap(dense_fixture *f, double down, double up) {
+  memset(f, 0, sizeof *f);
+  f->model = walker_create();
+  ambulo_contact contacts[] = {{0, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.0, 0.0}},
+                               {1, AMBULO_CONTACT_FLAT, 0.0, 0.2, {0.0, 0.0}},
+                               {1, AMBULO_CONTACT_FLAT, down, up, {0.3, 0.0}}};
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  d.model = f->model;
+  d.duration = 1.0;
+  d.intervals = 4;
+  d.contacts = contacts;
+  d.contact_count = 3;
+  d.ground_penetration = d.foot_strike = 1;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f->problem), AMBULO_OK);
+  f->x = calloc((size_t)ambulo_problem_variable_count(f->problem), sizeof *f->x);
+  dense_move(f, 0, 0.0, 0.4, 0.0);
+  dense_look(f, 10);
+}
+
+/* from 0.3 s on the left foot stands where only the node at 0.5 s has it: the one at 0 s has it on
+ * the foothold before, and a line between the two would hide the way between them */
+static void another_foothold_does_not_hold(void **state) {
+  (void)state;
+  dense_fixture f;
+  open_leap(&f, 0.3, 1.0);
+  dense_largest toe = largest_of(&f, "left_toe", 0.25, 0.5);
+  assert_close(toe.sample.value, 0.4 * (0.5 - 0.3), 1e-9);
+  assert_close(toe.sample.time, 0.3, 1e-12);
+  dense_close(&f);
+}
+
+/* down and up again between two nodes: nothing has the foot there, it moves from where it came */
+static void a_landing_without_a_node_counts_from_where_it_came_down(void **state) {
+  (void)state;
+  dense_fixture f;
+  open_leap(&f, 0.3, 0.45);
+  dense_largest toe = largest_of(&f, "left_toe", 0.25, 0.5);
+  assert_close(toe.sample.value, 0.4 * (0.45 - 0.3), 1e-9);
+  assert_close(toe.sample.time, 0.45, 1e-12);
+  dense_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_toe_that_leaves_slips_from_its_last_node_on),
@@ -94,6 +137,8 @@ int main(void) {
       cmocka_unit_test(between_two_nodes_it_is_the_distance_from_the_line),
       cmocka_unit_test(only_loaded_points_and_only_along_the_ground),
       cmocka_unit_test(a_coarse_grid_still_has_a_place_to_start_from),
+      cmocka_unit_test(another_foothold_does_not_hold),
+      cmocka_unit_test(a_landing_without_a_node_counts_from_where_it_came_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Multipliers of one grid for another: densities over time, by the rows' labels. */
 #include "method/carry.h"
+#include "nlp/problem.h"
 #include "support/engine_fixture.h"
 
 static const ambulo__table_row *row_of(const ambulo__engine *e, int i) {
@@ -69,6 +70,37 @@ static void densities_are_linear_between_nodes(void **state) {
   engine_close(&fine);
 }
 
+/* limits on control points stand for no time: the same multipliers on a grid of twice the nodes */
+static void rows_on_control_points_keep_their_multipliers(void **state) {
+  (void)state;
+  engine_fixture coarse, fine;
+  ambulo__carried carried = {0};
+  const ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  engine_open_with(&coarse, "two_link_reach", "constraints.joint_limits=control_points");
+  fine.options = ambulo_options_default();
+  ambulo__run_begin(&fine.run, &fine.options);
+  assert_int_equal(ambulo__problem_with_grid(coarse.problem, 40, 10, NULL, &fine.problem),
+                   AMBULO_OK);
+  fine.x = calloc((size_t)fine.problem->variables, sizeof *fine.x);
+  assert_int_equal(ambulo__engine_create(fine.problem, fine.x, NULL, &fine.run, NULL, &fine.engine),
+                   AMBULO_OK);
+  ambulo__engine *c = coarse.engine, *e = fine.engine;
+  for (int i = 0; i < c->setup->inequalities; i++)
+    c->iterate.lambda[i] = row_of(c, i)->node < 0 ? 2.0 * c->setup->objective_scale : 0.0;
+  assert_int_equal(ambulo__carry_from(c, &a, &carried), AMBULO_OK);
+  ambulo__carry_to(&carried, e);
+  int seen = 0;
+  for (int i = 0; i < e->setup->inequalities; i++) {
+    if (row_of(e, i)->node >= 0) continue;
+    assert_close(e->iterate.lambda[i] / e->setup->objective_scale, 2.0, 1e-9);
+    seen++;
+  }
+  assert_true(seen > 10);
+  ambulo__carry_clear(&a, &carried);
+  engine_close(&fine);
+  engine_close(&coarse);
+}
+
 /* beside a hole in time a density lasts for half an interval; nothing carried is nothing */
 static void holes_stay_empty(void **state) {
   (void)state;
@@ -114,8 +146,10 @@ static void holes_stay_empty(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(on_the_same_grid_nothing_changes),
-                                     cmocka_unit_test(densities_are_linear_between_nodes),
-                                     cmocka_unit_test(holes_stay_empty)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(on_the_same_grid_nothing_changes),
+      cmocka_unit_test(densities_are_linear_between_nodes),
+      cmocka_unit_test(rows_on_control_points_keep_their_multipliers),
+      cmocka_unit_test(holes_stay_empty)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,38 +1,289 @@
-/* The banded metric is the sum of the nodes' Gauss-Newton matrices. */
-#include "support/gauss_newton.h"
+/* The banded metric is the objective's curvature, found by another route; its scale, and what
+ * stands in where there is none. */
+#include "method/parameters.h"
+#include "nlp/states.h"
+#include "nlp/user_term.h"
 #include "support/problem_fixture.h"
 #include "support/engine_fixture.h"
 
-static void band_is_the_sum_over_nodes(void **state) {
-  (void)state;
-  engine_fixture f;
-  unsigned seed = 8;
-  engine_open(&f, "yardstick_12");
-  ambulo__engine *e = f.engine;
-  const ambulo_problem *p = f.problem;
-  double *d = calloc((size_t)f.n, sizeof *d), *got = calloc((size_t)f.n, sizeof *got);
-  double *want = calloc((size_t)f.n, sizeof *want);
-  size_t widest = (size_t)ambulo__metric_diagonals(p) + 1;
-  double *local = calloc(widest * widest, sizeof *local);
-  for (int j = 0; j < f.n; j++) f.x[j] = 0.2 * random_number(&seed);
-  for (int j = 0; j < f.n; j++) d[j] = random_number(&seed);
-  assert_int_equal(ambulo__evaluate_jacobian(e->workspace, f.x), AMBULO_OK);
-  ambulo__metric_fill(&e->linearized.metric, e->workspace, 2.0, &e->linearized.base);
-  ambulo__band_multiply(&e->linearized.base, d, got);
+/* -------------------------------------------------- another route to the matrix */
+
+/* residuals u of the composite terms at a node and their curvatures, or the channels */
+typedef struct look {
+  double *channel; /* [nodes][channels] */
+  double *u;       /* [terms][nodes][MOST_FORMS] */
+} look;
+
+enum { MOST_FORMS = 64 };
+
+static void look_at(ambulo_workspace *w, const double *x, look *l) {
+  const ambulo_problem *p = w->problem;
+  assert_int_equal(ambulo__evaluate(w, x), AMBULO_OK);
+  ambulo__term_frame frame = ambulo__term_frame_of(w);
   for (int k = 0; k < p->nodes; k++) {
-    int first = ambulo__node_first(p, k), width = ambulo__node_width(p, k);
-    memset(local, 0, widest * widest * sizeof *local);
-    node_gauss_newton(e->workspace, k, local);
-    for (int i = 0; i < width; i++) {
-      for (int j = 0; j < width; j++) want[first + i] += 2.0 * local[i * width + j] * d[first + j];
+    for (int c = 0; c < w->channel_count; c++)
+      l->channel[k * w->channel_count + c] = w->channel[ambulo__lane_index(k, w->channel_count, c)];
+    for (int t = 0; t < p->definition.term_count; t++) {
+      const ambulo_term *term = &p->definition.terms[t];
+      double *u = l->u + (t * p->nodes + k) * MOST_FORMS;
+      if (term->kind == AMBULO_USER_SQUARE) {
+        ambulo_node_state state = ambulo__node_state_view(p, k, l->channel + k * w->channel_count);
+        u[0] = term->function(term->user, &state, NULL);
+      }
+      if (ambulo__is_user_term(term) || ambulo__term_is_simple(term)) continue;
+      int forms = ambulo__term_forms(term, &frame, k);
+      assert_true(forms <= MOST_FORMS);
+      for (int j = 0; j < forms; j++) {
+        ambulo__form form;
+        ambulo__term_form(term, &frame, k, j, &form);
+        u[j] = form.u;
+      }
     }
   }
-  for (int j = 0; j < f.n; j++) assert_close(got[j], want[j], 1e-10);
+}
+
+/* the torque rate's bound 2 a^2 + 2 b^2 of (a + b)^2, a and b the rates of both torques */
+static double torque_rate_form(const ambulo_problem *p, const ambulo_term *term, int node,
+                               const double *dy, int channels) {
+  double step = p->definition.duration / p->definition.intervals, sum = 0.0;
+  if (node == p->nodes - 1) return 0.0;
+  for (int i = 0; i < p->coordinates; i++) {
+    double factor = ambulo__term_scale(term, i) / step;
+    int tau = ambulo__channel_tau(&p->channels, i);
+    double a = factor * dy[node * channels + tau], b = factor * dy[(node + 1) * channels + tau];
+    sum += term->weight * step * 2.0 * (2.0 * a * a + 2.0 * b * b);
+  }
+  return sum;
+}
+
+/* d'H d as the sum of curvature (du/dt)^2 along x + t d, by central differences of the residuals
+ * themselves: knows neither gradients nor bands. Terms of the caller that are no squares: `second`
+ * times the square of the first torque. */
+static double curvature_along(ambulo_workspace *w, const double *x, const double *d,
+                              double second) {
+  const ambulo_problem *p = w->problem;
+  const int channels = w->channel_count, n = p->variables, terms = p->definition.term_count;
+  const double h = 1e-5;
+  look l[3]; /* x - h d, x + h d, x */
+  double *y = calloc((size_t)n, sizeof *y), sum = 0.0;
+  for (int k = 0; k < 3; k++) {
+    l[k].channel = calloc((size_t)(p->nodes * channels), sizeof(double));
+    l[k].u = calloc((size_t)(terms * p->nodes * MOST_FORMS), sizeof(double));
+    for (int j = 0; j < n; j++) y[j] = x[j] + (k == 2 ? 0.0 : k ? h : -h) * d[j];
+    look_at(w, y, &l[k]);
+  }
+  for (int c = 0; c < p->nodes * channels; c++)
+    l[0].channel[c] = (l[1].channel[c] - l[0].channel[c]) / (2.0 * h);
+  for (int t = 0; t < terms; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    for (int k = 0; k < p->nodes; k++) {
+      const double *dy = l[0].channel;
+      double q = p->quadrature[k];
+      if (term->kind == AMBULO_TORQUE_RATE) {
+        sum += torque_rate_form(p, term, k, dy, channels);
+      } else if (term->kind == AMBULO_USER_TERM) {
+        double rate = dy[k * channels + ambulo__channel_tau(&p->channels, 0)];
+        sum += term->weight * q * second * rate * rate;
+      } else if (ambulo__term_is_simple(term)) {
+        for (int i = 0; i < p->coordinates; i++) {
+          int at = k * channels + ambulo__term_channel(term, &p->channels, i);
+          double scale = ambulo__term_scale(term, i), rate = scale * dy[at];
+          double u = scale * (l[2].channel[at] - ambulo__term_offset(term, p->coordinates, k, i));
+          sum += term->weight * q * ambulo__term_residual(term, u).curvature * rate * rate;
+        }
+      } else {
+        for (int j = 0; j < MOST_FORMS; j++) {
+          int at = (t * p->nodes + k) * MOST_FORMS + j;
+          double rate = (l[1].u[at] - l[0].u[at]) / (2.0 * h);
+          double curvature = term->kind == AMBULO_USER_SQUARE
+                                 ? 2.0
+                                 : ambulo__term_residual(term, l[2].u[at]).curvature;
+          sum += term->weight * q * curvature * rate * rate;
+        }
+      }
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    free(l[k].channel);
+    free(l[k].u);
+  }
+  free(y);
+  return sum;
+}
+
+/* the metric's own d'H d, for an objective times 1.7 */
+static double metric_along(ambulo_workspace *w, const double *x, const double *d) {
+  const ambulo_problem *p = w->problem;
+  const double scale = 1.7;
+  ambulo__pool pool;
+  ambulo__metric metric;
+  ambulo__band h;
+  double *hd = calloc((size_t)p->variables, sizeof *hd), sum = 0.0;
+  ambulo__pool_init(&pool, NULL);
+  assert_int_equal(ambulo__metric_create(p, &pool, &metric), AMBULO_OK);
+  assert_int_equal(ambulo__band_create(&pool, p->variables, ambulo__metric_diagonals(p), &h),
+                   AMBULO_OK);
+  assert_int_equal(ambulo__evaluate_jacobian(w, x), AMBULO_OK);
+  ambulo__metric_fill(&metric, w, scale, &h);
+  ambulo__band_multiply(&h, d, hd);
+  for (int j = 0; j < p->variables; j++) sum += d[j] * hd[j];
+  ambulo__pool_clear(&pool);
+  free(hd);
+  return sum / scale;
+}
+
+static void compare_along(ambulo_workspace *w, const double *x, double second, unsigned seed) {
+  int n = w->problem->variables;
+  double *d = calloc((size_t)n, sizeof *d);
+  for (int trial = 0; trial < 4; trial++) {
+    for (int j = 0; j < n; j++)
+      d[j] = trial < 2 ? random_number(&seed) : (j % (n / 3) == trial ? 1.0 : 0.0);
+    double want = curvature_along(w, x, d, second), got = metric_along(w, x, d);
+    assert_true(want > 0.0);
+    if (fabs(got / want - 1.0) > 1e-4) print_error("along %d: %g, expected %g\n", trial, got, want);
+    assert_close(got / want, 1.0, 1e-4);
+  }
   free(d);
-  free(got);
-  free(want);
-  free(local);
-  engine_close(&f);
+}
+
+/* 0.3 + tau_1 - 2 qd_0 + the hand's height */
+static double mixed(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
+  (void)user;
+  if (g) {
+    g->tau[1] += 1.0;
+    g->qd[0] -= 2.0;
+    g->points[1] += 1.0;
+  }
+  return 0.3 + s->tau[1] - 2.0 * s->qd[0] + s->points[1];
+}
+
+/* 1.5 tau_0^2, of whose shape nothing is told */
+static double bowl(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
+  (void)user;
+  if (g) g->tau[0] += 3.0 * s->tau[0];
+  return 1.5 * s->tau[0] * s->tau[0];
+}
+
+/* of each kind of term by itself, and of all together: on an arm */
+static void curvature_is_that_of_the_residuals(void **state) {
+  (void)state;
+  static const ambulo_term_kind kinds[] = {
+      AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE,  AMBULO_ACCELERATION, AMBULO_TORQUE_POWER,
+      AMBULO_TORQUE_RATE,    AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,      AMBULO_TRACKING,
+      AMBULO_UPRIGHT,        AMBULO_USER_SQUARE,      AMBULO_USER_TERM};
+  enum { KINDS = sizeof kinds / sizeof *kinds, NODES = 11 };
+  static const double scale[ARM_COORDINATES] = {0.5, 2.0};
+  static const double offset[ARM_COORDINATES] = {1.0, -0.5};
+  static const double reference[NODES * ARM_COORDINATES] = {0.1, 0.2, 0.3};
+  static const ambulo_discretization grids[] = {AMBULO_BSPLINE, AMBULO_HERMITE,
+                                                AMBULO_CENTRAL_DIFFERENCE};
+  for (int only = 0; only < KINDS + 3; only++) { /* the last: all, on nodes of different widths */
+    fixture f = {.model = arm_create()};
+    ambulo_problem_definition d = arm_definition(f.model);
+    ambulo_term terms[KINDS];
+    int count = 0;
+    for (int k = 0; k < KINDS; k++) {
+      if (only < KINDS && k != only) continue;
+      ambulo_term *term = &terms[count++];
+      *term = ambulo_term_default(kinds[k]);
+      term->weight = 0.3 + 0.1 * k;
+      if (!ambulo__is_user_term(term) && kinds[k] != AMBULO_UPRIGHT) term->scale = scale;
+      if (kinds[k] == AMBULO_TORQUE_SQUARED || kinds[k] == AMBULO_POSTURE) term->offset = offset;
+      if (kinds[k] == AMBULO_TRACKING) term->reference = reference;
+      term->point[0] = 0;
+      term->point[1] = 1;
+      term->function = kinds[k] == AMBULO_USER_SQUARE ? mixed : bowl;
+    }
+    d.terms = terms;
+    d.term_count = count;
+    d.discretization = grids[only < KINDS ? 0 : only - KINDS];
+    fixture_open(&f, &d);
+    compare_along(f.workspace, f.x, 3.0, 5u + (unsigned)only);
+    fixture_close(&f);
+  }
+}
+
+/* several terms may have residuals over two nodes, two rows each */
+static void every_residual_has_room(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  ambulo_problem_definition d = arm_definition(f.model);
+  ambulo_term terms[3];
+  for (int k = 0; k < 3; k++) {
+    terms[k] = ambulo_term_default(AMBULO_TORQUE_RATE);
+    terms[k].weight = 1.0 + k;
+  }
+  d.terms = terms;
+  d.term_count = 3;
+  fixture_open(&f, &d);
+  compare_along(f.workspace, f.x, 0.0, 3u);
+  fixture_close(&f);
+}
+
+static void compare_shipped(const char *name) {
+  ambulo_problem *p = load_problem(name);
+  ambulo_workspace *w = NULL;
+  unsigned seed = 4;
+  double *x = calloc((size_t)p->variables, sizeof *x);
+  for (int j = 0; j < p->variables; j++) x[j] = 0.1 * random_number(&seed);
+  assert_int_equal(ambulo_workspace_create(p, NULL, &w), AMBULO_OK);
+  compare_along(w, x, 0.0, 9u);
+  ambulo_workspace_free(w);
+  ambulo_problem_free(p);
+  free(x);
+}
+
+/* and of walks: terms about feet and forces; nodes on knots, which fewer unknowns reach */
+static void curvature_of_a_walk_too(void **state) {
+  (void)state;
+  compare_shipped("walk_normal");
+  compare_shipped("walker_2d_step");
+}
+
+/* ---------------------------------------------------------------------- scale */
+
+/* qd_0 */
+static double rate_of_the_first(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
+  (void)user;
+  if (g) g->qd[0] += 1.0;
+  return s->qd[0];
+}
+
+/* 1.5 qdd_1^2 */
+static double bowl_of_accelerations(void *user, const ambulo_node_state *s,
+                                    ambulo_node_gradient *g) {
+  (void)user;
+  if (g) g->qdd[1] += 3.0 * s->qdd[1];
+  return 1.5 * s->qdd[1] * s->qdd[1];
+}
+
+/* Half a wave in the time T goes with w = pi / T: q = qdd / w^2, qd = qdd / w. The curvature along
+ * qdd, mean over time and both joints, times the scale is REFERENCE_CURVATURE. */
+static void scale_follows_from_half_a_wave(void **state) {
+  (void)state;
+  const double w = 3.14159265358979323846, T = 1.0;
+  static const ambulo_term_kind kinds[] = {AMBULO_POSTURE, AMBULO_ACCELERATION, AMBULO_USER_SQUARE,
+                                           AMBULO_USER_TERM};
+  const double curvature[] = {2.0 / pow(w / T, 4.0), 2.0, 0.5 * 2.0 / pow(w / T, 2.0), 0.5 * 3.0};
+  for (int k = 0; k < 4; k++) {
+    fixture f = {.model = arm_create()};
+    ambulo_problem_definition d = arm_definition(f.model);
+    ambulo_term term = ambulo_term_default(kinds[k]);
+    ambulo__pool pool;
+    ambulo__metric metric;
+    term.weight = 0.7;
+    term.function = k == 2 ? rate_of_the_first : bowl_of_accelerations;
+    d.terms = &term;
+    fixture_open(&f, &d);
+    ambulo__pool_init(&pool, NULL);
+    assert_int_equal(ambulo__metric_create(f.problem, &pool, &metric), AMBULO_OK);
+    assert_int_equal(ambulo__evaluate_jacobian(f.workspace, f.x), AMBULO_OK);
+    assert_close(ambulo__metric_objective_scale(&metric, f.workspace) * 0.7 * curvature[k] /
+                     AMBULO__REFERENCE_CURVATURE,
+                 1.0, 1e-3);
+    ambulo__pool_clear(&pool);
+    fixture_close(&f);
+  }
 }
 
 static double scale_with(const char *name, const char *override) {
@@ -104,6 +355,25 @@ static void scale_goes_with_the_mass_squared(void **state) {
   assert_true(slider_scale(2.0) == one / 4.0 && slider_scale(0.5) == one * 4.0);
 }
 
+/* a curvature is there, on few channels or light ones: then no other is put in its place */
+static void the_stand_in_stands_in_for_nothing_else(void **state) {
+  (void)state;
+  fixture f = {.model = arm_create()};
+  ambulo_problem_definition d = arm_definition(f.model);
+  ambulo_term term = ambulo_term_default(AMBULO_POSTURE);
+  static const double scale[ARM_COORDINATES] = {1.0, 0.0};
+  term.scale = scale;
+  d.terms = &term;
+  fixture_open(&f, &d);
+  double *x = calloc((size_t)f.n, sizeof *x);
+  for (int j = 0; j < f.n; j++) x[j] = j % ARM_COORDINATES; /* moves the elbow only */
+  assert_true(metric_along(f.workspace, f.x, x) == 0.0);
+  for (int j = 0; j < f.n; j++) x[j] = 1 - j % ARM_COORDINATES;
+  assert_close(metric_along(f.workspace, f.x, x), 2.0, 1e-9); /* one second of u = 1 */
+  free(x);
+  fixture_close(&f);
+}
+
 static void problem_without_objective_has_a_metric(void **state) {
   (void)state;
   engine_fixture f;
@@ -145,7 +415,11 @@ static void nan_reaches_the_factorization(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(band_is_the_sum_over_nodes),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(curvature_is_that_of_the_residuals),
+                                     cmocka_unit_test(every_residual_has_room),
+                                     cmocka_unit_test(curvature_of_a_walk_too),
+                                     cmocka_unit_test(scale_follows_from_half_a_wave),
+                                     cmocka_unit_test(the_stand_in_stands_in_for_nothing_else),
                                      cmocka_unit_test(scale_takes_the_unit_away),
                                      cmocka_unit_test(postures_do_not_move_the_scale),
                                      cmocka_unit_test(scale_goes_with_the_mass_squared),

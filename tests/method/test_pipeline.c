@@ -1,4 +1,5 @@
 /* The method on one grid: the yardstick's optimum is met; the last steps leave no violation. */
+#include "support/arm.h"
 #include "support/engine_fixture.h"
 
 static double solve(double *violation, int *evaluations) {
@@ -167,6 +168,32 @@ static void a_start_that_leads_nowhere_is_told(void **state) {
   }
 }
 
+static double too_far(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
+  (void)user;
+  if (g) g->points[0] += 1.0;
+  return s->points[0] - 0.6; /* of an arm of 0.55 m */
+}
+
+/* equations that no motion satisfies are where it ends: nothing is minimized beside them */
+static void what_cannot_be_restored_is_told(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  ambulo_user_row row = {"own", "m", AMBULO_EQUAL, 0.5, 0.5, too_far, NULL};
+  engine_fixture f = {.options = ambulo_options_default()};
+  d.user_rows = &row;
+  d.user_row_count = 1;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f.problem), AMBULO_OK);
+  f.x = calloc((size_t)f.problem->variables, sizeof *f.x);
+  ambulo__run_begin(&f.run, &f.options);
+  assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+  assert_int_equal(f.run.ending, AMBULO_ENDING_NOT_RESTORED);
+  assert_int_equal(f.run.nlopt.calls, 0);
+  engine_close(&f);
+  ambulo_model_free(model);
+}
+
 /* by the caller's limit on iterations, or on evaluations: the rows hold where they nearly did */
 static void what_is_cut_short_is_polished(void **state) {
   (void)state;
@@ -205,6 +232,7 @@ static void polish_gives_back_what_it_takes(void **state) {
     assert_true(rho < 1e5);
     memcpy(x, f.x, (size_t)f.n * sizeof *x);
     for (int i = 0; i < e->setup->equalities; i++) e->iterate.equality_multiplier[i] = 1e3;
+    for (int i = 0; i < e->setup->inequalities; i++) e->iterate.lambda[i] = 1e3;
     f.options.feasibility_tolerance = run ? 1e-30 : 1e-8;
     assert_int_equal(ambulo__polish(e, f.x), !run);
     assert_true(e->iterate.rho == rho);
@@ -235,6 +263,7 @@ int main(void) {
                                      cmocka_unit_test(tracking_has_no_lower_bound_to_rest_on),
                                      cmocka_unit_test(each_start_has_its_penalty_and_damping),
                                      cmocka_unit_test(a_start_that_leads_nowhere_is_told),
+                                     cmocka_unit_test(what_cannot_be_restored_is_told),
                                      cmocka_unit_test(what_is_cut_short_is_polished),
                                      cmocka_unit_test(polish_gives_back_what_it_takes)};
   return cmocka_run_group_tests(tests, NULL, NULL);

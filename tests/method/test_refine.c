@@ -1,5 +1,6 @@
 /* Coarse grids: which, what they carry over, and when there are none. */
 #include "method/refine.h"
+#include "support/arm.h"
 #include "support/engine_fixture.h"
 
 static double refine(engine_fixture *f, int *levels) {
@@ -39,8 +40,44 @@ static void few_intervals_have_no_coarser_grid(void **state) {
   engine_close(&f);
 }
 
+static double height(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
+  (void)user;
+  if (g) g->points[1] += 1.0;
+  return s->points[1];
+}
+
+/* functions of the caller may count nodes: they are asked on his grid alone */
+static void callbacks_have_no_coarser_grid(void **state) {
+  (void)state;
+  for (int kind = 0; kind < 3; kind++) {
+    engine_fixture f = {.options = ambulo_options_default()};
+    int levels = -1;
+    ambulo_model *model = arm_create();
+    ambulo_problem_definition d = arm_definition(model);
+    ambulo_term term = ambulo_term_default(AMBULO_USER_TERM);
+    ambulo_user_row row = {"low", "m", AMBULO_NOT_NEGATIVE, 0.0, 1.0, height, NULL};
+    term.function = height;
+    d.intervals = 32;
+    if (kind == 1) d.terms = &term;
+    if (kind == 2) d.user_rows = &row;
+    d.user_row_count = kind == 2;
+    assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f.problem), AMBULO_OK);
+    f.n = ambulo_problem_variable_count(f.problem);
+    f.x = calloc((size_t)f.n, sizeof *f.x);
+    ambulo__run_begin(&f.run, &f.options);
+    assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine),
+                     AMBULO_OK);
+    (void)refine(&f, &levels);
+    assert_int_equal(levels, kind == 0);
+    assert_int_equal(f.run.evaluations > 0, kind == 0);
+    engine_close(&f);
+    ambulo_model_free(model);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_next_grid_is_carried_over),
-                                     cmocka_unit_test(few_intervals_have_no_coarser_grid)};
+                                     cmocka_unit_test(few_intervals_have_no_coarser_grid),
+                                     cmocka_unit_test(callbacks_have_no_coarser_grid)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
