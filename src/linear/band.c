@@ -3,6 +3,7 @@
 #include "base/lapack.h"
 #include "base/worst.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { BLOCK = 24 }; /* columns that ambulo__band_forward_many takes at once */
@@ -82,6 +83,17 @@ void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows
                  diagonal + rows->column[e] - rows->column[f]);
     }
   }
+}
+
+void ambulo__band_raise_diagonal(ambulo__band *band, double share) {
+  for (int j = 0; j < band->n; j++) band->a[(size_t)j * (size_t)band->ld] *= 1.0 + share;
+}
+
+double ambulo__band_row_length(const ambulo__band *band, const ambulo__sparse_rows *rows, int i) {
+  double sum = 0.0;
+  for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
+    sum += rows->value[e] * rows->value[e] / band->a[(size_t)rows->column[e] * (size_t)band->ld];
+  return sqrt(sum);
 }
 
 double ambulo__band_largest(const ambulo__band *band) {

@@ -31,6 +31,8 @@ void ambulo__band_copy(const ambulo__band *from, ambulo__band *to);
 /* The same of a factor. */
 void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to);
 void ambulo__band_add_diagonal(ambulo__band *band, double value);
+/* Adds `share` of each diagonal element to itself. */
+void ambulo__band_raise_diagonal(ambulo__band *band, double share);
 /* Adds G'G of rows G [count][stride] (row-major) on the `width` unknowns from `first` on. G is
  * 64-byte aligned, its stride whole tiles, and what lies beyond the width zero. */
 void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, int stride,
@@ -44,6 +46,9 @@ void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows
                              double weight);
 /* Largest diagonal element. */
 double ambulo__band_largest(const ambulo__band *band);
+/* (J D^-1 J')^1/2 of row i of a set, D the diagonal of A: 1 / its square is about what A opposes to
+ * a change of the row. */
+double ambulo__band_row_length(const ambulo__band *band, const ambulo__sparse_rows *rows, int i);
 /* y = A x, y apart from x */
 void ambulo__band_multiply(const ambulo__band *band, const double *x, double *y);
 /* A = L L' in place. 0, or 1 when A is not positive definite. */

@@ -42,20 +42,17 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
-/* S_i for unit |J_i|: stiffness times the largest curvature of H; where that drowns H (fine grids,
- * whose rows and metric are uneven), times the curvature of H along the row. */
+/* S_i: stiffness times the largest curvature of H, for unit |J_i|; where that drowns H (fine grids:
+ * the curvature of smooth motions is (T/K)^4 of the largest, and S is on top of it), stiffness times
+ * what the diagonal D of H opposes to a change of the row, 1 / (J D^-1 J'): then no unknown's
+ * diagonal grows by more than the stiffness. */
 static void set_penalties(ambulo__kkt *kkt, const ambulo__band *h) {
   const ambulo__sparse_rows *rows = kkt->equality;
   double largest = ambulo__band_largest(h);
   for (int i = 0; i < kkt->equalities; i++) {
-    double square = 0.0, along = 0.0;
-    for (int e = rows->start[i]; e < rows->start[i + 1]; e++) {
-      double part = rows->value[e] * rows->value[e];
-      square += part;
-      along += part * h->a[(size_t)rows->column[e] * (size_t)h->ld];
-    }
-    double curvature = kkt->by_row && square > 0.0 ? along / square : largest;
-    kkt->penalty[i] = square > 0.0 ? kkt->stiffness * curvature / square : 0.0;
+    double length = kkt->by_row ? ambulo__band_row_length(h, rows, i)
+                                : ambulo__sparse_rows_norm(rows, i) / sqrt(largest);
+    kkt->penalty[i] = length > 0.0 ? kkt->stiffness / (length * length) : 0.0;
   }
 }
 
@@ -71,10 +68,18 @@ static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
 
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
   ambulo__update_clear(&kkt->update);
-  int failed = factor(kkt, h);
-  if (!failed || kkt->stiffness <= AMBULO__STIFFNESS_START) return failed;
-  kkt->stiffness = AMBULO__STIFFNESS_START;
-  return factor(kkt, h);
+  while (factor(kkt, h)) { /* H drowned, or is not positive definite */
+    if (kkt->stiffness > AMBULO__STIFFNESS_START) {
+      kkt->stiffness = AMBULO__STIFFNESS_START;
+    } else if (!kkt->by_row) {
+      kkt->by_row = 1;
+    } else if (kkt->stiffness > AMBULO__STIFFNESS_LEAST) {
+      kkt->stiffness = AMBULO__STIFFNESS_LEAST;
+    } else {
+      return 1;
+    }
+  }
+  return 0;
 }
 
 void ambulo__kkt_change(ambulo__kkt *kkt, const ambulo__sparse_rows *rows, int i, double weight) {
@@ -83,12 +88,6 @@ void ambulo__kkt_change(ambulo__kkt *kkt, const ambulo__sparse_rows *rows, int i
 
 int ambulo__kkt_renew(ambulo__kkt *kkt, const ambulo__band *h) {
   return ambulo__update_factor(&kkt->update) ? ambulo__kkt_factor(kkt, h) : 0;
-}
-
-int ambulo__kkt_by_row(ambulo__kkt *kkt) {
-  int was = kkt->by_row;
-  kkt->by_row = 1;
-  return !was;
 }
 
 void ambulo__kkt_pass(ambulo__kkt *kkt, double *right, const double *b, double *m) {

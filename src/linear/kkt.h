@@ -18,7 +18,7 @@ typedef struct ambulo__kkt {
   ambulo__border border;
   ambulo__update update; /* rows that H has gained or lost since then */
   double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H, */
-  int by_row;       /* or to what H has along the row */
+  int by_row;       /* or to what H opposes to the row, once the former has drowned H */
   double *penalty;  /* [equalities]: diagonal of S */
   double *residual; /* [equalities] */
 } ambulo__kkt;
@@ -35,8 +35,6 @@ void ambulo__kkt_change(ambulo__kkt *kkt, const ambulo__sparse_rows *rows, int i
 /* The factor of the last H with all changes since, which is h: by an update of few columns, or
  * anew. As ambulo__kkt_factor. */
 int ambulo__kkt_renew(ambulo__kkt *kkt, const ambulo__band *h);
-/* Where no H can be factored: from now on stiffness row by row. 0 when it already is. */
-int ambulo__kkt_by_row(ambulo__kkt *kkt);
 
 /* One pass: d solves M d + C' m = right, C d = b exactly; J d is what it comes out as.
  * b NULL: zero. right becomes d. m [border->count] may be NULL. */

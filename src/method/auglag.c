@@ -17,11 +17,15 @@
  *              point where it ended: the metric there, whose rows with a force are those that the
  *              model step foresees. NLopt's point does not move by that, and its L-BFGS starts
  *              afresh at every inner solve.
- *   gradients  NLopt adds to the objective's gradient each row's, times rho c + nu. That sum is one
- *              reverse sweep, each gradient alone would be one too. So NLopt is given the sum in
- *              the place of one row, the one with the largest force, divided by the force that
- *              NLopt is going to multiply it with, and zeros elsewhere; with the objective when no
- *              row has a force. Forces by nu and rho as mirror.h knows them.
+ *   gradients  NLopt adds to the objective's gradient each row's, times its force rho c + nu. That
+ *              sum is one reverse sweep, each gradient alone would be one too, and for each row
+ *              with a force, however many zeros its gradient has, NLopt adds n numbers: work in
+ *              proportion to the square of the intervals. So where NLopt asks for gradients the row
+ *              with the largest force stands for all: its force is the root of the sum of squares,
+ *              which is what they add to the value, its gradient the sum, divided by that force;
+ *              the others say that they hold. With the objective when no row has a force. Where
+ *              NLopt asks for none, between two inner solves, each row has its own value: from
+ *              these NLopt updates nu and rho. Forces by nu and rho as mirror.h knows them.
  *   scale S    NLopt multiplies rho by 10 where a row does not give way; 2, up to a bound, is what
  *              walks stand (docs/solver.md: left alone it stops some of them too high). S is
  *              lowered in the same moment, for objective and rows alike: lambda stays, and R
@@ -84,16 +88,12 @@ struct drive {
 /* the model step, mu raised until it can be factored; why it could not be, or none */
 static ambulo_ending model(drive *s) {
   ambulo__engine *e = s->engine;
-  double *mu = &e->iterate.mu, first = *mu;
-  do {
-    *mu = first;
-    for (int trial = 0; trial < AMBULO__DAMPING_RAISES; trial++) {
-      int failed = ambulo__model_step(e, &s->predicted);
-      if (failed == 0) return AMBULO_ENDING_NONE;
-      if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
-      *mu *= AMBULO__DAMPING_RAISE;
-    }
-  } while (ambulo__kkt_by_row(&e->linearized.kkt));
+  for (int trial = 0; trial < AMBULO__DAMPING_RAISES; trial++) {
+    int failed = ambulo__model_step(e, &s->predicted);
+    if (failed == 0) return AMBULO_ENDING_NONE;
+    if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
+    e->iterate.mu *= AMBULO__DAMPING_RAISE;
+  }
   return AMBULO_ENDING_BREAKDOWN;
 }
 
@@ -183,19 +183,25 @@ static double value_of(const drive *s, double merit) {
   return s->scale * (held->value < HUGE_VAL ? held->objective : merit) + s->constant;
 }
 
-/* moves the sum to the row whose force is largest */
+/* Moves what all forces add, to value and gradient, to the row whose force is largest; the others
+ * say that they hold by far: for each row with a force NLopt would add n zeros. */
 static void give_to_bearer(drive *s, unsigned n, double *gradient) {
   const ambulo__mirror *m = &s->mirror;
-  double largest = 0.0;
+  double largest = 0.0, squares = 0.0;
   s->bearer = -1;
   for (int i = 0; i < m->rows; i++) {
     double force = s->row[i] + m->multiplier[i] / m->penalty;
+    if (!(force > 0.0)) continue;
+    squares += force * force;
+    s->row[i] = -HUGE_VAL;
     if (!(force > largest)) continue;
     largest = force;
     s->bearer = i;
   }
   if (s->bearer < 0) return;
-  for (unsigned j = 0; j < n; j++) s->borne[j] = gradient[j] / (m->penalty * largest);
+  double force = sqrt(squares);
+  s->row[s->bearer] = force - m->multiplier[s->bearer] / m->penalty;
+  for (unsigned j = 0; j < n; j++) s->borne[j] = gradient[j] / (m->penalty * force);
   memset(gradient, 0, n * sizeof *gradient);
 }
 

@@ -1,6 +1,7 @@
 /* method/engine_point.c - see engine_point.h. */
 #include "method/engine_point.h"
 #include "base/worst.h"
+#include "method/parameters.h"
 #include "nlp/fault.h"
 
 #include <math.h>
@@ -63,6 +64,7 @@ ambulo_status ambulo__engine_gradient(ambulo__engine *e, double scale, const dou
 int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
   ambulo__band *base = &e->linearized.base;
   ambulo__metric_fill(&e->linearized.metric, e->workspace, e->setup->objective_scale, base);
+  ambulo__band_raise_diagonal(base, AMBULO__METRIC_ROUNDING);
   ambulo__band_add_diagonal(base, mu);
   e->linearized.assembled = 0;
   double largest = ambulo__band_largest(base);

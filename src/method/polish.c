@@ -9,7 +9,10 @@
  *
  * is a few Newton steps from a feasible point; the objective moves by multiplier * excess.
  * Solved by the model of model_step.c with a large penalty, the multipliers, and an
- * objective gradient - J' lambda that balances them: rows with a force then pull both ways.
+ * objective gradient - J' lambda that balances them: rows with a force then pull both ways. The
+ * penalty is relative to what the metric opposes to each row: on fine grids rows on accelerations
+ * are so much longer than rows on places that a common one either lets go of these or drowns the
+ * metric in the rounding of its factor.
  */
 #include "method/polish.h"
 #include "method/engine_point.h"
@@ -27,8 +30,27 @@ ambulo_status ambulo__polish_create(ambulo__engine *e) {
   return s->x ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
+/* Row i, its excess and multiplier with `factor` times the scale that they have in the solve. */
+static void rescale(ambulo__engine *e, int i, double factor) {
+  ambulo__sparse_rows *rows = &e->linearized.rows.inequality;
+  double scale = -factor / e->setup->rows->size[i], change = scale / rows->scale[i];
+  ambulo__sparse_rows_set_scale(rows, i, scale);
+  e->quadratic->linear[i] *= change;
+  e->iterate.lambda[i] /= change;
+}
+
+/* Rows of length 1 in the diagonal D of the metric, J D^-1 J' = 1: one penalty is then as good as
+ * equality for all of them on every grid, and drowns the metric on none. */
+static void normalize(ambulo__engine *e) {
+  const ambulo__linearized *at = &e->linearized;
+  for (int i = 0; i < e->setup->inequalities; i++) {
+    double length = ambulo__band_row_length(&at->base, &at->rows.inequality, i);
+    if (length > 0.0) rescale(e, i, 1.0 / length);
+  }
+}
+
 /* one step from the iterate, whose excesses are in the model, to x; 0 on success */
-static int step(ambulo__engine *e, double *x) {
+static int step(ambulo__engine *e, double rho, double *x) {
   ambulo__linearized *at = &e->linearized;
   ambulo__quadratic *q = e->quadratic;
   double decrease;
@@ -38,7 +60,10 @@ static int step(ambulo__engine *e, double *x) {
   if (ambulo__engine_fill_metric(e, e->iterate.mu)) return 1;
   memset(q->gradient, 0, (size_t)e->setup->n * sizeof *q->gradient);
   ambulo__sparse_rows_add_transpose(&at->rows.inequality, -1.0, e->iterate.lambda, q->gradient);
-  if (ambulo__model_minimize(e, AMBULO__POLISH_PENALTY, 0, &decrease)) return 1;
+  normalize(e);
+  int failed = ambulo__model_minimize(e, rho, 0, &decrease);
+  for (int i = 0; i < e->setup->inequalities; i++) rescale(e, i, 1.0);
+  if (failed) return 1;
   for (int j = 0; j < e->setup->n; j++) x[j] = e->iterate.x[j] + q->total[j];
   return !ambulo__retract(e, x);
 }
@@ -50,14 +75,17 @@ int ambulo__polish(ambulo__engine *e, double *x) {
   double target = AMBULO__POLISH_SHARE * e->run->options->feasibility_tolerance;
   size_t bytes = (size_t)s->n * sizeof *x;
   int done = 0;
+  double rho = AMBULO__POLISH_PENALTY;
   memcpy(moved, x, bytes);
-  memcpy(iterate->lambda, e->reached.multiplier, (size_t)s->inequalities * sizeof *iterate->lambda);
   for (int k = 0; k < AMBULO__POLISH_STEPS && !done; k++) {
     memcpy(iterate->x, moved, bytes);
+    memcpy(iterate->lambda, e->reached.multiplier,
+           (size_t)s->inequalities * sizeof *iterate->lambda);
     if (ambulo__evaluate_jacobian(e->workspace, iterate->x)) break;
     double worst = ambulo__engine_excess(e, e->quadratic->linear);
     done = worst <= target;
-    if (!done && step(e, moved)) break;
+    if (!done && step(e, rho, moved)) break;
+    rho *= AMBULO__POLISH_GROWTH;
   }
   memcpy(iterate->equality_multiplier, e->reached.equality_multiplier,
          (size_t)s->equalities * sizeof *iterate->equality_multiplier);

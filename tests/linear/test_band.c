@@ -139,6 +139,23 @@ static void sparse_row_adds_its_outer_product(void **state) {
   ambulo__pool_clear(&m.pool);
 }
 
+/* J D^-1 J', and the diagonal that it is measured by */
+static void a_row_has_a_length_in_the_diagonal(void **state) {
+  (void)state;
+  banded m;
+  int start[] = {0, 2}, column[] = {4, 9}, run_end[] = {1, 2};
+  double value[] = {2.0, -0.5};
+  ambulo__sparse_rows rows = {
+      .count = 1, .start = start, .column = column, .run_end = run_end, .value = value};
+  fill(&m, 5);
+  double want = sqrt(4.0 / m.dense[4][4] + 0.25 / m.dense[9][9]);
+  assert_close(ambulo__band_row_length(&m.band, &rows, 0), want, 1e-14);
+  ambulo__band_raise_diagonal(&m.band, 3.0);
+  assert_close(ambulo__band_row_length(&m.band, &rows, 0), 0.5 * want, 1e-14);
+  assert_close(m.band.a[1], m.dense[1][0], 0.0); /* nothing else */
+  ambulo__pool_clear(&m.pool);
+}
+
 static void indefinite_matrix_is_refused(void **state) {
   (void)state;
   banded m;
@@ -205,6 +222,7 @@ int main(void) {
       cmocka_unit_test(many_right_hand_sides_are_single_ones),
       cmocka_unit_test(a_right_hand_side_that_overflows_leaves_nothing_behind),
       cmocka_unit_test(sparse_row_adds_its_outer_product),
+      cmocka_unit_test(a_row_has_a_length_in_the_diagonal),
       cmocka_unit_test(indefinite_matrix_is_refused),
       cmocka_unit_test(sizes_are_what_is_stored),
       cmocka_unit_test(a_copied_factor_solves),

@@ -1,0 +1,59 @@
+/* Grids that are finer by four: the same problem is solved, in little more iterations. What each
+ * holds: penalties row by row where common ones drown the metric (linear/kkt.c), and polishing that
+ * is relative to the metric (method/polish.c). */
+#include "support/engine_fixture.h"
+
+static ambulo_problem *load(const char *name, int intervals) {
+  char path[96], time[48], spline[48];
+  const char *overrides[] = {time, spline};
+  ambulo_problem *problem = NULL;
+  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  (void)snprintf(time, sizeof time, "time.intervals=%d", intervals);
+  (void)snprintf(spline, sizeof spline, "trajectory.intervals=%d", intervals);
+  assert_int_equal(ambulo_problem_load(path, overrides, 2, NULL, NULL, &problem), AMBULO_OK);
+  return problem;
+}
+
+static int iterations(const char *name, int intervals, double *objective) {
+  ambulo_problem *problem = load(name, intervals);
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  int count = ambulo_result_iterations(result);
+  if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
+    print_error("%s on %d: %s, KKT %.1e\n", name, intervals,
+                ambulo_verdict_name(ambulo_result_verdict(result)),
+                ambulo_result_audit(result)->kkt);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  *objective = ambulo_result_objective(result);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  return count;
+}
+
+/* iterations grow with the number of doublings at the most: by as many as the coarse grid took */
+static void iterations_do_not_follow_the_grid(void **state) {
+  (void)state;
+  static const struct {
+    const char *name;
+    int coarse, fine;
+    double objective; /* on the fine grid, known from several ways to it */
+  } cases[] = {{"yardstick_72", 72, 288, 2.65089},
+               {"walker_2d_step", 40, 160, 1.0943},
+               {"walker_2d_step", 160, 640, 1.0999},
+               {"walk_normal", 25, 100, 0.06731},
+               {"two_link_reach", 40, 2560, 5.16544}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    double objective;
+    int before = iterations(cases[i].name, cases[i].coarse, &objective);
+    int after = iterations(cases[i].name, cases[i].fine, &objective);
+    if (after > 2 * before)
+      print_error("%s: %d, then %d iterations\n", cases[i].name, before, after);
+    assert_true(after <= 2 * before);
+    assert_close(objective, cases[i].objective, 1e-3 * cases[i].objective);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(iterations_do_not_follow_the_grid)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
