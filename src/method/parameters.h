@@ -198,11 +198,16 @@
 /* Newton steps. 0: walk_normal with a tolerance of 1e-9 takes 23 to 63 iterations. T: pipeline. */
 #define AMBULO__POLISH_STEPS 6
 /* penalty of its model on rows of length 1 in the metric's diagonal, at first and its growth with
- * each step: rows are not forced where it costs most unless nothing less helps. 1e3 at first:
- * two_link_reach on 2560 intervals ends 0.4 % higher; no growth: walk_normal 14 to 19 iterations.
- * T: pipeline. */
+ * each step, to the last: rows are not forced where it costs most unless nothing less helps. 1e3 at
+ * first: two_link_reach on 2560 intervals ends 0.4 % higher; growth of 10: walk_slow ends with a KKT
+ * residual of 8e-5, not 2e-5. T: pipeline. */
 #define AMBULO__POLISH_PENALTY 1e2
-#define AMBULO__POLISH_GROWTH 10.0
+#define AMBULO__POLISH_GROWTH 1e3
+#define AMBULO__POLISH_LAST 1e8
+/* of what the multipliers say that the objective rises by, besides VALUE_CHANGE: more is another
+ * motion. 0 (any rise): walk_without_reaction with NEAR_VIOLATION at 3e-6 ends 0.07 % too high.
+ * T: pipeline. */
+#define AMBULO__POLISH_RISE 3.0
 /* of the feasibility tolerance: the last decimals are not a matter of luck. 0 (1): free. */
 #define AMBULO__POLISH_SHARE 0.2
 

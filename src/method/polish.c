@@ -20,6 +20,7 @@
 #include "method/parameters.h"
 #include "method/retraction.h"
 
+#include <math.h>
 #include <string.h>
 
 ambulo_status ambulo__polish_create(ambulo__engine *e) {
@@ -68,7 +69,16 @@ static int step(ambulo__engine *e, double rho, double *x) {
   return !ambulo__retract(e, x);
 }
 
-int ambulo__polish(ambulo__engine *e, double *x) {
+/* whether the point in the workspace costs more than the rows' multipliers foretold */
+static int costs_more(const ambulo__engine *e) {
+  const ambulo__trial *from = &e->reached;
+  double foretold = AMBULO__VALUE_CHANGE * fabs(from->objective);
+  for (int i = 0; i < e->setup->inequalities; i++)
+    foretold += AMBULO__POLISH_RISE * from->multiplier[i] * fabs(from->excess[i]);
+  return e->setup->objective_scale * e->workspace->objective - from->objective > foretold;
+}
+
+int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {
   const ambulo__setup *s = e->setup;
   ambulo__iterate *iterate = &e->iterate;
   double *moved = e->polishing->x, begin = ambulo__seconds_now();
@@ -83,9 +93,13 @@ int ambulo__polish(ambulo__engine *e, double *x) {
            (size_t)s->inequalities * sizeof *iterate->lambda);
     if (ambulo__evaluate_jacobian(e->workspace, iterate->x)) break;
     double worst = ambulo__engine_excess(e, e->quadratic->linear);
-    done = worst <= target;
-    if (!done && step(e, rho, moved)) break;
-    rho *= AMBULO__POLISH_GROWTH;
+    done = worst <= target ||
+           (k == AMBULO__POLISH_STEPS - 1 && worst <= target / AMBULO__POLISH_SHARE);
+    if (done ? !anyhow && costs_more(e) : step(e, rho, moved)) {
+      done = 0;
+      break;
+    }
+    rho = fmin(AMBULO__POLISH_LAST, AMBULO__POLISH_GROWTH * rho);
   }
   memcpy(iterate->equality_multiplier, e->reached.equality_multiplier,
          (size_t)s->equalities * sizeof *iterate->equality_multiplier);

@@ -64,7 +64,7 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, doub
   if (violation <= tolerance) return settled;
   int stalled = bound && s->since_better > AMBULO__STALL;
   double reach = stalled ? AMBULO__POLISH_LAST_REACH : AMBULO__NEAR_VIOLATION;
-  if ((settled || stalled) && violation <= reach && ambulo__polish(e, x))
+  if ((settled || stalled) && violation <= reach && ambulo__polish(e, stalled, x))
     return settled ? settled : AMBULO_ENDING_STALLED;
   int slow = stalled || (bound && s->since_halved > AMBULO__STALL);
   return slow && raise_limit(s) && stalled ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE;
@@ -74,5 +74,5 @@ void ambulo__stopping_cut(const ambulo__stopping *s, ambulo__engine *e, double *
   if (s->loose || !(e->reached.value < HUGE_VAL) ||
       e->reached.violation > AMBULO__POLISH_LAST_REACH)
     return;
-  (void)ambulo__polish(e, x);
+  (void)ambulo__polish(e, 1, x);
 }

@@ -36,7 +36,7 @@ static void polish_closes_what_is_left(void **state) {
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   double before = f.engine->workspace->objective;
   assert_true(ambulo__engine_excess(f.engine, f.engine->measured.excess) > 1e-8);
-  assert_int_equal(ambulo__polish(f.engine, f.x), 1);
+  assert_int_equal(ambulo__polish(f.engine, 0, f.x), 1);
   assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
   assert_true(ambulo__engine_excess(f.engine, f.engine->measured.excess) <= 1e-8);
   assert_close(f.engine->workspace->objective, before, 1e-2);
@@ -45,6 +45,25 @@ static void polish_closes_what_is_left(void **state) {
 
 /* Equalities hold to what is asked: at any tolerance the same walk, never a violation that "the
  * rows hold" leaves. */
+/* a reached point that claims to cost less: then what polishing finds is another motion */
+static void polish_is_not_to_cost_more(void **state) {
+  (void)state;
+  for (int anyhow = 0; anyhow < 2; anyhow++) {
+    engine_fixture f;
+    engine_open(&f, "yardstick_12");
+    f.options.feasibility_tolerance = 1e-3;
+    assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+    f.options.feasibility_tolerance = 1e-8;
+    double foretold = 0.0;
+    const ambulo__trial *reached = &f.engine->reached;
+    for (int i = 0; i < f.engine->setup->inequalities; i++)
+      foretold += reached->multiplier[i] * fabs(reached->excess[i]);
+    f.engine->reached.objective -= 6.0 * foretold + 2e-5 * fabs(reached->objective);
+    assert_int_equal(ambulo__polish(f.engine, anyhow, f.x), anyhow);
+    engine_close(&f);
+  }
+}
+
 static void tight_tolerances_are_met(void **state) {
   (void)state;
   static const char *const tolerances[] = {"solver.feasibility_tolerance=1e-9",
@@ -234,7 +253,7 @@ static void polish_gives_back_what_it_takes(void **state) {
     for (int i = 0; i < e->setup->equalities; i++) e->iterate.equality_multiplier[i] = 1e3;
     for (int i = 0; i < e->setup->inequalities; i++) e->iterate.lambda[i] = 1e3;
     f.options.feasibility_tolerance = run ? 1e-30 : 1e-8;
-    assert_int_equal(ambulo__polish(e, f.x), !run);
+    assert_int_equal(ambulo__polish(e, 0, f.x), !run);
     assert_true(e->iterate.rho == rho);
     for (int i = 0; i < e->setup->equalities; i++)
       assert_true(e->iterate.equality_multiplier[i] == e->reached.equality_multiplier[i]);
@@ -258,6 +277,7 @@ static void polish_gives_back_what_it_takes(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_reaches_its_optimum),
                                      cmocka_unit_test(polish_closes_what_is_left),
+                                     cmocka_unit_test(polish_is_not_to_cost_more),
                                      cmocka_unit_test(tight_tolerances_are_met),
                                      cmocka_unit_test(vanishing_objective_ends_the_solve),
                                      cmocka_unit_test(tracking_has_no_lower_bound_to_rest_on),
