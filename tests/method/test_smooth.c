@@ -160,27 +160,23 @@ static void the_start_is_returned_at_least(void **state) {
   }
 }
 
-/* cut short where the rows are violated: the valid start is returned, and it is said */
+/* cut short where the rows are violated: the valid start, here the optimum, is returned, and it is
+ * said */
 static void what_is_worse_than_the_start_is_said(void **state) {
   (void)state;
   started s;
   int said = 0;
-  ambulo_problem *rows = load_problem_with("walker_2d_step", "objective=none");
-  ambulo_result *valid = NULL;
   open_started(&s, "walker_2d_step");
-  assert_int_equal(ambulo_solve(rows, NULL, NULL, NULL, NULL, &valid), AMBULO_OK);
-  memcpy(s.x, ambulo_result_x(valid), (size_t)s.n * sizeof *s.x);
-  for (int evaluations = 10; evaluations < 60; evaluations += 5) {
+  for (int evaluations = 3; evaluations < 40; evaluations += 3) {
     ambulo_options options = ambulo_problem_options(s.problem);
     options.maximum_evaluations = evaluations;
     ambulo_result *result = solve_from(&s, &options);
     assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+    assert_true(ambulo_result_objective(result) <= s.objective * (1.0 + 2e-6));
     said += strstr(ambulo_result_ending(result), "worse than the given start") != NULL;
     ambulo_result_free(result);
   }
   assert_true(said > 0);
-  ambulo_result_free(valid);
-  ambulo_problem_free(rows);
   close_started(&s);
 }
 
