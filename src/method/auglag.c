@@ -78,6 +78,8 @@ struct drive {
   double scale, constant;
   double damping;   /* the engine's mu at the beginning */
   double predicted; /* by the model step */
+  double tried;     /* F at the model step, NLopt's first trial */
+  int trials;       /* with gradient, since the chart was laid */
   int started, lay; /* NLopt knows rho; the chart is to be laid at NLopt's next point */
   ambulo_ending ending;
   double seconds; /* spent in callbacks */
@@ -102,16 +104,23 @@ static ambulo_ending lay_chart(drive *s, const double *w) {
   memcpy(e->iterate.x, s->x, (size_t)e->setup->n * sizeof *w);
   ambulo_ending failed = model(s);
   if (failed) return failed;
+  s->trials = 0;
   s->lay = 0;
-  return ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale)) ? AMBULO_ENDING_NONE
-                                                            : AMBULO_ENDING_NOT_FINITE;
+  if (!ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale))) return AMBULO_ENDING_NOT_FINITE;
+  s->tried = s->chart.start;
+  return AMBULO_ENDING_NONE;
 }
 
-/* an inner solve that brought more than the model foretold says that it is damped too much */
+/* how well the model foretold the descent says whether it is damped too much */
 static void update_damping(drive *s, double reached) {
-  double *mu = &s->engine->iterate.mu, promised = fmin(s->predicted, -1e-14);
-  if ((reached - s->chart.start) / promised > AMBULO__DAMPING_LOWER)
+  double *mu = &s->engine->iterate.mu;
+  double promised = fmin(s->predicted, -1e-14);
+  double by_step = (s->tried - s->chart.start) / promised;
+  double in_all = (reached - s->chart.start) / promised;
+  if (in_all > AMBULO__DAMPING_LOWER_ALL)
     *mu = fmax(AMBULO__DAMPING_LEAST * s->damping, *mu / AMBULO__DAMPING_CHANGE);
+  if (by_step < AMBULO__DAMPING_RAISE_STEP)
+    *mu = fmax(*mu, fmin(AMBULO__DAMPING_LARGEST * s->damping, AMBULO__DAMPING_CHANGE * *mu));
 }
 
 /* -------------------------------------------------------- after an inner solve */
@@ -215,6 +224,7 @@ static double trial(drive *s, unsigned n, const double *w, double *gradient) {
   e->run->nlopt.inner++;
   if (e->run->stopped) return give_up(s, n, gradient);
   for (unsigned j = 0; j < n; j++) gradient[j] *= s->scale;
+  if (++s->trials == 2) s->tried = fmin(merit, s->chart.start);
   double least = AMBULO__GRADIENT_NONE * fmax(1.0, fabs(held->objective));
   if (held->value < HUGE_VAL && held->gradient_norm <= least)
     memset(gradient, 0, n * sizeof *gradient);

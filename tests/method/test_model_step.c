@@ -1,4 +1,5 @@
 /* The model step: feasible to first order, downhill, and stationary for its active set. */
+#include "base/worst.h"
 #include "support/engine_fixture.h"
 
 static void step_keeps_the_equalities_and_descends(void **state) {
@@ -129,14 +130,135 @@ static void the_model_is_minimized(void **state) {
   }
 }
 
-/* active: the rows of the metric, which is L L' */
-static void the_metric_has_the_active_rows(void **state) {
+/* ------------------------------------------------------------ generated models */
+
+/* other gradients, excesses, forces and penalties on the rows of a problem, with the metric I times
+ * `curvature` (0: its own) */
+typedef struct generated {
+  engine_fixture f;
+  double *linear, *own, *zero, *d, *g, *dual;
+  double largest;
+  unsigned seed;
+} generated;
+
+static void open_generated(generated *m, const char *name, double curvature) {
+  double predicted;
+  memset(m, 0, sizeof *m);
+  m->seed = 7;
+  engine_open_restored(&m->f, name);
+  ambulo__engine *e = m->f.engine;
+  assert_int_equal(ambulo__model_step(e, &predicted), 0);
+  size_t n = (size_t)e->setup->n;
+  m->linear = calloc((size_t)e->setup->inequalities, sizeof(double));
+  m->dual = calloc((size_t)e->setup->equalities, sizeof(double));
+  m->own = calloc(n, sizeof(double));
+  m->zero = calloc(n, sizeof(double));
+  m->d = calloc(n, sizeof(double));
+  m->g = calloc(n, sizeof(double));
+  memcpy(m->own, e->quadratic->gradient, n * sizeof(double));
+  m->largest = ambulo__largest(m->own, n);
+  if (!(curvature > 0.0)) return;
+  ambulo__band_clear(&e->linearized.base);
+  ambulo__band_add_diagonal(&e->linearized.base, curvature);
+}
+
+static void close_generated(generated *m) {
+  free(m->linear);
+  free(m->dual);
+  free(m->own);
+  free(m->zero);
+  free(m->d);
+  free(m->g);
+  engine_close(&m->f);
+}
+
+/* solves the k-th; *gained: at the point returned, by phi's formula. Returns what was said. */
+static double solve_generated(generated *m, int k, int roughly, double *gained) {
+  ambulo__engine *e = m->f.engine;
+  ambulo__quadratic *q = e->quadratic;
+  double rho = pow(10.0, 1 + k % 4), spread = pow(10.0, -(k / 4) % 4), said = 0.0;
+  m->seed = 100u + (unsigned)k;
+  for (int i = 0; i < q->inequalities; i++) {
+    m->linear[i] = spread * (random_number(&m->seed) - 0.5 * (k % 3));
+    e->iterate.lambda[i] = k % 5 == 0 && i % 7 == 0 ? fabs(random_number(&m->seed)) : 0.0;
+  }
+  for (int j = 0; j < q->n; j++)
+    q->gradient[j] = m->own[j] + (k % 2 ? 3.0 * m->largest * random_number(&m->seed) : 0.0);
+  memcpy(q->linear, m->linear, (size_t)q->inequalities * sizeof(double));
+  q->warm = 0;
+  e->iterate.rho = rho;
+  assert_int_equal(ambulo__model_minimize(e, rho, roughly, &said), 0);
+  memcpy(m->d, q->total, (size_t)q->n * sizeof(double));
+  *gained = phi_at(e, m->linear, m->d) - phi_at(e, m->linear, m->zero);
+  for (int i = 0; i < q->inequalities; i++)
+    assert_true(q->force[i] == fmax(0.0, e->iterate.lambda[i] + rho * q->linear[i]));
+  return said;
+}
+
+/* what a tangent step of the same active rows would still gain */
+static double left_to_gain(generated *m) {
+  ambulo__engine *e = m->f.engine;
+  ambulo__quadratic *q = e->quadratic;
+  double slope = 0.0;
+  ambulo__band_multiply(&e->linearized.base, m->d, m->g);
+  for (int j = 0; j < q->n; j++) m->g[j] += q->gradient[j];
+  ambulo__sparse_rows_add_transpose(&e->linearized.rows.inequality, 1.0, q->force, m->g);
+  memset(m->dual, 0, (size_t)e->setup->equalities * sizeof(double));
+  ambulo__kkt_solve(&e->linearized.kkt, m->g, NULL, NULL, m->d, m->dual,
+                    e->iterate.border_multiplier);
+  for (int j = 0; j < q->n; j++) slope += m->d[j] * m->g[j];
+  return slope;
+}
+
+/* roughly, to a thousandth; exactly, to rounding */
+static void generated_models_are_minimized(void **state) {
   (void)state;
+  static const double curvatures[] = {0.0, 100.0};
+  for (int c = 0; c < 2; c++) {
+    generated m;
+    open_generated(&m, "two_link_reach", curvatures[c]);
+    for (int k = 0; k < 120; k++) {
+      double gained, rough = solve_generated(&m, k, 1, &gained);
+      assert_close(gained / rough, 1.0, 1e-8);
+      double exact = solve_generated(&m, k, 0, &gained);
+      assert_close(gained / exact, 1.0, 1e-8);
+      if (rough > 0.99 * exact) print_error("model %d: %g of %g\n", k, rough, exact);
+      assert_true(rough <= 0.99 * exact && rough >= exact * (1.0 + 1e-6));
+      assert_true(left_to_gain(&m) <= 1e-9 * -exact);
+    }
+    close_generated(&m);
+  }
+}
+
+/* hundreds of rows on a metric next to nothing, which fifteen steps do not settle: the best point
+ * on the way is the answer, and never worse than none */
+static void what_is_not_settled_is_the_best_on_the_way(void **state) {
+  (void)state;
+  static const double curvatures[] = {0.01, 1.0};
+  double least = 0.0;
+  for (int c = 0; c < 2; c++) {
+    generated m;
+    open_generated(&m, "yardstick_12", curvatures[c]);
+    for (int k = 0; k < 60; k++) {
+      double gained, rough = solve_generated(&m, k, 1, &gained);
+      assert_true(rough <= 0.0);
+      if (rough < 0.0) assert_close(gained / rough, 1.0, 1e-6);
+      if (rough == 0.0) assert_true(gained == 0.0);
+      least = fmin(least, rough);
+    }
+    close_generated(&m);
+  }
+  assert_true(least < 0.0);
+}
+
+/* active: the rows of the metric, which is L L' */
+static void check_metric(const char *name, double penalty) {
   engine_fixture f;
   double predicted;
   unsigned seed = 3;
-  engine_open_restored(&f, "yardstick_12");
+  engine_open_restored(&f, name);
   ambulo__engine *e = f.engine;
+  e->iterate.rho = penalty;
   for (int i = 0; i < e->setup->inequalities; i += 5) e->iterate.lambda[i] = 0.1;
   assert_int_equal(ambulo__model_step(e, &predicted), 0);
   double *d = calloc((size_t)f.n, sizeof *d), *m = calloc((size_t)f.n, sizeof *m);
@@ -152,7 +274,7 @@ static void the_metric_has_the_active_rows(void **state) {
   ambulo__sparse_rows_add_transpose(&e->linearized.rows.inequality, 1.0, e->quadratic->along, m);
   ambulo__band_forward(&e->linearized.whitener, m);
   ambulo__band_backward(&e->linearized.whitener, m);
-  for (int j = 0; j < f.n; j++) assert_close(m[j], d[j], 1e-8);
+  for (int j = 0; j < f.n; j++) assert_close(m[j], d[j], 1e-6);
   assert_true(active > 0);
   assert_int_equal(e->quadratic->warm, 1);
   e->iterate.mu = -1e9;
@@ -163,12 +285,23 @@ static void the_metric_has_the_active_rows(void **state) {
   engine_close(&f);
 }
 
+/* with equalities and without: the factor is another's then */
+static void the_metric_has_the_active_rows(void **state) {
+  (void)state;
+  check_metric("yardstick_12", 10.0);
+  check_metric("yardstick_12", 3000.0);
+  check_metric("walk_normal", 10.0);
+  check_metric("walk_normal", 3000.0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(step_keeps_the_equalities_and_descends),
       cmocka_unit_test(multipliers_balance_the_gradient),
       cmocka_unit_test(the_caller_is_asked),
       cmocka_unit_test(the_model_is_minimized),
+      cmocka_unit_test(generated_models_are_minimized),
+      cmocka_unit_test(what_is_not_settled_is_the_best_on_the_way),
       cmocka_unit_test(the_metric_has_the_active_rows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
