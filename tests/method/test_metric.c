@@ -19,7 +19,7 @@ enum { MOST_FORMS = 64 };
 static void look_at(ambulo_workspace *w, const double *x, look *l) {
   const ambulo_problem *p = w->problem;
   assert_int_equal(ambulo__evaluate(w, x), AMBULO_OK);
-  ambulo__term_frame frame = ambulo__term_frame_of(w);
+  ambulo__term_context frame = ambulo__term_context_of(w);
   for (int k = 0; k < p->nodes; k++) {
     for (int c = 0; c < w->channel_count; c++)
       l->channel[k * w->channel_count + c] = w->channel[ambulo__lane_index(k, w->channel_count, c)];
