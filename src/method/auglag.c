@@ -156,10 +156,9 @@ static void inner_ended(drive *s, double value) {
   ambulo__run_forgive(run);
   run->iterations++;
   run->nlopt.outer++;
-  int stop = ambulo__run_progress(run, e->reached.objective / e->setup->objective_scale,
-                                  e->reached.violation);
+  (void)ambulo__run_progress(run, e->reached.objective / e->setup->objective_scale,
+                             e->reached.violation); /* a stop is the run's */
   s->ending = ambulo__stopping_test(s->stopping, e, s->x);
-  if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;
   s->lay = 1;

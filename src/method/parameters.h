@@ -197,8 +197,6 @@
 /* penalty of its model, scaled objective per (row unit)^2: as good as equality. A
  * hundredfold or a hundredth pass every test. */
 #define AMBULO__POLISH_PENALTY 1e7
-/* of the feasibility tolerance: the last decimals are not a matter of luck. 0 (1): free. */
-#define AMBULO__POLISH_SHARE 0.2
 
 /* -------------------------------------------------------------------- coarse grids (refine.c) */
 

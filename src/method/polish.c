@@ -47,7 +47,7 @@ int ambulo__polish(ambulo__engine *e, double *x) {
   const ambulo__setup *s = e->setup;
   ambulo__iterate *iterate = &e->iterate;
   double *moved = e->polishing->x, begin = ambulo__seconds_now();
-  double target = AMBULO__POLISH_SHARE * e->run->options->feasibility_tolerance;
+  double target = e->run->options->feasibility_tolerance;
   size_t bytes = (size_t)s->n * sizeof *x;
   int done = 0;
   memcpy(moved, x, bytes);

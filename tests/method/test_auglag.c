@@ -1,6 +1,7 @@
 /* NLopt's AUGLAG runs the solve: its multipliers are those that the engine works with, it iterates
  * itself, and without its update nothing is solved. */
 #define _GNU_SOURCE /* dlsym's RTLD_NEXT */
+#include "base/worst.h"
 #include "method/auglag.h"
 #include "support/engine_fixture.h"
 #include "support/arm.h"
@@ -240,6 +241,77 @@ static void no_rows_need_no_penalty(void **state) {
   ambulo_model_free(model);
 }
 
+/* NLopt's first point beside the start is the model step, whether rows are violated or not */
+static void the_first_trial_is_the_model_step(void **state) {
+  (void)state;
+  static const char *const names[] = {"two_link_reach", "yardstick_12"};
+  for (int i = 0; i < 2; i++) {
+    engine_fixture f;
+    ambulo_ending ending;
+    engine_open_restored(&f, names[i]);
+    ambulo__engine *e = f.engine;
+    ambulo__stopping stopping = ambulo__stopping_begin(0);
+    f.options.maximum_evaluations = f.run.evaluations + 2;
+    assert_int_equal(ambulo__auglag(e, &stopping, f.x, &ending), AMBULO_OK);
+    double part = ambulo__step_limit(e->setup, e->quadratic->total, 0.5);
+    double *step = calloc((size_t)f.n, sizeof *step);
+    memcpy(step, e->quadratic->total, (size_t)f.n * sizeof *step);
+    ambulo__band_upper_multiply(&e->linearized.whitener, step);
+    double size = ambulo__largest(step, (size_t)f.n);
+    assert_true(size > 0.0);
+    for (int j = 0; j < f.n; j++) assert_close((e->held->w[j] - part * step[j]) / size, 0.0, 1e-8);
+    free(step);
+    engine_close(&f);
+  }
+}
+
+/* from where it ended there is nothing to descend: below the accuracy of a gradient no line search
+ * is begun; and what was not finite on the way is forgiven with the first point */
+static void a_solution_is_left_alone(void **state) {
+  (void)state;
+  engine_fixture f;
+  ambulo_ending ending = AMBULO_ENDING_NONE;
+  engine_open(&f, "walk_normal");
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+  int outer = f.run.nlopt.outer, inner = f.run.nlopt.inner;
+  ambulo__stopping stopping = ambulo__stopping_begin(0);
+  f.run.faults_lately = 5;
+  assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
+  assert_true(ending == AMBULO_ENDING_CONVERGED || ending == AMBULO_ENDING_SETTLED);
+  outer = f.run.nlopt.outer - outer;
+  assert_true(outer >= 1 && f.run.nlopt.inner - inner <= 6 * outer);
+  assert_int_equal(f.run.faults_lately, 0);
+  engine_close(&f);
+}
+
+/* more unknowns than the objective knows of, and next to no damping: the metric cannot be factored
+ * until there is more */
+static void damping_is_raised_where_the_metric_needs_it(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  engine_fixture f = {.options = ambulo_options_default()};
+  ambulo_ending ending = AMBULO_ENDING_NONE;
+  double error;
+  d.intervals = 6;
+  d.spline_intervals = 16;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f.problem), AMBULO_OK);
+  f.x = calloc((size_t)f.problem->variables, sizeof *f.x);
+  ambulo__run_begin(&f.run, &f.options);
+  assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
+  f.engine->iterate.mu = 0.05;
+  f.engine->iterate.rho = 10.0;
+  assert_int_equal(ambulo__restore(f.engine, f.x, &error), AMBULO_OK);
+  ambulo__stopping stopping = ambulo__stopping_begin(0);
+  f.engine->iterate.mu = 1e-14;
+  f.options.maximum_iterations = 3;
+  assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
+  assert_true(f.engine->iterate.mu > 1e-13);
+  assert_true(f.run.nlopt.outer >= 1 && ending != AMBULO_ENDING_BREAKDOWN);
+  engine_close(&f);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(without_nlopts_update_nothing_is_solved),
                                      cmocka_unit_test(nlopt_iterates),
@@ -247,6 +319,9 @@ int main(void) {
                                      cmocka_unit_test(nlopt_starts_where_the_engine_is),
                                      cmocka_unit_test(the_penalty_keeps_its_bound),
                                      cmocka_unit_test(a_centre_that_is_not_finite_is_told),
-                                     cmocka_unit_test(no_rows_need_no_penalty)};
+                                     cmocka_unit_test(no_rows_need_no_penalty),
+                                     cmocka_unit_test(the_first_trial_is_the_model_step),
+                                     cmocka_unit_test(a_solution_is_left_alone),
+                                     cmocka_unit_test(damping_is_raised_where_the_metric_needs_it)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ enum { MOST_FORMS = 64 };
 static void look_at(ambulo_workspace *w, const double *x, look *l) {
   const ambulo_problem *p = w->problem;
   assert_int_equal(ambulo__evaluate(w, x), AMBULO_OK);
-  ambulo__term_frame frame = ambulo__term_frame_of(w);
+  ambulo__term_context context = ambulo__term_context_of(w);
   for (int k = 0; k < p->nodes; k++) {
     for (int c = 0; c < w->channel_count; c++)
       l->channel[k * w->channel_count + c] = w->channel[ambulo__lane_index(k, w->channel_count, c)];
@@ -31,11 +31,11 @@ static void look_at(ambulo_workspace *w, const double *x, look *l) {
         u[0] = term->function(term->user, &state, NULL);
       }
       if (ambulo__is_user_term(term) || ambulo__term_is_simple(term)) continue;
-      int forms = ambulo__term_forms(term, &frame, k);
+      int forms = ambulo__term_forms(term, &context, k);
       assert_true(forms <= MOST_FORMS);
       for (int j = 0; j < forms; j++) {
         ambulo__form form;
-        ambulo__term_form(term, &frame, k, j, &form);
+        ambulo__term_form(term, &context, k, j, &form);
         u[j] = form.u;
       }
     }
