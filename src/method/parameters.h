@@ -38,7 +38,7 @@
  * x: -2 %, +3 %. T: pipeline. */
 #define AMBULO__DAMPING_LOWER_ALL 1.5
 /* the same: a model step that brought less was too bold. x: free; 0 (never): yardstick_36 from a
- * coarser motion in steps ends 8 % higher. T: smooth. */
+ * coarser motion in steps ends 0.5 % higher (other minima). T: smooth. */
 #define AMBULO__DAMPING_RAISE_STEP 0.1
 /* factor and number of times that mu is raised where the metric cannot be factored, before
  * penalties go row by row (kkt.h). No shipped problem needs the second trial (0: no change), which
