@@ -41,8 +41,8 @@ typedef struct ambulo__dense {
 int ambulo__dense_samples(const ambulo_problem *problem, int samples);
 
 /* Evaluates x on a grid that many times as fine. Events of contacts inside (0, T) are moved by
- * `shift` s (0: as they are; less than any is from an end). E_PROBLEM, with the reason in diagnostics: there is no such grid;
- * E_MEMORY. Values may be infinite or NaN. */
+ * `shift` s (0: as they are; less than any is from an end). E_PROBLEM, with the reason in
+ * diagnostics: there is no such grid; E_MEMORY. Values may be infinite or NaN. */
 ambulo_status ambulo__dense_open(const ambulo_problem *problem, const double *x, int samples,
                                  double shift, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics, ambulo__dense *dense);

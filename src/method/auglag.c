@@ -87,23 +87,11 @@ struct drive {
 
 /* ------------------------------------------------------------------ the chart */
 
-/* the model step, mu raised until it can be factored; why it could not be, or none */
-static ambulo_ending model(drive *s) {
-  ambulo__engine *e = s->engine;
-  for (int trial = 0; trial < AMBULO__DAMPING_RAISES; trial++) {
-    int failed = ambulo__model_step(e, &s->predicted);
-    if (failed == 0) return AMBULO_ENDING_NONE;
-    if (failed == 2) return AMBULO_ENDING_NOT_FINITE;
-    e->iterate.mu *= AMBULO__DAMPING_RAISE;
-  }
-  return AMBULO_ENDING_BREAKDOWN;
-}
-
 static ambulo_ending lay_chart(drive *s, const double *w) {
   ambulo__engine *e = s->engine;
   memcpy(e->iterate.x, s->x, (size_t)e->setup->n * sizeof *w);
-  ambulo_ending failed = model(s);
-  if (failed) return failed;
+  int failed = ambulo__model_step(e, &s->predicted);
+  if (failed) return failed == 2 ? AMBULO_ENDING_NOT_FINITE : AMBULO_ENDING_BREAKDOWN;
   s->trials = 0;
   s->lay = 0;
   if (!ambulo__chart_lay(&s->chart, e, w, sqrt(s->scale))) return AMBULO_ENDING_NOT_FINITE;
@@ -156,10 +144,9 @@ static void inner_ended(drive *s, double value) {
   ambulo__run_forgive(run);
   run->iterations++;
   run->nlopt.outer++;
-  int stop = ambulo__run_progress(run, e->reached.objective / e->setup->objective_scale,
-                                  e->reached.violation);
+  (void)ambulo__run_progress(run, e->reached.objective / e->setup->objective_scale,
+                             e->reached.violation); /* a stop is the run's */
   s->ending = ambulo__stopping_test(s->stopping, e, s->x);
-  if (!s->ending && stop) s->ending = AMBULO_ENDING_CALLER;
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;
   s->lay = 1;

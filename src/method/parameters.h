@@ -43,12 +43,8 @@
  * x: -2 %, +3 %. T: pipeline. */
 #define AMBULO__DAMPING_LOWER_ALL 1.5
 /* the same: a model step that brought less was too bold. x: free; 0 (never): yardstick_36 from a
- * coarser motion in steps ends 8 % higher. T: smooth. */
+ * coarser motion in steps ends 0.5 % higher (other minima). T: smooth. */
 #define AMBULO__DAMPING_RAISE_STEP 0.1
-/* factor and number of times that mu is raised where the metric cannot be factored. No shipped
- * problem needs it, nor the yardstick to N = 2304 (0: no change). T: pipeline (one at least). */
-#define AMBULO__DAMPING_RAISE 10.0
-#define AMBULO__DAMPING_RAISES 6
 /* times mu, in the metric of the way to the surface (restore.c), which starts far away. x: +1 %,
  * +2 %; 0 (1): a step that is too long is explained by a motion 35 % worse. T: pipeline,
  * model_step. */
@@ -212,8 +208,6 @@
  * motion. 0 (any rise): walk_without_reaction with NEAR_VIOLATION at 3e-6 ends 0.07 % too high.
  * T: pipeline. */
 #define AMBULO__POLISH_RISE 3.0
-/* of the feasibility tolerance: the last decimals are not a matter of luck. 0 (1): free. */
-#define AMBULO__POLISH_SHARE 0.2
 
 /* -------------------------------------------------------------------- coarse grids (refine.c) */
 

@@ -82,7 +82,7 @@ int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {
   const ambulo__setup *s = e->setup;
   ambulo__iterate *iterate = &e->iterate;
   double *moved = e->polishing->x, begin = ambulo__seconds_now();
-  double target = AMBULO__POLISH_SHARE * e->run->options->feasibility_tolerance;
+  double target = e->run->options->feasibility_tolerance;
   size_t bytes = (size_t)s->n * sizeof *x;
   int done = 0;
   double rho = AMBULO__POLISH_PENALTY;
@@ -93,8 +93,7 @@ int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {
            (size_t)s->inequalities * sizeof *iterate->lambda);
     if (ambulo__evaluate_jacobian(e->workspace, iterate->x)) break;
     double worst = ambulo__engine_excess(e, e->quadratic->linear);
-    done = worst <= target ||
-           (k == AMBULO__POLISH_STEPS - 1 && worst <= target / AMBULO__POLISH_SHARE);
+    done = worst <= target;
     if (done ? !anyhow && costs_more(e) : step(e, rho, moved)) {
       done = 0;
       break;

@@ -1,6 +1,7 @@
 /* NLopt's AUGLAG runs the solve: its multipliers are those that the engine works with, it iterates
  * itself, and without its update nothing is solved. */
 #define _GNU_SOURCE /* dlsym's RTLD_NEXT */
+#include "base/worst.h"
 #include "method/auglag.h"
 #include "support/engine_fixture.h"
 #include "support/arm.h"
@@ -51,6 +52,9 @@ static const char *const walks[] = {
     "yardstick_12", "yardstick_36",  "walk_normal", "walk_fast",      "walk_loaded",
     "walk_slow",    "walk_tracking", "walk_uphill", "walker_2d_step", "walk_without_reaction",
     "fig5b_torque"};
+/* their known optima; walk_tracking has another, 0.12 % lower */
+static const double optima[] = {0.356402,  1.020010,  0.0639944, 0.0798675, 0.113891, 0.0569162,
+                                0.0126245, 0.0579266, 0.953141,  1.13688,   0.135367};
 enum { WALKS = sizeof walks / sizeof *walks };
 
 static void without_nlopts_update_nothing_is_solved(void **state) {
@@ -88,6 +92,9 @@ static void nlopt_iterates(void **state) {
     assert_string_equal(work->result_name, "FORCED_STOP");
     assert_int_equal(work->result, NLOPT_FORCED_STOP);
     assert_true(work->seconds > 0.0 && work->seconds < ambulo_result_timing(result)->total);
+    double share = ambulo_result_objective(result) / optima[i];
+    if (fabs(share - 1.0) > 1e-3) print_error("%s: %.6f of its optimum\n", walks[i], share);
+    assert_true(share < 1.001 && share > (strcmp(walks[i], "walk_tracking") ? 0.999 : 0.998));
     ambulo_result_free(result);
     ambulo_problem_free(problem);
   }
@@ -240,6 +247,76 @@ static void no_rows_need_no_penalty(void **state) {
   ambulo_model_free(model);
 }
 
+/* NLopt's first point beside the start is the model step, whether rows are violated or not */
+static void the_first_trial_is_the_model_step(void **state) {
+  (void)state;
+  static const char *const names[] = {"two_link_reach", "yardstick_12"};
+  for (int i = 0; i < 2; i++) {
+    engine_fixture f;
+    ambulo_ending ending;
+    engine_open_restored(&f, names[i]);
+    ambulo__engine *e = f.engine;
+    ambulo__stopping stopping = ambulo__stopping_begin(0);
+    f.options.maximum_evaluations = f.run.evaluations + 2;
+    assert_int_equal(ambulo__auglag(e, &stopping, f.x, &ending), AMBULO_OK);
+    double part = ambulo__step_limit(e->setup, e->quadratic->total, 0.5);
+    double *step = calloc((size_t)f.n, sizeof *step);
+    memcpy(step, e->quadratic->total, (size_t)f.n * sizeof *step);
+    ambulo__band_upper_multiply(&e->linearized.whitener, step);
+    double size = ambulo__largest(step, (size_t)f.n);
+    assert_true(size > 0.0);
+    for (int j = 0; j < f.n; j++) assert_close((e->held->w[j] - part * step[j]) / size, 0.0, 1e-8);
+    free(step);
+    engine_close(&f);
+  }
+}
+
+/* from where it ended there is nothing to descend: below the accuracy of a gradient no line search
+ * is begun; and what was not finite on the way is forgiven with the first point */
+static void a_solution_is_left_alone(void **state) {
+  (void)state;
+  engine_fixture f;
+  ambulo_ending ending = AMBULO_ENDING_NONE;
+  engine_open(&f, "walk_normal");
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+  int outer = f.run.nlopt.outer, inner = f.run.nlopt.inner;
+  ambulo__stopping stopping = ambulo__stopping_begin(0);
+  f.run.faults_lately = 5;
+  assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
+  assert_true(ending == AMBULO_ENDING_CONVERGED || ending == AMBULO_ENDING_SETTLED);
+  outer = f.run.nlopt.outer - outer;
+  assert_true(outer >= 1 && f.run.nlopt.inner - inner <= 6 * outer);
+  assert_int_equal(f.run.faults_lately, 0);
+  engine_close(&f);
+}
+
+/* more unknowns than the objective knows of, and next to no damping: the metric is factored
+ * all the same (kkt.c) */
+static void next_to_no_damping_is_enough(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  engine_fixture f = {.options = ambulo_options_default()};
+  ambulo_ending ending = AMBULO_ENDING_NONE;
+  double error;
+  d.intervals = 6;
+  d.spline_intervals = 16;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f.problem), AMBULO_OK);
+  f.x = calloc((size_t)f.problem->variables, sizeof *f.x);
+  ambulo__run_begin(&f.run, &f.options);
+  assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
+  f.engine->iterate.mu = 0.05;
+  f.engine->iterate.rho = 10.0;
+  assert_int_equal(ambulo__restore(f.engine, f.x, &error), AMBULO_OK);
+  ambulo__stopping stopping = ambulo__stopping_begin(0);
+  f.engine->iterate.mu = 1e-14;
+  f.options.maximum_iterations = 3;
+  assert_int_equal(ambulo__auglag(f.engine, &stopping, f.x, &ending), AMBULO_OK);
+  assert_true(f.run.nlopt.outer >= 1 && ending != AMBULO_ENDING_BREAKDOWN);
+  engine_close(&f);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(without_nlopts_update_nothing_is_solved),
                                      cmocka_unit_test(nlopt_iterates),
@@ -247,6 +324,9 @@ int main(void) {
                                      cmocka_unit_test(nlopt_starts_where_the_engine_is),
                                      cmocka_unit_test(the_penalty_keeps_its_bound),
                                      cmocka_unit_test(a_centre_that_is_not_finite_is_told),
-                                     cmocka_unit_test(no_rows_need_no_penalty)};
+                                     cmocka_unit_test(no_rows_need_no_penalty),
+                                     cmocka_unit_test(the_first_trial_is_the_model_step),
+                                     cmocka_unit_test(a_solution_is_left_alone),
+                                     cmocka_unit_test(next_to_no_damping_is_enough)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,9 @@
 /* NLopt's plain algorithms on small problems; an analytic one through user callbacks. */
+#include "method/nlopt_direct.h"
 #include "support/arm.h"
 #include "support/engine_fixture.h"
+
+#include <nlopt.h>
 
 static double solve(const char *name, ambulo_algorithm algorithm, int presolve) {
   ambulo_problem *problem = load_problem(name);
@@ -160,6 +163,69 @@ static void analytic_optimum_is_found(void **state) {
   analytic_problem(AMBULO_AUTO, 1);
 }
 
+static void results_have_names(void **state) {
+  (void)state;
+  static const struct {
+    int result;
+    const char *name;
+  } names[] = {{NLOPT_FAILURE, "FAILURE"},
+               {NLOPT_INVALID_ARGS, "INVALID_ARGS"},
+               {NLOPT_OUT_OF_MEMORY, "OUT_OF_MEMORY"},
+               {NLOPT_ROUNDOFF_LIMITED, "ROUNDOFF_LIMITED"},
+               {NLOPT_FORCED_STOP, "FORCED_STOP"},
+               {NLOPT_SUCCESS, "SUCCESS"},
+               {NLOPT_STOPVAL_REACHED, "STOPVAL_REACHED"},
+               {NLOPT_FTOL_REACHED, "FTOL_REACHED"},
+               {NLOPT_XTOL_REACHED, "XTOL_REACHED"},
+               {NLOPT_MAXEVAL_REACHED, "MAXEVAL_REACHED"},
+               {NLOPT_MAXTIME_REACHED, "MAXTIME_REACHED"},
+               {77, "unknown result"}};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    assert_string_equal(ambulo__nlopt_name(names[i].result), names[i].name);
+}
+
+/* one call that improves is allowed, and more would be made; what was not finite is forgiven */
+static void calls_are_limited(void **state) {
+  (void)state;
+  static const ambulo_algorithm algorithms[] = {AMBULO_SLSQP, AMBULO_AUGLAG};
+  for (int i = 0; i < 2; i++) {
+    engine_fixture f;
+    const char *message = "";
+    engine_open(&f, "two_link_reach");
+    f.options.maximum_iterations = 0;
+    f.run.faults_lately = 3;
+    assert_int_equal(ambulo__solve_plain(f.engine, algorithms[i], NULL, f.x, &message), AMBULO_OK);
+    assert_int_equal(f.run.ending, AMBULO_ENDING_ITERATIONS);
+    assert_int_equal(f.run.faults_lately, 0);
+    /* the way to the rows is found all the same */
+    assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+    assert_true(ambulo__engine_equality_error(f.engine) <= 1e-6);
+    engine_close(&f);
+  }
+}
+
+/* NLopt may not be given as many equalities as unknowns, nor more memory than a machine has */
+static void what_nlopt_cannot_do_is_not_asked(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "two_link_reach");
+  ambulo__engine *e = f.engine;
+  ambulo__direct d = {.problem = f.problem, .workspace = e->workspace, .run = &f.run};
+  d.sets = 1;
+  d.set[0] = &e->linearized.rows.inequality;
+  d.is_equality[0] = 1;
+  assert_true(e->setup->inequalities >= f.problem->variables);
+  assert_int_equal(ambulo__direct_create(&d, &e->pool), AMBULO_OK);
+  assert_int_equal(ambulo__direct_minimize(&d, AMBULO_SLSQP, 10), AMBULO_OK);
+  assert_string_equal(d.message, "not called: as many equality rows as unknowns");
+  assert_int_equal(f.run.nlopt.calls, 0);
+  int variables = f.problem->variables;
+  f.problem->variables = 12000; /* 4 n^2 doubles are 4.6 GB */
+  assert_int_equal(ambulo__direct_minimize(&d, AMBULO_SLSQP, 10), AMBULO_E_LIMIT);
+  f.problem->variables = variables;
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_finds_the_swing),
                                      cmocka_unit_test(every_way_finds_the_reach),
@@ -167,6 +233,9 @@ int main(void) {
                                      cmocka_unit_test(every_way_finds_a_step),
                                      cmocka_unit_test(every_way_ends_a_step_as_shipped),
                                      cmocka_unit_test(auglag_finds_a_gait),
-                                     cmocka_unit_test(analytic_optimum_is_found)};
+                                     cmocka_unit_test(analytic_optimum_is_found),
+                                     cmocka_unit_test(results_have_names),
+                                     cmocka_unit_test(calls_are_limited),
+                                     cmocka_unit_test(what_nlopt_cannot_do_is_not_asked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
