@@ -58,6 +58,14 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_start(const char *path
                                                                 ambulo_diagnostics *diagnostics,
                                                                 double *x);
 
+/* The same from one period of the motion, repeated as often as its duration goes into the
+ * problem's (rounded; then stretched): a step is followed by its mirror image
+ * (AMBULO_ENDS_MIRRORED), a stride by itself (AMBULO_ENDS_PERIODIC), each carried on by what the
+ * period carries the root. E_ARGUMENT for other ends. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_repeat(
+    const char *path, const ambulo_problem *problem, ambulo_ends ends,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, double *x);
+
 /* ------------------------------------------------ comparison with people */
 
 /* How a result folder is scored against normative curves (docs/compare.md). */

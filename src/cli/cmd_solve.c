@@ -58,6 +58,7 @@ typedef struct job {
   ambulo_problem *problem;
   ambulo_result *result;
   double *start;     /* NULL: zero */
+  ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
   double time_limit; /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
   int terminal; /* 1: show progress */
@@ -95,6 +96,22 @@ static char *default_directory(const char *problem) {
   return name;
 }
 
+static int read_repeat(job *j) {
+  const char *start = ambulo__cli_value(j->input, "start");
+  const char *repeat = ambulo__cli_value(j->input, "repeat");
+  j->repeat = AMBULO_ENDS_FREE;
+  if (!repeat) return 0;
+  if (!start || !strcmp(start, "zero"))
+    return ambulo__cli_usage_error("solve", NULL,
+                                   "--repeat needs a solution to repeat; expected --start FILE");
+  j->repeat = !strcmp(repeat, "periodic")   ? AMBULO_ENDS_PERIODIC
+              : !strcmp(repeat, "mirrored") ? AMBULO_ENDS_MIRRORED
+                                            : AMBULO_ENDS_FREE;
+  if (j->repeat != AMBULO_ENDS_FREE) return 0;
+  return ambulo__cli_usage_error("solve", NULL, "--repeat is '%s'; expected mirrored or periodic",
+                                 repeat);
+}
+
 static int read_options(job *j) {
   const ambulo__cli_input *input = j->input;
   const char *directory = ambulo__cli_value(input, "output");
@@ -104,6 +121,8 @@ static int read_options(job *j) {
   if (!ambulo__cli_number(input, "time-limit", 0.0, 1e9, &j->time_limit) ||
       !ambulo__cli_integer(input, "samples", 2, 1000000, &j->report.samples))
     return 2;
+  int wrong = read_repeat(j);
+  if (wrong) return wrong;
   j->directory = directory ? strdup(directory) : default_directory(input->arguments[0]);
   j->diagnostics = ambulo_diagnostics_create(NULL);
   if (!j->directory || !j->diagnostics) return ambulo_status_exit_code(AMBULO_E_MEMORY);
@@ -126,6 +145,8 @@ static ambulo_status load_start(job *j) {
   if (!start || !strcmp(start, "zero")) return AMBULO_OK;
   j->start = calloc((size_t)ambulo_problem_variable_count(j->problem), sizeof *j->start);
   if (!j->start) return AMBULO_E_MEMORY;
+  if (j->repeat != AMBULO_ENDS_FREE)
+    return ambulo_solution_repeat(start, j->problem, j->repeat, NULL, j->diagnostics, j->start);
   return ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start);
 }
 
@@ -205,6 +226,9 @@ static const ambulo__cli_option options[] = {
     {"set", 0, "path=value",
      "replace a value of the problem file, e.g. time.intervals=36;\nmay be repeated"},
     {"start", 0, "zero|FILE", "start from zero (default) or from a solution.yaml"},
+    {"repeat", 0, "mirrored|periodic",
+     "the start is one step, which its mirror image follows, or one\nstride: repeat it over the "
+     "duration"},
     {"time-limit", 0, "S", "stop after S seconds with the best point; 0: no limit"},
     {"samples", 0, "n", "times in motion.csv (default: the time nodes)"},
     {"force", 0, NULL, "replace an existing result folder"},
@@ -223,7 +247,8 @@ const ambulo__cli_command ambulo__cli_solve = {
         "but is not a solution, and says so.",
     .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
-               "--start walk/solution.yaml -o finer",
+               "--start walk/solution.yaml -o finer\n"
+               "ambulo solve twenty_steps.yaml --start walk/solution.yaml --repeat mirrored",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,

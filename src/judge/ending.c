@@ -17,7 +17,11 @@ void ambulo__ending_of_faults(ambulo__run *run) {
   int gave_up = run->ending == AMBULO_ENDING_STALLED || run->ending == AMBULO_ENDING_NO_DESCENT ||
                 run->ending == AMBULO_ENDING_NOT_RESTORED ||
                 run->ending == AMBULO_ENDING_BREAKDOWN || run->ending == AMBULO_ENDING_NLOPT;
-  if (gave_up && run->faults_lately) run->ending = AMBULO_ENDING_NOT_FINITE;
+  if (gave_up && run->faults_lately) {
+    run->ending = AMBULO_ENDING_NOT_FINITE;
+  } else if (run->ending == AMBULO_ENDING_NOT_RESTORED && run->breakdowns) {
+    run->ending = AMBULO_ENDING_BREAKDOWN;
+  }
 }
 
 void ambulo__report_faults(const ambulo__run *run, ambulo_result *r, ambulo_diagnostics *list) {

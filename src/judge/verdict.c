@@ -67,5 +67,6 @@ ambulo_verdict ambulo__verdict_of(const ambulo_audit *audit, const ambulo_option
   if (ending == AMBULO_ENDING_NOT_FINITE) return AMBULO_NUMERIC_FAILURE;
   if (ending == AMBULO_ENDING_CALLER) return AMBULO_INTERRUPTED;
   if (feasible) return AMBULO_FEASIBLE;
+  if (ending == AMBULO_ENDING_BREAKDOWN) return AMBULO_NUMERIC_FAILURE; /* shows no conflict */
   return is_limit(ending) ? AMBULO_LIMIT_REACHED : AMBULO_INFEASIBLE;
 }

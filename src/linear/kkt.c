@@ -29,6 +29,7 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
                                  const ambulo__sparse_rows *border, int kd, ambulo__pool *pool,
                                  ambulo__kkt *kkt) {
   kkt->stiffness = AMBULO__STIFFNESS_START;
+  kkt->most_stiffness = AMBULO__STIFFNESS_LARGEST;
   kkt->equality = equality;
   kkt->n = equality->problem->variables;
   kkt->equalities = equality->count;
@@ -69,12 +70,11 @@ static int factor(ambulo__kkt *kkt, const ambulo__band *h) {
 int ambulo__kkt_factor(ambulo__kkt *kkt, const ambulo__band *h) {
   ambulo__update_clear(&kkt->update);
   while (factor(kkt, h)) { /* H drowned, or is not positive definite */
-    if (kkt->stiffness > AMBULO__STIFFNESS_START) {
+    if (!kkt->by_row) {
+      kkt->by_row = kkt->stiffness <= AMBULO__STIFFNESS_START;
       kkt->stiffness = AMBULO__STIFFNESS_START;
-    } else if (!kkt->by_row) {
-      kkt->by_row = 1;
     } else if (kkt->stiffness > AMBULO__STIFFNESS_LEAST) {
-      kkt->stiffness = AMBULO__STIFFNESS_LEAST;
+      kkt->stiffness = kkt->most_stiffness = AMBULO__STIFFNESS_LEAST;
     } else {
       return 1;
     }
@@ -138,7 +138,7 @@ void ambulo__kkt_solve(ambulo__kkt *kkt, const double *a, const double *h, const
     before = error;
   }
   if (error > AMBULO__KKT_SLOW) {
-    kkt->stiffness = fmin(AMBULO__STIFFNESS_LARGEST, AMBULO__STIFFNESS_FACTOR * kkt->stiffness);
+    kkt->stiffness = fmin(kkt->most_stiffness, AMBULO__STIFFNESS_FACTOR * kkt->stiffness);
     kkt->update.full = 1; /* which takes a factor */
   }
 }

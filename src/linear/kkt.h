@@ -19,6 +19,7 @@ typedef struct ambulo__kkt {
   ambulo__update update; /* rows that H has gained or lost since then */
   double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H, */
   int by_row;       /* or to what H opposes to the row, once the former has drowned H */
+  double most_stiffness; /* that rows which are slow may raise it to */
   double *penalty;  /* [equalities]: diagonal of S */
   double *residual; /* [equalities] */
 } ambulo__kkt;

@@ -32,10 +32,9 @@
  * T: pipeline (least). */
 #define AMBULO__DAMPING_LEAST 0.03
 #define AMBULO__DAMPING_LARGEST 3.0
-/* of each diagonal element of the metric, added to it: a thousand roundings. Else what smooth
- * motions have of curvature on grids of thousands of intervals, (T/K)^4 of the diagonal, is rounding
- * of the factor (0: N = 1152 takes 57 iterations instead of 49, 2304 109 instead of 53). x: free at
- * a tenth and tenfold. T: engine. */
+/* of each diagonal element of the metric, added to it: a thousand roundings. Else the curvature of
+ * smooth motions on grids of thousands of intervals, (T/K)^4 of the diagonal, is rounding of the
+ * factor. x: free; 1e-11: walker_2d_step on 640 intervals is not optimal. T: engine. */
 #define AMBULO__METRIC_ROUNDING 1e-13
 /* factor by which mu changes. x: +7 % iterations at 1 (none), -2 % at 4. T: pipeline. */
 #define AMBULO__DAMPING_CHANGE 2.0
@@ -208,6 +207,10 @@
  * motion. 0 (any rise): walk_without_reaction with NEAR_VIOLATION at 3e-6 ends 0.07 % too high.
  * T: pipeline. */
 #define AMBULO__POLISH_RISE 3.0
+/* times mu, in its metric, which asks for a short step and not for one that costs little: what
+ * rounding makes of smooth motions on fine grids is kept down. 1: yardstick_72 on 2304 intervals
+ * cannot be polished at once and takes 75 iterations; 10, 1000: free. */
+#define AMBULO__POLISH_DAMPING 100.0
 
 /* -------------------------------------------------------------------- coarse grids (refine.c) */
 

@@ -58,7 +58,7 @@ static int step(ambulo__engine *e, double rho, double *x) {
   if (ambulo__sparse_rows_fill(&at->rows.equality, e->workspace, 0) ||
       ambulo__sparse_rows_fill(&at->rows.inequality, e->workspace, 0))
     return 1;
-  if (ambulo__engine_fill_metric(e, e->iterate.mu)) return 1;
+  if (ambulo__engine_fill_metric(e, AMBULO__POLISH_DAMPING * e->iterate.mu)) return 1;
   memset(q->gradient, 0, (size_t)e->setup->n * sizeof *q->gradient);
   ambulo__sparse_rows_add_transpose(&at->rows.inequality, -1.0, e->iterate.lambda, q->gradient);
   normalize(e);

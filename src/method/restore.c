@@ -39,7 +39,10 @@ static int direction(ambulo__engine *e, double *d) {
     return 1;
   }
   int failed = ambulo__engine_fill_metric(e, AMBULO__RESTORE_DAMPING * e->iterate.mu);
-  if (!failed) failed = ambulo__kkt_factor(&at->kkt, &at->base);
+  if (!failed) {
+    failed = ambulo__kkt_factor(&at->kkt, &at->base);
+    e->run->breakdowns += failed;
+  }
   if (!failed) {
     for (int i = 0; i < equalities; i++) s->equality[i] = -e->measured.equality[i];
     for (int i = 0; i < borders; i++) s->border[i] = -e->measured.border[i];

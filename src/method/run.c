@@ -67,7 +67,7 @@ void ambulo__run_fault(ambulo__run *run, const ambulo_fault *fault) {
 }
 
 void ambulo__run_forgive(ambulo__run *run) {
-  run->faults_lately = 0;
+  run->faults_lately = run->breakdowns = 0;
 }
 
 int ambulo__run_poll(ambulo__run *run) {

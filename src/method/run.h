@@ -16,6 +16,7 @@ typedef struct ambulo__run {
   ambulo_ending ending; /* of the run while `stopped`, else of the method that ran last */
   int faults;           /* points that were given up because something was not finite */
   int faults_lately;    /* of these, since the last iteration that brought a point */
+  int breakdowns;       /* metrics that could not be factored, since then */
   ambulo_fault fault, first_fault; /* the first of those lately; of all */
   ambulo_nlopt_work nlopt;
   double seconds_evaluate, seconds_linear;

@@ -9,13 +9,15 @@
 #include <string.h>
 
 #include "format/yaml_node.h"
-#include "nlp/nlp.h"
+#include "reader/solution_repeat.h"
 
 enum { MAX_INTERVALS = 100000 };
 
 typedef struct reader {
   const ambulo_problem *problem;
-  int stretch; /* 1: another duration is stretched to the problem's */
+  int stretch;      /* 1: another duration is stretched to the problem's */
+  ambulo_ends ends; /* not free: the file holds one period, */
+  int count;        /* of so many */
   ambulo_allocator allocator;
   ambulo__yaml *document;
   ambulo__basis *basis; /* of the file */
@@ -39,6 +41,10 @@ static ambulo_status read_basis(reader *r, const ambulo__yaml_node *root) {
     return ambulo__yaml_error(ambulo__yaml_get(root, "duration"), AMBULO_E_PROBLEM, NULL,
                               "the solution lasts %g s; the problem lasts %g s", duration,
                               expected);
+  if (r->ends != AMBULO_ENDS_FREE) {
+    r->count = (int)fmin(MAX_INTERVALS, fmax(1.0, round(expected / duration)));
+    expected /= r->count;
+  }
   double *values = NULL;
   if (breaks) {
     values = ambulo__alloc(&r->allocator, (size_t)intervals + 1, sizeof *values);
@@ -140,6 +146,9 @@ static ambulo_status read_document(reader *r, double *x) {
   if (!status) status = read_coordinates(r, root);
   if (!status) status = read_points(r, root);
   if (status) return status;
+  if (r->count > 1)
+    return ambulo__solution_repeat(r->basis, r->points, r->count, r->ends, r->problem,
+                                   &r->allocator, x);
   if (same_basis(r->basis, r->problem->basis)) {
     memcpy(x, r->points, (size_t)r->problem->variables * sizeof *x);
     return AMBULO_OK;
@@ -149,11 +158,14 @@ static ambulo_status read_document(reader *r, double *x) {
 }
 
 static ambulo_status load(const char *path, const ambulo_problem *problem, int stretch,
-                          const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                          double *x) {
+                          ambulo_ends ends, const ambulo_allocator *allocator,
+                          ambulo_diagnostics *diagnostics, double *x) {
   if (!path || !problem || !x) return AMBULO_E_ARGUMENT;
-  reader r = {
-      .problem = problem, .stretch = stretch, .allocator = ambulo__allocator_or_default(allocator)};
+  reader r = {.problem = problem,
+              .stretch = stretch,
+              .ends = ends,
+              .count = 1,
+              .allocator = ambulo__allocator_or_default(allocator)};
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = ambulo__yaml_load(path, &r.allocator, diagnostics, &r.document);
   if (status) return status;
@@ -168,11 +180,18 @@ static ambulo_status load(const char *path, const ambulo_problem *problem, int s
 ambulo_status ambulo_solution_load(const char *path, const ambulo_problem *problem,
                                    const ambulo_allocator *allocator,
                                    ambulo_diagnostics *diagnostics, double *x) {
-  return load(path, problem, 0, allocator, diagnostics, x);
+  return load(path, problem, 0, AMBULO_ENDS_FREE, allocator, diagnostics, x);
 }
 
 ambulo_status ambulo_solution_start(const char *path, const ambulo_problem *problem,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, double *x) {
-  return load(path, problem, 1, allocator, diagnostics, x);
+  return load(path, problem, 1, AMBULO_ENDS_FREE, allocator, diagnostics, x);
+}
+
+ambulo_status ambulo_solution_repeat(const char *path, const ambulo_problem *problem,
+                                     ambulo_ends ends, const ambulo_allocator *allocator,
+                                     ambulo_diagnostics *diagnostics, double *x) {
+  if (ends != AMBULO_ENDS_PERIODIC && ends != AMBULO_ENDS_MIRRORED) return AMBULO_E_ARGUMENT;
+  return load(path, problem, 1, ends, allocator, diagnostics, x);
 }

@@ -171,6 +171,20 @@ static void endings_have_names(void **state) {
   assert_string_equal(ambulo_ending_name((ambulo_ending)99), "unknown");
 }
 
+/* that no metric could be factored says nothing about the rows: no conflict is shown */
+static void a_breakdown_is_a_numeric_failure(void **state) {
+  (void)state;
+  ambulo_options options = ambulo_options_default();
+  ambulo_audit audit = {.violation = {.worst = 0.1, .size = 1.0}, .kkt = 1.0};
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_BREAKDOWN),
+                   AMBULO_NUMERIC_FAILURE);
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_STALLED),
+                   AMBULO_INFEASIBLE);
+  audit.violation.worst = 0.0;
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_BREAKDOWN),
+                   AMBULO_FEASIBLE);
+}
+
 /* a method gave up because of what was not finite lately; a limit or a test that ended it did not
  */
 static void faults_end_what_gave_up(void **state) {
@@ -186,6 +200,14 @@ static void faults_end_what_gave_up(void **state) {
     ambulo__ending_of_faults(&run);
     assert_int_equal(run.ending, AMBULO_ENDING_NOT_FINITE);
   }
+  ambulo__run broken = {.ending = AMBULO_ENDING_NOT_RESTORED, .breakdowns = 1};
+  ambulo__ending_of_faults(&broken); /* nothing was shown of the equalities */
+  assert_int_equal(broken.ending, AMBULO_ENDING_BREAKDOWN);
+  broken.ending = AMBULO_ENDING_STALLED;
+  ambulo__ending_of_faults(&broken);
+  assert_int_equal(broken.ending, AMBULO_ENDING_STALLED);
+  ambulo__run_forgive(&broken);
+  assert_int_equal(broken.breakdowns, 0);
   ambulo__run run = {.ending = AMBULO_ENDING_CONVERGED, .faults = 1, .faults_lately = 1};
   ambulo__ending_of_faults(&run);
   assert_int_equal(run.ending, AMBULO_ENDING_CONVERGED);
@@ -274,6 +296,7 @@ static void small_problems_keep_to_the_limit(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(faults_end_what_gave_up),
+                                     cmocka_unit_test(a_breakdown_is_a_numeric_failure),
       cmocka_unit_test(faults_are_reported),
       cmocka_unit_test(verdicts_are_settled_by_explanations),
       cmocka_unit_test(families_are_reported_by_size),

@@ -121,6 +121,19 @@ static void the_best_point_on_the_way_is_kept(void **state) {
   assert_true(error < 1.1 * 0.001 / 1e-3); /* relative to the row's size */
 }
 
+/* a metric that cannot be factored is remembered: where x stays says nothing about the rows */
+static void a_breakdown_is_remembered(void **state) {
+  (void)state;
+  engine_fixture f;
+  double error;
+  engine_open(&f, "yardstick_12");
+  f.engine->iterate.mu = -1e9;
+  assert_int_equal(ambulo__restore(f.engine, f.x, &error), AMBULO_OK);
+  assert_true(error > 1e-6);
+  assert_int_equal(f.run.breakdowns, 1);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(yardstick_walks),
                                      cmocka_unit_test(mirrored_step_closes),
@@ -128,6 +141,7 @@ int main(void) {
                                      cmocka_unit_test(a_run_that_is_over_does_not_move),
                                      cmocka_unit_test(steps_into_nothing_are_halved),
                                      cmocka_unit_test(without_a_way_the_start_stays),
-                                     cmocka_unit_test(the_best_point_on_the_way_is_kept)};
+                                     cmocka_unit_test(the_best_point_on_the_way_is_kept),
+                                     cmocka_unit_test(a_breakdown_is_remembered)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
