@@ -20,7 +20,8 @@ extern "C" {
   X(AMBULO_OPTIMAL, "optimal", "feasible, and a first-order (KKT) point")                          \
   X(AMBULO_FEASIBLE, "feasible", "every row holds at the nodes; not shown to be optimal")          \
   X(AMBULO_INFEASIBLE, "infeasible", "some row is violated")                                       \
-  X(AMBULO_NUMERIC_FAILURE, "numeric_failure", "a value or a derivative is not finite")            \
+  X(AMBULO_NUMERIC_FAILURE, "numeric_failure",                                                     \
+    "a value or a derivative is not finite, or no matrix could be factored")                       \
   X(AMBULO_LIMIT_REACHED, "limit", "stopped by a limit, not feasible")                             \
   X(AMBULO_INTERRUPTED, "interrupted", "stopped by the caller; the best point so far")
 

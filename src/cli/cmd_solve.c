@@ -57,9 +57,9 @@ typedef struct job {
   ambulo_report_options report;
   ambulo_problem *problem;
   ambulo_result *result;
-  double *start;     /* NULL: zero */
+  double *start;      /* NULL: zero */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
-  double time_limit; /* s; < 0: as in the file */
+  double time_limit;  /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
   int terminal; /* 1: show progress */
 } job;

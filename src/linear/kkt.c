@@ -44,8 +44,8 @@ ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,
 }
 
 /* S_i: stiffness times the largest curvature of H, for unit |J_i|; where that drowns H (fine grids:
- * the curvature of smooth motions is (T/K)^4 of the largest, and S is on top of it), stiffness times
- * what the diagonal D of H opposes to a change of the row, 1 / (J D^-1 J'): then no unknown's
+ * the curvature of smooth motions is (T/K)^4 of the largest, and S is on top of it), stiffness
+ * times what the diagonal D of H opposes to a change of the row, 1 / (J D^-1 J'): then no unknown's
  * diagonal grows by more than the stiffness. */
 static void set_penalties(ambulo__kkt *kkt, const ambulo__band *h) {
   const ambulo__sparse_rows *rows = kkt->equality;

@@ -17,11 +17,11 @@ typedef struct ambulo__kkt {
   ambulo__band factor; /* L of M = H + J' S J */
   ambulo__border border;
   ambulo__update update; /* rows that H has gained or lost since then */
-  double stiffness; /* S_r |J_r|^2 relative to the largest diagonal element of H, */
-  int by_row;       /* or to what H opposes to the row, once the former has drowned H */
+  double stiffness;      /* S_r |J_r|^2 relative to the largest diagonal element of H, */
+  int by_row;            /* or to what H opposes to the row, once the former has drowned H */
   double most_stiffness; /* that rows which are slow may raise it to */
-  double *penalty;  /* [equalities]: diagonal of S */
-  double *residual; /* [equalities] */
+  double *penalty;       /* [equalities]: diagonal of S */
+  double *residual;      /* [equalities] */
 } ambulo__kkt;
 
 ambulo_status ambulo__kkt_create(const ambulo__sparse_rows *equality,

@@ -13,10 +13,11 @@
 /* error after all passes that asks for more stiffness next time. 0 (never): walk_without_reaction
  * takes 22 to 25 iterations. T: kkt (rows_that_nearly_depend_get_stiffer). */
 #define AMBULO__KKT_SLOW 1e-7
-/* S |J|^2 of a row, relative to the largest diagonal element of the metric; or, where that cannot be
- * factored, to what the metric opposes to the row: at first, the least of the latter (fine grids),
- * its growth, and at most: half the digits of a double are left then. Row by row from the outset:
- * walk_without_reaction with a tolerance of 1e-10 is not solved. T: kkt, all (1; 1; 1; 1e4). */
+/* S |J|^2 of a row, relative to the largest diagonal element of the metric; or, where that cannot
+ * be factored, to what the metric opposes to the row: at first, the least of the latter (fine
+ * grids), its growth, and at most: half the digits of a double are left then. Row by row from the
+ * outset: walk_without_reaction with a tolerance of 1e-10 is not solved. T: kkt, all (1; 1; 1;
+ * 1e4). */
 #define AMBULO__STIFFNESS_START 1e4
 #define AMBULO__STIFFNESS_LEAST 1e2
 #define AMBULO__STIFFNESS_FACTOR 100.0

@@ -178,11 +178,9 @@ static void a_breakdown_is_a_numeric_failure(void **state) {
   ambulo_audit audit = {.violation = {.worst = 0.1, .size = 1.0}, .kkt = 1.0};
   assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_BREAKDOWN),
                    AMBULO_NUMERIC_FAILURE);
-  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_STALLED),
-                   AMBULO_INFEASIBLE);
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_STALLED), AMBULO_INFEASIBLE);
   audit.violation.worst = 0.0;
-  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_BREAKDOWN),
-                   AMBULO_FEASIBLE);
+  assert_int_equal(ambulo__verdict_of(&audit, &options, AMBULO_ENDING_BREAKDOWN), AMBULO_FEASIBLE);
 }
 
 /* a method gave up because of what was not finite lately; a limit or a test that ended it did not
@@ -296,7 +294,7 @@ static void small_problems_keep_to_the_limit(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(faults_end_what_gave_up),
-                                     cmocka_unit_test(a_breakdown_is_a_numeric_failure),
+      cmocka_unit_test(a_breakdown_is_a_numeric_failure),
       cmocka_unit_test(faults_are_reported),
       cmocka_unit_test(verdicts_are_settled_by_explanations),
       cmocka_unit_test(families_are_reported_by_size),

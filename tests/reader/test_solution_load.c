@@ -52,6 +52,55 @@ static void test_finer_grid(void **state) {
   walk_close(&fine);
 }
 
+/* One period as the start of three: each follows from the one before, mirrored or not, carried on
+ * by what the first one travels. */
+static void test_repeated(void **state) {
+  enum { PERIODS = 3, D = WALKER_COORDINATES };
+  for (int mirrored = 0; mirrored < 2; mirrored++) {
+    walk one;
+    walk_open(&one, 12);
+    ambulo_problem_definition d = ambulo_problem_definition_default();
+    d.model = one.model;
+    d.duration = PERIODS * walker_step_time;
+    d.intervals = d.spline_intervals = 12 * PERIODS;
+    ambulo_problem *many = NULL;
+    assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &many), AMBULO_OK);
+    double *x = calloc((size_t)ambulo_problem_variable_count(many), sizeof *x);
+    const ambulo_model *model = one.model;
+    int points = ambulo_problem_control_point_count(one.problem);
+    for (int i = 0; i < D; i++) {
+      const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
+      double begin = i <= c->mirror ? 0.1 : 0.3, end = begin;
+      if (mirrored && c->mirror != i) end = 0.4 - begin;
+      if (c->type == AMBULO_PRISMATIC) end += 0.5 + i;
+      for (int j = 0; j < points; j++)
+        one.result->x[j * D + i] = begin + (end - begin) * j / (points - 1);
+    }
+    const char *path = write_solution(state, &one);
+    ambulo_ends ends = mirrored ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+    assert_int_equal(ambulo_solution_repeat(path, many, ends, NULL, NULL, x), AMBULO_OK);
+    ambulo_workspace *w = NULL;
+    assert_int_equal(ambulo_workspace_create(many, NULL, &w), AMBULO_OK);
+    double times[PERIODS], q[PERIODS][D];
+    for (int k = 0; k < PERIODS; k++) times[k] = walker_step_time * (k + 0.3);
+    ambulo_motion motion = {.q = q[0]};
+    assert_int_equal(ambulo_problem_motion(many, w, x, PERIODS, times, &motion), AMBULO_OK);
+    for (int k = 0; k + 1 < PERIODS; k++) {
+      for (int i = 0; i < D; i++) {
+        const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
+        double travel = c->type == AMBULO_PRISMATIC ? 0.5 + i : 0.0;
+        assert_close(q[k + 1][mirrored ? c->mirror : i], q[k][i] + travel, 1e-2);
+      }
+    }
+    assert_int_equal(ambulo_solution_repeat(path, many, AMBULO_ENDS_FREE, NULL, NULL, x),
+                     AMBULO_E_ARGUMENT);
+    ambulo_workspace_free(w);
+    free(x);
+    ambulo_problem_free(many);
+    walk_close(&one);
+  }
+}
+
 /* replaces the first occurrence of `old` in the solution and loads it */
 static void refuse(void **state, const char *old, const char *fresh, ambulo_status expected,
                    const char *message) {
@@ -128,8 +177,9 @@ static void test_out_of_memory(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {SCRATCH_TEST(test_same_bits), SCRATCH_TEST(test_finer_grid),
-                                     SCRATCH_TEST(test_refusals), SCRATCH_TEST(test_missing_file),
-                                     SCRATCH_TEST(test_out_of_memory)};
+  const struct CMUnitTest tests[] = {
+      SCRATCH_TEST(test_same_bits),    SCRATCH_TEST(test_finer_grid),
+      SCRATCH_TEST(test_repeated),     SCRATCH_TEST(test_refusals),
+      SCRATCH_TEST(test_missing_file), SCRATCH_TEST(test_out_of_memory)};
   return cmocka_run_group_tests_name("reader/solution_load", tests, NULL, NULL);
 }
