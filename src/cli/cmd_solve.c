@@ -248,7 +248,9 @@ const ambulo__cli_command ambulo__cli_solve = {
     .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
                "--start walk/solution.yaml -o finer\n"
-               "ambulo solve twenty_steps.yaml --start walk/solution.yaml --repeat mirrored",
+               "ambulo solve models/walk_normal.yaml --set gait.steps=3 --set time.duration=1.62 "
+               "--set time.intervals=75 --set trajectory.intervals=51 "
+               "--start walk/solution.yaml --repeat mirrored -o three",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
