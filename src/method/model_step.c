@@ -16,8 +16,8 @@
  *   start   A is the set that the last model step ended with; its rows count with whatever force
  *           they have, which is where a full step from d = 0 with that set leads
  *   steps   are full while phi stays below the larger of its last two values: sets settle in a few
- *           of them. From the first that does not, the step is the exact minimum of phi along it
- *           (phi' is monotone and piecewise linear); the best point of all is the result
+ *           of them. When it does not, back to the best point: from there the step is the exact
+ *           minimum of phi along it (phi' is monotone and piecewise linear)
  *   end     when A repeats, or when a step brought less than a thousandth of the whole gain
  *
  * Rows that come or go are added to or taken from the band; it is factored only when one did. No
@@ -203,7 +203,12 @@ static int newton(ambulo__engine *e, int k, descent *d) {
   double slope, t = 1.0;
   if (direction(e, &slope)) return -1;
   double now = value_at(q, 1.0);
-  if (k > 0 && now > fmax(d->before, d->value)) d->searching = 1;
+  if (!d->searching && k > 0 && now > fmax(d->before, d->value)) {
+    d->searching = 1;
+    go_back(q, d);
+    (void)mark_active(q);
+    return 0;
+  }
   if (d->searching) {
     t = exact_step(q);
     now = value_at(q, t);
