@@ -226,6 +226,37 @@ static void what_nlopt_cannot_do_is_not_asked(void **state) {
   engine_close(&f);
 }
 
+/* no round: what is returned satisfies the equalities all the same; one round of many: the limit
+ * ends it */
+static void rounds_are_limited(void **state) {
+  (void)state;
+  for (int most = 0; most < 2; most++) {
+    engine_fixture f;
+    const char *message = "";
+    engine_open(&f, "two_link_reach");
+    assert_int_equal(ambulo__solve_whitened(f.engine, AMBULO_SLSQP, most, NULL, f.x, &message),
+                     AMBULO_OK);
+    assert_int_equal(f.run.ending, AMBULO_ENDING_ITERATIONS);
+    assert_int_equal(f.run.nlopt.calls, most);
+    assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
+    assert_true(ambulo__engine_equality_error(f.engine) <= 1e-6);
+    engine_close(&f);
+  }
+}
+
+/* rows that cannot hold: rounds that bring nothing end it */
+static void rounds_without_progress_end(void **state) {
+  (void)state;
+  engine_fixture f;
+  const char *message = "";
+  engine_open(&f, "../tests/infeasible/torque_too_weak");
+  assert_int_equal(ambulo__solve_whitened(f.engine, AMBULO_SLSQP, 100, NULL, f.x, &message),
+                   AMBULO_OK);
+  assert_int_equal(f.run.ending, AMBULO_ENDING_STALLED);
+  assert_true(f.run.nlopt.calls < 60);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_way_finds_the_swing),
                                      cmocka_unit_test(every_way_finds_the_reach),
@@ -236,6 +267,8 @@ int main(void) {
                                      cmocka_unit_test(analytic_optimum_is_found),
                                      cmocka_unit_test(results_have_names),
                                      cmocka_unit_test(calls_are_limited),
+                                     cmocka_unit_test(rounds_are_limited),
+                                     cmocka_unit_test(rounds_without_progress_end),
                                      cmocka_unit_test(what_nlopt_cannot_do_is_not_asked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -214,6 +214,22 @@ static void what_cannot_be_restored_is_told(void **state) {
   ambulo_model_free(model);
 }
 
+/* twice the body's weight on a back, and torques with limits: models that full steps do not solve,
+ * nor searches from where those have led */
+static void heavy_loads_are_solved(void **state) {
+  (void)state;
+  const char *overrides[] = {"load.mass=150", "constraints.torque_limits=true"};
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/walk_loaded.yaml", overrides, 2, NULL, NULL, &problem),
+      AMBULO_OK);
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 /* by the caller's limit on iterations, or on evaluations: the rows hold where they nearly did */
 static void what_is_cut_short_is_polished(void **state) {
   (void)state;
@@ -285,6 +301,7 @@ int main(void) {
                                      cmocka_unit_test(each_start_has_its_penalty_and_damping),
                                      cmocka_unit_test(a_start_that_leads_nowhere_is_told),
                                      cmocka_unit_test(what_cannot_be_restored_is_told),
+                                     cmocka_unit_test(heavy_loads_are_solved),
                                      cmocka_unit_test(what_is_cut_short_is_polished),
                                      cmocka_unit_test(polish_gives_back_what_it_takes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
