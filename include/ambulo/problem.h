@@ -1,10 +1,10 @@
 /* ambulo/problem.h - a motion-prediction problem: what to minimize, subject to what.
  *
  * Unknowns: the control points of the joint trajectories, x [control_points][d]
- * row-major (d = coordinates). At N + 1 equally spaced time nodes t_k = k T / N the
- * motion q, qd, qdd follows linearly from x; torques, root wrench and point
- * positions follow by inverse dynamics (mechanics.h), so the equations of motion
- * always hold ("differential inclusion", the seed's section IV.C).
+ * row-major (d = coordinates). At N + 1 time nodes t_k (ambulo_grid) the motion q,
+ * qd, qdd follows linearly from x; torques, root wrench and point positions follow
+ * by inverse dynamics (mechanics.h), so the equations of motion always hold ("differential
+ * inclusion", the seed's section IV.C).
  *
  *   minimize   sum_terms weight * integral of the term over [0, T] (trapezoidal)   (13)
  *   subject to rows c_r(x) = 0 or c_r(x) >= 0 at the nodes                         (14)
@@ -37,6 +37,17 @@ typedef enum ambulo_discretization {
   AMBULO_HERMITE             /* Eqs. 20-22 */
 } ambulo_discretization;
 
+/* Where nodes or knots are. An event is a time at which a contact begins or ends; for nodes also
+ * the time in a swing from which the foot's tip has to clear the ground (ambulo_clearance). The
+ * phases between neighbouring events share the intervals in proportion to their durations (largest
+ * remainder; at least two for nodes, one for knots) and space them equally.
+ * A node on an event belongs to both phases: rows of what ends there and of what begins there hold,
+ * each in the sense of its limit. */
+typedef enum ambulo_grid {
+  AMBULO_GRID_UNIFORM, /* t_k = k T / N; a node on an event belongs to the phase that begins */
+  AMBULO_GRID_EVENTS   /* B-splines only */
+} ambulo_grid;
+
 /* How a loaded foot touches the ground: which of its corners are at height zero. */
 typedef enum ambulo_contact_mode {
   AMBULO_CONTACT_HEEL, /* heel corners down; heel centre on the foothold */
@@ -46,7 +57,7 @@ typedef enum ambulo_contact_mode {
 } ambulo_contact_mode;
 
 /* One foot in one mode on one foothold. Nodes with from <= t < to are in contact;
- * a span that ends at the duration includes it. */
+ * a span that ends at the duration includes it, and so does a node at `to` of a grid on events. */
 typedef struct ambulo_contact {
   int foot; /* index of the model's foot */
   ambulo_contact_mode mode;
@@ -174,7 +185,7 @@ typedef struct ambulo_term {
                                     NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
   int point[2];                  /* model points of AMBULO_UPRIGHT, on one link */
   double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
-  const double *reference;       /* [N + 1][d] for AMBULO_TRACKING */
+  const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;
 } ambulo_term;
@@ -200,10 +211,15 @@ typedef struct ambulo_problem_definition {
 
   double duration; /* T, s */
   int intervals;   /* N; nodes = N + 1 */
+  ambulo_grid grid;
+  const double *node_times; /* [N + 1] rising from 0 to T, with AMBULO_GRID_EVENTS only: these
+                               instead, whose nodes within 1e-9 s of an event belong to both phases;
+                               NULL: distributed over the phases */
   ambulo_discretization discretization;
   int degree;                /* of the B-spline, 3..7 */
   int spline_intervals;      /* K, intervals of the trajectory; 0: as many as time intervals */
-  const double *breakpoints; /* [K + 1] from 0 to T; NULL: uniform */
+  const double *breakpoints; /* [K + 1] from 0 to T; NULL: as `knots` says */
+  ambulo_grid knots;         /* of breakpoints that are not given */
 
   const ambulo_contact *contacts;
   int contact_count;
@@ -242,8 +258,15 @@ typedef struct ambulo_problem_definition {
   int user_row_count;
 } ambulo_problem_definition;
 
-/* One second, 12 intervals, cubic B-spline, everything else off or empty. */
+/* One second, 12 equal intervals, cubic B-spline, everything else off or empty. */
 AMBULO_API ambulo_problem_definition ambulo_problem_definition_default(void);
+/* The time nodes that a problem of this definition has, times[N + 1], s: where references of
+ * AMBULO_TRACKING are asked for. Of the definition it reads the model, the grid of time, the
+ * contacts, the clearance and the ends. Errors: E_ARGUMENT (a definition that did not come from
+ * ambulo_problem_definition_default(), no model, no duration, no intervals), E_PROBLEM (more phases
+ * than there are intervals for), E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_node_times(const ambulo_problem_definition *definition, double *times);
 AMBULO_API ambulo_term ambulo_term_default(ambulo_term_kind kind);
 
 /* Checks the definition and builds the problem. Contradictions that need no solve
@@ -275,6 +298,9 @@ AMBULO_API const char *ambulo_problem_name(const ambulo_problem *problem);
 AMBULO_API const ambulo_model *ambulo_problem_model(const ambulo_problem *problem);
 AMBULO_API double ambulo_problem_duration(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_node_count(const ambulo_problem *problem); /* N + 1 */
+/* Time of node `node`, s; NaN: no such node. */
+AMBULO_API double ambulo_problem_node_time(const ambulo_problem *problem, int node);
+AMBULO_API ambulo_grid ambulo_problem_grid(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_control_point_count(const ambulo_problem *problem);
 AMBULO_API int
 ambulo_problem_variable_count(const ambulo_problem *problem); /* control points * d */

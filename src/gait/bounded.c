@@ -33,6 +33,28 @@ void ambulo__bounded_rows(const ambulo__gait_context *context, int node,
   side(context, node, name, form, -1.0, high, table);
 }
 
+/* 1 if what `foot` does up to T is not what it goes on with, which is what the first node has */
+static int ends_at_last(const ambulo__gait_context *context, int foot, int before) {
+  const ambulo_problem_definition *d = context->definition;
+  int image = d->ends == AMBULO_ENDS_MIRRORED ? context->model->feet[foot].mirror : foot;
+  int next = context->active[image];
+  if (before < 0 || next < 0) return before != next;
+  return d->contacts[before].mode != d->contacts[next].mode;
+}
+
+ambulo__phases_of_foot ambulo__phases_at(const ambulo__gait_context *context, int order, int node,
+                                         int foot) {
+  int feet = context->model->foot_count, now = context->active[node * feet + foot];
+  int before = context->before ? context->before[node * feet + foot] : now;
+  ambulo__phases_of_foot phases = {0, {before, now}};
+  if (node >= ambulo__distinct_nodes(context, order)) {
+    phases.count = context->before != NULL && ends_at_last(context, foot, before);
+    return phases;
+  }
+  phases.count = before == now ? 1 : 2;
+  return phases;
+}
+
 int ambulo__distinct_nodes(const ambulo__gait_context *context, int order) {
   const ambulo_problem_definition *d = context->definition;
   int repeats = d->ends != AMBULO_ENDS_FREE && d->ends_order >= order &&

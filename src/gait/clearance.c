@@ -12,6 +12,7 @@
  */
 #include "gait/foot_frame.h"
 #include "gait/loading.h"
+#include "base/instant.h"
 
 #include <math.h>
 
@@ -19,6 +20,7 @@ typedef struct swing {
   const ambulo__gait_context *context;
   int node, foot;
   double phase; /* s */
+  int tip;      /* 1: it has to clear */
   ambulo__row_table *table;
 } swing;
 
@@ -83,7 +85,7 @@ static void swing_rows(const swing *w) {
   double low = c->height * fmax(0.0, fmin(1.0, fmin(4.0 * s, 6.0 * (1.0 - s))));
   height_bounds(w, foot->heel_center, 0.5 * low);
   height_bounds(w, foot->toe_center, low);
-  if (foot->has_tip && s >= c->tip_from) height_bounds(w, foot->tip, low);
+  if (foot->has_tip && w->tip) height_bounds(w, foot->tip, low);
   if (!ambulo__foot_outline_of(w->context->model, w->foot).moves_sideways) return;
   ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot);
   ambulo__linear roll = ambulo__foot_roll(w->context, w->foot);
@@ -92,17 +94,30 @@ static void swing_rows(const swing *w) {
   track_bounds(w);
 }
 
+/* at a node; of a swing that ends there, the last node before it says which swing that is */
+static swing swing_at(const ambulo__gait_context *context, int node, int foot, int ends,
+                      ambulo__row_table *table) {
+  double time = context->times[node];
+  ambulo__span air =
+      ambulo__air_span(context->definition, foot, ends ? context->times[node - 1] : time);
+  double length = air.to - air.from, tip_from = context->definition->clearance.tip_from;
+  swing w = {context, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, 0, table};
+  w.tip = time >= air.from + tip_from * length - AMBULO__INSTANT;
+  return w;
+}
+
 /* (14.e) n.r - h of a foot in the air, at least its clearance */
 void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
   int feet = context->model->foot_count;
-  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < context->nodes; node++) {
     for (int foot = 0; foot < feet; foot++) {
-      if (context->active[node * feet + foot] >= 0) continue;
-      double time = context->times[node];
-      ambulo__span air = ambulo__air_span(context->definition, foot, time);
-      double length = air.to - air.from;
-      swing w = {context, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, table};
-      swing_rows(&w);
+      ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
+      for (int i = 0; i < phases.count; i++) {
+        if (phases.contact[i] >= 0) continue;
+        int ends = phases.contact[i] != context->active[node * feet + foot];
+        swing w = swing_at(context, node, foot, ends, table);
+        swing_rows(&w);
+      }
     }
   }
 }

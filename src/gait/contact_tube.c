@@ -10,7 +10,8 @@
  *
  * A body that rolls over its feet with fewer control points than nodes cannot hold every contact
  * exactly at every node; two millimetres leave it the room that soft tissue leaves people.
- * Rows along left, yaw and roll are left out for planar feet.
+ * Rows along left, yaw and roll are left out for planar feet. At a node where one contact ends and
+ * another begins both points are held, and directions within what both allow.
  */
 #include "gait/foot_frame.h"
 #include "gait/loading.h"
@@ -22,8 +23,9 @@ static const double most_toes_up = 0.5, most_heel_up = 0.95; /* sines */
 typedef struct tube {
   const ambulo__gait_context *context;
   const ambulo__foot_outline *outline;
-  const ambulo_contact *contact;
-  int node;
+  const ambulo_contact
+      *contact[2]; /* of one foot: one, or the one that ends and the one that begins */
+  int contacts, node;
   ambulo__row_table *table;
 } tube;
 
@@ -41,7 +43,7 @@ static void place_bounds(const tube *t, int point, const double direction[3], do
 static void angle_bounds(const tube *t, const ambulo__linear *form, const char *lower,
                          const char *upper, double low, double high) {
   if (form->count == 0) return;
-  const char *foot = t->context->model->feet[t->contact->foot].name;
+  const char *foot = t->context->model->feet[t->contact[0]->foot].name;
   ambulo__bounded_name name = {AMBULO__KIND_CONTACT, foot, lower, upper, AMBULO__RADIANS};
   ambulo__bounded_rows(t->context, t->node, &name, form, low, high, t->table);
 }
@@ -50,39 +52,68 @@ static void angle_bounds(const tube *t, const ambulo__linear *form, const char *
 static int is_strike(const tube *t) {
   const ambulo_problem_definition *d = t->context->definition;
   ambulo__span span;
-  double time = t->context->times[t->node], step = d->duration / d->intervals;
-  return ambulo__loaded_span(d, t->contact->foot, time, &span) &&
+  const double *times = t->context->times;
+  int last = t->context->nodes - 1;
+  double time = times[t->node];
+  double step = t->node > 0 ? time - times[t->node - 1] : times[last] - times[last - 1];
+  return ambulo__loaded_span(d, t->contact[0]->foot, time, &span) &&
          time - span.from < step * (1.0 - 1e-6);
 }
 
-static void pitch_bounds(const tube *t) {
+/* what one contact allows */
+static void pitch_range(const tube *t, ambulo_contact_mode mode, double range[2]) {
   const ambulo_problem_definition *d = t->context->definition;
-  double o = d->orientation_tolerance, low = -o, high = o;
-  ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact->foot);
-  if (t->contact->mode == AMBULO_CONTACT_TOE) {
-    low = -most_heel_up;
-    high = 0.0;
-  } else if (t->contact->mode == AMBULO_CONTACT_HEEL) {
+  double o = d->orientation_tolerance;
+  range[0] = -o;
+  range[1] = o;
+  if (mode == AMBULO_CONTACT_TOE) {
+    range[0] = -most_heel_up;
+    range[1] = 0.0;
+  } else if (mode == AMBULO_CONTACT_HEEL) {
     int strike = d->strike_pitch[0] < d->strike_pitch[1] && is_strike(t);
-    low = strike ? sin(d->strike_pitch[0]) : 0.0;
-    high = strike ? sin(d->strike_pitch[1]) : most_toes_up;
+    range[0] = strike ? sin(d->strike_pitch[0]) : 0.0;
+    range[1] = strike ? sin(d->strike_pitch[1]) : most_toes_up;
   }
-  angle_bounds(t, &pitch, "toes low", "toes high", low, high);
+}
+
+static void pitch_bounds(const tube *t) {
+  double range[2] = {-INFINITY, INFINITY}, one[2];
+  ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact[0]->foot);
+  for (int i = 0; i < t->contacts; i++) {
+    pitch_range(t, t->contact[i]->mode, one);
+    range[0] = fmax(range[0], one[0]);
+    range[1] = fmin(range[1], one[1]);
+  }
+  angle_bounds(t, &pitch, "toes low", "toes high", range[0], range[1]);
+}
+
+/* the point that contact i holds; not again what the other one holds at the same place */
+static void place_rows(const tube *t, int i) {
+  const ambulo_model *model = t->context->model;
+  const ambulo_problem_definition *d = t->context->definition;
+  double place[2], before[2];
+  int point = ambulo__contact_point(model, t->outline, t->contact[i], place);
+  if (i > 0 && ambulo__contact_point(model, t->outline, t->contact[0], before) == point &&
+      before[0] == place[0] && before[1] == place[1])
+    return;
+  place_bounds(t, point, model->forward, place[0], "behind", "ahead");
+  place_bounds(t, point, model->up, d->ground_height, "below", "above");
+  if (t->outline->moves_sideways)
+    place_bounds(t, point, model->left, place[1], "to the right", "to the left");
 }
 
 static void contact_rows(const tube *t) {
-  const ambulo_model *model = t->context->model;
   const ambulo_problem_definition *d = t->context->definition;
-  double place[2];
-  int point = ambulo__contact_point(model, t->outline, t->contact, place);
-  place_bounds(t, point, model->forward, place[0], "behind", "ahead");
-  place_bounds(t, point, model->up, d->ground_height, "below", "above");
+  int on_toes = 1, foot = t->contact[0]->foot;
+  for (int i = 0; i < t->contacts; i++) {
+    place_rows(t, i);
+    on_toes &= t->contact[i]->mode == AMBULO_CONTACT_TOE;
+  }
   pitch_bounds(t);
   if (!t->outline->moves_sideways) return;
-  place_bounds(t, point, model->left, place[1], "to the right", "to the left");
-  double o = d->orientation_tolerance * (t->contact->mode == AMBULO_CONTACT_TOE ? 2.0 : 1.0);
-  ambulo__linear yaw = ambulo__foot_yaw(t->context, t->contact->foot);
-  ambulo__linear roll = ambulo__foot_roll(t->context, t->contact->foot);
+  double o = d->orientation_tolerance * (on_toes ? 2.0 : 1.0);
+  ambulo__linear yaw = ambulo__foot_yaw(t->context, foot);
+  ambulo__linear roll = ambulo__foot_roll(t->context, foot);
   angle_bounds(t, &yaw, "turned right", "turned left", -o, o);
   angle_bounds(t, &roll, "left side low", "left side high", -o, o);
 }
@@ -95,12 +126,15 @@ void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < context->nodes; node++) {
     for (int foot = 0; foot < feet; foot++) {
-      int contact = context->active[node * feet + foot];
-      if (contact < 0) continue;
-      tube t = {context, &outlines[foot], &context->definition->contacts[contact], node, table};
-      contact_rows(&t);
+      ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
+      tube t = {.context = context, .outline = &outlines[foot], .node = node, .table = table};
+      for (int i = 0; i < phases.count; i++) {
+        if (phases.contact[i] >= 0)
+          t.contact[t.contacts++] = &context->definition->contacts[phases.contact[i]];
+      }
+      if (t.contacts > 0) contact_rows(&t);
     }
   }
   ambulo__free(&table->allocator, outlines);

@@ -33,6 +33,22 @@ static void contact_rows(const ambulo__gait_context *context, int node,
   place_row(context, node, toe, "heading", model->left, place[1], table);
 }
 
+/* both hold the flat foot, or the same point on the same foothold: what the other says, this one
+ * says
+ */
+static int covers(const ambulo_contact *one, const ambulo_contact *other) {
+  if (one->place[0] != other->place[0] || one->place[1] != other->place[1]) return 0;
+  return one->mode == AMBULO_CONTACT_FLAT || one->mode == other->mode;
+}
+
+/* a contact that the other of the node's two covers has no rows of its own */
+static int is_covered(const ambulo__gait_context *context, const ambulo__phases_of_foot *phases,
+                      int i) {
+  const ambulo_contact *contacts = context->definition->contacts;
+  if (phases->count < 2 || phases->contact[1 - i] < 0) return 0;
+  return covers(&contacts[phases->contact[1 - i]], &contacts[phases->contact[i]]);
+}
+
 /* (14.b) r - foothold = 0 while a corner is down */
 void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
   int feet = context->model->foot_count;
@@ -41,11 +57,15 @@ void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_t
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < context->nodes; node++) {
     for (int foot = 0; foot < feet; foot++) {
-      int contact = context->active[node * feet + foot];
-      if (contact < 0) continue;
-      contact_rows(context, node, &context->definition->contacts[contact], &outlines[foot], table);
+      ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
+      for (int i = 0; i < phases.count; i++) {
+        int contact = phases.contact[i];
+        if (contact < 0 || is_covered(context, &phases, i)) continue;
+        contact_rows(context, node, &context->definition->contacts[contact], &outlines[foot],
+                     table);
+      }
     }
   }
   ambulo__free(&table->allocator, outlines);

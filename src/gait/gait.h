@@ -3,9 +3,9 @@
  * One function a family; each appends its rows for all nodes in node order. All take
  * the same frame. Axes: up n, forward f, left l = n x f; ground plane n . r = h.
  *
- * Reading order: channels.h, row_kind.h, row_table.h, gait.h, schedule.c, expand.c, ends.c;
- * bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c, clearance.c,
- * zmp.c, reaction.c, limits.c, tube.c.
+ * Reading order: channels.h, row_kind.h, row_table.h, gait.h, phases.h, schedule.c, expand.c,
+ * ends.c; bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c,
+ * clearance.c, zmp.c, reaction.c, limits.c, tube.c.
  */
 #ifndef AMBULO_GAIT_GAIT_H
 #define AMBULO_GAIT_GAIT_H
@@ -24,6 +24,7 @@ typedef struct ambulo__gait_context {
   const double *times; /* [nodes] */
   int nodes;
   const int *active; /* [nodes][feet]: contact index or -1 */
+  const int *before; /* [nodes][feet]: just before the node, where that counts too; NULL: nowhere */
 } ambulo__gait_context;
 
 /* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that
@@ -42,6 +43,10 @@ double ambulo__gait_place(const ambulo_gait *gait, int step);
 ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
                                     const double *times, int nodes, int *active,
                                     ambulo_diagnostics *diagnostics);
+/* On a grid on events: before[nodes][feet], the contact just before each node (the first: at it).
+ */
+void ambulo__schedule_before(const ambulo_problem_definition *definition, const double *times,
+                             int nodes, const int *active, int *before);
 ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *definition,
                                            const double *times, int nodes, const int *active,
                                            ambulo_diagnostics *diagnostics);

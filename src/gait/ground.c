@@ -20,13 +20,22 @@ static void height_row(const ambulo__gait_context *context, int node, int point,
   }
 }
 
-static void foot_rows(const ambulo__gait_context *context, int node, int contact,
-                      const ambulo__foot_outline *outline, ambulo__row_table *table) {
-  if (contact >= 0 && context->definition->contact_tolerance > 0.0) return;
+/* one row a corner: where it is down in one of two phases, the equation of that one holds in both
+ */
+static void foot_rows(const ambulo__gait_context *context, int node,
+                      const ambulo__phases_of_foot *phases, const ambulo__foot_outline *outline,
+                      ambulo__row_table *table) {
+  const ambulo_problem_definition *d = context->definition;
+  int in_air = 0;
+  for (int i = 0; i < phases->count; i++) in_air |= phases->contact[i] < 0;
+  if (phases->count == 0 || (!in_air && d->contact_tolerance > 0.0)) return;
   for (int c = 0; c < outline->count; c++) {
-    int down =
-        contact >= 0 &&
-        ambulo__corner_in_contact(context->definition->contacts[contact].mode, outline->is_heel[c]);
+    int down = 0;
+    for (int i = 0; i < phases->count && !(d->contact_tolerance > 0.0); i++) {
+      int contact = phases->contact[i];
+      down |=
+          contact >= 0 && ambulo__corner_in_contact(d->contacts[contact].mode, outline->is_heel[c]);
+    }
     height_row(context, node, outline->point[c], down ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE, table);
   }
 }
@@ -39,9 +48,10 @@ void ambulo__ground_rows(const ambulo__gait_context *context, ambulo__row_table 
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_PLACES); node++) {
+  for (int node = 0; node < context->nodes; node++) {
     for (int foot = 0; foot < feet; foot++) {
-      foot_rows(context, node, context->active[node * feet + foot], &outlines[foot], table);
+      ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
+      foot_rows(context, node, &phases, &outlines[foot], table);
     }
   }
   ambulo__free(&table->allocator, outlines);

@@ -57,11 +57,8 @@ static void box_of(const node_context *n, const ambulo_contact *contact, double 
   }
 }
 
-static void pressure_rows(const node_context *n, int foot) {
+static void contact_pressure_rows(const node_context *n, int foot, const ambulo_contact *contact) {
   const ambulo__gait_context *context = n->context;
-  int index = context->active[2 * n->node + foot];
-  if (index < 0 || n->load.share[foot] <= smallest_share) return;
-  const ambulo_contact *contact = &context->definition->contacts[index];
   double shift[2], box[2], factor = foot == 0 ? n->load.share[1] : -n->load.share[0];
   for (int i = 0; i < 2; i++) shift[i] = factor * n->load.apart[i];
   box_of(n, contact, box);
@@ -74,6 +71,15 @@ static void pressure_rows(const node_context *n, int foot) {
   const char *name = context->model->feet[foot].name;
   for (int k = 0; k < (n->planar ? 2 : 4); k++)
     ambulo__zmp_side_row(context, n->node, AMBULO__KIND_PRESSURE, name, &sides[k], n->table);
+}
+
+static void pressure_rows(const node_context *n, int foot) {
+  ambulo__phases_of_foot phases = ambulo__phases_at(n->context, AMBULO__OF_FORCES, n->node, foot);
+  if (n->load.share[foot] <= smallest_share) return;
+  for (int i = 0; i < phases.count; i++) {
+    int contact = phases.contact[i];
+    if (contact >= 0) contact_pressure_rows(n, foot, &n->context->definition->contacts[contact]);
+  }
 }
 
 /* ------------------------------------------------------------------- friction */
@@ -117,6 +123,7 @@ static void node_rows(const node_context *n) {
   const ambulo__gait_context *context = n->context;
   const ambulo_ground_reaction *r = &context->definition->ground_reaction;
   for (int foot = 0; r->pressure && foot < 2; foot++) pressure_rows(n, foot);
+  if (n->node >= ambulo__distinct_nodes(context, AMBULO__OF_FORCES)) return;
   if (r->friction >= 0.0) {
     friction_rows(n, ambulo__channel_force(&context->channels, 0), "total");
     for (int foot = 0; foot < 2; foot++) {
@@ -140,7 +147,7 @@ void ambulo__reaction_rows(const ambulo__gait_context *context, ambulo__row_tabl
   node_context n = {.context = context, .outlines = outlines, .table = table};
   n.planar = !ambulo__model_moves_sideways(model);
   n.weight = ambulo__model_weight(model);
-  for (n.node = 0; n.node < ambulo__distinct_nodes(context, AMBULO__OF_FORCES); n.node++) {
+  for (n.node = 0; n.node < context->nodes; n.node++) {
     n.load = ambulo__load_at(context->definition, outlines, context->times[n.node]);
     node_rows(&n);
   }

@@ -1,7 +1,8 @@
 /* gait/schedule.c - which contact is active at which node; contradictions in time.
  *
  * A node at t belongs to a contact when from <= t < to, both within 1e-9 s; a contact
- * that ends at the duration includes it. Overlaps and gaps are found on the time axis,
+ * that ends at the duration includes it. On a grid on events a node at t also belongs to what held
+ * just before t. Overlaps and gaps are found on the time axis,
  * not only at the nodes: a finer grid must not turn a legal schedule into an illegal one.
  */
 #include "gait/gait.h"
@@ -110,6 +111,24 @@ static ambulo_status check_gaps(const ambulo_problem_definition *definition,
     time = next;
   }
   return status;
+}
+
+/* the contact of `foot` just before `time`; -1: in the air */
+static int contact_before(const ambulo_problem_definition *d, int foot, double time) {
+  for (int i = 0; i < d->contact_count; i++) {
+    const ambulo_contact *c = &d->contacts[i];
+    if (c->foot == foot && c->from < time - AMBULO__INSTANT && time <= c->to + AMBULO__INSTANT)
+      return i;
+  }
+  return -1;
+}
+
+void ambulo__schedule_before(const ambulo_problem_definition *d, const double *times, int nodes,
+                             const int *active, int *before) {
+  int feet = ambulo_model_foot_count(d->model);
+  for (int foot = 0; foot < feet; foot++) before[foot] = active[foot];
+  for (int i = feet; i < nodes * feet; i++)
+    before[i] = contact_before(d, i % feet, times[i / feet]);
 }
 
 ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,

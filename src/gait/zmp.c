@@ -84,9 +84,9 @@ static ambulo_status refuse_empty(const ambulo__gait_context *context, int node,
 }
 
 /* the region of the feet loaded at a node, refused when it is empty */
-static ambulo_status region_at(const ambulo__gait_context *context, int node, int planar,
-                               ambulo__support_region *region, ambulo_diagnostics *diagnostics) {
-  const int *active = context->active + node * context->model->foot_count;
+static ambulo_status region_at(const ambulo__gait_context *context, const int *active, int node,
+                               int planar, ambulo__support_region *region,
+                               ambulo_diagnostics *diagnostics) {
   ambulo_status status = ambulo__support_region_of(context->definition, active, planar, region);
   if (status) {
     return ambulo__error(
@@ -109,20 +109,43 @@ static int same_contacts(const ambulo__gait_context *context, int node) {
   return 1;
 }
 
+/* what the feet did just before a node, where the zero-moment point has to be under that as well;
+ * NULL: nowhere else than at the node */
+static const int *feet_before(const ambulo__gait_context *context, int node) {
+  int differs = 0, feet = context->model->foot_count;
+  for (int foot = 0; foot < feet; foot++) {
+    ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_FORCES, node, foot);
+    int last = node >= ambulo__distinct_nodes(context, AMBULO__OF_FORCES);
+    differs |= phases.count > (last ? 0 : 1);
+  }
+  return differs ? context->before + node * feet : NULL;
+}
+
+static void region_rows(const ambulo__gait_context *context, int node,
+                        const ambulo__support_region *region, ambulo__row_table *table) {
+  for (int k = 0; k < region->count; k++)
+    ambulo__zmp_side_row(context, node, AMBULO__KIND_ZMP, "support", &region->side[k], table);
+}
+
 ambulo_status ambulo__zmp_rows(const ambulo__gait_context *context, ambulo__row_table *table,
                                ambulo_diagnostics *diagnostics) {
   int planar = !ambulo__model_moves_sideways(context->model);
-  ambulo__support_region region = {.count = 0};
-  for (int node = 0; node < ambulo__distinct_nodes(context, AMBULO__OF_FORCES); node++) {
+  ambulo__support_region region = {.count = 0}, earlier;
+  int feet = context->model->foot_count;
+  int distinct = ambulo__distinct_nodes(context, AMBULO__OF_FORCES);
+  for (int node = 0; node < context->nodes; node++) {
     if (context->definition->support != AMBULO_SUPPORT_OFF) {
-      if (!same_contacts(context, node)) {
-        ambulo_status status = region_at(context, node, planar, &region, diagnostics);
-        if (status) return status;
-      }
-      for (int k = 0; k < region.count; k++)
-        ambulo__zmp_side_row(context, node, AMBULO__KIND_ZMP, "support", &region.side[k], table);
+      ambulo_status status = AMBULO_OK;
+      const int *before = feet_before(context, node), *active = context->active + node * feet;
+      if (before) status = region_at(context, before, node, planar, &earlier, diagnostics);
+      if (!status && node < distinct && !same_contacts(context, node))
+        status = region_at(context, active, node, planar, &region, diagnostics);
+      if (status) return status;
+      if (before) region_rows(context, node, &earlier, table);
+      if (node < distinct) region_rows(context, node, &region, table);
     }
-    if (context->definition->minimum_force >= 0.0) force_row(context, node, table);
+    if (node < distinct && context->definition->minimum_force >= 0.0)
+      force_row(context, node, table);
   }
   return table->status;
 }

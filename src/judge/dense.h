@@ -14,7 +14,7 @@
  *   dense_grid.c     the finer grid; the motion there
  *   dense_rows.c, dense_slip.c, dense_force.c    samples
  *   dense_worst.c    the worst sample of each rule
- *   dense_events.c   the times at which contacts change, and where nodes fall beside them
+ *   dense_events.c   where nodes fall beside the times at which contacts change
  *   dense_cure.c     the intervals that would bring it under its tolerance
  *   dense_words.c    all of it in words
  *   dense_audit.c    the steps in order
@@ -22,6 +22,7 @@
 #ifndef AMBULO_JUDGE_DENSE_H
 #define AMBULO_JUDGE_DENSE_H
 
+#include "gait/phases.h"
 #include "nlp/nlp.h"
 #include "judge/dense_rules.h"
 
@@ -76,23 +77,19 @@ void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit
 
 /* ------------------------------------------------------------------ events */
 
-/* When contacts of a problem change, inside (0, T), rising and apart by more than 1e-9 s. */
-typedef struct ambulo__dense_events {
-  int count;
-  double *time; /* [count] */
-} ambulo__dense_events;
-
-ambulo_status ambulo__dense_events_create(const ambulo_problem *problem,
-                                          const ambulo_allocator *allocator,
-                                          ambulo__dense_events *events);
-/* From the last of `intervals` + 1 nodes before the event to the event, s: a contact that ends
- * there is not held at a node on the event itself. */
+/* On an equally spaced grid: from the last of `intervals` + 1 nodes before the event to the event,
+ * s: a contact that ends there is not held at a node on the event itself. */
 double ambulo__dense_gap_before(double event, double duration, int intervals);
 /* From the event to the first node at or after it. */
 double ambulo__dense_gap_after(double event, double duration, int intervals);
 /* 1 if the interval around `time` has an event after its first node, up to its last. */
-int ambulo__dense_near_event(const ambulo__dense_events *events, double time, double duration,
+int ambulo__dense_near_event(const ambulo__events *events, double time, double duration,
                              int intervals);
+
+/* 1 if a problem's nodes leave a gap beside an event, and `time` lies in the interval of that
+ * event; on a grid on events only where the event is no node. */
+int ambulo__dense_beside_event(const ambulo_problem *problem, const ambulo__events *events,
+                               double time);
 
 /* ------------------------------------------------------------------- worst */
 
@@ -107,7 +104,7 @@ typedef struct ambulo__dense_worst {
   ambulo__dense_entry entry[AMBULO__DENSE_RULES];
 } ambulo__dense_worst;
 
-void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__dense_events *events,
+void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__events *events,
                             ambulo__dense_worst *worst);
 
 /* -------------------------------------------------------------------- cure */
@@ -125,7 +122,7 @@ int ambulo__dense_is_strict(const ambulo_problem *problem);
 int ambulo__dense_spline_intervals(const ambulo_problem *problem, int intervals);
 
 ambulo_status ambulo__dense_cure_find(const ambulo_problem *problem, const double *x,
-                                      const ambulo__dense_events *events,
+                                      const ambulo__events *events,
                                       const ambulo__dense_worst *worst,
                                       const ambulo_allocator *allocator, ambulo__dense_cure *cure);
 

@@ -66,8 +66,9 @@ static void refuse_for(ambulo__dense_report *report, const ambulo_diagnostics *d
 
 static ambulo_status measure(const ambulo__dense *dense, const ambulo_problem *p,
                              ambulo__dense_report *report) {
-  ambulo__dense_events events;
-  ambulo_status status = ambulo__dense_events_create(p, &dense->allocator, &events);
+  ambulo__events events;
+  ambulo_status status =
+      ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &dense->allocator, &events);
   if (status) return status;
   ambulo__dense_worst_of(dense, &events, &report->worst);
   ambulo__free(&dense->allocator, events.time);
@@ -126,9 +127,10 @@ ambulo_status ambulo__dense_audit(const ambulo_problem *p, int samples, int in_t
 
 static ambulo_status forecast_cure(const ambulo_problem *p, const ambulo_result *result,
                                    const ambulo_allocator *allocator, ambulo__dense_cure *cure) {
-  ambulo__dense_events events;
+  ambulo__events events;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  ambulo_status status = ambulo__dense_events_create(p, &own, &events);
+  ambulo_status status =
+      ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &own, &events);
   if (status) return status;
   status = ambulo__dense_cure_find(p, result->x, &events, &result->dense->worst, allocator, cure);
   ambulo__free(&own, events.time);

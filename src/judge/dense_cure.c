@@ -12,6 +12,8 @@
  * end, where they are not asked for) and a little earlier (the rows of contacts that begin): an
  * event that falls on a node today has a gap of zero, and none on another grid.
  *
+ * Grids on events have no gaps, whatever their number of intervals.
+ *
  * A new solve has another motion. What is foretold must therefore stay below `target`, not 1.
  */
 #include "judge/dense.h"
@@ -26,7 +28,7 @@ static const double shortest_distance = 0.2; /* of a sample to its node, in inte
 
 typedef struct forecast {
   const ambulo_problem *problem;
-  const ambulo__dense_events *events;
+  const ambulo__events *events;
   const ambulo__dense_worst *worst;
   double *rate; /* [2][events][rules], 1/s */
   int side;     /* that is looked at: END or BEGINNING */
@@ -90,7 +92,7 @@ static double reach_of(const forecast *f) {
 
 static ambulo_status find_rates(forecast *f, const double *x, const ambulo_allocator *allocator) {
   f->reach = reach_of(f);
-  if (f->events->count == 0) return AMBULO_OK;
+  if (f->events->count == 0 || f->problem->definition.grid != AMBULO_GRID_UNIFORM) return AMBULO_OK;
   for (f->side = END; f->side <= BEGINNING; f->side++) {
     ambulo__dense dense;
     double shift = f->side == END ? f->reach : -f->reach;
@@ -118,7 +120,8 @@ static double foretold(const forecast *f, int rule, int intervals) {
   const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);
   double finer = (double)d->intervals / intervals;
   double ratio = f->worst->entry[rule].between * pow(finer, order_of(f, r));
-  for (int i = 0; r->at_events && i < f->events->count; i++) {
+  int gaps = r->at_events && d->grid == AMBULO_GRID_UNIFORM;
+  for (int i = 0; gaps && i < f->events->count; i++) {
     double e = f->events->time[i];
     double before = ambulo__dense_gap_before(e, d->duration, intervals);
     double after = ambulo__dense_gap_after(e, d->duration, intervals);
@@ -193,7 +196,7 @@ static void find(const forecast *f, ambulo__dense_cure *cure) {
 }
 
 ambulo_status ambulo__dense_cure_find(const ambulo_problem *p, const double *x,
-                                      const ambulo__dense_events *events,
+                                      const ambulo__events *events,
                                       const ambulo__dense_worst *worst,
                                       const ambulo_allocator *allocator, ambulo__dense_cure *cure) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);

@@ -29,13 +29,34 @@ static ambulo_contact *moved_contacts(const ambulo_problem_definition *d, double
   return contacts;
 }
 
+/* of a grid on events: every interval in `samples` equal ones; NULL without memory */
+static double *finer_times(const ambulo_problem *p, int samples,
+                           const ambulo_allocator *allocator) {
+  int last = p->nodes - 1;
+  double *times = ambulo__alloc(allocator, (size_t)last * (size_t)samples + 1, sizeof *times);
+  for (int k = 0; times && k < last; k++) {
+    double length = p->times[k + 1] - p->times[k];
+    for (int i = 0; i < samples; i++) times[k * samples + i] = p->times[k] + length * i / samples;
+  }
+  if (times) times[last * samples] = p->times[last];
+  return times;
+}
+
 static ambulo_status create_fine(const ambulo_problem *p, double shift,
                                  ambulo_diagnostics *diagnostics, ambulo__dense *dense) {
   ambulo_problem_definition d = p->definition;
   ambulo_contact *contacts = moved_contacts(&d, shift, &dense->allocator);
-  if (!contacts) return AMBULO_E_MEMORY;
+  double *times = finer_times(p, dense->samples, &dense->allocator);
+  if (!contacts || !times) {
+    ambulo__free(&dense->allocator, contacts);
+    ambulo__free(&dense->allocator, times);
+    return AMBULO_E_MEMORY;
+  }
   d.contacts = contacts;
+  if (d.grid == AMBULO_GRID_EVENTS) d.node_times = times;
   d.spline_intervals = ambulo__basis_intervals(p->basis);
+  if (d.discretization == AMBULO_BSPLINE) d.breakpoints = ambulo__basis_breakpoints(p->basis);
+  d.knots = AMBULO_GRID_UNIFORM;
   d.intervals = p->definition.intervals * dense->samples;
   d.terms = NULL;
   d.term_count = 0;
@@ -44,6 +65,7 @@ static ambulo_status create_fine(const ambulo_problem *p, double shift,
   ambulo_status status =
       ambulo__problem_create_unnamed(&d, &dense->allocator, diagnostics, &dense->fine);
   ambulo__free(&dense->allocator, contacts);
+  ambulo__free(&dense->allocator, times);
   return status;
 }
 

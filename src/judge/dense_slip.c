@@ -7,7 +7,8 @@
  *
  * the part along the ground of the distance from where the nodes have it. Before the first such
  * node, and after the last one until the contact ends, that node's place stands for the line: rows
- * hold for from <= t < to, so a toe is free from its last loaded node until toe-off. Movements
+ * hold for from <= t < to, so a toe is free from its last loaded node until toe-off (on a grid on
+ * events the last loaded node is toe-off). Movements
  * from node to node are not slip: rows hold those, exactly or within contact_tolerance. A corner
  * that has no node while it is loaded moves away from where it came down.
  */
@@ -27,26 +28,30 @@ typedef struct corner {
   void *user;
 } corner;
 
-static const ambulo_contact *contact_at(const ambulo_problem *p, const corner *c, int node) {
-  int index = p->active[node * p->model->foot_count + c->foot];
+static const ambulo_contact *loading(const ambulo_problem *p, const corner *c, int index) {
   if (index < 0) return NULL;
   const ambulo_contact *contact = &p->definition.contacts[index];
   return ambulo__corner_in_contact(contact->mode, c->is_heel) ? contact : NULL;
+}
+
+/* on a grid on events a node has the corner loaded also when it is unloaded there */
+static const ambulo_contact *contact_at(const ambulo_problem *p, const corner *c, int node) {
+  int at = node * p->model->foot_count + c->foot;
+  const ambulo_contact *contact = loading(p, c, p->active[at]);
+  return contact || !p->before ? contact : loading(p, c, p->before[at]);
 }
 
 /* r of the corner at a time between nodes of the finer grid */
 static void place_at(const corner *c, double time, double r[3]) {
   const ambulo__dense *dense = c->dense;
   const ambulo_problem *fine = dense->fine;
-  double position = time / fine->definition.duration * fine->definition.intervals;
-  int left = (int)floor(position + 1e-9);
-  if (left > fine->nodes - 2) left = fine->nodes - 2;
-  double s = position - left;
+  double s;
+  int left = ambulo__node_at(fine, time, &s);
   for (int axis = 0; axis < 3; axis++) {
     int channel = ambulo__channel_point(&fine->channels, c->point, axis);
     double a = ambulo__dense_channel(dense, left, channel);
     double b = ambulo__dense_channel(dense, left + 1, channel);
-    r[axis] = s == 0.0 ? a : a + s * (b - a);
+    r[axis] = s == 0.0 ? a : s == 1.0 ? b : a + s * (b - a);
   }
 }
 
@@ -65,14 +70,17 @@ static int holding_node(const corner *c, int node, int step, const ambulo_contac
 /* where the nodes have the corner at `time`; 0 if no node does */
 static int held_place(const corner *c, double time, const ambulo_contact *contact, double r[3]) {
   const ambulo_problem *p = c->dense->problem;
-  double position = time / p->definition.duration * p->definition.intervals;
-  int a = holding_node(c, (int)floor(position + 1e-9), -1, contact);
-  int b = holding_node(c, (int)ceil(position - 1e-9), 1, contact);
+  double part;
+  int node = ambulo__node_at(p, time, &part);
+  int on_next = time >= p->times[node + 1] - AMBULO__INSTANT;
+  int on_node = time <= p->times[node] + AMBULO__INSTANT;
+  int a = holding_node(c, on_next ? node + 1 : node, -1, contact);
+  int b = holding_node(c, on_node ? node : node + 1, 1, contact);
   double ra[3], rb[3];
   if (a < 0 && b < 0) return 0;
   place_at(c, p->times[a < 0 ? b : a], ra);
   place_at(c, p->times[b < 0 ? a : b], rb);
-  double s = a >= 0 && b > a ? (position - a) / (b - a) : 0.0;
+  double s = a >= 0 && b > a ? (time - p->times[a]) / (p->times[b] - p->times[a]) : 0.0;
   for (int axis = 0; axis < 3; axis++) r[axis] = ra[axis] + s * (rb[axis] - ra[axis]);
   return 1;
 }

@@ -6,7 +6,7 @@
 
 typedef struct search {
   const ambulo__dense *dense;
-  const ambulo__dense_events *events;
+  const ambulo__events *events;
   ambulo__dense_worst *worst;
 } search;
 
@@ -26,15 +26,14 @@ static void note(void *user, const ambulo__dense_sample *sample) {
     entry->ratio = ratio;
   }
   if (!is_worse(ratio, entry->between)) return;
-  const ambulo_problem_definition *d = &s->dense->problem->definition;
   if (ambulo__dense_rule_at(sample->rule)->at_events &&
-      ambulo__dense_near_event(s->events, sample->time, d->duration, d->intervals))
+      ambulo__dense_beside_event(s->dense->problem, s->events, sample->time))
     return;
   entry->between = ratio;
 }
 
 /* (A.2) their worst, by family */
-void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__dense_events *events,
+void ambulo__dense_worst_of(const ambulo__dense *dense, const ambulo__events *events,
                             ambulo__dense_worst *worst) {
   search s = {dense, events, worst};
   memset(worst, 0, sizeof *worst);

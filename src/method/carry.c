@@ -36,7 +36,9 @@ ambulo_status ambulo__carry_from(const ambulo__engine *e, const ambulo_allocator
   ambulo__carry_clear(allocator, carried);
   carried->row = ambulo__alloc(allocator, (size_t)e->setup->inequalities, sizeof *carried->row);
   if (!carried->row) return AMBULO_E_MEMORY;
-  carried->interval = p->definition.duration / (double)p->definition.intervals;
+  carried->interval = 0.0;
+  for (int k = 0; k + 1 < p->nodes; k++)
+    carried->interval = fmax(carried->interval, p->times[k + 1] - p->times[k]);
   carried->count = e->setup->inequalities;
   carried->objective = e->reached.objective / e->setup->objective_scale;
   for (int i = 0; i < e->setup->inequalities; i++) {

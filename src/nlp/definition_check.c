@@ -97,6 +97,42 @@ static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diag
 
 /* -------------------------------------------------------------------- the rest */
 
+static int is_grid(ambulo_grid grid) {
+  return grid == AMBULO_GRID_UNIFORM || grid == AMBULO_GRID_EVENTS;
+}
+
+static ambulo_status check_node_times(const ambulo_problem_definition *d,
+                                      ambulo_diagnostics *list) {
+  const double *t = d->node_times;
+  double slack = 1e-9 * d->duration;
+  if (d->grid != AMBULO_GRID_EVENTS)
+    return REFUSE(list, "node_times are given for a uniform grid; expected AMBULO_GRID_EVENTS");
+  if (!(t[0] == 0.0 && fabs(t[d->intervals] - d->duration) <= slack))
+    return REFUSE(list, "node_times run from %g s to %g s; expected 0 s to %g s", t[0],
+                  t[d->intervals], d->duration);
+  for (int k = 0; k < d->intervals; k++) {
+    if (t[k + 1] > t[k] && t[k + 1] <= d->duration + slack) continue;
+    return REFUSE(list, "node_times[%d] is %g s after %g s; expected rising times", k + 1, t[k + 1],
+                  t[k]);
+  }
+  return AMBULO_OK;
+}
+
+/* the places of nodes and knots */
+static ambulo_status check_places(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  int on_events = d->grid == AMBULO_GRID_EVENTS || d->knots == AMBULO_GRID_EVENTS;
+  if (!is_grid(d->grid) || !is_grid(d->knots))
+    return REFUSE(list, "unknown grid %d, knots %d; expected uniform or events", (int)d->grid,
+                  (int)d->knots);
+  if (on_events && d->discretization != AMBULO_BSPLINE)
+    return REFUSE(list, "a grid on events with basis %s; expected bspline",
+                  d->discretization == AMBULO_HERMITE ? "hermite" : "central_difference");
+  if (d->breakpoints && d->knots == AMBULO_GRID_EVENTS)
+    return REFUSE(list, "trajectory.breakpoints are given and knots on events asked for; expected "
+                        "one of the two");
+  return d->node_times ? check_node_times(d, list) : AMBULO_OK;
+}
+
 static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
   ambulo_status status = AMBULO_OK;
   if (!(d->duration >= shortest && d->duration <= longest))
@@ -116,7 +152,7 @@ static ambulo_status check_grid(const ambulo_problem_definition *d, ambulo_diagn
     status = REFUSE(list, "trajectory.breakpoints[%d] is %g s after %g s; expected rising times",
                     i + 1, d->breakpoints[i + 1], d->breakpoints[i]);
   }
-  return status;
+  return status ? status : check_places(d, list);
 }
 
 static const char *point_name(const ambulo_model *model, int index) {

@@ -94,6 +94,8 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   to->tube_count = 0;
   to->term_count = to->user_row_count = 0;
   to->name = copy_text(a, from->name ? from->name : "problem", &failed);
+  size_t nodes = from->node_times ? (size_t)from->intervals + 1 : 0;
+  to->node_times = copy_array(a, from->node_times, nodes, sizeof(double), &failed);
   size_t breakpoints = from->breakpoints ? (size_t)from->spline_intervals + 1 : 0;
   to->breakpoints = copy_array(a, from->breakpoints, breakpoints, sizeof(double), &failed);
   to->contacts =
@@ -136,6 +138,7 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
   release(a, d->tubes);
   release(a, d->user_rows);
   release(a, d->name);
+  release(a, d->node_times);
   release(a, d->breakpoints);
   release(a, d->contacts);
   release(a, d->end_values);

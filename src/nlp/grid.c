@@ -4,26 +4,27 @@
  * the nodes. */
 #include "nlp/problem.h"
 #include "base/instant.h"
+#include "gait/phases.h"
 
 #include <math.h>
 #include <string.h>
 
-/* reference [to + 1][d] at equally spaced times from reference [from + 1][d] */
-static void resample(const double *source, int from, double *target, int to, int d) {
-  for (int k = 0; k <= to; k++) {
-    double position = (double)k * (double)from / (double)to;
-    int left = (int)floor(position);
-    if (left >= from) left = from - 1;
-    double fraction = position - (double)left;
-    for (int i = 0; i < d; i++) {
+/* reference [count][d] at given times from that at the problem's nodes, linear in between */
+static void resample(const ambulo_problem *p, const double *source, const double *times, int count,
+                     double *target) {
+  size_t d = (size_t)p->coordinates;
+  for (int k = 0; k < count; k++) {
+    double part;
+    size_t left = (size_t)ambulo__node_at(p, times[k], &part);
+    for (size_t i = 0; i < d; i++) {
       double a = source[left * d + i], b = source[(left + 1) * d + i];
-      target[k * d + i] = a + fraction * (b - a);
+      target[(size_t)k * d + i] = a + part * (b - a);
     }
   }
 }
 
-static ambulo_status resample_terms(const ambulo_problem *p, int intervals, ambulo_term *terms,
-                                    double **references) {
+static ambulo_status resample_terms(const ambulo_problem *p, int intervals, const double *times,
+                                    ambulo_term *terms, double **references) {
   const ambulo_problem_definition *d = &p->definition;
   int count = 0;
   size_t size = (size_t)(intervals + 1) * (size_t)p->coordinates;
@@ -34,7 +35,7 @@ static ambulo_status resample_terms(const ambulo_problem *p, int intervals, ambu
   for (int t = 0; t < d->term_count; t++) {
     terms[t] = d->terms[t];
     if (!terms[t].reference) continue;
-    resample(d->terms[t].reference, d->intervals, next, intervals, p->coordinates);
+    resample(p, d->terms[t].reference, times, intervals + 1, next);
     terms[t].reference = next;
     next += size;
   }
@@ -45,14 +46,17 @@ ambulo_status ambulo__problem_with_grid(const ambulo_problem *p, int intervals,
                                         int spline_intervals, const ambulo_allocator *allocator,
                                         ambulo_problem **out) {
   ambulo_problem_definition d = p->definition;
-  double *references = NULL;
+  double *references = NULL, *times = NULL;
   int own =
       p->definition.spline_intervals ? p->definition.spline_intervals : p->definition.intervals;
   ambulo_term *terms = ambulo__alloc(&p->allocator, (size_t)d.term_count, sizeof *terms);
-  if (!terms) return AMBULO_E_MEMORY;
-  ambulo_status status = resample_terms(p, intervals, terms, &references);
+  times = ambulo__alloc(&p->allocator, (size_t)intervals + 1, sizeof *times);
+  ambulo_status status = terms && times ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (intervals != d.intervals) d.node_times = NULL;
+  d.intervals = intervals;
+  if (!status) status = ambulo__node_times(&d, &p->allocator, NULL, times);
+  if (!status) status = resample_terms(p, intervals, times, terms, &references);
   if (!status) {
-    d.intervals = intervals;
     d.spline_intervals = spline_intervals;
     if (spline_intervals != own) d.breakpoints = NULL;
     d.terms = terms;
@@ -60,6 +64,7 @@ ambulo_status ambulo__problem_with_grid(const ambulo_problem *p, int intervals,
     if (!status) (*out)->file_options = p->file_options;
   }
   ambulo__free(&p->allocator, references);
+  ambulo__free(&p->allocator, times);
   ambulo__free(&p->allocator, terms);
   return status;
 }

@@ -46,9 +46,10 @@ struct ambulo_problem {
   ambulo__channels channels;
   int coordinates, control_points, variables;
   int nodes, blocks;
-  double *times;      /* [nodes], s */
+  double *times;      /* [nodes], s; not equally spaced in general */
   double *quadrature; /* [nodes], trapezoidal weights, s */
   int *active;        /* [nodes][feet] contact index or -1 */
+  int *before;        /* [nodes][feet] just before the node; NULL but for grids on events */
   double *ground;     /* [blocks][AMBULO__GROUND_ENTRIES][8]; NULL without ground reaction */
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
@@ -139,6 +140,10 @@ void ambulo__channel_local_gradient(const ambulo_workspace *workspace, int node,
 /* Gradient of any row added into a dense vector [variables], times `factor`. */
 void ambulo__row_add_gradient(const ambulo_workspace *workspace, int row, double factor,
                               double *gradient);
+
+/* The last node at or before `time` (within 1e-9 s), at most the last but one; with the node after
+ * it, and the place between the two, 0 to 1. */
+int ambulo__node_at(const ambulo_problem *problem, double time, double *between);
 
 /* First local unknown of a node and their number. */
 static inline int ambulo__node_first(const ambulo_problem *p, int node) {

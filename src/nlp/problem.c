@@ -9,6 +9,7 @@
  */
 #include "nlp/problem.h"
 #include "base/instant.h"
+#include "gait/phases.h"
 #include "nlp/memory.h"
 #include "objective/mirror_terms.h"
 
@@ -20,6 +21,7 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
       .cookie = AMBULO__DEFINITION_COOKIE,
       .duration = 1.0,
       .intervals = 12,
+      .grid = AMBULO_GRID_UNIFORM,
       .discretization = AMBULO_BSPLINE,
       .degree = 3,
       .minimum_force = -1.0,
@@ -57,14 +59,40 @@ ambulo_term ambulo_term_default(ambulo_term_kind kind) {
 
 /* ------------------------------------------------------------ construction */
 
-static ambulo_status build_grid(ambulo_problem *p) {
+static ambulo_status build_basis(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
   int spline = d->spline_intervals ? d->spline_intervals : d->intervals;
   static const ambulo__basis_kind kinds[] = {AMBULO__BSPLINE, AMBULO__CENTRAL_DIFFERENCE,
                                              AMBULO__HERMITE};
-  ambulo_status status =
-      ambulo__basis_create(kinds[d->discretization], d->degree, spline, d->duration, d->breakpoints,
-                           &p->allocator, &p->basis);
+  double *own = NULL;
+  ambulo_status status = AMBULO_OK;
+  if (d->knots == AMBULO_GRID_EVENTS) {
+    own = ambulo__alloc(&p->allocator, (size_t)spline + 1, sizeof *own);
+    if (!own) return AMBULO_E_MEMORY;
+    status = ambulo__knot_times(d, spline, &p->allocator, diagnostics, own);
+  }
+  if (!status)
+    status = ambulo__basis_create(kinds[d->discretization], d->degree, spline, d->duration,
+                                  own ? own : d->breakpoints, &p->allocator, &p->basis);
+  ambulo__free(&p->allocator, own);
+  return status;
+}
+
+/* trapezoidal, in each phase by itself: a node on an event has half an interval of both */
+static void fill_quadrature(ambulo_problem *p) {
+  const ambulo_problem_definition *d = &p->definition;
+  int last = p->nodes - 1;
+  for (int k = 0; k <= last; k++) {
+    int end = k == 0 || k == last;
+    p->quadrature[k] = (end ? 0.5 : 1.0) * d->duration / (double)d->intervals;
+    if (d->grid == AMBULO_GRID_UNIFORM) continue; /* the same, rounded once */
+    p->quadrature[k] = 0.5 * (p->times[k < last ? k + 1 : k] - p->times[k > 0 ? k - 1 : k]);
+  }
+}
+
+static ambulo_status build_grid(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  const ambulo_problem_definition *d = &p->definition;
+  ambulo_status status = build_basis(p, diagnostics);
   if (status) return status;
   p->nodes = d->intervals + 1;
   p->blocks = ambulo__block_count(p->nodes);
@@ -72,11 +100,9 @@ static ambulo_status build_grid(ambulo_problem *p) {
   p->quadrature =
       ambulo__alloc(&p->allocator, (size_t)p->blocks * AMBULO__LANES, sizeof *p->quadrature);
   if (!p->times || !p->quadrature) return AMBULO_E_MEMORY;
-  for (int k = 0; k < p->nodes; k++) {
-    p->times[k] = (double)k * d->duration / (double)d->intervals;
-    int end = k == 0 || k == d->intervals;
-    p->quadrature[k] = (end ? 0.5 : 1.0) * d->duration / (double)d->intervals;
-  }
+  status = ambulo__node_times(d, &p->allocator, diagnostics, p->times);
+  if (status) return status;
+  fill_quadrature(p);
   p->control_points = ambulo__basis_control_points(p->basis);
   p->variables = p->control_points * p->coordinates;
   return ambulo__lane_map_create(p->basis, p->times, p->nodes, p->coordinates, &p->allocator,
@@ -96,8 +122,8 @@ static void add_user_rows(ambulo_problem *p) {
 
 static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = &p->definition;
-  ambulo__gait_context context = {d,        p->model, p->basis, p->channels,
-                                  p->times, p->nodes, p->active};
+  ambulo__gait_context context = {d,        p->model, p->basis,  p->channels,
+                                  p->times, p->nodes, p->active, p->before};
   ambulo_status status = AMBULO_OK;
   p->table.weight = ambulo__model_weight(p->model);
   if (d->ground_penetration) ambulo__ground_rows(&context, &p->table);
@@ -131,6 +157,11 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
   if (!p->active) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__schedule_fill(d, p->times, p->nodes, p->active, diagnostics);
   if (status) return status;
+  if (d->grid == AMBULO_GRID_EVENTS) {
+    p->before = ambulo__alloc(&p->allocator, (size_t)p->nodes * feet, sizeof *p->before);
+    if (!p->before) return AMBULO_E_MEMORY;
+    ambulo__schedule_before(d, p->times, p->nodes, p->active, p->before);
+  }
   status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
   ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
   if (!status) status = ends;
@@ -163,7 +194,7 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->coordinates = ambulo_model_coordinate_count(p->model);
   p->channels.coordinates = p->coordinates;
   p->channels.points = ambulo_model_point_count(p->model);
-  ambulo_status status = build_grid(p);
+  ambulo_status status = build_grid(p, diagnostics);
   if (!status) status = build_plan(p, diagnostics);
   if (!status) status = ambulo__check_memory(p, diagnostics);
   ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
@@ -221,6 +252,7 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->quadrature);
   ambulo__row_runs_free(&a, &p->row_runs);
   ambulo__free(&a, p->active);
+  ambulo__free(&a, p->before);
   ambulo__free_aligned(&a, p->ground);
   ambulo__definition_free(&a, &p->definition);
   ambulo_model_free(p->owned_model);

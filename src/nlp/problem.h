@@ -23,7 +23,8 @@ void ambulo__definition_free(const ambulo_allocator *allocator,
                              ambulo_problem_definition *definition);
 /* The same problem on another grid: `intervals` time intervals and `spline_intervals`
  * intervals of the trajectory. Breakpoints of its own are kept only while their number
- * stays; tracked references are interpolated linearly. The model stays shared, so the
+ * stays, and times of nodes of its own likewise: other numbers are distributed over the phases.
+ * Tracked references are interpolated linearly. The model stays shared, so the
  * new problem must not outlive `problem`. */
 ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int intervals,
                                         int spline_intervals, const ambulo_allocator *allocator,

@@ -1,7 +1,11 @@
 /* nlp/query.c - what a problem tells about itself. */
 #include "nlp/problem.h"
 
+#include "base/instant.h"
 #include "gait/bounds.h"
+#include "gait/phases.h"
+
+#include <math.h>
 
 const char *ambulo_problem_name(const ambulo_problem *p) {
   return p->definition.name;
@@ -70,6 +74,37 @@ ambulo_status ambulo_problem_row(const ambulo_problem *p, int index, ambulo_row 
   ambulo_row view = {r->family, r->subject, r->detail, r->unit, r->relation, r->node, r->time};
   *row = view;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo_node_times(const ambulo_problem_definition *d, double *times) {
+  if (!d || d->cookie != AMBULO__DEFINITION_COOKIE || !d->model || !times || d->intervals < 1 ||
+      !(d->duration > 0.0) || d->contact_count < 0 || (d->contact_count > 0 && !d->contacts))
+    return AMBULO_E_ARGUMENT;
+  ambulo_allocator a = ambulo__allocator_or_default(NULL);
+  return ambulo__node_times(d, &a, NULL, times);
+}
+
+double ambulo_problem_node_time(const ambulo_problem *p, int node) {
+  return node >= 0 && node < p->nodes ? p->times[node] : (double)NAN;
+}
+
+ambulo_grid ambulo_problem_grid(const ambulo_problem *p) {
+  return p->definition.grid;
+}
+
+int ambulo__node_at(const ambulo_problem *p, double time, double *between) {
+  int low = 0, high = p->nodes - 1;
+  while (high - low > 1) {
+    int middle = low + (high - low) / 2;
+    if (p->times[middle] <= time + AMBULO__INSTANT) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  double part = (time - p->times[low]) / (p->times[low + 1] - p->times[low]);
+  *between = fmin(1.0, fmax(0.0, part));
+  return low;
 }
 
 int ambulo_problem_contact_at(const ambulo_problem *p, int foot, double time) {

@@ -21,14 +21,9 @@ static inline const double *ambulo__user_slope(const ambulo_workspace *workspace
 /* What composite terms read their channels from. */
 static inline ambulo__term_context ambulo__term_context_of(const ambulo_workspace *workspace) {
   const ambulo_problem *p = workspace->problem;
-  ambulo__term_context context = {p->model,
-                                  p->channels,
-                                  workspace->channel_count,
-                                  workspace->channel,
-                                  p->nodes,
-                                  p->definition.duration / p->definition.intervals,
-                                  p->active,
-                                  p->definition.ground_height};
+  ambulo__term_context context = {p->model,           p->channels, workspace->channel_count,
+                                  workspace->channel, p->nodes,    p->times,
+                                  p->active,          p->before,   p->definition.ground_height};
   return context;
 }
 
@@ -36,7 +31,8 @@ static inline ambulo__term_context ambulo__term_context_of(const ambulo_workspac
  * interval that begins at the node. */
 static inline double ambulo__term_quadrature(const ambulo_problem *p, const ambulo_term *term,
                                              int node) {
-  if (term->kind == AMBULO_TORQUE_RATE) return p->definition.duration / p->definition.intervals;
+  if (term->kind == AMBULO_TORQUE_RATE)
+    return node + 1 < p->nodes ? p->times[node + 1] - p->times[node] : 0.0;
   return p->quadrature[node];
 }
 

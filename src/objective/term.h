@@ -80,8 +80,9 @@ typedef struct ambulo__term_context {
   int channel_count;
   const double *lanes; /* [blocks][channels][8], base/lanes.h */
   int nodes;
-  double step;       /* time between nodes, s */
-  const int *active; /* [nodes][feet]: contact, or -1 in the air */
+  const double *times; /* [nodes], s */
+  const int *active;   /* [nodes][feet]: contact, or -1 in the air */
+  const int *before;   /* the same just before each node, on grids on events; NULL: as active */
   double ground_height;
 } ambulo__term_context;
 

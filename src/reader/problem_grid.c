@@ -7,6 +7,8 @@ enum { MOST_INTERVALS = 100000 };
 
 static const double longest_time = 1e6; /* s */
 
+static const char *const grids[] = {"uniform", "events"}; /* ambulo_grid */
+
 void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   ambulo_problem_definition *d = &reader->definition;
   if (!ambulo__yaml_require(root, "time")) return;
@@ -18,6 +20,8 @@ void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *
   reader->has_duration = duration != NULL;
   d->intervals =
       ambulo__yaml_integer(ambulo__yaml_require(time, "intervals"), 1, MOST_INTERVALS, 12);
+  d->grid = (ambulo_grid)ambulo__yaml_choice(ambulo__yaml_get(time, "grid"), grids, 2, 0);
+  reader->grid = ambulo__yaml_get(time, "grid");
   ambulo__yaml_close(time);
 }
 
@@ -58,6 +62,25 @@ static void read_breakpoints(ambulo__problem_reader *reader, const ambulo__yaml_
   d->spline_intervals = count - 1;
 }
 
+static void read_knots(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                       const ambulo__yaml_node *breakpoints) {
+  int knots = ambulo__yaml_choice(node, grids, 2, 0);
+  reader->definition.knots = (ambulo_grid)knots;
+  if (node && breakpoints)
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "knots are '%s', but breakpoints are given; expected one of the two",
+                             grids[knots]);
+}
+
+/* a time grid on events wants trajectories that are the same between nodes as on them */
+static void refuse_grid_for_basis(ambulo__problem_reader *reader, const char *basis) {
+  if (reader->definition.grid == AMBULO_GRID_UNIFORM) return;
+  (void)ambulo__yaml_error(reader->grid, AMBULO_E_SCHEMA, NULL,
+                           "grid 'events' with basis %s, which has its own equal intervals; "
+                           "expected it with bspline only",
+                           basis);
+}
+
 static void refuse_for_basis(const ambulo__yaml_node *section, const char *key, const char *basis) {
   const ambulo__yaml_node *node = ambulo__yaml_get(section, key);
   if (!node) return;
@@ -79,9 +102,12 @@ void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_
     d->degree = ambulo__yaml_integer(ambulo__yaml_get(section, "degree"), 3, AMBULO__MAX_DEGREE, 3);
     const ambulo__yaml_node *breakpoints = ambulo__yaml_get(section, "breakpoints");
     if (breakpoints) read_breakpoints(reader, breakpoints, intervals);
+    read_knots(reader, ambulo__yaml_get(section, "knots"), breakpoints);
   } else {
     refuse_for_basis(section, "degree", bases[basis]);
     refuse_for_basis(section, "breakpoints", bases[basis]);
+    refuse_for_basis(section, "knots", bases[basis]);
+    refuse_grid_for_basis(reader, bases[basis]);
   }
   ambulo__yaml_close(section);
 }

@@ -24,6 +24,7 @@ typedef struct ambulo__problem_reader {
   int asked_for_unit;             /* the missing unit has been reported */
   ambulo_model *model;            /* NULL if it could not be loaded */
   const ambulo__yaml_node *gait;  /* the section, or NULL */
+  const ambulo__yaml_node *grid;  /* time.grid, or NULL */
   int has_duration;               /* time.duration is in the file */
   int steps;                      /* of `gait`, 0 without */
   int unlike_steps;               /* two step lengths or times that differ */
@@ -68,7 +69,8 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
 void ambulo__read_objective(ambulo__problem_reader *reader, const ambulo__yaml_node *node);
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* A tracking reference: the file's motion at the nodes, [intervals + 1][d], and the scale of
- * the coordinates it lacks set to 0. NULL when something was wrong. */
+ * the coordinates it lacks set to 0. After all that events depend on: schedule, constraints, ends.
+ * NULL when something was wrong. */
 const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, double *scale);
 /* The same at `samples` equally spaced times from 0 to the duration. */

@@ -1,5 +1,5 @@
-/* reader/problem_reference.c - the reference motion of a tracking term or tube, at equal time
- * steps.
+/* reader/problem_reference.c - the reference motion of a tracking term, at the time nodes, or of a
+ * tube, at equal time steps.
  *
  * The file's first time counts as t = 0 and it must last as long as the problem. Between
  * its rows the motion is interpolated linearly. Coordinates it does not have are not
@@ -9,6 +9,7 @@
 
 #include "format/motion_columns.h"
 #include "format/motion_units.h"
+#include "gait/phases.h"
 
 #include <math.h>
 
@@ -90,11 +91,18 @@ static double sample(const ambulo__motion *motion, int column, double time) {
   return a + s * (b - a);
 }
 
+/* Where a reference is asked for, from its first time on. */
+typedef struct sampling {
+  int samples;
+  const double *times; /* [samples], s; NULL: equally spaced over the duration */
+} sampling;
+
 static const double *resample(ambulo__problem_reader *reader, const ambulo__motion *motion,
-                              const int *column, const ambulo__yaml_node *node, int samples,
-                              double *scale) {
+                              const int *column, const ambulo__yaml_node *node,
+                              const sampling *wanted, double *scale) {
   const ambulo_problem_definition *d = &reader->definition;
   int coordinates = ambulo_model_coordinate_count(reader->model), found = 0;
+  int samples = wanted->samples;
   double *reference =
       ambulo__reader_alloc(reader, (size_t)samples * (size_t)coordinates, sizeof *reference);
   if (!reference) return NULL;
@@ -105,7 +113,9 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
     }
     found++;
     for (int k = 0; k < samples; k++) {
-      double time = motion->time[0] + (double)k * d->duration / (double)(samples - 1);
+      double time =
+          wanted->times ? wanted->times[k] : (double)k * d->duration / (double)(samples - 1);
+      time += motion->time[0];
       reference[(size_t)k * (size_t)coordinates + (size_t)i] = sample(motion, column[i], time);
     }
   }
@@ -115,14 +125,8 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
   return NULL;
 }
 
-const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
-                                          const ambulo__yaml_node *node, double *scale) {
-  return ambulo__read_sampled_motion(reader, node, reader->definition.intervals + 1, scale);
-}
-
-const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
-                                          const ambulo__yaml_node *node, int samples,
-                                          double *scale) {
+static const double *read_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                 const sampling *wanted, double *scale) {
   const char *name = ambulo__yaml_file_name(node);
   const char *path = name[0] ? ambulo__reader_path(reader, name) : NULL;
   if (!path) return NULL;
@@ -150,8 +154,28 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
       ambulo__yaml_warning(node, NULL,
                            "the reference has %d columns; its header says %d (nColumns)",
                            motion->columns + 1, motion->declared_columns);
-    if (column) reference = resample(reader, motion, column, node, samples, scale);
+    if (column) reference = resample(reader, motion, column, node, wanted, scale);
   }
   ambulo__motion_free(motion);
   return reference;
+}
+
+const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, double *scale) {
+  const ambulo_problem_definition *d = &reader->definition;
+  sampling nodes = {d->intervals + 1, NULL};
+  if (d->grid != AMBULO_GRID_UNIFORM) {
+    double *times = ambulo__reader_alloc(reader, (size_t)nodes.samples, sizeof *times);
+    if (!times) return NULL;
+    /* too few intervals are told when the problem is built */
+    if (ambulo__node_times(d, &reader->allocator, NULL, times) == AMBULO_OK) nodes.times = times;
+  }
+  return read_motion(reader, node, &nodes, scale);
+}
+
+const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
+                                          const ambulo__yaml_node *node, int samples,
+                                          double *scale) {
+  sampling equal = {samples, NULL};
+  return read_motion(reader, node, &equal, scale);
 }

@@ -20,7 +20,7 @@ static void choose_times(ambulo__stride *s, int wanted, sampling *sample) {
     if (wanted == 0) {
       int second = s->mirrored && k > intervals;
       int node = second ? k - intervals : k;
-      sample->base[k] = (double)node * step / (double)intervals;
+      sample->base[k] = ambulo_problem_node_time(s->problem, node);
       sample->mirrored[k] = (char)second;
       t = second ? step + sample->base[k] : sample->base[k];
     } else {

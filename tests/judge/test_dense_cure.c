@@ -133,7 +133,7 @@ static void the_number_named_has_nodes_where_they_count(void **state) {
  * looked at and only beside one event. Slip is speed times gap; 0.7 mm are allowed. */
 static int intervals_named(int intervals, double event) {
   dense_fixture f;
-  ambulo__dense_events events = {1, &event};
+  ambulo__events events = {1, &event};
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
   int slip = ambulo__dense_rule_of_slip();
@@ -171,7 +171,7 @@ static void gaps_to_come_are_foretold_from_the_motion(void **state) {
 typedef struct asked {
   dense_fixture f;
   double event;
-  ambulo__dense_events events;
+  ambulo__events events;
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
   int slip, force;
@@ -183,7 +183,7 @@ static void open_asked(asked *a, int intervals, double speed) {
   a->slip = ambulo__dense_rule_of_slip();
   a->force = ambulo__dense_rule_of_row(&friction);
   a->event = 0.24 * 0.55;
-  a->events = (ambulo__dense_events){speed > 0.0, &a->event};
+  a->events = (ambulo__events){speed > 0.0, &a->event};
   dense_open(&a->f, intervals);
   dense_move(&a->f, 0, 0.0, speed, 0.0);
 }
@@ -314,7 +314,7 @@ static void motions_that_cannot_be_moved_are_foretold_from_the_nodes(void **stat
                                           "gait.phases.heel_off=0.49", "gait.phases.toe_off=0.6",
                                           "time.intervals=16"};
   ambulo_problem *p = NULL;
-  ambulo__dense_events events;
+  ambulo__events events;
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
   ambulo_allocator allocator = ambulo__allocator_or_default(NULL);
@@ -324,7 +324,9 @@ static void motions_that_cannot_be_moved_are_foretold_from_the_nodes(void **stat
   assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", overrides, 5, NULL, NULL, &p),
                    AMBULO_OK);
   double *x = calloc((size_t)p->variables, sizeof *x);
-  assert_int_equal(ambulo__dense_events_create(p, &allocator, &events), AMBULO_OK);
+  assert_int_equal(
+      ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &allocator, &events),
+      AMBULO_OK);
   assert_int_equal(ambulo__dense_cure_find(p, x, &events, &worst, NULL, &cure), AMBULO_OK);
   assert_int_equal(cure.intervals, 33); /* 2 (16 / N)^1.5 <= 0.7 */
   ambulo__free(&allocator, events.time);
@@ -337,7 +339,7 @@ static void given_breakpoints_are_left_alone(void **state) {
   (void)state;
   dense_fixture f;
   double event = 0.24 * 0.55;
-  ambulo__dense_events events = {1, &event};
+  ambulo__events events = {1, &event};
   ambulo__dense_worst worst;
   ambulo__dense_cure cure;
   int slip = ambulo__dense_rule_of_slip();

@@ -22,7 +22,7 @@ static void gaps_reach_to_the_nodes_that_hold_a_contact(void **state) {
 static void intervals_with_an_event_are_known(void **state) {
   (void)state;
   double time[2] = {0.33, 0.6};
-  ambulo__dense_events events = {2, time};
+  ambulo__events events = {2, time};
   static const struct {
     double time;
     int near;
@@ -38,7 +38,7 @@ static void nodes_beside_an_event_are_near_it(void **state) {
   for (int intervals = 7; intervals < 60; intervals += 4) {
     for (int k = 0; k + 1 < intervals; k++) {
       double step = 0.54 / intervals, time = (k + 0.37) * step;
-      ambulo__dense_events events = {1, &time};
+      ambulo__events events = {1, &time};
       for (int side = 0; side < 2; side++) {
         double node = 0.54 * (k + side) / intervals;
         assert_int_equal(ambulo__dense_near_event(&events, node, 0.54, intervals), 1);
@@ -47,53 +47,22 @@ static void nodes_beside_an_event_are_near_it(void **state) {
   }
 }
 
-/* the walk's phases by hand: stride 1.08 s, left foot first; the tip of the right foot has to clear
- * from 30 % of its swing on */
-static void events_are_those_of_the_gait(void **state) {
+/* on a grid on events there is no gap at an event that is a node; one that is none has its interval
+ */
+static void events_that_are_nodes_leave_no_gap(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
-  ambulo__dense_events events;
-  ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__dense_events_create(p, &a, &events), AMBULO_OK);
-  const double want[] = {0.08 * 1.08, 0.62 * 1.08 - 0.54,
-                         0.62 * 1.08 - 0.54 + 0.3 * (1.08 - 0.62 * 1.08), 0.38 * 1.08};
-  assert_int_equal(events.count, 4);
-  for (int i = 0; i < 4; i++) assert_close(events.time[i], want[i], 1e-9);
-  ambulo__free(&a, events.time);
-  ambulo_problem_free(p);
-}
-
-/* nothing has to clear the ground without rows that ask for it, nor a foot without a tip */
-static void tips_that_need_not_clear_make_no_event(void **state) {
-  (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
-  dense_fixture f;
-  ambulo__dense_events events;
-  ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  p->definition.clearance.height = -1.0;
-  assert_int_equal(ambulo__dense_events_create(p, &a, &events), AMBULO_OK);
-  assert_int_equal(events.count, 3);
-  ambulo__free(&a, events.time);
-  ambulo_problem_free(p);
-  dense_open(&f, 20);
-  f.problem->definition.clearance.height = 0.01;
-  f.problem->definition.clearance.tip_from = 0.3;
-  assert_int_equal(ambulo__dense_events_create(f.problem, &a, &events), AMBULO_OK);
-  const double want[] = {0.16 * 0.55, 0.24 * 0.55, 0.76 * 0.55};
-  assert_int_equal(events.count, 3);
-  for (int i = 0; i < 3; i++) assert_close(events.time[i], want[i], 1e-9);
-  ambulo__free(&a, events.time);
-  dense_close(&f);
-}
-
-static void a_problem_without_contacts_has_none(void **state) {
-  (void)state;
-  ambulo_problem *p = load_problem("two_link_reach");
-  ambulo__dense_events events;
-  ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__dense_events_create(p, &a, &events), AMBULO_OK);
-  assert_int_equal(events.count, 0);
-  ambulo__free(&a, events.time);
+  static const char *const settings[] = {"time.grid=events"};
+  ambulo_problem *p = NULL;
+  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", settings, 1, NULL, NULL, &p),
+                   AMBULO_OK);
+  double time[2] = {p->times[6], 0.5 * (p->times[9] + p->times[10])};
+  ambulo__events events = {2, time};
+  assert_false(ambulo__dense_beside_event(p, &events, p->times[6]));
+  assert_false(ambulo__dense_beside_event(p, &events, p->times[6] + 1e-4));
+  assert_false(ambulo__dense_beside_event(p, &events, p->times[9] - 1e-6));
+  assert_true(ambulo__dense_beside_event(p, &events, p->times[9]));
+  assert_true(ambulo__dense_beside_event(p, &events, p->times[10] - 1e-6));
+  assert_false(ambulo__dense_beside_event(p, &events, p->times[10] + 1e-6));
   ambulo_problem_free(p);
 }
 
@@ -102,9 +71,7 @@ int main(void) {
       cmocka_unit_test(gaps_reach_to_the_nodes_that_hold_a_contact),
       cmocka_unit_test(intervals_with_an_event_are_known),
       cmocka_unit_test(nodes_beside_an_event_are_near_it),
-      cmocka_unit_test(events_are_those_of_the_gait),
-      cmocka_unit_test(tips_that_need_not_clear_make_no_event),
-      cmocka_unit_test(a_problem_without_contacts_has_none),
+      cmocka_unit_test(events_that_are_nodes_leave_no_gap),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 typedef struct poison {
   ambulo_problem *problem;
   ambulo__dense dense;
-  ambulo__dense_events events;
+  ambulo__events events;
   ambulo__dense_worst clean, worst;
 } poison;
 
@@ -17,7 +17,9 @@ static void open_with(poison *f, const char *name) {
   double *x = calloc((size_t)f->problem->variables, sizeof *x);
   for (int i = 0; i < f->problem->variables; i++) x[i] = 0.1 * random_number(&seed);
   assert_int_equal(ambulo__dense_open(f->problem, x, 10, 0.0, NULL, NULL, &f->dense), AMBULO_OK);
-  assert_int_equal(ambulo__dense_events_create(f->problem, &a, &f->events), AMBULO_OK);
+  assert_int_equal(
+      ambulo__events_create(&f->problem->definition, AMBULO__EVENTS_OF_ROWS, &a, &f->events),
+      AMBULO_OK);
   ambulo__dense_worst_of(&f->dense, &f->events, &f->clean);
   free(x);
 }
@@ -199,7 +201,7 @@ static void limits_count_by_their_size(void **state) {
   double *x = calloc((size_t)f.problem->variables, sizeof *x);
   for (int i = 0; i < f.problem->variables; i++) x[i] = 20.0;
   assert_int_equal(ambulo__dense_open(f.problem, x, 10, 0.0, NULL, NULL, &f.dense), AMBULO_OK);
-  f.events = (ambulo__dense_events){0, NULL};
+  f.events = (ambulo__events){0, NULL};
   ambulo__dense_worst_of(&f.dense, &f.events, &f.worst);
   assert_false(f.worst.entry[ambulo__dense_rule_of_row(&any)].present);
   free(x);

@@ -20,9 +20,13 @@ static inline void form_open(form_fixture *f) {
   for (int k = 0; k < AMBULO__LANES; k++)
     for (int c = 0; c < FORM_CHANNELS; c++)
       f->lanes[ambulo__lane_index(k, FORM_CHANNELS, c)] = 1.0 + 0.1 * c + 0.01 * k * c;
-  ambulo__term_context context = {f->model,   {2, 2, 0}, FORM_CHANNELS, f->lanes,
-                                  FORM_NODES, 0.1,       NULL,          0.0};
-  f->context = context;
+  static const double times[FORM_NODES] = {0.0, 0.1, 0.2};
+  f->context = (ambulo__term_context){.model = f->model,
+                                      .channels = {2, 2, 0},
+                                      .channel_count = FORM_CHANNELS,
+                                      .lanes = f->lanes,
+                                      .nodes = FORM_NODES,
+                                      .times = times};
 }
 
 static inline double *form_at(form_fixture *f, int node, int channel) {

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""What a time grid and a trajectory cost and give: the table of docs/performance.md.
+
+    python3 bench/grid_table.py build/ambulo models walk_normal walk_fast walk_slow
+
+For each walk and setting, solved from zero:
+  f           objective, and how far it is from that of a grid four times as fine (trajectory
+              too, knots and nodes on events), %
+  slip ...    worst violation between the nodes by family (summary.json, ten samples an interval)
+  extrema     of one foot's vertical force in stance, rises and falls of less than 0.002 body weights
+              left out; 2001 samples a stride
+  rms > 15 Hz of the total vertical force over the stride, body weights
+  time        of the fastest of five solves, s
+Needs numpy.
+"""
+import json, math, os, subprocess, sys, tempfile
+import numpy
+
+SAMPLES = 2001
+SETTINGS = [
+    ("uniform 25, K 17 cubic", []),
+    ("uniform 25, K 12 degree 4", ["trajectory.degree=4", "trajectory.intervals=12"]),
+    ("events 25, K 17 cubic", ["time.grid=events"]),
+    ("events 25, K 17 cubic, knots on events", ["time.grid=events", "trajectory.knots=events"]),
+    ("events 25, K 12 degree 4", ["time.grid=events", "trajectory.degree=4",
+                                  "trajectory.intervals=12"]),
+    ("events 25, K 12 degree 4, knots on events",
+     ["time.grid=events", "trajectory.degree=4", "trajectory.intervals=12",
+      "trajectory.knots=events"]),
+    ("events 50, K 12 degree 4, knots on events",
+     ["time.grid=events", "time.intervals=50", "trajectory.degree=4", "trajectory.intervals=12",
+      "trajectory.knots=events"]),
+    ("events 50, K 17 cubic, knots on events",
+     ["time.grid=events", "time.intervals=50", "trajectory.knots=events"]),
+]
+FINE = ["time.grid=events", "time.intervals=100", "trajectory.degree=4",
+        "trajectory.intervals=48", "trajectory.knots=events"]
+
+
+def solve(program, problem, settings, folder):
+    command = [program, "solve", problem, "--output", folder, "--force", "--samples",
+               str(SAMPLES), "--quiet"]
+    for setting in settings:
+        command += ["--set", setting]
+    subprocess.run(command, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    with open(os.path.join(folder, "summary.json")) as file:
+        return json.load(file)
+
+
+def motion(folder):
+    with open(os.path.join(folder, "motion.csv")) as file:
+        lines = [line for line in file if not line.startswith("#")]
+    names = lines[0].strip().split(",")
+    values = numpy.array([[float(v) if v else math.nan for v in line.split(",")]
+                          for line in lines[1:]])
+    return {name: values[:, i] for i, name in enumerate(names)}
+
+
+def extrema(force, least=0.002):
+    """turning points, of a curve whose smaller waves are left out"""
+    count, direction, last = 0, 0, force[0]
+    for value in force[1:]:
+        if direction >= 0 and value > last or direction <= 0 and value < last:
+            if direction == 0 and abs(value - last) < least:
+                continue
+            direction = direction or (1 if value > last else -1)
+            last = value
+        elif abs(value - last) >= least:
+            count, direction, last = count + 1, -direction, value
+    return count
+
+
+def curves(folder, mass):
+    m = motion(folder)
+    weight = mass * 9.81
+    feet = sorted(name for name in m if name.startswith("grf.") and name.endswith(".y"))
+    vertical = [m[name] / weight for name in feet]
+    total = sum(vertical)[:-1]
+    spectrum = numpy.fft.rfft(total) / len(total)
+    frequency = numpy.arange(len(spectrum)) / (m["time"][-1] - m["time"][0])
+    rms = math.sqrt(2.0 * float(numpy.sum(numpy.abs(spectrum[frequency > 15.0]) ** 2)))
+    foot = vertical[0]
+    loaded = numpy.where(foot > 1e-9)[0]
+    # from the strike on, beyond the end of the stride
+    start = next(i for i in loaded if foot[i - 1] <= 1e-9) if len(loaded) < len(foot) else 0
+    stance = numpy.concatenate([foot[start:-1], foot[:start]])
+    stance = stance[: int(numpy.argmax(stance <= 1e-9)) or None] if stance[0] > 1e-9 else stance
+    return extrema(stance), rms
+
+
+def row(program, problem, settings, folder):
+    seconds = []
+    for _ in range(5):
+        summary = solve(program, problem, settings, folder)
+        seconds.append(summary["seconds"]["total"] if isinstance(summary["seconds"], dict)
+                       else summary["seconds"])
+    objective = summary["objective"]
+    objective = objective["total"] if isinstance(objective, dict) else objective
+    mass = summary["body"]["mass"]
+    worst = {}
+    for family in summary["between_nodes"]["families"]:
+        worst[(family["family"], family["unit"])] = family["worst"]
+    turns, rms = curves(folder, mass)
+    return summary["verdict"], objective, worst, turns, rms, min(seconds)
+
+
+def main():
+    program, models, names = sys.argv[1], sys.argv[2], sys.argv[3:]
+    print("| walk | grid, trajectory | f | off % | slip mm | contact mm | contact rad | clearance mm"
+          " | pressure mm | ground force BW | friction BW | extrema | rms > 15 Hz BW | time s |")
+    print("| --- | --- |" + " ---: |" * 12)
+    with tempfile.TemporaryDirectory() as folder:
+        for name in names:
+            problem = os.path.join(models, name + ".yaml")
+            fine = None
+            for label, settings in [("events 100, K 48 degree 4, knots on events", FINE)] + SETTINGS:
+                verdict, f, worst, turns, rms, seconds = row(program, problem, settings, folder)
+                fine = fine or f
+                get = lambda family, unit, factor=1.0: worst.get((family, unit), 0.0) * factor
+                print(f"| {name} | {label} | {f:.5f} | {100.0 * (f / fine - 1.0):+.1f}"
+                      f" | {get('slip', 'm', 1e3):.2f} | {get('contact', 'm', 1e3):.2f}"
+                      f" | {get('contact', 'rad'):.4f} | {get('clearance', 'm', 1e3):.2f}"
+                      f" | {get('pressure', 'm', 1e3):.2f}"
+                      f" | {get('ground_force', 'body weights'):.3f}"
+                      f" | {get('friction', 'body weights'):.3f}"
+                      f" | {turns} | {rms:.4f} | {seconds:.2f}"
+                      f"{'' if verdict == 'optimal' else ' (' + verdict + ')'} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,197 @@
+/* gait/phases.c - events, and how intervals are distributed over the phases between them.
+ *
+ * Phase p lasts d_p of T. Of N intervals it is due N d_p / T. Those due less than the least get the
+ * least; the others share what is left in proportion, whole parts first and the rest by largest
+ * remainder (of equal ones the earlier phase).
+ */
+#include "gait/phases.h"
+#include "base/instant.h"
+#include "gait/loading.h"
+
+#include <math.h>
+#include <string.h>
+
+/* remainders that are one number but for rounding */
+static const double same_remainder = 1e-9;
+
+/* ------------------------------------------------------------------- events */
+
+/* keeps the list rising and without doubles */
+static void insert(ambulo__events *events, double time, double duration) {
+  if (!(time > AMBULO__INSTANT && time < duration - AMBULO__INSTANT)) return;
+  int at = 0;
+  while (at < events->count && events->time[at] < time - AMBULO__INSTANT) at++;
+  if (at < events->count && events->time[at] <= time + AMBULO__INSTANT) return;
+  for (int i = events->count++; i > at; i--) events->time[i] = events->time[i - 1];
+  events->time[at] = time;
+}
+
+/* where in the swing beside `time` the foot's tip begins to have to clear the ground */
+static void insert_tip(const ambulo_problem_definition *d, int foot, double time,
+                       ambulo__events *events) {
+  if (!d->model->feet[foot].has_tip) return;
+  ambulo__span air = ambulo__air_span(d, foot, time);
+  insert(events, air.from + d->clearance.tip_from * (air.to - air.from), d->duration);
+}
+
+static int has_tip_rows(const ambulo_problem_definition *d, ambulo__event_kind kind) {
+  int known = kind == AMBULO__EVENTS_OF_ROWS && d->clearance.height >= 0.0;
+  for (int i = 0; known && i < d->contact_count; i++)
+    known = d->contacts[i].foot >= 0 && d->contacts[i].foot < d->model->foot_count;
+  return known;
+}
+
+ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__event_kind kind,
+                                    const ambulo_allocator *allocator, ambulo__events *events) {
+  events->count = 0;
+  events->time = ambulo__alloc(allocator, 4 * (size_t)d->contact_count, sizeof *events->time);
+  if (!events->time) return AMBULO_E_MEMORY;
+  int tips = has_tip_rows(d, kind);
+  for (int i = 0; i < d->contact_count; i++) {
+    const ambulo_contact *c = &d->contacts[i];
+    insert(events, c->from, d->duration);
+    insert(events, c->to, d->duration);
+    if (!tips) continue;
+    insert_tip(d, c->foot, c->from, events);
+    insert_tip(d, c->foot, c->to, events);
+  }
+  return AMBULO_OK;
+}
+
+/* -------------------------------------------------------------------- grids */
+
+static double phase_begin(const ambulo__events *events, int phase) {
+  return phase == 0 ? 0.0 : events->time[phase - 1];
+}
+
+static double phase_end(const ambulo__events *events, double duration, int phase) {
+  return phase == events->count ? duration : events->time[phase];
+}
+
+static double length_of(const ambulo__events *events, double duration, int phase) {
+  return phase_end(events, duration, phase) - phase_begin(events, phase);
+}
+
+/* phases due less than the least get it, until none is; count[p] = 0: not settled. Returns the
+ * intervals left, and in *time the duration of the phases that share them. */
+static int settle_short(const ambulo__events *events, double duration, int intervals, int least,
+                        int *count, double *time) {
+  int left = intervals, settled = 1;
+  *time = duration;
+  memset(count, 0, ((size_t)events->count + 1) * sizeof *count);
+  while (settled) {
+    settled = 0;
+    for (int p = 0; p <= events->count; p++) {
+      double length = length_of(events, duration, p);
+      if (count[p] || left * length >= least * *time) continue;
+      count[p] = least;
+      left -= least;
+      *time -= length;
+      settled = 1;
+    }
+  }
+  return left;
+}
+
+/* whole parts, then one more to the largest remainders */
+static void share_rest(const ambulo__events *events, double duration, int left, double time,
+                       int *count, double *remainder) {
+  int given = 0;
+  for (int p = 0; p <= events->count; p++) {
+    remainder[p] = -1.0;
+    if (count[p]) continue;
+    double due = left * length_of(events, duration, p) / time;
+    count[p] = (int)floor(due + same_remainder);
+    remainder[p] = due - count[p];
+    given += count[p];
+  }
+  for (; given < left; given++) {
+    int largest = 0;
+    for (int p = 1; p <= events->count; p++) {
+      if (remainder[p] > remainder[largest] + same_remainder) largest = p;
+    }
+    count[largest]++;
+    remainder[largest] -= 1.0;
+  }
+}
+
+ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, int intervals,
+                                 int least, const ambulo_allocator *allocator, double *times) {
+  size_t phases = (size_t)events->count + 1;
+  if ((size_t)intervals < phases * (size_t)least) return AMBULO_E_LIMIT;
+  int *count = ambulo__alloc(allocator, phases, sizeof *count);
+  double *remainder = ambulo__alloc(allocator, phases, sizeof *remainder), time;
+  if (count && remainder) {
+    int left = settle_short(events, duration, intervals, least, count, &time), k = 0;
+    share_rest(events, duration, left, time, count, remainder);
+    for (int p = 0; p <= events->count; p++) {
+      double begin = phase_begin(events, p), length = length_of(events, duration, p);
+      for (int i = 0; i < count[p]; i++) times[k++] = begin + i * length / count[p];
+    }
+    times[k] = duration;
+  }
+  int failed = !count || !remainder;
+  ambulo__free(allocator, count);
+  ambulo__free(allocator, remainder);
+  return failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}
+
+static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_kind kind,
+                             int intervals, int least, const char *what,
+                             const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                             double *times) {
+  ambulo__events events;
+  ambulo_status status = ambulo__events_create(d, kind, allocator, &events);
+  if (status) return status;
+  status = ambulo__phase_grid(&events, d->duration, intervals, least, allocator, times);
+  if (status == AMBULO_E_LIMIT)
+    status = ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
+                           "%s.intervals is %d; expected at least %d, %d for each of the %d phases "
+                           "between events, or equally spaced %s",
+                           what, intervals, least * (events.count + 1), least, events.count + 1,
+                           kind == AMBULO__EVENTS_OF_ROWS ? "nodes (grid: uniform)"
+                                                          : "knots (knots: uniform)");
+  ambulo__free(allocator, events.time);
+  return status;
+}
+
+ambulo_status ambulo__node_times(const ambulo_problem_definition *d,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 double *times) {
+  int n = d->intervals;
+  if (d->grid == AMBULO_GRID_EVENTS && !d->node_times)
+    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, "time", allocator,
+                   diagnostics, times);
+  for (int k = 0; k <= n; k++)
+    times[k] = d->node_times ? d->node_times[k] : (double)k * d->duration / (double)n;
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__knot_times(const ambulo_problem_definition *d, int intervals,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 double *times) {
+  return grid_on(d, AMBULO__EVENTS_OF_CONTACTS, intervals, AMBULO__LEAST_KNOT_INTERVALS,
+                 "trajectory", allocator, diagnostics, times);
+}
+
+static ambulo_status least_of(const ambulo_problem_definition *d, ambulo__event_kind kind,
+                              int least, const ambulo_allocator *allocator, int *fewest) {
+  ambulo__events events;
+  ambulo_status status = ambulo__events_create(d, kind, allocator, &events);
+  if (status) return status;
+  *fewest = least * (events.count + 1);
+  ambulo__free(allocator, events.time);
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__grid_least(const ambulo_problem_definition *d,
+                                 const ambulo_allocator *allocator, int *nodes, int *knots) {
+  ambulo_status status = AMBULO_OK;
+  *nodes = *knots = 1;
+  if (d->grid == AMBULO_GRID_EVENTS)
+    status = least_of(d, AMBULO__EVENTS_OF_ROWS, AMBULO__LEAST_NODE_INTERVALS, allocator, nodes);
+  if (!status && d->knots == AMBULO_GRID_EVENTS)
+    status =
+        least_of(d, AMBULO__EVENTS_OF_CONTACTS, AMBULO__LEAST_KNOT_INTERVALS, allocator, knots);
+  return status;
+}

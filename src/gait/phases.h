@@ -1,0 +1,53 @@
+/* gait/phases.h - the times at which contacts change, and grids that have a node at each of them.
+ *
+ * A phase is what lies between two neighbouring events. A grid on events has nodes at all events
+ * and equally spaced ones within each phase, so that no row appears or vanishes when an event
+ * moves: it moves with its node. */
+#ifndef AMBULO_GAIT_PHASES_H
+#define AMBULO_GAIT_PHASES_H
+
+#include "base/diagnostics.h"
+#include "ambulo/problem.h"
+#include "base/alloc.h"
+
+/* Inside (0, T), rising and apart by more than 1e-9 s. */
+typedef struct ambulo__events {
+  int count;
+  double *time; /* [count] */
+} ambulo__events;
+
+typedef enum ambulo__event_kind {
+  AMBULO__EVENTS_OF_CONTACTS, /* starts and ends of contacts */
+  AMBULO__EVENTS_OF_ROWS      /* and where in a swing the foot's tip has to clear the ground */
+} ambulo__event_kind;
+
+/* Freed with ambulo__free(allocator, events->time). Contacts need not be legal. E_MEMORY. */
+ambulo_status ambulo__events_create(const ambulo_problem_definition *definition,
+                                    ambulo__event_kind kind, const ambulo_allocator *allocator,
+                                    ambulo__events *events);
+
+/* Fewest intervals of a phase: of the time nodes, and of the trajectory. */
+enum { AMBULO__LEAST_NODE_INTERVALS = 2, AMBULO__LEAST_KNOT_INTERVALS = 1 };
+
+/* Fewest intervals of the time nodes and of the trajectory that a definition's grids have room for;
+ * 1 where they are uniform. E_MEMORY. */
+ambulo_status ambulo__grid_least(const ambulo_problem_definition *definition,
+                                 const ambulo_allocator *allocator, int *nodes, int *knots);
+
+/* Distributes `intervals` over the phases of [0, duration], at least `least` to each, the others in
+ * proportion to duration (largest remainder): times[intervals + 1]. E_LIMIT: fewer than
+ * least * (events->count + 1); E_MEMORY. */
+ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, int intervals,
+                                 int least, const ambulo_allocator *allocator, double *times);
+
+/* The time nodes of a definition, times[intervals + 1], s. Errors: E_PROBLEM, named in
+ * `diagnostics`: more phases than there are intervals for; E_MEMORY. */
+ambulo_status ambulo__node_times(const ambulo_problem_definition *definition,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 double *times);
+/* The breakpoints of a trajectory of `intervals` with knots on events, times[intervals + 1]. */
+ambulo_status ambulo__knot_times(const ambulo_problem_definition *definition, int intervals,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 double *times);
+
+#endif

@@ -1,0 +1,111 @@
+/* Grids on events: f* is a smooth function of the event times, contacts hold up to them, and what
+ * is foretold about finer grids comes true. */
+#include "support/test.h"
+
+#include "ambulo/ambulo.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static ambulo_result *solve_walk(const char *const *settings, int count, double tolerance) {
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/walk_normal.yaml", settings, count, NULL, NULL, &problem),
+      AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  if (tolerance > 0.0) options.optimality_tolerance = options.feasibility_tolerance = tolerance;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  ambulo_problem_free(problem);
+  return result;
+}
+
+/* f* with the rear foot's toe-off at that part of the stride; 12 intervals of degree 4 */
+static double best_at(double toe_off, const char *grid, const char *knots) {
+  char toe[64];
+  (void)snprintf(toe, sizeof toe, "gait.phases.toe_off=%.17g", toe_off);
+  const char *const settings[] = {grid, knots, "trajectory.degree=4", "trajectory.intervals=12",
+                                  toe};
+  ambulo_result *result = solve_walk(settings, 5, 1e-9); /* as far as it goes */
+  double value = ambulo_result_objective(result);
+  assert_true(ambulo_result_audit(result)->kkt <= 2e-4);
+  ambulo_result_free(result);
+  return value;
+}
+
+/* toe-off at .62 of the stride is node 6 of 25 equally spaced ones. There the uniform grid's f*
+ * jumps by a tenth; on events central differences converge with the square of their step */
+static void the_best_is_smooth_in_an_event_time(void **state) {
+  (void)state;
+  double slope[3], step = 0.004;
+  for (int i = 0; i < 3; i++, step /= 2.0) {
+    slope[i] = (best_at(0.62 + step, "time.grid=events", "trajectory.knots=events") -
+                best_at(0.62 - step, "time.grid=events", "trajectory.knots=events")) /
+               (2.0 * step);
+  }
+  double ratio = (slope[0] - slope[1]) / (slope[1] - slope[2]);
+  if (!(ratio > 3.0 && ratio < 5.0))
+    print_error("slopes %.8f %.8f %.8f, ratio %g\n", slope[0], slope[1], slope[2], ratio);
+  assert_true(ratio > 3.0 && ratio < 5.0);
+  assert_true(fabs(slope[1] - slope[2]) < 1e-3 * fabs(slope[2]));
+  double jump = best_at(0.62 + 1e-4, "time.grid=uniform", "trajectory.knots=uniform") -
+                best_at(0.62 - 1e-4, "time.grid=uniform", "trajectory.knots=uniform");
+  assert_true(fabs(jump) >
+              20.0 * 2e-4 * slope[2]); /* what this test would see without nodes there */
+}
+
+static double worst_between(const ambulo_result *result, const char *family, const char *unit) {
+  const ambulo_dense_audit *audit = ambulo_result_dense_audit(result);
+  for (int i = 0; i < audit->family_count; i++) {
+    const ambulo_violation *v = &audit->families[i].violation;
+    if (!strcmp(v->family, family) && !strcmp(v->unit, unit)) return v->worst;
+  }
+  return 0.0;
+}
+
+static void contacts_hold_up_to_their_events(void **state) {
+  (void)state;
+  static const char *const uniform[] = {"time.grid=uniform"}, *const events[] = {
+                                                                  "time.grid=events"};
+  ambulo_result *before = solve_walk(uniform, 1, 0.0), *after = solve_walk(events, 1, 0.0);
+  assert_int_equal(ambulo_result_verdict(after), AMBULO_OPTIMAL);
+  assert_true(worst_between(before, "slip", "m") >
+              0.01); /* a toe between its last node and toe-off */
+  assert_true(worst_between(after, "slip", "m") < 0.002);
+  assert_true(worst_between(before, "contact", "m") > 0.01);
+  assert_true(worst_between(after, "contact", "m") < 0.0005);
+  assert_true(worst_between(before, "contact", "rad") > 0.005);
+  assert_true(worst_between(after, "contact", "rad") < 0.002);
+  ambulo_result_free(before);
+  ambulo_result_free(after);
+}
+
+static void what_is_foretold_comes_true(void **state) {
+  (void)state;
+  const char *settings[] = {"time.grid=events", "trajectory.knots=events", "trajectory.degree=4",
+                            "trajectory.intervals=12", "time.intervals=25"};
+  ambulo_result *coarse = solve_walk(settings, 5, 0.0);
+  char finer[64];
+  const ambulo_dense_audit *audit = ambulo_result_dense_audit(coarse);
+  assert_true(audit->failing > 0);
+  assert_true(audit->intervals > 25 && audit->intervals < 100);
+  assert_int_equal(audit->spline_intervals, 12);
+  (void)snprintf(finer, sizeof finer, "time.intervals=%d", audit->intervals);
+  ambulo_result_free(coarse);
+  settings[4] = finer;
+  ambulo_result *fine = solve_walk(settings, 5, 0.0);
+  assert_int_equal(ambulo_result_verdict(fine), AMBULO_OPTIMAL);
+  audit = ambulo_result_dense_audit(fine);
+  if (audit->failing > 0) print_error("%s: %s\n", finer, audit->summary);
+  assert_int_equal(audit->failing, 0);
+  ambulo_result_free(fine);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_best_is_smooth_in_an_event_time),
+      cmocka_unit_test(contacts_hold_up_to_their_events),
+      cmocka_unit_test(what_is_foretold_comes_true),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
