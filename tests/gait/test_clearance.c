@@ -42,6 +42,57 @@ static void heights_follow_the_swing(void **state) {
   row_fixture_close(&f);
 }
 
+/* at 0.25 s the foot has just left (s = 0.1875 all the same), at 0.75 s it comes down */
+static void swings_hold_at_both_their_ends(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.contacts = (const ambulo_contact[]){
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.0, -0.08}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, -0.1}}};
+  f.definition.contact_count = 3;
+  f.definition.clearance.height = 0.02;
+  f.definition.clearance.tip_from = 0.5;
+  f.model->feet[WALKER_RIGHT].has_tip = 1;
+  f.model->feet[WALKER_RIGHT].tip = f.model->feet[WALKER_RIGHT].toe[0];
+  for (int k = 0; k < ROW_NODES; k++) f.active[2 * k + WALKER_LEFT] = 1;
+  f.active[WALKER_RIGHT] = 0;
+  f.active[2 * 3 + WALKER_RIGHT] = f.active[2 * 4 + WALKER_RIGHT] = 2;
+  row_event(&f, 1, WALKER_RIGHT, 0);
+  row_event(&f, 3, WALKER_RIGHT, -1);
+  ambulo__clearance_rows(&f.context, &f.table);
+  expect(&f, "r_toe", "low", 0.25, 0.0);
+  expect(&f, "r_toe", "low", 0.5, -0.02);
+  expect(&f, "r_toe_in", "low", 0.5, -0.02); /* the tip's own event is a node: s = tip_from */
+  expect(&f, "r_toe", "low", 0.75, 0.0);
+  expect(&f, "r_toe", "high", 0.75, 0.35);
+  assert_int_equal(f.table.row_count, 3 * 2 * 5 + 2 * 2);
+  row_fixture_close(&f);
+}
+
+/* of a motion that repeats, the last node has what ends there: the swing before the strike at T */
+static void the_last_swing_ends_at_the_last_node(void **state) {
+  (void)state;
+  for (int strikes = 0; strikes < 2; strikes++) {
+    row_fixture f;
+    row_fixture_open(&f, 0);
+    f.definition.contacts = (const ambulo_contact[]){
+        {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, strikes ? 0.75 : 0.5, {0.0, -0.08}},
+        {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}}};
+    f.definition.contact_count = 2;
+    f.definition.clearance.height = 0.02;
+    f.definition.contact_tolerance = 0.002;
+    f.definition.ends = AMBULO_ENDS_PERIODIC;
+    for (int k = 0; k < ROW_NODES; k++) f.active[2 * k + WALKER_LEFT] = 1;
+    f.active[WALKER_RIGHT] = strikes ? 0 : -1;
+    row_event(&f, 4, WALKER_RIGHT, -1);
+    ambulo__clearance_rows(&f.context, &f.table);
+    assert_int_equal(row_count(&f, "clearance", "r_toe", "low", 1.0), strikes);
+    row_fixture_close(&f);
+  }
+}
+
 static void the_track_is_that_of_the_next_foothold(void **state) {
   (void)state;
   row_fixture f;
@@ -84,6 +135,8 @@ static void planar_feet_only_have_heights(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(heights_follow_the_swing),
+                                     cmocka_unit_test(swings_hold_at_both_their_ends),
+                                     cmocka_unit_test(the_last_swing_ends_at_the_last_node),
                                      cmocka_unit_test(the_track_is_that_of_the_next_foothold),
                                      cmocka_unit_test(the_left_foot_is_the_mirror_image),
                                      cmocka_unit_test(planar_feet_only_have_heights)};

@@ -6,7 +6,7 @@ static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0
                                           {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, {0.6, 0.1}},
                                           {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, {0.6, 0.1}}};
 
-static void open_with(row_fixture *f, int planar) {
+static void prepare(row_fixture *f, int planar) {
   row_fixture_open(f, planar);
   f->definition.contacts = contacts;
   f->definition.contact_count = 3;
@@ -15,6 +15,10 @@ static void open_with(row_fixture *f, int planar) {
   f->definition.strike_pitch[0] = 0.2;
   f->definition.strike_pitch[1] = 0.4;
   for (int k = 0; k < 3; k++) f->active[2 * k + WALKER_LEFT] = k;
+}
+
+static void open_with(row_fixture *f, int planar) {
+  prepare(f, planar);
   ambulo__contact_tube_rows(&f->context, &f->table);
 }
 
@@ -79,6 +83,48 @@ static void planar_feet_have_four_places_and_a_pitch(void **state) {
   row_fixture_close(&f);
 }
 
+/* from heel to flat at 0.25 s, from flat to toes at 0.5 s, off at 0.75 s: both points are held, the
+ * heel's once, and directions within what both allow */
+static void events_hold_what_ends_and_what_begins(void **state) {
+  (void)state;
+  row_fixture f;
+  prepare(&f, 0);
+  row_event(&f, 1, WALKER_LEFT, 0);
+  row_event(&f, 2, WALKER_LEFT, 1);
+  row_event(&f, 3, WALKER_LEFT, 2);
+  ambulo__contact_tube_rows(&f.context, &f.table);
+  expect(&f, "l_heel", "behind", 0.25, -0.05 - 0.6 + 0.002); /* one row: row_find */
+  expect(&f, "left", "toes low", 0.25, 0.0);
+  expect(&f, "left", "toes high", 0.25, 0.01);
+  expect(&f, "l_heel", "above", 0.5, 0.002 + 0.001);
+  expect(&f, "l_toe", "ahead", 0.5, 0.002 - 0.17 + 0.6 + 0.22);
+  expect(&f, "left", "toes low", 0.5, 0.01);
+  expect(&f, "left", "toes high", 0.5, 0.0);
+  expect(&f, "left", "turned left", 0.5, 0.01); /* flat is the tighter */
+  expect(&f, "l_toe", "ahead", 0.75, 0.002 - 0.17 + 0.6 + 0.22);
+  expect(&f, "left", "turned left", 0.75, 0.02);
+  assert_int_equal(row_count(&f, "contact", "l_heel", "above", 0.75), 0);
+  assert_int_equal(row_count(&f, "contact", "l_toe", "ahead", 0.25), 0);
+  row_fixture_close(&f);
+}
+
+/* the pitch of a strike is asked at the first node of a contact, however far the next is */
+static void a_strike_is_the_first_node_of_any_grid(void **state) {
+  (void)state;
+  row_fixture f;
+  prepare(&f, 0);
+  f.times[1] = 0.01;
+  f.definition.contacts = (const ambulo_contact[]){
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.01, 1.0, {0.6, 0.1}}};
+  f.definition.contact_count = 1;
+  f.active[WALKER_LEFT] = -1;
+  f.active[2 + WALKER_LEFT] = f.active[4 + WALKER_LEFT] = 0;
+  ambulo__contact_tube_rows(&f.context, &f.table);
+  expect(&f, "left", "toes low", 0.01, -sin(0.2));
+  expect(&f, "left", "toes low", 0.5, 0.0);
+  row_fixture_close(&f);
+}
+
 static void expect_nodes(const row_fixture *f, int places, int forces) {
   assert_int_equal(ambulo__distinct_nodes(&f->context, AMBULO__OF_PLACES), places);
   assert_int_equal(ambulo__distinct_nodes(&f->context, AMBULO__OF_FORCES), forces);
@@ -109,6 +155,8 @@ int main(void) {
       cmocka_unit_test(places_within_the_tolerance),
       cmocka_unit_test(directions_within_the_tolerance),
       cmocka_unit_test(planar_feet_have_four_places_and_a_pitch),
+      cmocka_unit_test(events_hold_what_ends_and_what_begins),
+      cmocka_unit_test(a_strike_is_the_first_node_of_any_grid),
       cmocka_unit_test(the_last_node_of_a_repeating_motion_has_none)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,6 +32,36 @@ static void heights_by_mode(void **state) {
   row_fixture_close(&f);
 }
 
+/* a corner that is down before or after an event is down at it; one row each */
+static void corners_at_events(void **state) {
+  (void)state;
+  static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.25, {0, 0}},
+                                            {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.25, 0.5, {0, 0}}};
+  for (int tolerance = 0; tolerance < 2; tolerance++) {
+    row_fixture f;
+    row_fixture_open(&f, 0);
+    f.definition.contacts = contacts;
+    f.definition.contact_tolerance = 0.002 * tolerance;
+    f.active[WALKER_LEFT] = 0;
+    f.active[2 + WALKER_LEFT] = 1;
+    row_event(&f, 1, WALKER_LEFT, 0);
+    row_event(&f, 2, WALKER_LEFT, 1);
+    ambulo__ground_rows(&f.context, &f.table);
+    static const char *const corners[] = {"l_heel_in", "l_heel_out", "l_toe_in", "l_toe_out"};
+    for (int c = 0; c < 4; c++) {
+      assert_int_equal(row_count(&f, "ground_penetration", corners[c], "height", 0.25),
+                       !tolerance);
+      int row = row_find(&f, "ground_penetration", corners[c], "height", 0.5); /* leaves it */
+      assert_int_equal(f.table.rows[row].relation,
+                       c >= 2 && !tolerance ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE);
+      if (tolerance) continue;
+      row = row_find(&f, "ground_penetration", corners[c], "height", 0.25);
+      assert_int_equal(f.table.rows[row].relation, AMBULO_EQUAL);
+    }
+    row_fixture_close(&f);
+  }
+}
+
 static void planar_feet_have_two_corners(void **state) {
   (void)state;
   row_fixture f;
@@ -43,6 +73,7 @@ static void planar_feet_have_two_corners(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(heights_by_mode),
+                                     cmocka_unit_test(corners_at_events),
                                      cmocka_unit_test(planar_feet_have_two_corners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

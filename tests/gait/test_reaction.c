@@ -11,7 +11,7 @@ static const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0
 
 static const double mg = 72.0 * 9.81;
 
-static void open_with(row_fixture *f, int planar) {
+static void prepare(row_fixture *f, int planar) {
   row_fixture_open(f, planar);
   f->definition.contacts = contacts;
   f->definition.contact_count = 2;
@@ -25,6 +25,10 @@ static void open_with(row_fixture *f, int planar) {
     f->active[2 * k + WALKER_LEFT] = 1;
     f->active[2 * k + WALKER_RIGHT] = k < 2 ? 0 : -1;
   }
+}
+
+static void open_with(row_fixture *f, int planar) {
+  prepare(f, planar);
   ambulo__reaction_rows(&f->context, &f->table);
 }
 
@@ -122,8 +126,42 @@ static void planar_bodies_have_forward_rows_only(void **state) {
   row_fixture_close(&f);
 }
 
+/* from heel to flat while the foot is loaded: the pressure is in both boxes; a foot that leaves
+ * carries nothing and has none */
+static void events_have_both_boxes(void **state) {
+  (void)state;
+  static const ambulo_contact three[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.75, {0.5, 0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.5, 0.1}}};
+  row_fixture f;
+  prepare(&f, 0);
+  f.definition.contacts = three;
+  f.definition.contact_count = 3;
+  for (int k = 3; k < ROW_NODES; k++) f.active[2 * k + WALKER_LEFT] = 2;
+  row_event(&f, 2, WALKER_RIGHT, 0);
+  row_event(&f, 3, WALKER_LEFT, 1);
+  ambulo__reaction_rows(&f.context, &f.table);
+  assert_int_equal(row_count(&f, "pressure", "left", "back", 0.5), 1);
+  assert_int_equal(row_count(&f, "pressure", "left", "back", 0.75), 2);
+  assert_int_equal(row_count(&f, "pressure", "left", "back", 1.0), 1);
+  assert_int_equal(row_count(&f, "pressure", "right", "back", 0.25), 1);
+  assert_int_equal(row_count(&f, "pressure", "right", "back", 0.5), 0);
+  assert_int_equal(row_count(&f, "friction", "total", "forward", 0.75), 1);
+  const double force[3] = {0.0, mg, 0.0};
+  press(&f, 3, 0.5, 0.1, force); /* at the heel */
+  double nearest = INFINITY;
+  for (int r = 0; r < f.table.row_count; r++) {
+    const ambulo__table_row *row = &f.table.rows[r];
+    if (!strcmp(row->family, "pressure") && !strcmp(row->detail, "front") && row->time == 0.75)
+      nearest = fmin(nearest, row_value(&f, r));
+  }
+  assert_close(nearest, 0.03 + 0.04, 1e-12); /* the heel's box, rolled to its end */
+  row_fixture_close(&f);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(centres_of_pressure_stay_under_their_feet),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(events_have_both_boxes),cmocka_unit_test(centres_of_pressure_stay_under_their_feet),
                                      cmocka_unit_test(unloaded_feet_have_no_rows),
                                      cmocka_unit_test(friction_is_a_pyramid),
                                      cmocka_unit_test(free_moments_add_up),

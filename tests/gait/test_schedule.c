@@ -23,6 +23,26 @@ static void nodes_belong_to_half_open_spans(void **state) {
   row_fixture_close(&f);
 }
 
+/* just before a node: what ends there, and within 1e-9 s of it */
+static void nodes_on_events_know_what_was_before(void **state) {
+  (void)state;
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.0, 0.25, {0, 0}},
+                                     {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.25, 0.5 - 5e-10, {0, 0}},
+                                     {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.5, 1.0, {0, 0}},
+                                     {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 1.0, 1.0, {0, 0}}};
+  f.definition.contacts = contacts;
+  f.definition.contact_count = 4;
+  int active[10], before[10];
+  assert_int_equal(ambulo__schedule_fill(&f.definition, times, 5, active, NULL), AMBULO_OK);
+  ambulo__schedule_before(&f.definition, times, 5, active, before);
+  static const int expected[10] = {0, -1, 0, -1, 1, -1, -1, 2, -1, 2};
+  for (int i = 0; i < 10; i++) assert_int_equal(before[i], expected[i]);
+  assert_int_equal(active[8], 3);
+  row_fixture_close(&f);
+}
+
 static void expect_refusal(const ambulo_contact *contacts, int count, const char *text) {
   row_fixture f;
   row_fixture_open(&f, 0);
@@ -77,6 +97,7 @@ static void rows_without_contact_need_no_support(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_belong_to_half_open_spans),
+                                     cmocka_unit_test(nodes_on_events_know_what_was_before),
                                      cmocka_unit_test(contradictions_are_named),
                                      cmocka_unit_test(rows_without_contact_need_no_support)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -91,6 +91,32 @@ static void normal_force_counts_body_weights(void **state) {
   row_fixture_close(&f);
 }
 
+/* from the left foot alone to both feet at 0.5 s: the point is over the left one still */
+static void events_have_both_regions(void **state) {
+  (void)state;
+  row_fixture f;
+  open_left(&f, 0, AMBULO_SUPPORT_BOX);
+  for (int k = 2; k < ROW_NODES; k++) f.active[2 * k + WALKER_RIGHT] = 1;
+  row_event(&f, 2, WALKER_RIGHT, -1);
+  assert_int_equal(ambulo__zmp_rows(&f.context, &f.table, NULL), AMBULO_OK);
+  assert_int_equal(f.table.row_count, 4 * (ROW_NODES + 1));
+  assert_int_equal(row_count(&f, "zmp", "support", "back", 0.5), 2);
+  assert_int_equal(row_count(&f, "zmp", "support", "back", 0.75), 1);
+  const double p[3] = {0.4, 0.0, -0.1}, force[3] = {35.0, body_weight, -20.0};
+  apply(&f, p, force);
+  double near = INFINITY, far = -INFINITY;
+  for (int r = 0; r < f.table.row_count; r++) {
+    const ambulo__table_row *row = &f.table.rows[r];
+    if (strcmp(row->detail, "back") || row->time != 0.5) continue;
+    near = fmin(near, row_value(&f, r));
+    far = fmax(far, row_value(&f, r));
+  }
+  assert_close(near, 0.1, 1e-13); /* from the left foot's back */
+  assert_close(far, row_value(&f, row_find(&f, "zmp", "support", "back", 0.75)), 1e-13);
+  assert_true(far > 0.3);
+  row_fixture_close(&f);
+}
+
 static void empty_regions_are_refused(void **state) {
   (void)state;
   row_fixture f;
@@ -114,6 +140,7 @@ int main(void) {
                                      cmocka_unit_test(hull_rows_are_distances),
                                      cmocka_unit_test(planar_models_have_two_rows),
                                      cmocka_unit_test(normal_force_counts_body_weights),
+                                     cmocka_unit_test(events_have_both_regions),
                                      cmocka_unit_test(empty_regions_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

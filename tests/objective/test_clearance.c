@@ -52,7 +52,35 @@ static void low_feet_in_the_air_cost(void **state) {
   form_close(&f);
 }
 
+/* at a node on an event a foot counts for the part of the node's time that it is in the air */
+static void feet_that_leave_or_land_count_in_part(void **state) {
+  (void)state;
+  static const int active[FORM_NODES] = {-1, 0, -1}, before[FORM_NODES] = {-1, -1, 0};
+  static const double times[FORM_NODES] = {0.0, 0.1, 0.4};
+  form_fixture f;
+  form_open(&f);
+  ambulo_model *model = footed_arm(f.model);
+  f.context.model = model;
+  f.context.active = active;
+  f.context.before = before;
+  f.context.times = times;
+  f.context.ground_height = 0.5;
+  ambulo_term term = {.kind = AMBULO_CLEARANCE, .height = 0.04};
+  for (int node = 0; node < FORM_NODES; node++)
+    *form_at(&f, node, ambulo__channel_point(&f.context.channels, 0, 1)) = 0.51;
+  const double part[FORM_NODES] = {1.0, 0.25, 0.0};
+  for (int node = 0; node < FORM_NODES; node++) {
+    ambulo__form form;
+    ambulo__term_form(&term, &f.context, node, 0, &form);
+    assert_close(form.u * form.u, part[node] * 0.75 * 0.75, 1e-13);
+    if (part[node] > 0.0) check_form_slopes(&f, &term, node, 0);
+  }
+  ambulo_model_free(model);
+  form_close(&f);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(low_feet_in_the_air_cost)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(feet_that_leave_or_land_count_in_part),
+                                     cmocka_unit_test(low_feet_in_the_air_cost)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

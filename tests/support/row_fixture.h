@@ -16,7 +16,7 @@ typedef struct row_fixture {
   ambulo__gait_context context;
   ambulo__row_table table;
   double times[ROW_NODES];
-  int active[2 * ROW_NODES];
+  int active[2 * ROW_NODES], before[2 * ROW_NODES];
   double *channel; /* [nodes][channels] */
 } row_fixture;
 
@@ -47,6 +47,25 @@ static inline void row_fixture_open(row_fixture *f, int planar) {
           f->model, p, f->channel + k * count + ambulo__channel_point(&f->context.channels, p, 0));
     }
   }
+}
+
+/* a grid on events: at `node` the foot was in contact `before` (-1: in the air) until then */
+static inline void row_event(row_fixture *f, int node, int foot, int before) {
+  if (!f->context.before) memcpy(f->before, f->active, sizeof f->before);
+  f->context.before = f->before;
+  f->before[2 * node + foot] = before;
+}
+
+/* rows with these labels at a time */
+static inline int row_count(const row_fixture *f, const char *family, const char *subject,
+                            const char *detail, double time) {
+  int count = 0;
+  for (int r = 0; r < f->table.row_count; r++) {
+    const ambulo__table_row *row = &f->table.rows[r];
+    count += !strcmp(row->family, family) && !strcmp(row->subject, subject) &&
+             !strcmp(row->detail, detail) && fabs(row->time - time) <= 1e-12;
+  }
+  return count;
 }
 
 static inline void row_fixture_close(row_fixture *f) {
