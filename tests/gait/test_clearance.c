@@ -47,10 +47,10 @@ static void swings_hold_at_both_their_ends(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
-  f.definition.contacts = (const ambulo_contact[]){
-      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.0, -0.08}},
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}},
-      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, -0.1}}};
+  f.definition.contacts =
+      (const ambulo_contact[]){{WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.0, -0.08}},
+                               {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}},
+                               {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, -0.1}}};
   f.definition.contact_count = 3;
   f.definition.clearance.height = 0.02;
   f.definition.clearance.tip_from = 0.5;

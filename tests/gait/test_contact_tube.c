@@ -114,8 +114,8 @@ static void a_strike_is_the_first_node_of_any_grid(void **state) {
   row_fixture f;
   prepare(&f, 0);
   f.times[1] = 0.01;
-  f.definition.contacts = (const ambulo_contact[]){
-      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.01, 1.0, {0.6, 0.1}}};
+  f.definition.contacts =
+      (const ambulo_contact[]){{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.01, 1.0, {0.6, 0.1}}};
   f.definition.contact_count = 1;
   f.active[WALKER_LEFT] = -1;
   f.active[2 + WALKER_LEFT] = f.active[4 + WALKER_LEFT] = 0;

@@ -58,10 +58,9 @@ static void points_at_events(void **state) {
 /* heel to toes at once, and a foot that goes on elsewhere: nothing covers anything */
 static void unlike_contacts_both_hold(void **state) {
   (void)state;
-  static const ambulo_contact apart[] = {
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.6, 0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.25, 0.5, {0.7, 0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.5, 1.0, {0.7, 0.1}}};
+  static const ambulo_contact apart[] = {{WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.6, 0.1}},
+                                         {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.25, 0.5, {0.7, 0.1}},
+                                         {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.5, 1.0, {0.7, 0.1}}};
   row_fixture f;
   row_fixture_open(&f, 0);
   f.definition.contacts = apart;

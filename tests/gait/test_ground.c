@@ -49,8 +49,7 @@ static void corners_at_events(void **state) {
     ambulo__ground_rows(&f.context, &f.table);
     static const char *const corners[] = {"l_heel_in", "l_heel_out", "l_toe_in", "l_toe_out"};
     for (int c = 0; c < 4; c++) {
-      assert_int_equal(row_count(&f, "ground_penetration", corners[c], "height", 0.25),
-                       !tolerance);
+      assert_int_equal(row_count(&f, "ground_penetration", corners[c], "height", 0.25), !tolerance);
       int row = row_find(&f, "ground_penetration", corners[c], "height", 0.5); /* leaves it */
       assert_int_equal(f.table.rows[row].relation,
                        c >= 2 && !tolerance ? AMBULO_EQUAL : AMBULO_NOT_NEGATIVE);

@@ -130,10 +130,9 @@ static void planar_bodies_have_forward_rows_only(void **state) {
  * carries nothing and has none */
 static void events_have_both_boxes(void **state) {
   (void)state;
-  static const ambulo_contact three[] = {
-      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.75, {0.5, 0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.5, 0.1}}};
+  static const ambulo_contact three[] = {{WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
+                                         {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.75, {0.5, 0.1}},
+                                         {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.5, 0.1}}};
   row_fixture f;
   prepare(&f, 0);
   f.definition.contacts = three;
@@ -161,7 +160,8 @@ static void events_have_both_boxes(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(events_have_both_boxes),cmocka_unit_test(centres_of_pressure_stay_under_their_feet),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(events_have_both_boxes),
+                                     cmocka_unit_test(centres_of_pressure_stay_under_their_feet),
                                      cmocka_unit_test(unloaded_feet_have_no_rows),
                                      cmocka_unit_test(friction_is_a_pyramid),
                                      cmocka_unit_test(free_moments_add_up),

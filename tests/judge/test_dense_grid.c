@@ -42,6 +42,33 @@ static void callbacks_are_not_asked_off_their_nodes(void **state) {
   ambulo_problem_free(p);
 }
 
+/* every interval of a grid on events is divided, so that its nodes stay nodes; the trajectory keeps
+ * its knots although they sat on events that have moved */
+static void grids_on_events_are_divided(void **state) {
+  (void)state;
+  static const char *const settings[] = {"time.grid=events", "trajectory.knots=events"};
+  ambulo_problem *p = NULL;
+  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", settings, 2, NULL, NULL, &p),
+                   AMBULO_OK);
+  double *x = calloc((size_t)p->variables, sizeof *x);
+  for (int shifted = 0; shifted < 2; shifted++) {
+    ambulo__dense dense;
+    assert_int_equal(ambulo__dense_open(p, x, 4, 0.001 * shifted, NULL, NULL, &dense), AMBULO_OK);
+    assert_int_equal(dense.fine->nodes, 4 * 25 + 1);
+    for (int k = 0; k < 25; k++) {
+      assert_true(dense.fine->times[4 * k] == p->times[k]);
+      assert_close(dense.fine->times[4 * k + 2], 0.5 * (p->times[k] + p->times[k + 1]), 1e-15);
+    }
+    for (int i = 0; i <= 17; i++) {
+      assert_true(ambulo__basis_breakpoints(dense.fine->basis)[i] ==
+                  ambulo__basis_breakpoints(p->basis)[i]);
+    }
+    ambulo__dense_close(&dense);
+  }
+  free(x);
+  ambulo_problem_free(p);
+}
+
 /* both ends of a contact move, by as much; what begins at 0 or ends at T stays */
 static void contacts_move_but_for_the_ends(void **state) {
   (void)state;
@@ -73,6 +100,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_grid_is_as_fine_as_a_problem_may_be),
       cmocka_unit_test(callbacks_are_not_asked_off_their_nodes),
+      cmocka_unit_test(grids_on_events_are_divided),
       cmocka_unit_test(contacts_move_but_for_the_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -48,6 +48,26 @@ static void toe_off_on_a_node_leaves_the_interval_before_free(void **state) {
   dense_close(&f);
 }
 
+/* on events the node at toe-off holds the toe, and the one at foot-flat the other foot's: a body
+ * that glides on a straight line slips nowhere, one that is accelerated as between any two nodes */
+static void on_events_no_interval_is_free(void **state) {
+  (void)state;
+  dense_fixture f;
+  dense_open_on(&f, 20, AMBULO_GRID_EVENTS);
+  dense_move(&f, 0, 0.0, 0.4, 0.0);
+  dense_look(&f, 7);
+  dense_largest all = largest_of(&f, NULL, -1.0, 1.0);
+  assert_true(all.count > 50 && all.sample.value < 1e-12);
+  dense_close(&f);
+  dense_open_on(&f, 20, AMBULO_GRID_EVENTS);
+  dense_move(&f, 0, 0.0, 0.0, 3.0);
+  dense_look(&f, 10);
+  double h = (toe_off - foot_flat) / 2.0; /* two intervals of the second phase */
+  assert_close(f.problem->times[5], toe_off, 1e-12);
+  assert_close(largest_of(&f, "left_toe", foot_flat, 1.0).sample.value, 6.0 * h * h / 8.0, 1e-9);
+  dense_close(&f);
+}
+
 /* with an acceleration a the distance from the line is a h^2 / 8 half-way */
 static void between_two_nodes_it_is_the_distance_from_the_line(void **state) {
   (void)state;
@@ -134,6 +154,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_toe_that_leaves_slips_from_its_last_node_on),
       cmocka_unit_test(toe_off_on_a_node_leaves_the_interval_before_free),
+      cmocka_unit_test(on_events_no_interval_is_free),
       cmocka_unit_test(between_two_nodes_it_is_the_distance_from_the_line),
       cmocka_unit_test(only_loaded_points_and_only_along_the_ground),
       cmocka_unit_test(a_coarse_grid_still_has_a_place_to_start_from),

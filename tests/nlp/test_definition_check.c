@@ -206,10 +206,56 @@ static void a_line_lies_in_one_link(void **state) {
   ambulo_model_free(body);
 }
 
+static void expect_grid_refused(const built *b, const char *text) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(create(b, list), AMBULO_E_PROBLEM);
+  assert_message(list, 0, text);
+  ambulo_diagnostics_free(list);
+}
+
+static void grids_are_checked(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  double times[11], breaks[3] = {0.0, 0.5, 1.0};
+  for (int k = 0; k < 11; k++) times[k] = 0.01 * k * k;
+  b.d.node_times = times;
+  expect_grid_refused(&b, "node_times are given for a uniform grid");
+  b.d.grid = AMBULO_GRID_EVENTS;
+  assert_int_equal(create(&b, NULL), AMBULO_OK);
+  times[10] = 1.1;
+  expect_grid_refused(&b, "node_times run from 0 s to 1.1 s; expected 0 s to 1 s");
+  times[10] = 1.0;
+  times[0] = 0.001;
+  expect_grid_refused(&b, "node_times run from 0.001 s to 1 s");
+  times[0] = 0.0;
+  times[4] = times[3];
+  expect_grid_refused(&b, "node_times[4] is 0.09 s after 0.09 s; expected rising times");
+  times[4] = NAN;
+  expect_grid_refused(&b, "node_times[4] is nan s after 0.09 s");
+  b.d.node_times = NULL;
+  b.d.discretization = AMBULO_HERMITE;
+  expect_grid_refused(&b, "a grid on events with basis hermite; expected bspline");
+  b.d.discretization = AMBULO_BSPLINE;
+  b.d.grid = (ambulo_grid)2;
+  expect_grid_refused(&b, "unknown grid 2, knots 0; expected uniform or events");
+  b.d.grid = AMBULO_GRID_UNIFORM;
+  b.d.knots = AMBULO_GRID_EVENTS;
+  b.d.breakpoints = breaks;
+  b.d.spline_intervals = 2;
+  expect_grid_refused(&b, "trajectory.breakpoints are given and knots on events asked for");
+  b.d.breakpoints = NULL;
+  assert_int_equal(create(&b, NULL), AMBULO_OK);
+  b.d.knots = (ambulo_grid)-1;
+  expect_grid_refused(&b, "unknown grid 0, knots -1");
+  ambulo_model_free(b.model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_built_is_legal),  cmocka_unit_test(numbers_have_ranges),
-      cmocka_unit_test(no_bound_is_a_bound),     cmocka_unit_test(what_is_missing_is_named),
-      cmocka_unit_test(some_weight_is_not_zero), cmocka_unit_test(a_line_lies_in_one_link)};
+      cmocka_unit_test(what_is_built_is_legal),   cmocka_unit_test(grids_are_checked),
+      cmocka_unit_test(numbers_have_ranges),      cmocka_unit_test(no_bound_is_a_bound),
+      cmocka_unit_test(what_is_missing_is_named), cmocka_unit_test(some_weight_is_not_zero),
+      cmocka_unit_test(a_line_lies_in_one_link)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -131,8 +131,9 @@ static void the_hash_sees_every_change(void **state) {
   (void)state;
   ambulo_model *model = arm_create();
   ambulo_problem_definition d = arm_definition(model);
-  unsigned long long hashes[5];
-  for (int i = 0; i < 5; i++) {
+  unsigned long long hashes[7];
+  double times[12];
+  for (int i = 0; i < 7; i++) {
     ambulo_problem_definition changed = d;
     double scale[2] = {1.0, 1.0 + 1e-15};
     ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
@@ -140,13 +141,17 @@ static void the_hash_sees_every_change(void **state) {
     if (i == 2) changed.intervals = 11;
     if (i == 3) term.scale = scale;
     if (i == 4) changed.torque_limits = 0;
+    if (i >= 5) changed.grid = AMBULO_GRID_EVENTS;
+    if (i == 6) changed.node_times = times;
+    for (int k = 0; k <= d.intervals; k++) times[k] = (double)(k * k) / (d.intervals * d.intervals);
     ambulo_problem *problem = NULL;
     assert_int_equal(ambulo_problem_create(&changed, NULL, NULL, &problem), AMBULO_OK);
     hashes[i] = ambulo_problem_hash(problem);
     ambulo_problem_free(problem);
   }
   assert_true(hashes[0] == hashes[1]);
-  for (int i = 2; i < 5; i++) assert_true(hashes[i] != hashes[0]);
+  for (int i = 2; i < 7; i++) assert_true(hashes[i] != hashes[0]);
+  assert_true(hashes[5] != hashes[6]);
   ambulo_model_free(model);
 }
 

@@ -38,6 +38,51 @@ static void breakpoints_are_kept(void **state) {
   ambulo_problem_free(p);
 }
 
+#define STEPS                                                                                      \
+  "contacts:\n"                                                                                    \
+  "  - {foot: left, mode: flat, from: 0, to: 0.8, place: [0, 0.09]}\n"                             \
+  "  - {foot: right, mode: flat, from: 0.7, to: 1, place: [0.3, -0.09]}\n"
+
+/* phases of 0.7, 0.1 and 0.2 s */
+static void grids_are_read(void **state) {
+  (void)state;
+  ambulo_problem *p =
+      problem_of(WALKER NONE STEPS "time: {duration: 1, intervals: 10, grid: events}\n"
+                                   "trajectory: {knots: events, intervals: 10}\n");
+  assert_int_equal(p->definition.grid, AMBULO_GRID_EVENTS);
+  assert_int_equal(p->definition.knots, AMBULO_GRID_EVENTS);
+  assert_close(p->times[6], 0.7, 1e-15); /* 7 due, but the short phase has two */
+  assert_close(p->times[8], 0.8, 1e-15);
+  assert_close(ambulo__basis_breakpoints(p->basis)[7], 0.7, 1e-15);
+  assert_close(ambulo__basis_breakpoints(p->basis)[8], 0.8, 1e-15);
+  ambulo_problem_free(p);
+  p = problem_of(WALKER NONE STEPS "time: {duration: 1, intervals: 10, grid: uniform}\n"
+                                   "trajectory: {knots: uniform}\n");
+  assert_int_equal(p->definition.grid, AMBULO_GRID_UNIFORM);
+  assert_int_equal(p->definition.knots, AMBULO_GRID_UNIFORM);
+  ambulo_problem_free(p);
+}
+
+static void grids_that_are_none_are_placed(void **state) {
+  (void)state;
+  expect_refusal(PENDULUM "time: {duration: 1, intervals: 6, grid: event}\n" NONE, AMBULO_E_SCHEMA,
+                 "p.yaml:4:41: error[E_SCHEMA]: got 'event'; expected one of: uniform, events");
+  expect_refusal(PENDULUM NONE TIME "trajectory: {knots: even}\n", AMBULO_E_SCHEMA,
+                 "p.yaml:6:21: error[E_SCHEMA]: got 'even'");
+  expect_refusal(PENDULUM NONE TIME "trajectory: {breakpoints: [0, 1, 2], knots: events}\n",
+                 AMBULO_E_SCHEMA, "knots are 'events', but breakpoints are given");
+  expect_refusal(PENDULUM NONE TIME "trajectory: {basis: hermite, knots: events}\n",
+                 AMBULO_E_SCHEMA, "'knots' means nothing with basis hermite");
+  expect_refusal(PENDULUM NONE "time: {duration: 1, intervals: 6, grid: events}\n"
+                               "trajectory: {basis: central_difference}\n",
+                 AMBULO_E_SCHEMA, "p.yaml:5:41: error[E_SCHEMA]: grid 'events' with basis");
+  expect_refusal(WALKER NONE STEPS "time: {duration: 1, intervals: 5, grid: events}\n",
+                 AMBULO_E_PROBLEM, "time.intervals is 5; expected at least 6, 2 for each of the 3");
+  expect_refusal(WALKER NONE STEPS "time: {duration: 1, intervals: 5}\n"
+                                   "trajectory: {intervals: 2, knots: events}\n",
+                 AMBULO_E_PROBLEM, "trajectory.intervals is 2; expected at least 3, 1 for each");
+}
+
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(PENDULUM "time: {duration: 0, intervals: 6}\n" NONE, AMBULO_E_SCHEMA,
@@ -61,8 +106,9 @@ static void faults_are_placed(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(bases_are_read),
-                                     cmocka_unit_test(breakpoints_are_kept),
-                                     cmocka_unit_test(faults_are_placed)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bases_are_read), cmocka_unit_test(breakpoints_are_kept),
+      cmocka_unit_test(grids_are_read), cmocka_unit_test(grids_that_are_none_are_placed),
+      cmocka_unit_test(faults_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,8 +3,9 @@
 #include "support/scratch.h"
 
 /* loads a walker that tracks `table`, written to the scratch folder */
-static ambulo_status load(const char *folder, const char *file, const char *table,
-                          ambulo_diagnostics *list, ambulo_problem **problem) {
+static ambulo_status load_with(const char *folder, const char *file, const char *table,
+                               const char *time, ambulo_diagnostics *list,
+                               ambulo_problem **problem) {
   char path[SCRATCH_PATH + 64], text[SCRATCH_PATH + 512];
   (void)snprintf(path, sizeof path, "%s/%s", folder, file);
   FILE *stream = fopen(path, "w");
@@ -12,10 +13,15 @@ static ambulo_status load(const char *folder, const char *file, const char *tabl
   fputs(table, stream);
   fclose(stream);
   (void)snprintf(text, sizeof text,
-                 WALKER "time: {duration: 1, intervals: 4}\n"
+                 WALKER "%s\n"
                         "objective: [{term: tracking, scale: 2, reference: %s}]\n",
-                 path);
+                 time, path);
   return load_text(text, list, problem);
+}
+
+static ambulo_status load(const char *folder, const char *file, const char *table,
+                          ambulo_diagnostics *list, ambulo_problem **problem) {
+  return load_with(folder, file, table, "time: {duration: 1, intervals: 4}", list, problem);
 }
 
 static double reference(const ambulo_problem *p, const char *coordinate, int node) {
@@ -42,6 +48,24 @@ static void motions_are_sampled_at_the_nodes(void **state) {
   }
   assert_close(scale(p, "knee_angle_r"), 2.0, 0.0);
   assert_close(scale(p, "knee_angle_l"), 0.0, 0.0);
+  ambulo_problem_free(p);
+}
+
+/* of a grid on events at its nodes, wherever they are */
+static void nodes_need_not_be_equally_spaced(void **state) {
+  ambulo_problem *p = NULL;
+  const char *table = "time,knee_angle_r,pelvis_tx\n5,0.0,0\n6.0,1.0,0.6\n";
+  assert_int_equal(
+      load_with(*state, "walk.csv", table,
+                "time: {duration: 1, intervals: 6, grid: events}\n"
+                "contacts: [{foot: left, mode: flat, from: 0.1, to: 1, place: [0, 0]}]",
+                NULL, &p),
+      AMBULO_OK);
+  static const double times[] = {0.0, 0.05, 0.1, 0.325, 0.55, 0.775, 1.0};
+  for (int k = 0; k < 7; k++) {
+    assert_close(p->times[k], times[k], 1e-15);
+    assert_close(reference(p, "knee_angle_r", k), times[k], 1e-14);
+  }
   ambulo_problem_free(p);
 }
 
@@ -107,6 +131,8 @@ static void useless_references_are_refused(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(motions_are_sampled_at_the_nodes, scratch_open,
+                                      scratch_close),
+      cmocka_unit_test_setup_teardown(nodes_need_not_be_equally_spaced, scratch_open,
                                       scratch_close),
       cmocka_unit_test_setup_teardown(degrees_are_turned_into_radians, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(doubtful_references_are_warned_of, scratch_open,

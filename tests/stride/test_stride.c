@@ -19,6 +19,26 @@ static void test_nodes(void **state) {
   walk_close(&w);
 }
 
+/* samples stand at the nodes, wherever those are */
+static void test_nodes_on_events(void **state) {
+  (void)state;
+  walk w;
+  walk_open(&w, 12);
+  ambulo_problem *p = walker_problem_on(w.model, 12, AMBULO_GRID_EVENTS);
+  ambulo__stride s;
+  assert_int_equal(p->variables, w.problem->variables);
+  assert_int_equal(ambulo__stride_create(p, w.result->x, 0, NULL, &s), AMBULO_OK);
+  assert_int_equal(s.samples, 25);
+  for (int k = 0; k <= 12; k++) {
+    assert_true(s.times[k] == p->times[k]);
+    assert_close(s.times[12 + k], p->times[k] + walker_step_time, 1e-15);
+  }
+  assert_true(fabs(s.times[1] - walker_step_time / 12.0) > 1e-3);
+  ambulo__stride_free(&s);
+  ambulo_problem_free(p);
+  walk_close(&w);
+}
+
 /* node 12 + k is node k with left and right exchanged, one step further on */
 static void test_mirror(void **state) {
   (void)state;
@@ -146,7 +166,9 @@ static void test_the_second_half_obeys_the_same_equations(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_nodes), cmocka_unit_test(test_mirror),
+      cmocka_unit_test(test_nodes),
+      cmocka_unit_test(test_nodes_on_events),
+      cmocka_unit_test(test_mirror),
       cmocka_unit_test(test_contacts_change_sides),
       cmocka_unit_test(test_limits_hold_in_both_halves),
       cmocka_unit_test(test_the_second_half_obeys_the_same_equations)};

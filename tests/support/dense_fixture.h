@@ -13,13 +13,17 @@ typedef struct dense_fixture {
   ambulo__dense dense;
 } dense_fixture;
 
-static inline void dense_open(dense_fixture *f, int intervals) {
+static inline void dense_open_on(dense_fixture *f, int intervals, ambulo_grid grid) {
   memset(f, 0, sizeof *f);
   f->model = walker_create();
   assert_non_null(f->model);
-  f->problem = walker_problem(f->model, intervals);
+  f->problem = walker_problem_on(f->model, intervals, grid);
   assert_non_null(f->problem);
   f->x = calloc((size_t)ambulo_problem_variable_count(f->problem), sizeof *f->x);
+}
+
+static inline void dense_open(dense_fixture *f, int intervals) {
+  dense_open_on(f, intervals, AMBULO_GRID_UNIFORM);
 }
 
 /* a coordinate that moves as a + b t + c t^2: the knots' products make the control points of t^2 */

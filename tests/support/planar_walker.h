@@ -81,7 +81,8 @@ static inline ambulo_model *walker_create(void) {
 }
 
 /* One mirrored step with contact rows; NULL if it is refused. */
-static inline ambulo_problem *walker_problem(const ambulo_model *model, int intervals) {
+static inline ambulo_problem *walker_problem_on(const ambulo_model *model, int intervals,
+                                                ambulo_grid grid) {
   const ambulo_gait gait = {.steps = 1,
                             .step_length = walker_step_length,
                             .step_time = walker_step_time,
@@ -96,6 +97,7 @@ static inline ambulo_problem *walker_problem(const ambulo_model *model, int inte
   definition.model = model;
   definition.duration = walker_step_time;
   definition.intervals = intervals;
+  definition.grid = grid;
   definition.contacts = contacts;
   definition.ground_penetration = definition.foot_strike = 1;
   definition.ends = AMBULO_ENDS_MIRRORED;
@@ -105,6 +107,10 @@ static inline ambulo_problem *walker_problem(const ambulo_model *model, int inte
   ambulo_problem *problem = NULL;
   if (ambulo_problem_create(&definition, NULL, NULL, &problem)) return NULL;
   return problem;
+}
+
+static inline ambulo_problem *walker_problem(const ambulo_model *model, int intervals) {
+  return walker_problem_on(model, intervals, AMBULO_GRID_UNIFORM);
 }
 
 /* Control points (as values at their times) of something like walking. */

@@ -4,7 +4,9 @@
 
 #include "ambulo/ambulo.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static ambulo_result *solve_walk(const char *const *settings, int count, double tolerance) {
@@ -80,6 +82,41 @@ static void contacts_hold_up_to_their_events(void **state) {
   ambulo_result_free(after);
 }
 
+/* every family of rows and every term, at a point of no importance */
+static void gradients_are_exact(void **state) {
+  (void)state;
+  enum { MOST = 40 };
+  static const char *const walks[] = {"walk_normal", "yardstick_12", "walk_tracking",
+                                      "walker_2d_step"};
+  static const char *const settings[] = {"time.grid=events", "trajectory.knots=events",
+                                         "time.intervals=42", "trajectory.intervals=30"};
+  for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
+    char path[64];
+    ambulo_problem *problem = NULL;
+    ambulo_workspace *workspace = NULL;
+    ambulo_derivative_error errors[MOST];
+    int count = 0;
+    (void)snprintf(path, sizeof path, "models/%s.yaml", walks[i]);
+    assert_int_equal(ambulo_problem_load(path, settings, 4, NULL, NULL, &problem), AMBULO_OK);
+    assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+    int n = ambulo_problem_variable_count(problem);
+    double *x = calloc((size_t)n, sizeof *x);
+    for (int k = 0; k < n; k++) x[k] = 0.1 * sin(1.0 + 1.7 * k);
+    assert_int_equal(
+        ambulo_problem_check_derivatives(problem, workspace, x, 0.0, errors, MOST, &count),
+        AMBULO_OK);
+    assert_true(count > 3 && count <= MOST);
+    for (int k = 0; k < count; k++) {
+      if (!(errors[k].error <= 1e-7))
+        print_error("%s %s: %g\n", walks[i], errors[k].family, errors[k].error);
+      assert_true(errors[k].error <= 1e-7);
+    }
+    free(x);
+    ambulo_workspace_free(workspace);
+    ambulo_problem_free(problem);
+  }
+}
+
 static void what_is_foretold_comes_true(void **state) {
   (void)state;
   const char *settings[] = {"time.grid=events", "trajectory.knots=events", "trajectory.degree=4",
@@ -105,6 +142,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_best_is_smooth_in_an_event_time),
       cmocka_unit_test(contacts_hold_up_to_their_events),
+      cmocka_unit_test(gradients_are_exact),
       cmocka_unit_test(what_is_foretold_comes_true),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
