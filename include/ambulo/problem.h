@@ -212,14 +212,14 @@ typedef struct ambulo_problem_definition {
   double duration; /* T, s */
   int intervals;   /* N; nodes = N + 1 */
   ambulo_grid grid;
-  const double *node_times; /* [N + 1] rising from 0 to T, with AMBULO_GRID_EVENTS only: these
-                               instead, whose nodes within 1e-9 s of an event belong to both phases;
-                               NULL: distributed over the phases */
   ambulo_discretization discretization;
   int degree;                /* of the B-spline, 3..7 */
   int spline_intervals;      /* K, intervals of the trajectory; 0: as many as time intervals */
-  const double *breakpoints; /* [K + 1] from 0 to T; NULL: as `knots` says */
   ambulo_grid knots;         /* of breakpoints that are not given */
+  const double *node_times;  /* [N + 1] rising from 0 to T, with AMBULO_GRID_EVENTS only: these
+                                instead, whose nodes within 1e-9 s of an event belong to both
+                                phases; NULL: distributed over the phases */
+  const double *breakpoints; /* [K + 1] from 0 to T; NULL: as `knots` says */
 
   const ambulo_contact *contacts;
   int contact_count;

@@ -130,7 +130,7 @@ void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_
     for (int foot = 0; foot < feet; foot++) {
       ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
       tube t = {.context = context, .outline = &outlines[foot], .node = node, .table = table};
-      for (int i = 0; i < phases.count; i++) {
+      for (int i = 0; i < 2 && i < phases.count; i++) {
         if (phases.contact[i] >= 0)
           t.contact[t.contacts++] = &context->definition->contacts[phases.contact[i]];
       }

@@ -22,12 +22,16 @@ static int foot_of(const ambulo__advice *a) {
   return -1;
 }
 
-/* the contact of that foot at the row's node; NULL in the air */
+/* the contact of that foot at the row's node; of two on an event the flat one, which leaves least
+ * room; NULL in the air */
 static const ambulo_contact *contact_of(const ambulo__advice *a) {
   const ambulo_problem *p = a->problem;
   int foot = foot_of(a);
   if (foot < 0 || a->row->node < 0) return NULL;
-  int index = p->active[a->row->node * p->model->foot_count + foot];
+  int at = a->row->node * p->model->foot_count + foot, index = p->active[at];
+  int before = p->before ? p->before[at] : index;
+  if (index < 0 || (before >= 0 && p->definition.contacts[before].mode == AMBULO_CONTACT_FLAT))
+    index = before;
   return index < 0 ? NULL : &p->definition.contacts[index];
 }
 
@@ -134,7 +138,9 @@ static void contact_angle(const ambulo__advice *a) {
     return;
   }
   double wide = ambulo__outward(d->orientation_tolerance + a->room / (toe ? 2.0 : 1.0), 1);
-  int fixed = pitch && contact && contact->mode != AMBULO_CONTACT_FLAT;
+  int fixed = pitch && contact &&
+              (contact->mode != AMBULO_CONTACT_FLAT ||
+               fabs(fabs(bound) - d->orientation_tolerance) > 1e-12);
   ambulo__advice_say(a,
                      "the foot %s has to turn further at t = %.4g s than its contact lets it (%s, "
                      "by a sine of %.4g): %s",

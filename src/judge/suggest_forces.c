@@ -86,25 +86,39 @@ static void free_moment(const ambulo__advice *a) {
   if (enough <= 10.0) ambulo__advice_set(a, "ground_reaction.free_moment=%.6g", enough);
 }
 
-/* a box with the side moved that the row is about */
-static void pressure(const ambulo__advice *a) {
+/* the modes of the row's foot at its node: one, on an event two if it is loaded before and after */
+static int modes_of(const ambulo__advice *a, ambulo_contact_mode mode[2]) {
   const ambulo_problem *p = a->problem;
-  ambulo_ground_reaction r = p->definition.ground_reaction;
-  const ambulo_contact *contact = NULL;
+  const int *phase[2] = {p->before, p->active};
+  int count = 0;
   for (int f = 0; f < p->model->foot_count && a->row->node >= 0; f++) {
-    int index = p->active[a->row->node * p->model->foot_count + f];
-    if (index >= 0 && !strcmp(p->model->feet[f].name, a->row->subject))
-      contact = &p->definition.contacts[index];
+    if (strcmp(p->model->feet[f].name, a->row->subject) != 0) continue;
+    for (int i = 0; i < 2; i++) {
+      int index = phase[i] ? phase[i][a->row->node * p->model->foot_count + f] : -1;
+      if (index < 0) continue;
+      ambulo_contact_mode one = p->definition.contacts[index].mode;
+      if (count == 0 || mode[0] != one) mode[count++] = one;
+    }
   }
+  return count;
+}
+
+/* a box with the side moved that the row is about; on an event those of both its contacts */
+static void pressure(const ambulo__advice *a) {
+  ambulo_ground_reaction r = a->problem->definition.ground_reaction;
+  ambulo_contact_mode mode[2];
+  int modes = modes_of(a, mode);
   ambulo__advice_say(a, "let the centre of pressure of %s go %.4g m further %s (t = %.4g s)",
                      a->row->subject, a->give, a->row->detail, a->row->time);
-  if (!contact) return;
+  if (modes == 0) return;
   int front = !strcmp(a->row->detail, "front"), back = !strcmp(a->row->detail, "back");
-  double *box = contact->mode == AMBULO_CONTACT_FLAT  ? r.flat_pressure
-                : contact->mode == AMBULO_CONTACT_TOE ? r.toe_pressure
-                                                      : r.heel_pressure;
-  if (front) box[1] = ambulo__outward(box[1] + a->room, 1);
-  if (back) box[0] = ambulo__outward(box[0] - a->room, 0);
+  for (int i = 0; i < modes; i++) {
+    double *box = mode[i] == AMBULO_CONTACT_FLAT  ? r.flat_pressure
+                  : mode[i] == AMBULO_CONTACT_TOE ? r.toe_pressure
+                                                  : r.heel_pressure;
+    if (front) box[1] = ambulo__outward(box[1] + a->room, 1);
+    if (back) box[0] = ambulo__outward(box[0] - a->room, 0);
+  }
   if (!front && !back) r.pressure_width = ambulo__outward(r.pressure_width + a->room, 1);
   ambulo__advice_set(a,
                      "ground_reaction.pressure={heel: [%.6g, %.6g], roll: %.6g, flat: [%.6g, "

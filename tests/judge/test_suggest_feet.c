@@ -202,10 +202,43 @@ static void step_settings_fit_together(void **state) {
   ambulo_problem_free(p);
 }
 
+/* from flat to toes the flat foot leaves less room, and the toes' pitch is not to be widened; a
+ * foot that leaves was on its toes */
+static void on_an_event_the_tighter_contact_counts(void **state) {
+  (void)state;
+  static const char *const settings[] = {"time.grid=events"};
+  ambulo_problem *p = load(WALK, settings, 1);
+  const miss turned = {WALK,
+                       {0},
+                       "contact",
+                       "left",
+                       "turned left",
+                       -0.01,
+                       "widen the tolerance of its direction",
+                       {"constraints.orientation_tolerance=0.0202"},
+                       1};
+  const miss pitched = {
+      WALK, {0}, "contact", "left", "toes high", -0.01, "change the times of its phases", {0}, 1};
+  const miss left = {WALK,
+                     {0},
+                     "contact",
+                     "right",
+                     "turned left",
+                     -0.01,
+                     "widen the tolerance of its direction",
+                     {"constraints.orientation_tolerance=0.0151"},
+                     1};
+  expect_at(p, &turned, 19);
+  expect_at(p, &pitched, 19);
+  expect_at(p, &left, 6);
+  ambulo_problem_free(p);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_row_misses_can_be_set),
                                      cmocka_unit_test(without_a_file_there_are_no_settings),
                                      cmocka_unit_test(pitch_belongs_to_the_phase),
+                                     cmocka_unit_test(on_an_event_the_tighter_contact_counts),
                                      cmocka_unit_test(the_track_is_on_its_side),
                                      cmocka_unit_test(spacing_counts_where_it_is_most_of_the_miss),
                                      cmocka_unit_test(step_settings_fit_together)};

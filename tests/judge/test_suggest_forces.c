@@ -106,6 +106,25 @@ static void what_a_row_misses_can_be_set(void **state) {
   try_misses(misses, MISSES);
 }
 
+/* while a foot goes from heel to flat its pressure is in both boxes: both are moved */
+static void on_an_event_both_boxes_move(void **state) {
+  (void)state;
+  static const char *const settings[] = {"time.grid=events"};
+  ambulo_problem *p = load(WALK, settings, 1);
+  const miss m = {WALK,
+                  {"time.grid=events"},
+                  "pressure",
+                  "left",
+                  "front",
+                  -0.01,
+                  "of left go 0.01 m further front",
+                  {"ground_reaction.pressure={heel: [-0.02, 0.0402], roll: 0.04, flat: [-0.005, "
+                   "0.0302], toe: [-0.02, 0.055], width: 0.035}"},
+                  1};
+  expect_at(p, &m, 4);
+  ambulo_problem_free(p);
+}
+
 static void without_a_file_there_are_no_settings(void **state) {
   (void)state;
   try_without_keys(misses, MISSES);
@@ -167,7 +186,7 @@ static void friction_that_does_not_help_is_not_asked_for(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_a_row_misses_can_be_set),
+      cmocka_unit_test(what_a_row_misses_can_be_set), cmocka_unit_test(on_an_event_both_boxes_move),
       cmocka_unit_test(without_a_file_there_are_no_settings),
       cmocka_unit_test(friction_is_what_the_pair_of_rows_asks_for),
       cmocka_unit_test(friction_that_does_not_help_is_not_asked_for)};
