@@ -175,8 +175,10 @@ static void print_problem(const ambulo_problem *problem) {
   int equalities = ambulo_problem_equality_count(problem);
   const char *name = ambulo_problem_name(problem);
   printf("problem      %s\n", name ? name : "");
-  printf("duration     %g s, %d nodes, %s ends\n", ambulo_problem_duration(problem),
-         ambulo_problem_node_count(problem), ends[ambulo_problem_ends(problem)]);
+  printf("duration     %g s, %d nodes%s, %s ends\n", ambulo_problem_duration(problem),
+         ambulo_problem_node_count(problem),
+         ambulo_problem_grid(problem) == AMBULO_GRID_EVENTS ? " on events" : "",
+         ends[ambulo_problem_ends(problem)]);
   printf("unknowns     %d: %d control points of %d coordinates\n",
          ambulo_problem_variable_count(problem), ambulo_problem_control_point_count(problem),
          ambulo_model_coordinate_count(ambulo_problem_model(problem)));

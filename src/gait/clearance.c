@@ -94,12 +94,11 @@ static void swing_rows(const swing *w) {
   track_bounds(w);
 }
 
-/* at a node; of a swing that ends there, the last node before it says which swing that is */
-static swing swing_at(const ambulo__gait_context *context, int node, int foot, int ends,
+/* at a node, up to both ends of the swing */
+static swing swing_at(const ambulo__gait_context *context, int node, int foot,
                       ambulo__row_table *table) {
   double time = context->times[node];
-  ambulo__span air =
-      ambulo__air_span(context->definition, foot, ends ? context->times[node - 1] : time);
+  ambulo__span air = ambulo__air_span(context->definition, foot, time);
   double length = air.to - air.from, tip_from = context->definition->clearance.tip_from;
   swing w = {context, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, 0, table};
   w.tip = time >= air.from + tip_from * length - AMBULO__INSTANT;
@@ -114,8 +113,7 @@ void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_tab
       ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
       for (int i = 0; i < phases.count; i++) {
         if (phases.contact[i] >= 0) continue;
-        int ends = phases.contact[i] != context->active[node * feet + foot];
-        swing w = swing_at(context, node, foot, ends, table);
+        swing w = swing_at(context, node, foot, table);
         swing_rows(&w);
       }
     }

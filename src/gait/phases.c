@@ -174,24 +174,14 @@ ambulo_status ambulo__knot_times(const ambulo_problem_definition *d, int interva
                  "trajectory", allocator, diagnostics, times);
 }
 
-static ambulo_status least_of(const ambulo_problem_definition *d, ambulo__event_kind kind,
-                              int least, const ambulo_allocator *allocator, int *fewest) {
+ambulo_status ambulo__knots_least(const ambulo_problem_definition *d,
+                                  const ambulo_allocator *allocator, int *intervals) {
   ambulo__events events;
-  ambulo_status status = ambulo__events_create(d, kind, allocator, &events);
+  *intervals = 1;
+  if (d->knots != AMBULO_GRID_EVENTS) return AMBULO_OK;
+  ambulo_status status = ambulo__events_create(d, AMBULO__EVENTS_OF_CONTACTS, allocator, &events);
   if (status) return status;
-  *fewest = least * (events.count + 1);
+  *intervals = AMBULO__LEAST_KNOT_INTERVALS * (events.count + 1);
   ambulo__free(allocator, events.time);
   return AMBULO_OK;
-}
-
-ambulo_status ambulo__grid_least(const ambulo_problem_definition *d,
-                                 const ambulo_allocator *allocator, int *nodes, int *knots) {
-  ambulo_status status = AMBULO_OK;
-  *nodes = *knots = 1;
-  if (d->grid == AMBULO_GRID_EVENTS)
-    status = least_of(d, AMBULO__EVENTS_OF_ROWS, AMBULO__LEAST_NODE_INTERVALS, allocator, nodes);
-  if (!status && d->knots == AMBULO_GRID_EVENTS)
-    status =
-        least_of(d, AMBULO__EVENTS_OF_CONTACTS, AMBULO__LEAST_KNOT_INTERVALS, allocator, knots);
-  return status;
 }

@@ -29,10 +29,10 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *definition,
 /* Fewest intervals of a phase: of the time nodes, and of the trajectory. */
 enum { AMBULO__LEAST_NODE_INTERVALS = 2, AMBULO__LEAST_KNOT_INTERVALS = 1 };
 
-/* Fewest intervals of the time nodes and of the trajectory that a definition's grids have room for;
- * 1 where they are uniform. E_MEMORY. */
-ambulo_status ambulo__grid_least(const ambulo_problem_definition *definition,
-                                 const ambulo_allocator *allocator, int *nodes, int *knots);
+/* Fewest intervals of the trajectory that a definition's knots have room for; 1 where they are
+ * uniform. E_MEMORY. */
+ambulo_status ambulo__knots_least(const ambulo_problem_definition *definition,
+                                  const ambulo_allocator *allocator, int *intervals);
 
 /* Distributes `intervals` over the phases of [0, duration], at least `least` to each, the others in
  * proportion to duration (largest remainder): times[intervals + 1]. E_LIMIT: fewer than

@@ -12,7 +12,7 @@
  * end, where they are not asked for) and a little earlier (the rows of contacts that begin): an
  * event that falls on a node today has a gap of zero, and none on another grid.
  *
- * Grids on events have no gaps, whatever their number of intervals.
+ * Grids on events have no gaps, whatever their number of intervals: no rates are looked for.
  *
  * A new solve has another motion. What is foretold must therefore stay below `target`, not 1.
  */
@@ -120,8 +120,7 @@ static double foretold(const forecast *f, int rule, int intervals) {
   const ambulo__dense_rule *r = ambulo__dense_rule_at(rule);
   double finer = (double)d->intervals / intervals;
   double ratio = f->worst->entry[rule].between * pow(finer, order_of(f, r));
-  int gaps = r->at_events && d->grid == AMBULO_GRID_UNIFORM;
-  for (int i = 0; gaps && i < f->events->count; i++) {
+  for (int i = 0; r->at_events && i < f->events->count; i++) {
     double e = f->events->time[i];
     double before = ambulo__dense_gap_before(e, d->duration, intervals);
     double after = ambulo__dense_gap_after(e, d->duration, intervals);

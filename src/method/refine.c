@@ -3,8 +3,8 @@
  * Local minima dominate gait problems; a coarse grid has fewer, and knot insertion carries
  * its solution over exactly. Grids go by halves while at least 24 intervals remain, then by
  * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones.
- * Grids on events distribute their intervals over the phases anew, and stop where those are too
- * few.
+ * Grids on events distribute their intervals over the phases anew; one that is too coarse for that
+ * is refused and left out.
  */
 #include "method/refine.h"
 #include "gait/phases.h"
@@ -92,15 +92,13 @@ ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocato
   level last = {0};
   *levels = 0;
   if (has_callbacks(p)) return AMBULO_OK;
-  int least = 1, least_spline = 1;
-  ambulo_status status = ambulo__grid_least(&p->definition, &a, &least, &least_spline);
-  for (int n = coarser(nodes); n > 0 && count < MAX_LEVELS; n = coarser(n)) {
-    if (n >= least) grid[count++] = n;
-  }
+  int least = 1;
+  ambulo_status status = ambulo__knots_least(&p->definition, &a, &least);
+  for (int n = coarser(nodes); n > 0 && count < MAX_LEVELS; n = coarser(n)) grid[count++] = n;
   while (count-- > 0 && !status && !ambulo__run_over(e->run)) {
     int coarse_spline = (int)((long long)spline * grid[count] / nodes);
     if (coarse_spline < 1) continue;
-    if (coarse_spline < least_spline) coarse_spline = least_spline;
+    if (coarse_spline < least) coarse_spline = least;
     status = solve_level(p, grid[count], coarse_spline, &a, e->run, &last);
   }
   if (!status && last.problem && ambulo_problem_transfer(last.problem, last.x, p, x) == AMBULO_OK) {

@@ -179,13 +179,13 @@ static void uniform_grids_are_as_before(void **state) {
   assert_int_equal(ambulo_problem_grid(p), AMBULO_GRID_UNIFORM);
   assert_null(p->before);
   for (int k = 0; k <= 25; k++) assert_true(p->times[k] == k * p->definition.duration / 25);
-  int nodes, knots;
+  int knots;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__grid_least(&p->definition, &a, &nodes, &knots), AMBULO_OK);
-  assert_true(nodes == 1 && knots == 1);
+  assert_int_equal(ambulo__knots_least(&p->definition, &a, &knots), AMBULO_OK);
+  assert_int_equal(knots, 1);
   p->definition.grid = p->definition.knots = AMBULO_GRID_EVENTS;
-  assert_int_equal(ambulo__grid_least(&p->definition, &a, &nodes, &knots), AMBULO_OK);
-  assert_true(nodes == 10 && knots == 4);
+  assert_int_equal(ambulo__knots_least(&p->definition, &a, &knots), AMBULO_OK);
+  assert_int_equal(knots, 4);
   p->definition.grid = p->definition.knots = AMBULO_GRID_UNIFORM;
   ambulo_problem_free(p);
 }

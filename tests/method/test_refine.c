@@ -40,6 +40,27 @@ static void few_intervals_have_no_coarser_grid(void **state) {
   engine_close(&f);
 }
 
+/* 25 intervals of five phases start from 12; 36 of nine do not: 12 would be fewer than two a phase.
+ * A trajectory of 6 keeps the 4 that its knots on events need, not 3 */
+static void grids_on_events_stop_where_phases_have_too_few(void **state) {
+  (void)state;
+  static const struct {
+    const char *name, *override;
+    int levels;
+  } all[] = {{"yardstick_36", "time.grid=events", 0},
+             {"walk_normal", "time.grid=events", 1},
+             {"walk_normal", "trajectory={degree: 4, intervals: 6, knots: events}", 1}};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+    engine_fixture f;
+    int levels = -1;
+    engine_open_with(&f, all[i].name, all[i].override);
+    (void)refine(&f, &levels);
+    assert_int_equal(levels, all[i].levels);
+    assert_true((f.run.evaluations > 0) == all[i].levels);
+    engine_close(&f);
+  }
+}
+
 static double height(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
   (void)user;
   if (g) g->points[1] += 1.0;
@@ -76,8 +97,10 @@ static void callbacks_have_no_coarser_grid(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_next_grid_is_carried_over),
-                                     cmocka_unit_test(few_intervals_have_no_coarser_grid),
-                                     cmocka_unit_test(callbacks_have_no_coarser_grid)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_next_grid_is_carried_over),
+      cmocka_unit_test(few_intervals_have_no_coarser_grid),
+      cmocka_unit_test(grids_on_events_stop_where_phases_have_too_few),
+      cmocka_unit_test(callbacks_have_no_coarser_grid)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
