@@ -107,7 +107,7 @@ static void events_have_both_regions(void **state) {
   double near = INFINITY, far = -INFINITY;
   for (int r = 0; r < f.table.row_count; r++) {
     const ambulo__table_row *row = &f.table.rows[r];
-    if (strcmp(row->detail, "back") || row->time != 0.5) continue;
+    if (strcmp(row->detail, "back") != 0 || row->time != 0.5) continue;
     near = fmin(near, row_value(&f, r));
     far = fmax(far, row_value(&f, r));
   }
