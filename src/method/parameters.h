@@ -197,21 +197,18 @@
 /* Newton steps. 0: walk_normal with a tolerance of 1e-9 takes 23 to 63 iterations. T: pipeline. */
 #define AMBULO__POLISH_STEPS 6
 /* penalty of its model on rows of length 1 in the metric's diagonal, at first and its growth with
- * each step, to the last: rows are not forced where it costs most unless nothing less helps. 1e3 at
- * first: two_link_reach on 2560 intervals ends 0.4 % higher; growth of 10: walk_slow ends with a KKT
- * residual of 8e-5, not 2e-5. T: pipeline. */
+ * each step: rows are not forced where it costs most unless nothing less helps. 1e3 at first:
+ * two_link_reach on 2560 intervals ends 0.4 % higher. x: free. T: pipeline. */
 #define AMBULO__POLISH_PENALTY 1e2
-#define AMBULO__POLISH_GROWTH 1e3
-#define AMBULO__POLISH_LAST 1e8
+#define AMBULO__POLISH_GROWTH 10.0
 /* of what the multipliers say that the objective rises by, besides VALUE_CHANGE: more is another
  * motion. 0 (any rise): walk_without_reaction with NEAR_VIOLATION at 3e-6 ends 0.07 % too high.
  * T: pipeline. */
 #define AMBULO__POLISH_RISE 3.0
 /* times mu, in its metric, which asks for a short step and not for one that costs little: what
- * rounding makes of smooth motions on fine grids is kept down. 1: yardstick_72 on 2304 intervals
- * cannot be polished at once and takes 75 iterations, 100: 68, 300 and 1000: 50; yardstick_36 ends
- * with a KKT residual of 3e-5 at 1000. */
-#define AMBULO__POLISH_DAMPING 300.0
+ * rounding makes of smooth motions on fine grids is kept down. x: free, KKT residuals of yardstick_12
+ * and 36 to 2e-5 at 300. */
+#define AMBULO__POLISH_DAMPING 100.0
 
 /* -------------------------------------------------------------------- coarse grids (refine.c) */
 
