@@ -96,10 +96,8 @@ static void a_stopped_run_stops_it(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_hold_to_rounding),
-      cmocka_unit_test(a_limit_keeps_the_point),
-      cmocka_unit_test(large_problems_are_left_alone),
-      cmocka_unit_test(the_engine_is_given_back),
+      cmocka_unit_test(rows_hold_to_rounding),         cmocka_unit_test(a_limit_keeps_the_point),
+      cmocka_unit_test(large_problems_are_left_alone), cmocka_unit_test(the_engine_is_given_back),
       cmocka_unit_test(a_stopped_run_stops_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
