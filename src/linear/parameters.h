@@ -25,8 +25,8 @@
 /* of the border's largest diagonal element: keeps border rows solvable that others imply.
  * T: kkt (a hundredfold; 0). */
 #define AMBULO__BORDER_SHIFT 1e-14
-/* columns of an update (update.h) before M is factored anew, in tiles of 8. x: free. 0 (a factor for
- * each change): walk_normal +11 % CPU, 45 coordinates +38 %. T: update. */
+/* columns of an update (update.h) before M is factored anew, in tiles of 8. x: free. 0 (a factor
+ * for each change): walk_normal +11 % CPU, 45 coordinates +38 %. T: update. */
 #define AMBULO__UPDATE_TILES 4
 /* of a pivot's parts: what has to be left of it, half the digits of a double. T: update. */
 #define AMBULO__UPDATE_LOSS 1e-8

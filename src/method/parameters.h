@@ -133,8 +133,8 @@
 /* chord steps to a point; a step of L-BFGS that takes more is too long. Half: +9 % iterations,
  * fig5b_torque elsewhere; double: free. T: retraction. */
 #define AMBULO__CHORD_STEPS 16
-/* relative error of a reduced gradient, in the metric, as foretold from the last change. 1e-3: free,
- * +7 % CPU of yardsticks; 3e-2: +5 %. T: retraction. */
+/* relative error of a reduced gradient, in the metric, as foretold from the last change. 1e-3:
+ * free, +7 % CPU of yardsticks; 3e-2: +5 %. T: retraction. */
 #define AMBULO__ADJOINT_TOLERANCE 1e-2
 /* passes of a gradient. x: free. T: retraction. */
 #define AMBULO__ADJOINT_PASSES 14
@@ -206,8 +206,8 @@
  * T: pipeline. */
 #define AMBULO__POLISH_RISE 3.0
 /* times mu, in its metric, which asks for a short step and not for one that costs little: what
- * rounding makes of smooth motions on fine grids is kept down. x: free, KKT residuals of yardstick_12
- * and 36 to 2e-5 at 300. */
+ * rounding makes of smooth motions on fine grids is kept down. x: free, KKT residuals of
+ * yardstick_12 and 36 to 2e-5 at 300. */
 #define AMBULO__POLISH_DAMPING 100.0
 
 /* -------------------------------------------------------------------- coarse grids (refine.c) */
