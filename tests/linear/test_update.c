@@ -65,8 +65,8 @@ static void open_system(changing *s) {
   fill_sets(s, &seed);
   for (int i = 0; i < N; i++) s->a[i] = random_number(&seed);
   for (int i = 0; i < LOCAL + BORDER; i++) s->b[i] = random_number(&seed);
-  assert_int_equal(
-      ambulo__kkt_create(&s->set[0].rows, &s->set[1].rows, KD, &s->pool, &s->kkt), AMBULO_OK);
+  assert_int_equal(ambulo__kkt_create(&s->set[0].rows, &s->set[1].rows, KD, &s->pool, &s->kkt),
+                   AMBULO_OK);
   assert_int_equal(ambulo__kkt_factor(&s->kkt, &s->h), 0);
 }
 
