@@ -23,7 +23,7 @@
 #define AMBULO__DAMPING_START 0.3
 /* The same with central differences: with 0.3 they take twice the iterations at N = 12 (20 to 43),
  * as many at 36 and three quarters at 72; objectives are 2 to 5 % lower (other minima). x: 16, 37,
- * 71 and 36, 65, 66 iterations for 20, 61, 83; no test. */
+ * 71 and 36, 65, 66 iterations for 20, 61, 83. T: pipeline. */
 #define AMBULO__DAMPING_START_DIFFERENCES 0.06
 /* times mu, from a coarser grid's solution: what is left is small. x: free. 0 (1): +4 % iterations,
  * +7 % evaluations. T: pipeline. */
@@ -81,7 +81,8 @@
  * the one for which mu and R are meant. x: +18 %, +20 % iterations. T: pipeline. */
 #define AMBULO__REFERENCE_CURVATURE 0.5
 /* s^4: curvature along qdd of the metric where no term has any. Small beside an objective, large
- * beside mu. x: free, a hundredfold too; only problems without an objective have it. */
+ * beside mu. x: free, a hundredfold too; only problems without an objective have it. T:
+ * metric (0). */
 #define AMBULO__ACCELERATION_WEIGHT 1e-3
 
 /* -------------------------------------------------------------- one inner solve of NLopt
@@ -91,7 +92,7 @@
  * yardstick_72 +2 % of the objective; double: +70 % evaluations, +31 % CPU. T: pipeline. */
 #define AMBULO__INNER_EVALUATIONS 8
 /* pairs that L-BFGS keeps, here and in nlopt_direct.c: more than an inner solve has evaluations, so
- * that it forgets none; n doubles each. x: no change. */
+ * that it forgets none; n doubles each. x: no change. T: pipeline (1). */
 #define AMBULO__STORED_VECTORS 20
 /* relative change of the value that ends an inner solve: rounding. x: free. T: pipeline. */
 #define AMBULO__INNER_VALUE 1e-12
@@ -259,7 +260,8 @@
 /* the same of AUGLAG, whose multipliers begin at zero in each: with 300 two_link_reach by
  * `equalities: nlopt` is not solved. */
 #define AMBULO__AUGLAG_ROUND 3000
-/* rounds without progress. x: -2 %, +1 % iterations of an infeasible task. */
+/* rounds without progress. x: -2 %, +1 % iterations of an infeasible task. T:
+ * nlopt_direct (never). */
 #define AMBULO__ROUNDS_IDLE 5
 /* relative change of the objective that ends them. x: no change. */
 #define AMBULO__ROUNDS_SETTLED 1e-8
