@@ -86,6 +86,7 @@ int ambulo__retract(ambulo__engine *e, double *y) {
     if (least <= AMBULO__ROUNDING && error > 0.5 * least)
       return 1; /* as near as rounding lets it */
     if (isnan(error)) return 0;
+    if (k == AMBULO__CHORD_STEPS - 1) return error <= AMBULO__ROUNDING;
     least = fmin(least, error);
     chord(e, y);
     for (int j = 0; j < e->setup->n; j++) {
