@@ -57,7 +57,8 @@ static int compare(const setting *c, int count, const ambulo_problem *problem,
   return 1;
 }
 
-static void check(const setting *c) {
+/* `unwanted`: a name that has no derivative; NULL */
+static void check(const setting *c, const char *unwanted) {
   int count = 0, compared = 0;
   ambulo_problem *problem = NULL;
   ambulo_sensitivity_list *list = NULL;
@@ -76,7 +77,9 @@ static void check(const setting *c) {
   }
   for (int k = 0; k < 12 && c->wanted[k]; k++)
     if (!found[k]) fail_msg("%s: %s was not compared", c->file, c->wanted[k]);
-  assert_true(compared > 10);
+  for (int i = 0; unwanted && i < list->count; i++)
+    assert_string_not_equal(unwanted, list->items[i].name);
+  assert_true(compared > 6);
   ambulo_sensitivities_free(list);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
@@ -98,7 +101,7 @@ static void an_arm(void **state) {
        "objective[torque_absolute].offset.shoulder", "objective[torque_power].strength.elbow[3]",
        "objective[torque_power].strength.shoulder[0]", "objective[torque_power].offset.elbow",
        "model.links[upper].coordinate.torque[0]", "model.links[lower].coordinate.range[1]"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 /* ends that are its mirror image, rows on corners and places, a box for the zero-moment point */
@@ -111,7 +114,7 @@ static void a_planar_step(void **state) {
       {"gait.step_length", "gait.speed", "subject.mass", "ground.slope", "constraints.zmp_margin",
        "constraints.minimum_force", "constraints.ground_height",
        "model.links[shank_r].coordinate.range[0]", "objective[torque_squared].offset.pelvis_ty"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 static void four_steps_on_hulls(void **state) {
@@ -122,7 +125,27 @@ static void four_steps_on_hulls(void **state) {
        "time.duration=null", "gait.step_time=0.6105"},
       {"gait.step_length", "gait.step_width", "gait.step_time", "ground.slope",
        "constraints.zmp_margin", "constraints.ground_height"}};
-  check(&c);
+  check(&c, NULL);
+}
+
+/* times of listed contacts stay where they are when the duration changes */
+static void contacts_one_by_one(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walker_2d_step.yaml",
+      {"gait=null", "ends=null", "time.duration=0.5", "angles=degrees",
+       "contacts=[{foot: right, mode: flat, from: 0, to: 0.4, place: [0, 0]}, "
+       "{foot: left, mode: heel, from: 0.3, to: 0.5, place: [0.4, 0]}]"},
+      {"contacts[0].place[0]", "contacts[1].place[0]", "subject.mass", "ground.slope"}};
+  check(&c, "time.duration");
+}
+
+static void breakpoints_stay_in_seconds(void **state) {
+  (void)state;
+  static const setting c = {"models/two_link_reach.yaml",
+                            {"trajectory.intervals=null", "trajectory.breakpoints=[0, 0.3, 0.8]"},
+                            {"ends.initial.shoulder"}};
+  check(&c, "time.duration");
 }
 
 /* forces shared by two feet, tolerances, clearance, a load, a slope, every term of a walk */
@@ -137,7 +160,7 @@ static void a_walk_under_load(void **state) {
        "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
        "ground_reaction.pressure.width", "ground_reaction.friction", "ground_reaction.free_moment",
        "constraints.clearance.inward", "constraints.strike_pitch[0]", "time.duration"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 static void a_walk_with_other_terms(void **state) {
@@ -154,7 +177,7 @@ static void a_walk_with_other_terms(void **state) {
        "objective[rests].angles.knee_angle_r", "gait.speed", "gait.step_length",
        "constraints.clearance.turn", "constraints.contact_tolerance", "ground_reaction.shear",
        "constraints.orientation_tolerance", "constraints.clearance.ceiling", "load.mass"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 /* no step length: it follows from the speed, and the time from both */
@@ -163,7 +186,7 @@ static void a_walk_at_a_speed(void **state) {
   static const setting c = {"models/walk_normal.yaml",
                             {"gait.step_length=null", "time.duration=null", "gait.speed=1.26"},
                             {"gait.speed", "gait.step_width", "subject.mass"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 static void a_walk_in_tubes(void **state) {
@@ -176,7 +199,7 @@ static void a_walk_in_tubes(void **state) {
        "ends=null"},
       {"constraints.tubes[0].coordinates.hip_flexion_r",
        "constraints.tubes[1].coordinates.knee_angle_r"}};
-  check(&c);
+  check(&c, "time.duration");
 }
 
 static void a_step_in_a_tube_on_both_sides(void **state) {
@@ -185,7 +208,7 @@ static void a_step_in_a_tube_on_both_sides(void **state) {
                             {"constraints.tubes=[{reference: walk_tracking_angles.csv, "
                              "coordinates: {knee_angle_r: 20, knee_angle_l: 20}}]"},
                             {"constraints.tubes[0].coordinates.knee_angle_r"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 /* left and right move together, the other way round */
@@ -197,7 +220,7 @@ static void two_arms(void **state) {
       {"objective[torque_power].offset.lift_r", "objective[torque_power].strength.lift_r[3]",
        "objective[posture].angles.lift_r", "model.links[arm_r].coordinate.range[1]",
        "model.links[arm_r].coordinate.torque[0]"}};
-  check(&c);
+  check(&c, NULL);
 }
 
 /* the whole walk put down elsewhere is the same walk */
@@ -238,6 +261,8 @@ int main(void) {
       cmocka_unit_test(an_arm),
       cmocka_unit_test(a_planar_step),
       cmocka_unit_test(four_steps_on_hulls),
+      cmocka_unit_test(contacts_one_by_one),
+      cmocka_unit_test(breakpoints_stay_in_seconds),
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_walk_at_a_speed),

@@ -101,15 +101,16 @@ static void four_steps_solved_anew(void **state) {
 
 /* --------------------------------------------------------------- what is said */
 
+static const char step[] = "models/walker_2d_step.yaml";
+
 typedef struct solved {
   ambulo_problem *problem;
   ambulo_result *result;
 } solved;
 
-static void open_solved(solved *s, const char *override) {
+static void open_solved(solved *s, const char *file, const char *override) {
   const char *const overrides[] = {override};
-  assert_int_equal(ambulo_problem_load("models/walker_2d_step.yaml", overrides, override != NULL,
-                                       NULL, NULL, &s->problem),
+  assert_int_equal(ambulo_problem_load(file, overrides, override != NULL, NULL, NULL, &s->problem),
                    AMBULO_OK);
   assert_int_equal(ambulo_solve(s->problem, NULL, NULL, NULL, NULL, &s->result), AMBULO_OK);
 }
@@ -123,7 +124,7 @@ static void the_dearest_stands_first(void **state) {
   (void)state;
   solved s;
   ambulo_sensitivity_list *list = NULL;
-  open_solved(&s, NULL);
+  open_solved(&s, step, NULL);
   assert_int_equal(ambulo_sensitivities(s.problem, s.result, NULL, &list), AMBULO_OK);
   double objective = ambulo_result_objective(s.result), before = INFINITY;
   for (int i = 0; i < list->count; i++) {
@@ -157,11 +158,11 @@ static void expect_reason(const solved *s, const char *want) {
 static void no_optimum_has_none(void **state) {
   (void)state;
   solved s;
-  open_solved(&s, NULL);
+  open_solved(&s, step, NULL);
   s.result->verdict = AMBULO_FEASIBLE;
   expect_reason(&s, "the point is not shown to be optimal");
   close_solved(&s);
-  open_solved(&s, "objective=none");
+  open_solved(&s, step, "objective=none");
   expect_reason(&s, "there is no objective");
   close_solved(&s);
 }
@@ -170,7 +171,7 @@ static void arguments_are_checked(void **state) {
   (void)state;
   solved s;
   ambulo_sensitivity_list *list = NULL;
-  open_solved(&s, NULL);
+  open_solved(&s, step, NULL);
   assert_int_equal(ambulo_sensitivities(NULL, s.result, NULL, &list), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_sensitivities(s.problem, NULL, NULL, &list), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_sensitivities(s.problem, s.result, NULL, NULL), AMBULO_E_ARGUMENT);
@@ -185,7 +186,7 @@ static void arguments_are_checked(void **state) {
 static void every_allocation_may_fail(void **state) {
   (void)state;
   solved s;
-  open_solved(&s, NULL);
+  open_solved(&s, "models/yardstick_12.yaml", NULL);
   for (long k = 0; k < 10000; k++) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
