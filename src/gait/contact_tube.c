@@ -46,13 +46,10 @@ static void angle_bounds(const tube *t, const ambulo__linear *form, const char *
   ambulo__bounded_rows(t->context, t->node, &name, form, low, high, t->table);
 }
 
-/* 1 at the first node of a loaded foot's contact */
-static int is_strike(const tube *t) {
-  const ambulo_problem_definition *d = t->context->definition;
+int ambulo__is_strike(const ambulo_problem_definition *d, int foot, double time) {
   ambulo__span span;
-  double time = t->context->times[t->node], step = d->duration / d->intervals;
-  return ambulo__loaded_span(d, t->contact->foot, time, &span) &&
-         time - span.from < step * (1.0 - 1e-6);
+  double step = d->duration / d->intervals;
+  return ambulo__loaded_span(d, foot, time, &span) && time - span.from < step * (1.0 - 1e-6);
 }
 
 static void pitch_bounds(const tube *t) {
@@ -63,7 +60,9 @@ static void pitch_bounds(const tube *t) {
     low = -most_heel_up;
     high = 0.0;
   } else if (t->contact->mode == AMBULO_CONTACT_HEEL) {
-    int strike = d->strike_pitch[0] < d->strike_pitch[1] && is_strike(t);
+    double time = t->context->times[t->node];
+    int strike =
+        d->strike_pitch[0] < d->strike_pitch[1] && ambulo__is_strike(d, t->contact->foot, time);
     low = strike ? sin(d->strike_pitch[0]) : 0.0;
     high = strike ? sin(d->strike_pitch[1]) : most_toes_up;
   }
