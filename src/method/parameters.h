@@ -142,6 +142,9 @@
  * 1e-3: free, +3 % CPU; 1e-1: free, but walk_without_reaction with a tolerance of 1e-9 ends with a
  * KKT residual of 3e-4, not 6e-6. */
 #define AMBULO__ADJOINT_TOLERANCE 1e-2
+/* times an optimality tolerance that is tighter than usual: the same. 0 (never): yardstick_12 with
+ * 1e-6 is only feasible. T: sensitivities. */
+#define AMBULO__ADJOINT_SHARE 100.0
 /* passes of a gradient. x: free. T: retraction (no end). */
 #define AMBULO__ADJOINT_PASSES 14
 
