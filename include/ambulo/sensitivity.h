@@ -14,15 +14,16 @@
  *   - x* is known to options.optimality_tolerance; the error of df*_dp is of the first order in it.
  *     For more digits solve with a tighter tolerance.
  *   - Where active rows depend on each other (ambulo_audit.rank < active_rows), multipliers are not
- *     unique and those of the audit are one choice of many. If p moves dependent rows together, as
- * a step length moves the corners of a flat foot, every choice gives the same value. If p moves one
- * of them alone, f* has a kink at p (or the problem has a solution on one side only), and the value
- * is between the slopes of the two sides.
+ *     unique and those of the audit are one choice of many. If p moves dependent rows together,
+ *     as a step length moves the corners of a flat foot, every choice gives the same value. If p
+ *     moves one of them alone, f* has a kink at p (or the problem has a solution on one side
+ *     only), and the value is between the slopes of the two sides.
  *   - A number on which the grid, or what is active at a node, depends in jumps has no derivative
- * and is left out: phases of a gait, times of listed contacts, numbers of intervals; left out as
- * well are those that act through a file (stature, a reference) or a curve (exponents, smoothings,
- *     passive torques, shapes of strength), and a duration beside which other times stay in seconds
- *     (listed contacts, breakpoints, steps of two times, references, functions of the caller).
+ *     and is left out: phases of a gait, times of listed contacts, numbers of intervals. Left out
+ *     as well are those that act through a file (stature, a reference) or a curve (exponents,
+ *     smoothings, passive torques, shapes of strength), and a duration beside which other times
+ *     stay in seconds (listed contacts, breakpoints, steps of two times, references, functions of
+ *     the caller).
  *   - Functions of the caller are taken to depend on p only through their node's state.
  */
 #ifndef AMBULO_SENSITIVITY_H

@@ -11,8 +11,10 @@
  *
  * Z'Z + D^-1 is positive definite in the rows that came and, after these, negative definite in
  * those that went as long as M + U'DU is positive definite: quasidefinite (Vanderbei 1995), so that
- * elimination needs no pivoting. A column costs two solves with L, a factor of w diagonals w / 2
- * and the border's columns besides.
+ * elimination needs no pivoting. There is room for AMBULO__UPDATE_TILES tiles of 8 columns. A
+ * column costs one forward solve with L and two products with the border's wing; a new factor costs
+ * as much as half a forward solve for each diagonal of the band, and the border's wing and Gram
+ * matrix anew.
  */
 #ifndef AMBULO_LINEAR_UPDATE_H
 #define AMBULO_LINEAR_UPDATE_H

@@ -156,6 +156,10 @@ static void without_room_it_is_factored_anew(void **state) {
   assert_int_equal(ambulo__kkt_renew(&s.kkt, &s.h), 0);
   assert_int_equal(s.kkt.update.taken, 0);
   check(&s);
+  change(&s, 7, -1.0); /* and there is room again */
+  assert_int_equal(ambulo__kkt_renew(&s.kkt, &s.h), 0);
+  assert_int_equal(s.kkt.update.taken, 1);
+  check(&s);
   ambulo__pool_clear(&s.pool);
 }
 

@@ -95,7 +95,9 @@ static void the_metric_is_clear_of_rounding(void **state) {
   const ambulo__band *base = &e->linearized.base, *raw = &e->linearized.whitener;
   ambulo__metric_fill(&e->linearized.metric, e->workspace, e->setup->objective_scale,
                       &e->linearized.whitener);
+  e->linearized.assembled = 1;
   assert_int_equal(ambulo__engine_fill_metric(e, 0.0), 0);
+  assert_int_equal(e->linearized.assembled, 0); /* what was made of it is of another one */
   for (int j = 0; j < e->setup->n; j++) {
     size_t at = (size_t)j * (size_t)base->ld;
     double raised = base->a[at] / raw->a[at] - 1.0;
