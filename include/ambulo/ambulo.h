@@ -33,6 +33,7 @@
 #include "ambulo/model.h"
 #include "ambulo/problem.h"
 #include "ambulo/report.h"
+#include "ambulo/sensitivity.h"
 #include "ambulo/solve.h"
 #include "ambulo/status.h"
 

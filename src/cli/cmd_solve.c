@@ -162,22 +162,29 @@ static ambulo_status solve(job *j) {
   return status;
 }
 
-static ambulo_status print_outcome(job *j, int written) {
-  if (ambulo__cli_flag(j->input, "json")) {
-    char *text = NULL;
-    ambulo_status status = ambulo_report_summary(j->problem, j->result, NULL, &text);
-    if (status) return status;
-    fputs(text, stdout);
-    ambulo_text_free(text, NULL);
-  } else if (!ambulo__cli_flag(j->input, "quiet")) {
-    ambulo__cli_print_result(j->problem, j->result);
-    if (written) {
-      printf("written to   %s\n", j->directory);
-      printf("picture      %s/gait.svg\n", j->directory);
-    }
-    ambulo__cli_print_last(j->result);
-  }
+static ambulo_status print_json(const job *j) {
+  char *text = NULL;
+  ambulo_status status = ambulo_report_summary(j->problem, j->result, NULL, &text);
+  if (status) return status;
+  fputs(text, stdout);
+  ambulo_text_free(text, NULL);
   return AMBULO_OK;
+}
+
+static ambulo_status print_outcome(job *j, int written) {
+  int quiet = ambulo__cli_flag(j->input, "quiet");
+  ambulo_status status = AMBULO_OK;
+  if (ambulo__cli_flag(j->input, "json")) return print_json(j);
+  if (!quiet) ambulo__cli_print_result(j->problem, j->result);
+  if (ambulo__cli_flag(j->input, "sensitivities"))
+    status = ambulo__cli_print_sensitivities(j->problem, j->result);
+  if (quiet) return status;
+  if (written) {
+    printf("written to   %s\n", j->directory);
+    printf("picture      %s/gait.svg\n", j->directory);
+  }
+  ambulo__cli_print_last(j->result);
+  return status;
 }
 
 static int verdict_exit_code(const ambulo_result *result) {
@@ -233,6 +240,7 @@ static const ambulo__cli_option options[] = {
     {"samples", 0, "n", "times in motion.csv (default: the time nodes)"},
     {"force", 0, NULL, "replace an existing result folder"},
     {"quiet", 'q', NULL, "no progress, no summary"},
+    {"sensitivities", 0, NULL, "print what each number of the problem costs, dearest first"},
     {"json", 0, NULL, "print summary.json instead of the summary"},
 };
 

@@ -124,6 +124,32 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
   if (ambulo_result_ending(result)) printf("ending       %s\n", ambulo_result_ending(result));
 }
 
+/* shares below this are not worth a line */
+static const double least_share = 1e-5;
+
+static void print_sensitivity(const ambulo_sensitivity *s) {
+  printf("  %-72s  %s = %.6g%s%s\n", s->words, s->name, s->value, s->unit[0] ? " " : "", s->unit);
+}
+
+ambulo_status ambulo__cli_print_sensitivities(const ambulo_problem *problem,
+                                              const ambulo_result *result) {
+  ambulo_sensitivity_list *list = NULL;
+  ambulo_status status = ambulo_sensitivities(problem, result, NULL, &list);
+  if (status) return status;
+  printf("sensitivities\n");
+  if (list->reason[0]) printf("  none: %s\n", list->reason);
+  int printed = 0;
+  for (; printed < list->count; printed++) {
+    if (fabs(list->items[printed].share) < least_share) break; /* the rest is smaller */
+    print_sensitivity(&list->items[printed]);
+  }
+  if (printed < list->count)
+    printf("  %d more change the objective by less than %g %%\n", list->count - printed,
+           100.0 * least_share);
+  ambulo_sensitivities_free(list);
+  return AMBULO_OK;
+}
+
 void ambulo__cli_print_rows(const ambulo_problem *problem, const ambulo_result *result) {
   const double *values = ambulo_result_rows(result);
   const double *multipliers = ambulo_result_multipliers(result);

@@ -44,31 +44,38 @@ static void turn_bounds(const swing *w, const ambulo__linear *form, const char *
   ambulo__bounded_rows(w->context, w->node, &name, form, -turn, turn, w->table);
 }
 
-/* Lateral place of the foot's nearest contact, the next one first; 0 if it has none. */
-static int track_of(const ambulo__gait_context *context, int foot, double time, double *track) {
-  const ambulo_problem_definition *d = context->definition;
+static int nearest_contact(const ambulo_problem_definition *d, int foot, double time) {
   double nearest = INFINITY;
+  int contact = -1;
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *c = &d->contacts[i];
     if (c->foot != foot) continue;
     double wait = c->from >= time ? c->from - time : d->duration + time - c->from;
     if (wait >= nearest) continue;
     nearest = wait;
-    *track = c->place[1];
+    contact = i;
   }
-  return isfinite(nearest);
+  return contact;
+}
+
+int ambulo__swing_track(const ambulo_problem_definition *d, int foot, double time, int *is_left) {
+  int contact = nearest_contact(d, foot, time);
+  int other = d->model->foot_count == 2 ? nearest_contact(d, 1 - foot, time) : -1;
+  double track = contact < 0 ? 0.0 : d->contacts[contact].place[1];
+  *is_left = track >= 0.0;
+  if (other >= 0 && d->contacts[other].place[1] != track)
+    *is_left = track > d->contacts[other].place[1];
+  return contact;
 }
 
 static void track_bounds(const swing *w) {
   const ambulo__gait_context *context = w->context;
-  const ambulo_clearance *c = &context->definition->clearance;
-  int heel = context->model->feet[w->foot].heel_center;
-  double track = 0.0, other = 0.0;
-  if (!track_of(context, w->foot, context->times[w->node], &track)) return;
-  int is_left = track >= 0.0;
-  if (context->model->foot_count == 2 &&
-      track_of(context, 1 - w->foot, context->times[w->node], &other) && other != track)
-    is_left = track > other;
+  const ambulo_problem_definition *d = context->definition;
+  const ambulo_clearance *c = &d->clearance;
+  int heel = context->model->feet[w->foot].heel_center, is_left;
+  int contact = ambulo__swing_track(d, w->foot, context->times[w->node], &is_left);
+  if (contact < 0) return;
+  double track = d->contacts[contact].place[1];
   ambulo__linear form = {.constant = -track};
   ambulo__linear_add(&form, ambulo__channel_point(&context->channels, heel, 0),
                      context->model->left, 1.0);

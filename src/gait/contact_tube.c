@@ -48,21 +48,19 @@ static void angle_bounds(const tube *t, const ambulo__linear *form, const char *
   ambulo__bounded_rows(t->context, t->node, &name, form, low, high, t->table);
 }
 
-/* 1 at the first node of a loaded foot's contact */
-static int is_strike(const tube *t) {
-  const ambulo_problem_definition *d = t->context->definition;
+int ambulo__is_strike(const ambulo_problem_definition *d, int foot, const double *times, int nodes,
+                      int node) {
   ambulo__span span;
-  const double *times = t->context->times;
-  int last = t->context->nodes - 1;
-  double time = times[t->node];
-  double step = t->node > 0 ? time - times[t->node - 1] : times[last] - times[last - 1];
-  return ambulo__loaded_span(d, t->contact[0]->foot, time, &span) &&
-         time - span.from < step * (1.0 - 1e-6);
+  int last = nodes - 1;
+  double step = node > 0 ? times[node] - times[node - 1] : times[last] - times[last - 1];
+  return ambulo__loaded_span(d, foot, times[node], &span) &&
+         times[node] - span.from < step * (1.0 - 1e-6);
 }
 
 /* what one contact allows */
 static void pitch_range(const tube *t, ambulo_contact_mode mode, double range[2]) {
-  const ambulo_problem_definition *d = t->context->definition;
+  const ambulo__gait_context *context = t->context;
+  const ambulo_problem_definition *d = context->definition;
   double o = d->orientation_tolerance;
   range[0] = -o;
   range[1] = o;
@@ -70,7 +68,9 @@ static void pitch_range(const tube *t, ambulo_contact_mode mode, double range[2]
     range[0] = -most_heel_up;
     range[1] = 0.0;
   } else if (mode == AMBULO_CONTACT_HEEL) {
-    int strike = d->strike_pitch[0] < d->strike_pitch[1] && is_strike(t);
+    int foot = t->contact[0]->foot;
+    int strike = d->strike_pitch[0] < d->strike_pitch[1] &&
+                 ambulo__is_strike(d, foot, context->times, context->nodes, t->node);
     range[0] = strike ? sin(d->strike_pitch[0]) : 0.0;
     range[1] = strike ? sin(d->strike_pitch[1]) : most_toes_up;
   }

@@ -92,8 +92,15 @@ void ambulo__zmp_side_row(const ambulo__gait_context *context, int node, ambulo_
                           ambulo__row_table *table);
 /* "contact": a loaded foot within the tolerances of its place and direction (m, rad). */
 void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* 1 at the first node of a loaded foot's contact; of times[nodes], s. */
+int ambulo__is_strike(const ambulo_problem_definition *definition, int foot, const double *times,
+                      int nodes, int node);
 /* "clearance": heights, directions and track of a foot in the air (m, rad). */
 void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* The contact beside which a foot in the air stays: its nearest, the next one first; -1 if it has
+ * none. *is_left: its track is the left one of the two feet's. */
+int ambulo__swing_track(const ambulo_problem_definition *definition, int foot, double time,
+                        int *is_left);
 /* "pressure": centre of pressure of each loaded foot (m); "friction" (body weights);
  * "free_moment" (m). Needs ground reaction. */
 void ambulo__reaction_rows(const ambulo__gait_context *context, ambulo__row_table *table);

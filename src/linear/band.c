@@ -11,9 +11,9 @@ enum { BLOCK = 24 }; /* columns that ambulo__band_forward_many takes at once */
 ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__band *band) {
   band->n = n;
   band->kd = kd < n ? kd : n - 1;
-  band->ld = ambulo__whole_tiles(band->kd + BLOCK) + 1;
   band->kernels = ambulo__band_kernels_select();
   if (band->kernels && band->kd > band->kernels->largest_kd) band->kernels = NULL;
+  band->ld = ambulo__whole_tiles(band->kd + (band->kernels ? AMBULO__TILE : BLOCK)) + 1;
   band->a = ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) * (size_t)band->ld);
   band->corner = NULL;
   if (band->kernels)
@@ -199,8 +199,9 @@ void ambulo__band_forward_many(const ambulo__band *l, int width, double *x) {
   }
   double one = 1.0, minus = -1.0;
   int ld = l->ld - 1;
-  for (int j = 0; j < l->n; j += BLOCK) {
-    int columns = l->n - j < BLOCK ? l->n - j : BLOCK;
+  int block = ld - l->kd < BLOCK ? ld - l->kd : BLOCK; /* below it, ld - 1 reads the right rows */
+  for (int j = 0; j < l->n; j += block) {
+    int columns = l->n - j < block ? l->n - j : block;
     int below = l->n - j - columns < l->kd ? l->n - j - columns : l->kd;
     const double *corner = l->a + (size_t)j * (size_t)l->ld;
     double *rows = x + (size_t)j * (size_t)width;

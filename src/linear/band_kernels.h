@@ -1,7 +1,7 @@
 /* linear/band_kernels.h - the inner loops of band.c, one set per wide instruction set.
  *
  * Matrices as in band.h, cut into tiles of 8 x 8: a is 64-byte aligned, ld - 1 a multiple of 8
- * and at least kd + 24, and there is room for n rounded up to 8 columns; what lies outside of
+ * and at least kd + 8, and there is room for n rounded up to 8 columns; what lies outside of
  * the band is zero. Vectors have room for n rounded up to 8, and zeros there.
  *
  * LAPACK takes these matrices column by column (dtbsv, and dpbtrf up to 64 diagonals), which

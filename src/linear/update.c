@@ -105,8 +105,7 @@ static void multiply_tile(ambulo__update *u, int tile) {
   for (int other = 0; other <= tile; other++) {
     multiply(u->border, u->n, T, wing_of(u, tile), wing_of(u, other), product);
     for (int i = 0; i < T; i++)
-      memcpy(u->products + (tile * T + i) * ROOM + other * T, product + i * T,
-             T * sizeof *product);
+      memcpy(u->products + (tile * T + i) * ROOM + other * T, product + i * T, T * sizeof *product);
   }
 }
 

@@ -11,8 +11,10 @@
  *
  * Z'Z + D^-1 is positive definite in the rows that came and, after these, negative definite in
  * those that went as long as M + U'DU is positive definite: quasidefinite (Vanderbei 1995), so that
- * elimination needs no pivoting. A column costs two solves with L, a factor of w diagonals w / 2 and
- * the border's columns besides.
+ * elimination needs no pivoting. There is room for AMBULO__UPDATE_TILES tiles of 8 columns. A
+ * column costs one forward solve with L and two products with the border's wing; a new factor costs
+ * as much as half a forward solve for each diagonal of the band, and the border's wing and Gram
+ * matrix anew.
  */
 #ifndef AMBULO_LINEAR_UPDATE_H
 #define AMBULO_LINEAR_UPDATE_H
@@ -27,12 +29,12 @@ typedef struct ambulo__update {
   int n, taken, solved; /* columns in use; of these, with their Z */
   int full;             /* a row found no room */
   int *row;             /* [room]: of each column */
-  double *weight;        /* [room]: D; 0: the row came and went */
-  double *wing;          /* [tiles][n rounded up][8]: Z */
-  double *cross;         /* [tiles][border width][8]: T */
-  double *products;      /* [room][room]: Z'Z */
-  double *complement;    /* [room][room]: L D L' of Z'Z + D^-1; unit lower triangle, pivots */
-  double *rest;          /* [room]: y */
+  double *weight;       /* [room]: D; 0: the row came and went */
+  double *wing;         /* [tiles][n rounded up][8]: Z */
+  double *cross;        /* [tiles][border width][8]: T */
+  double *products;     /* [room][room]: Z'Z */
+  double *complement;   /* [room][room]: L D L' of Z'Z + D^-1; unit lower triangle, pivots */
+  double *rest;         /* [room]: y */
 } ambulo__update;
 
 ambulo_status ambulo__update_create(const ambulo__band *factor, ambulo__border *border,

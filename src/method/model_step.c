@@ -21,9 +21,9 @@
  *   end     when A repeats, or when a step brought less than a thousandth of the whole gain
  *
  * Rows that come or go are added to or taken from the band; few of them update its factor
- * (update.h), more have it factored anew. No evaluation but the first is needed. The metric of the iterations that follow is the one with this
- * predicted A: rows that the step is about to meet are felt before they are hit, which is what
- * plain Gauss-Newton steps lack.
+ * (update.h), more have it factored anew. No evaluation but the first is needed. The metric of the
+ * iterations that follow is the one with this predicted A: rows that the step is about to meet are
+ * felt before they are hit, which is what plain Gauss-Newton steps lack.
  */
 #include "method/model_step.h"
 #include "method/engine_point.h"
@@ -128,8 +128,8 @@ static int mark_active(ambulo__quadratic *q) {
   return changed;
 }
 
-/* H0 + rho J_A'J_A into the whitener, and the KKT matrix with it factored: anew, or by an update with
- * the rows that came and went. 1 when it cannot be. */
+/* H0 + rho J_A'J_A into the whitener, and the KKT matrix with it factored: anew, or by an update
+ * with the rows that came and went. 1 when it cannot be. */
 static int factor(ambulo__linearized *at, ambulo__quadratic *q) {
   const ambulo__sparse_rows *rows = &at->rows.inequality;
   int fresh = !at->assembled, moved = 0;
@@ -265,8 +265,7 @@ int ambulo__model_minimize(ambulo__engine *e, double rho, int roughly, double *p
 static int finish(ambulo__linearized *at, ambulo__quadratic *q) {
   memcpy(q->active, q->added, (size_t)q->inequalities * sizeof *q->active);
   at->assembled = 0; /* but factored */
-  if (at->kkt.equalities > 0 || at->kkt.update.taken > 0)
-    return ambulo__band_factor(&at->whitener);
+  if (at->kkt.equalities > 0 || at->kkt.update.taken > 0) return ambulo__band_factor(&at->whitener);
   ambulo__band_copy_factor(&at->kkt.factor, &at->whitener);
   return 0;
 }

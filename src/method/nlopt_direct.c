@@ -74,9 +74,6 @@ static void keep_best(ambulo__direct *d) {
  * the point up: HUGE_VAL never looks like a descent. */
 static int move_to(ambulo__direct *d, const double *w) {
   size_t n = (size_t)d->problem->variables;
-  for (size_t j = 0; j < n; j++) {
-    if (!isfinite(w[j])) return 1;
-  }
   memcpy(d->x, w, n * sizeof *w);
   if (d->whitener) ambulo__band_backward(d->whitener, d->x);
   for (size_t j = 0; j < n; j++) d->x[j] += d->start[j];

@@ -98,7 +98,7 @@ int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {
       done = 0;
       break;
     }
-    rho = fmin(AMBULO__POLISH_LAST, AMBULO__POLISH_GROWTH * rho);
+    rho *= AMBULO__POLISH_GROWTH;
   }
   memcpy(iterate->equality_multiplier, e->reached.equality_multiplier,
          (size_t)s->equalities * sizeof *iterate->equality_multiplier);

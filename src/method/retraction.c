@@ -40,7 +40,8 @@ ambulo_status ambulo__retraction_create(ambulo__engine *e) {
   e->retraction = r;
   r->tolerance = fmin(AMBULO__RETRACTION_TOLERANCE,
                       AMBULO__RETRACTION_SHARE * e->run->options->feasibility_tolerance);
-  r->adjoint_tolerance = AMBULO__ADJOINT_TOLERANCE;
+  r->adjoint_tolerance = fmin(AMBULO__ADJOINT_TOLERANCE,
+                              AMBULO__ADJOINT_SHARE * e->run->options->optimality_tolerance);
   double **vectors[] = {&r->step, &r->gradient, &r->previous, &r->previous_gradient};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     *vectors[i] = ambulo__pool_doubles(pool, (size_t)n);
@@ -86,6 +87,7 @@ int ambulo__retract(ambulo__engine *e, double *y) {
     if (least <= AMBULO__ROUNDING && error > 0.5 * least)
       return 1; /* as near as rounding lets it */
     if (isnan(error)) return 0;
+    if (k == AMBULO__CHORD_STEPS - 1) return error <= AMBULO__ROUNDING;
     least = fmin(least, error);
     chord(e, y);
     for (int j = 0; j < e->setup->n; j++) {

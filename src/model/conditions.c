@@ -27,6 +27,7 @@ void ambulo__model_carry(ambulo_model *model, int link, double mass, const doubl
   memcpy(carrier->com, whole.com, sizeof whole.com);
   memcpy(carrier->inertia, whole.inertia, sizeof whole.inertia);
   model->mass += mass;
+  model->load = (ambulo__model_load){link, mass, {position[0], position[1], position[2]}};
 }
 
 void ambulo__model_tilt(ambulo_model *model, double slope) {
@@ -76,6 +77,7 @@ static ambulo_status copy_model(const ambulo_model *model, const ambulo_allocato
   memcpy((*copy)->left, model->left, sizeof model->left);
   (*copy)->mass = model->mass;
   (*copy)->units = model->units;
+  (*copy)->load = model->load;
   return AMBULO_OK;
 }
 

@@ -8,7 +8,14 @@
 /* One of the file's units in SI units and radians; all 0: the model was made from C. */
 typedef struct ambulo__model_units {
   double angle, length, moment, force; /* of coordinates: range and speed, torque */
+  double mass;                         /* of bodies: the subject's, where they are shares of it */
 } ambulo__model_units;
+
+/* The last mass that was put on a link (model/conditions.h): part of that link's body. */
+typedef struct ambulo__model_load {
+  int link;
+  double mass, position[3]; /* kg, 0: none; link frame, m */
+} ambulo__model_load;
 
 /* Arrays are owned by the model. Links stand in topological order: every parent
  * before its children (a definition in another order is sorted, names kept). */
@@ -20,6 +27,7 @@ struct ambulo_model {
   double up[3], forward[3], left[3];
   double mass, stature;
   ambulo__model_units units;
+  ambulo__model_load load;
   ambulo_link *links; /* [link_count] */
   int link_count;
   ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */

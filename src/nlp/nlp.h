@@ -30,6 +30,12 @@ typedef struct ambulo__problem_keys {
   int unlike_steps; /* two step lengths or times that differ */
   int speed;        /* gait.speed is there: with it the step length decides on the duration */
   int travel;       /* ends.travel is there */
+  int length;       /* gait.step_length is there */
+  int lengths;      /* as a list */
+  int step_time;    /* gait.step_time is there, one number */
+  int times;        /* as a list */
+  int duration;     /* time.duration is there */
+  ambulo_gait walk; /* what the keys of the gait come to */
   double radians;   /* per unit of `angles`; 0: not stated */
 } ambulo__problem_keys;
 

@@ -132,7 +132,8 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
                                  model);
   }
   if (status == AMBULO_OK) {
-    ambulo__model_units units = {reader.angle, reader.length, reader.moment, reader.force};
+    ambulo__model_units units = {reader.angle, reader.length, reader.moment, reader.force,
+                                 reader.mass};
     (*model)->units = units;
   }
   release(&reader);

@@ -236,6 +236,14 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   reader->keys.steps = gait.steps;
   reader->keys.unlike_steps = reader->unlike_steps;
   reader->keys.speed = ambulo__yaml_get(section, "speed") != NULL;
+  const ambulo__yaml_node *length = ambulo__yaml_get(section, "step_length");
+  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
+  reader->keys.length = length != NULL;
+  reader->keys.lengths = is_list(length);
+  reader->keys.step_time = time && !is_list(time);
+  reader->keys.times = is_list(time);
+  reader->keys.duration = reader->has_duration;
+  reader->keys.walk = gait;
   expand(reader, section, &gait);
 }
 

@@ -4,6 +4,7 @@
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
 #include "report/summary_json.h"
 
+#include "ambulo/sensitivity.h"
 #include "format/json_text.h"
 #include "stride/impulse.h"
 #include "stride/stride.h"
@@ -119,6 +120,36 @@ static void between_nodes(ambulo__json *json, const ambulo_result *result) {
   }
   ambulo__json_close(json, ']');
   ambulo__json_close(json, '}');
+}
+
+static void sensitivity(ambulo__json *json, const ambulo_sensitivity *s) {
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_text(json, "name", s->name);
+  if (s->with[0]) {
+    ambulo__json_text(json, "with", s->with);
+    ambulo__json_number(json, "with_sign", s->with_sign);
+  }
+  ambulo__json_text(json, "unit", s->unit);
+  ambulo__json_number(json, "value", s->value);
+  ambulo__json_number(json, "derivative", s->derivative);
+  ambulo__json_number(json, "step", s->step);
+  ambulo__json_number(json, "share", s->share);
+  ambulo__json_text(json, "words", s->words);
+  ambulo__json_close(json, '}');
+}
+
+/* what every number of the problem costs, or why that is not known */
+static ambulo_status sensitivities(ambulo__json *json, const ambulo_problem *problem,
+                                   const ambulo_result *result) {
+  ambulo_sensitivity_list *list = NULL;
+  ambulo_status status = ambulo_sensitivities(problem, result, &json->text->allocator, &list);
+  if (status) return status;
+  ambulo__json_open(json, "sensitivities", '[');
+  for (int i = 0; i < list->count; i++) sensitivity(json, &list->items[i]);
+  ambulo__json_close(json, ']');
+  ambulo__json_text(json, "no_sensitivities", list->reason[0] ? list->reason : NULL);
+  ambulo_sensitivities_free(list);
+  return AMBULO_OK;
 }
 
 static void conflict(ambulo__json *json, const ambulo_conflict *c) {
@@ -284,6 +315,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   audit(json, result);
   between_nodes(json, result);
   explanation(json, result);
+  if (!status) status = sensitivities(json, problem, result);
   sizes(json, problem);
   effort(json, result);
   versions(json);

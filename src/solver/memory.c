@@ -3,11 +3,11 @@
  * With n unknowns, k diagonals below the main one, m rows, q border rows and J entries in the rows'
  * gradients, what an engine takes (engine.c), in bytes:
  *
- *     8 n (k + 32)       each of three band matrices: metric, whitener, KKT factor
+ *     8 n (k + 28)       each of three band matrices: metric, whitener, KKT factor
  *     16 J               gradients: value, column, run
  *     8 n (16 + 12)      vectors, and the mixing of five iterates
  *     8 * 14 m           values, multipliers and marks of rows
- *     8 n q              the border's wing
+ *     8 n (q + 32)       the wings of the border, and of rows that come and go (update.h)
  *
  * Meanwhile a coarser grid may be solved (half as much again at the most); afterwards an audit on a
  * finer grid or an explanation (two more bands, all gradients) may follow. The largest counts.
@@ -52,10 +52,10 @@ static double entries_of(const ambulo_problem *p) {
 }
 
 ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
-  double n = p->variables, k = ambulo__metric_diagonals(p) + 32.0, word = sizeof(double);
+  double n = p->variables, k = ambulo__metric_diagonals(p) + 28.0, word = sizeof(double);
   double entries = 16.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
   double bands = 3.0 * word * n * k, vectors = word * (28.0 * n + 14.0 * p->rows);
-  double wing = word * n * borders;
+  double wing = word * n * (borders + 32.0);
   ambulo_memory memory;
   memory.problem = ambulo__row_bytes(p, p->rows) + 400.0 * p->nodes;
   memory.evaluation = ambulo__workspace_bytes(p, 1);

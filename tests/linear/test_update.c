@@ -65,8 +65,8 @@ static void open_system(changing *s) {
   fill_sets(s, &seed);
   for (int i = 0; i < N; i++) s->a[i] = random_number(&seed);
   for (int i = 0; i < LOCAL + BORDER; i++) s->b[i] = random_number(&seed);
-  assert_int_equal(
-      ambulo__kkt_create(&s->set[0].rows, &s->set[1].rows, KD, &s->pool, &s->kkt), AMBULO_OK);
+  assert_int_equal(ambulo__kkt_create(&s->set[0].rows, &s->set[1].rows, KD, &s->pool, &s->kkt),
+                   AMBULO_OK);
   assert_int_equal(ambulo__kkt_factor(&s->kkt, &s->h), 0);
 }
 
@@ -155,6 +155,10 @@ static void without_room_it_is_factored_anew(void **state) {
   assert_int_equal(ambulo__update_factor(&s.kkt.update), 1);
   assert_int_equal(ambulo__kkt_renew(&s.kkt, &s.h), 0);
   assert_int_equal(s.kkt.update.taken, 0);
+  check(&s);
+  change(&s, 7, -1.0); /* and there is room again */
+  assert_int_equal(ambulo__kkt_renew(&s.kkt, &s.h), 0);
+  assert_int_equal(s.kkt.update.taken, 1);
   check(&s);
   ambulo__pool_clear(&s.pool);
 }

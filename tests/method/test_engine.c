@@ -85,8 +85,31 @@ static void linear_objectives_have_a_scale(void **state) {
   assert_close(product[1], product[0], 1e-9 * product[0]);
 }
 
+/* mu on the diagonal, and of each element what rounding makes of it: relative to that element */
+static void the_metric_is_clear_of_rounding(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open_restored(&f, "yardstick_12");
+  ambulo__engine *e = f.engine;
+  assert_int_equal(ambulo__evaluate_jacobian(e->workspace, f.x), AMBULO_OK);
+  const ambulo__band *base = &e->linearized.base, *raw = &e->linearized.whitener;
+  ambulo__metric_fill(&e->linearized.metric, e->workspace, e->setup->objective_scale,
+                      &e->linearized.whitener);
+  e->linearized.assembled = 1;
+  assert_int_equal(ambulo__engine_fill_metric(e, 0.0), 0);
+  assert_int_equal(e->linearized.assembled, 0); /* what was made of it is of another one */
+  for (int j = 0; j < e->setup->n; j++) {
+    size_t at = (size_t)j * (size_t)base->ld;
+    double raised = base->a[at] / raw->a[at] - 1.0;
+    assert_true(raised > 1e-14 && raised < 1e-12);
+    assert_true(base->a[at + 1] == raw->a[at + 1]);
+  }
+  engine_close(&f);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_capped_by_what_moves),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_metric_is_clear_of_rounding),
+                                     cmocka_unit_test(steps_are_capped_by_what_moves),
                                      cmocka_unit_test(the_start_does_not_move_the_scales),
                                      cmocka_unit_test(linear_objectives_have_a_scale)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -79,12 +79,26 @@ static void the_engine_is_given_back(void **state) {
   engine_close(&f);
 }
 
+/* the run's limits are the finisher's too */
+static void a_stopped_run_stops_it(void **state) {
+  (void)state;
+  engine_fixture f;
+  const char *message = NULL;
+  engine_open(&f, "walker_2d_step");
+  f.options.feasibility_tolerance = 1e-4;
+  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
+  f.options.maximum_evaluations = f.run.evaluations + 2;
+  assert_int_equal(ambulo__finish(f.engine, f.x, &message), AMBULO_OK);
+  assert_string_equal(message, "FORCED_STOP");
+  assert_true(f.run.evaluations <= f.options.maximum_evaluations + 1);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_hold_to_rounding),
-      cmocka_unit_test(a_limit_keeps_the_point),
-      cmocka_unit_test(large_problems_are_left_alone),
-      cmocka_unit_test(the_engine_is_given_back),
+      cmocka_unit_test(rows_hold_to_rounding),         cmocka_unit_test(a_limit_keeps_the_point),
+      cmocka_unit_test(large_problems_are_left_alone), cmocka_unit_test(the_engine_is_given_back),
+      cmocka_unit_test(a_stopped_run_stops_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

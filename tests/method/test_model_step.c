@@ -251,6 +251,19 @@ static void what_is_not_settled_is_the_best_on_the_way(void **state) {
   assert_true(least < 0.0);
 }
 
+/* a Newton step of the line search may leave the bracket: then the KKT residual, which is such a
+ * model's minimum, would be a hundred thousand times as large */
+static void searches_stay_in_their_bracket(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("pendulum_swing");
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+  assert_true(ambulo_result_audit(result)->kkt < 1e-8);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 /* active: the rows of the metric, which is L L' */
 static void check_metric(const char *name, double penalty) {
   engine_fixture f;
@@ -302,6 +315,7 @@ int main(void) {
       cmocka_unit_test(the_model_is_minimized),
       cmocka_unit_test(generated_models_are_minimized),
       cmocka_unit_test(what_is_not_settled_is_the_best_on_the_way),
+      cmocka_unit_test(searches_stay_in_their_bracket),
       cmocka_unit_test(the_metric_has_the_active_rows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

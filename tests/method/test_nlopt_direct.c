@@ -244,6 +244,51 @@ static void rounds_are_limited(void **state) {
   }
 }
 
+/* AUGLAG's own words, not those of the way back to the rows, which we stop */
+static void the_algorithm_has_the_last_word(void **state) {
+  (void)state;
+  engine_fixture f;
+  const char *message = "";
+  engine_open(&f, "two_link_reach");
+  f.options.maximum_iterations = 1;
+  assert_int_equal(ambulo__solve_plain(f.engine, AMBULO_AUGLAG, NULL, f.x, &message), AMBULO_OK);
+  assert_string_not_equal(message, "FORCED_STOP");
+  assert_string_not_equal(message, "not called");
+  engine_close(&f);
+}
+
+static double lost(void *user, const ambulo_node_state *state, ambulo_node_gradient *gradient) {
+  const int *is_lost = user;
+  (void)state;
+  (void)gradient;
+  return *is_lost ? (double)NAN : 0.0;
+}
+
+/* no point has a value: none is returned, and that is said */
+static void without_a_value_there_is_no_descent(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  ambulo_term term = ambulo_term_default(AMBULO_USER_TERM);
+  int is_lost = 0;
+  engine_fixture f = {.options = ambulo_options_default()};
+  const char *message = "";
+  term.function = lost;
+  term.user = &is_lost;
+  d.terms = &term;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &f.problem), AMBULO_OK);
+  f.x = calloc((size_t)f.problem->variables, sizeof *f.x);
+  f.x[1] = 0.25;
+  ambulo__run_begin(&f.run, &f.options);
+  assert_int_equal(ambulo__engine_create(f.problem, f.x, NULL, &f.run, NULL, &f.engine), AMBULO_OK);
+  is_lost = 1;
+  assert_int_equal(ambulo__solve_plain(f.engine, AMBULO_SLSQP, NULL, f.x, &message), AMBULO_OK);
+  assert_int_equal(f.run.ending, AMBULO_ENDING_NO_DESCENT);
+  assert_true(f.run.faults > 0 && f.x[1] == 0.25);
+  engine_close(&f);
+  ambulo_model_free(model);
+}
+
 /* rows that cannot hold: rounds that bring nothing end it */
 static void rounds_without_progress_end(void **state) {
   (void)state;
@@ -267,6 +312,8 @@ int main(void) {
                                      cmocka_unit_test(analytic_optimum_is_found),
                                      cmocka_unit_test(results_have_names),
                                      cmocka_unit_test(calls_are_limited),
+                                     cmocka_unit_test(the_algorithm_has_the_last_word),
+                                     cmocka_unit_test(without_a_value_there_is_no_descent),
                                      cmocka_unit_test(rounds_are_limited),
                                      cmocka_unit_test(rounds_without_progress_end),
                                      cmocka_unit_test(what_nlopt_cannot_do_is_not_asked)};

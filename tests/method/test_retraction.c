@@ -69,6 +69,30 @@ static void tight_tolerances_and_faults(void **state) {
   engine_close(&f);
 }
 
+/* whatever is asked for: a point that is refused is not on the surface to rounding */
+static void what_rounding_leaves_is_reached(void **state) {
+  (void)state;
+  engine_fixture f;
+  open_factored(&f);
+  ambulo__engine *e = f.engine;
+  double *x = calloc((size_t)f.n, sizeof *x);
+  const double *step = e->quadratic->total;
+  int reached = 0, refused = 0;
+  e->retraction->tolerance = 0.0;
+  for (int k = 1; k <= 400; k++) {
+    double t = 0.005 * k * ambulo__step_limit(e->setup, step, 1.0);
+    for (int j = 0; j < f.n; j++) x[j] = f.x[j] + t * step[j];
+    int there = ambulo__retract(e, x);
+    double error = ambulo__engine_equality_error(e);
+    assert_true(there ? error <= 1e-11 : !(error <= 1e-11));
+    reached += there;
+    refused += !there;
+  }
+  assert_true(reached > 0 && refused > 0);
+  free(x);
+  engine_close(&f);
+}
+
 /* further for each digit that is asked for; mixing makes it few passes */
 static void gradients_are_as_exact_as_asked(void **state) {
   (void)state;
@@ -110,6 +134,7 @@ int main(void) {
       cmocka_unit_test(reduced_gradient_is_tangent),
       cmocka_unit_test(hopeless_point_is_refused),
       cmocka_unit_test(tight_tolerances_and_faults),
+      cmocka_unit_test(what_rounding_leaves_is_reached),
       cmocka_unit_test(gradients_are_as_exact_as_asked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -30,8 +30,7 @@ static void a_value_that_stays_ends_it(void **state) {
   engine_fixture f;
   engine_open(&f, "yardstick_12");
   ambulo__stopping s = ambulo__stopping_begin(0);
-  for (int k = 0; k < 6; k++)
-    assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
+  for (int k = 0; k < 6; k++) assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_NONE);
   assert_int_equal(at(&s, &f, 2.0, 1e-7, 1.0), AMBULO_ENDING_SETTLED);
   engine_close(&f);
 }

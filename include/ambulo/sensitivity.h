@@ -1,0 +1,75 @@
+/* ambulo/sensitivity.h - what each number of a problem costs, at its solution.
+ *
+ * For every number p that a problem is made of - step length and width, times, slope, mass and
+ * load, limits, tolerances, friction, weights, strengths, prescribed ends - the derivative of the
+ * least objective f* with p, without another solve. By the envelope theorem (Fiacco, Mathematical
+ * Programming 12, 1976) it is the derivative of the Lagrangian at the solution x* with its
+ * multipliers (ambulo_result_multipliers):
+ *
+ *     df*_dp = d/dp [ f(x*; p) - sum_r multiplier_r c_r(x*; p) ]
+ *
+ * A change of p by d changes the least objective by df*_dp d + O(d^2) as long as the same rows stay
+ * active and the solution stays in its valley. What it is worth:
+ *
+ *   - x* is known to options.optimality_tolerance; the error of df*_dp is of the first order in it.
+ *     For more digits solve with a tighter tolerance.
+ *   - Where active rows depend on each other (ambulo_audit.rank < active_rows), multipliers are not
+ *     unique and those of the audit are one choice of many. If p moves dependent rows together,
+ *     as a step length moves the corners of a flat foot, every choice gives the same value. If p
+ *     moves one of them alone, f* has a kink at p (or the problem has a solution on one side
+ *     only), and the value is between the slopes of the two sides.
+ *   - A number on which the grid, or what is active at a node, depends in jumps has no derivative
+ *     and is left out: phases of a gait, times of listed contacts, numbers of intervals. Left out
+ *     as well are those that act through a file (stature, a reference) or a curve (exponents,
+ *     smoothings, passive torques, shapes of strength), and a duration beside which other times
+ *     stay in seconds (listed contacts, breakpoints, steps of two times, references, functions of
+ *     the caller).
+ *   - Functions of the caller are taken to depend on p only through their node's state.
+ */
+#ifndef AMBULO_SENSITIVITY_H
+#define AMBULO_SENSITIVITY_H
+
+#include "ambulo/solve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One number. Strings belong to the list. */
+typedef struct ambulo_sensitivity {
+  const char *name;  /* as a problem file has it, and --set: "gait.step_length",
+                        "objective[upright].weight", "model.links[shank_r].coordinate.range[1]";
+                        the same for problems made from C */
+  const char *with;  /* with mirrored ends, where both sides have to be alike: the name of the other
+                        side's number, which moves along; "" for none */
+  double with_sign;  /* ... by so many times as much: 1 or -1; 0 for none */
+  const char *label; /* in words: "step length" */
+  const char *unit;  /* SI and rad, also where a file has degrees; "" for weights and scales */
+  double value;      /* what it is now, in unit */
+  double derivative; /* df*_dp with all other keys of the file as they are, per unit: a step length
+                        at a given speed brings the step time along, `subject.mass` brings torque
+                        limits that are shares of the weight */
+  double step;       /* a change that one can picture, in unit: 1 cm, 1 degree, 1 kg, 1 % */
+  double share;      /* derivative * step / f*: .008 is 0.8 %; NaN where f* is not positive */
+  const char *words; /* "1 cm more step length costs 0.8 %" */
+} ambulo_sensitivity;
+
+typedef struct ambulo_sensitivity_list {
+  const ambulo_sensitivity *items; /* largest derivative * step first */
+  int count;
+  const char *reason; /* why there is none: the point is not optimal, or there is no objective; ""
+                         otherwise. Limits that the motion does not touch have none either */
+} ambulo_sensitivity_list;
+
+/* `result` is one of `problem`. A list is returned whatever the verdict. E_ARGUMENT, E_MEMORY,
+ * E_NUMERIC (a value at the result's point is not finite). */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_sensitivities(const ambulo_problem *problem,
+                                                               const ambulo_result *result,
+                                                               const ambulo_allocator *allocator,
+                                                               ambulo_sensitivity_list **list);
+AMBULO_API void ambulo_sensitivities_free(ambulo_sensitivity_list *list); /* accepts NULL */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,113 @@
+/* linear/wing_source.h - the part of band_source.h on matrices W [n][width] of columns side by
+ * side: products with themselves, with eight columns, with a vector. Included by it alone. */
+
+/* W rows of a tile of W'W, from those columns and the columns of the tile */
+static inline void gram_rows(int n, size_t width, const double *rows, const double *columns,
+                             wide sum[T]) {
+  for (size_t j = 0; j < T; j++) sum[j] = load(rows) * columns[j];
+  for (size_t k = 1; k < (size_t)n; k++) {
+    wide row = load(rows + k * width);
+    for (size_t j = 0; j < T; j++) sum[j] += row * columns[k * width + j];
+  }
+}
+
+static void gram(int n, int width, const double *w, int ld, double *a) {
+  size_t step = (size_t)ld - 1;
+  for (int j = 0; j < width; j += T) {
+    for (int i = j; i < width; i += W) {
+      wide sum[T];
+      gram_rows(n, (size_t)width, w + i, w + j, sum);
+      for (int c = 0; c < T; c++) {
+        double *at = a + (size_t)(j + c) * step + i;
+        if (i >= j + T) {
+          store(at, sum[c]);
+        } else { /* on the diagonal; what is above belongs to other columns */
+          for (int r = 0; r < W; r++) at[r] = i + r >= j + c ? sum[c][r] : at[r];
+        }
+      }
+    }
+  }
+}
+
+static void add_gram(int count, int width, int stride, const double *g, int ld, double *a) {
+  size_t step = (size_t)ld - 1;
+  for (int j = 0; j < width; j += T) {
+    int columns = width - j < T ? width - j : T;
+    for (int i = j; i < width; i += W) {
+      wide sum[T];
+      gram_rows(count, (size_t)stride, g + i, g + j, sum);
+      for (int c = 0; c < columns; c++) {
+        double *at = a + (size_t)(j + c) * step + i;
+        if (i >= j + T) {
+          *(loose *)at += sum[c];
+        } else {
+          for (int r = 0; r < W; r++) at[r] += i + r >= j + c ? sum[c][r] : 0.0;
+        }
+      }
+    }
+  }
+}
+
+/* W numbers of 8 rows of Y = W'X */
+static inline void cross_rows(int n, size_t width, const double *w, const double *x, double *y) {
+  wide sum[T] = {{0}};
+  for (size_t k = 0; k < (size_t)n; k++) {
+    wide value = load(x + k * T);
+    for (size_t r = 0; r < T; r++) sum[r] += value * w[k * width + r];
+  }
+  for (size_t r = 0; r < T; r++) store(y + r * T, sum[r]);
+}
+
+static void cross(int n, int width, const double *w, const double *x, double *y) {
+  for (int i = 0; i < width; i += T) {
+    for (int v = 0; v < T; v += W) cross_rows(n, (size_t)width, w + i, x + v, y + i * T + v);
+  }
+}
+
+/* W numbers of 8 rows of X -= W Y */
+static inline void subtract_rows(size_t width, const double *w, const double *y, double *x) {
+  wide sum[T];
+  for (size_t r = 0; r < T; r++) sum[r] = load(x + r * T);
+  for (size_t i = 0; i < width; i++) {
+    wide value = load(y + i * T);
+    for (size_t r = 0; r < T; r++) sum[r] -= value * w[r * width + i];
+  }
+  for (size_t r = 0; r < T; r++) store(x + r * T, sum[r]);
+}
+
+/* rows of W and X beyond n are there, and X's stay zero (band_kernels.h) */
+static void subtract(int n, int width, const double *w, const double *y, double *x) {
+  size_t stride = (size_t)width;
+  for (size_t k = 0; k < (size_t)blocks_of(n) * T; k += T) {
+    for (size_t v = 0; v < T; v += W) subtract_rows(stride, w + k * stride, y + v, x + k * T + v);
+  }
+}
+
+static void gather(int n, int width, const double *w, const double *x, double *y) {
+  size_t stride = (size_t)width, from = 0, end = (size_t)n;
+  for (size_t v = 0; v < stride; v++) y[v] = 0.0;
+  for (; from + T <= end; from += T) {
+    for (size_t v = 0; v < stride; v += W)
+      store(y + v, load(y + v) + product(w + from * stride + v, stride, x + from));
+  }
+  for (; from < end; from++) {
+    for (size_t v = 0; v < stride; v += W)
+      store(y + v, load(y + v) + load(w + from * stride + v) * x[from]);
+  }
+}
+
+static inline wide row_product(size_t width, const double *row, const double *y) {
+  wide sum = load(row) * load(y);
+  for (size_t v = W; v < width; v += W) sum += load(row + v) * load(y + v);
+  return sum;
+}
+
+static void scatter(int n, int width, const double *w, const double *y, double *x) {
+  size_t stride = (size_t)width, k = 0, end = (size_t)n;
+  for (; k + W <= end; k += W) {
+    wide row[W];
+    for (size_t r = 0; r < W; r++) row[r] = row_product(stride, w + (k + r) * stride, y);
+    *(loose *)(x + k) -= sums_of(row);
+  }
+  for (; k < end; k++) x[k] -= sum_of(row_product(stride, w + k * stride, y));
+}

@@ -1,0 +1,178 @@
+/* sensitivity/force_rows.c - where the ground's force may act and how large it may be
+ * (gait/zmp.c, reaction.c).
+ *
+ * With (M, F) the root wrench, W = m g, phi = n.F / W, z the zero-moment point, a side (a, b), k:
+ *
+ *     zmp, pressure   c = [a (n.F z_f) + b (n.F z_l) - k n.F] / W      dc/dk = -phi
+ *                     n.F z holds h F: dc/dh = (a f + b l) . F / W
+ *     support side    k = n_s . v + margin: support_side.c;            dc/dmargin = -phi
+ *     pressure        k = (a, b) . (place_j - s_j) + side of the box,  s_0 = a_1 D, s_1 = -a_0 D,
+ *                     D = place_0 - place_1 + constant while both feet are loaded
+ *     normal force    c = phi - least                                  dc/dleast = -1
+ *     friction        c = mu n.F / W -+ e.F / W                        dc/dmu = n.F / W
+ *     free moment     c = bound +- T / W                               dc/dbound = 1
+ *
+ * All but their constants are measured in W: dc/d ln m = -(c - constant).
+ */
+#include "sensitivity/partials.h"
+
+#include "gait/gait.h"
+#include "gait/loading.h"
+#include "model/neutral_pose.h"
+
+#include <math.h>
+
+typedef struct force_row {
+  const ambulo__stationary *s;
+  const ambulo__foot_outline *outlines;
+  const ambulo__table_row *row;
+  double pull, weight; /* -lambda; m g, N */
+} force_row;
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* the side that a row of zmp.c stands for: its coefficients of the moment are (b f - a l) / W */
+static ambulo__support_row side_of(const force_row *p) {
+  const ambulo_problem *problem = p->s->problem;
+  const ambulo_model *model = problem->model;
+  int node = p->row->node, moment = ambulo__channel_moment(&problem->channels, 0);
+  int force = ambulo__channel_force(&problem->channels, 0);
+  double coefficient[3] = {0.0, 0.0, 0.0}, h = problem->definition.ground_height;
+  for (int t = 0; t < p->row->term_count; t++) {
+    const ambulo__row_term *term = &problem->table.terms[p->row->first_term + t];
+    int axis = term->channel - moment;
+    if (axis >= 0 && axis < 3) coefficient[axis] = term->coefficient * p->weight;
+  }
+  double along[3] = {0.0, 0.0, 0.0}; /* f.F, l.F, n.F */
+  const double *axes[3] = {model->forward, model->left, model->up};
+  for (int i = 0; i < 3; i++)
+    along[i] = ambulo__stationary_along(p->s, node, force, axes[i]) / p->weight;
+  ambulo__support_row side = {
+      .node = node,
+      .normal = {-dot(coefficient, model->left), dot(coefficient, model->forward)},
+      .force = along[2]};
+  side.moment[0] =
+      h * along[0] - ambulo__stationary_along(p->s, node, moment, model->left) / p->weight;
+  side.moment[1] =
+      h * along[1] + ambulo__stationary_along(p->s, node, moment, model->forward) / p->weight;
+  return side;
+}
+
+static void add_height(const force_row *p, const ambulo__support_row *side,
+                       ambulo__partials *partials) {
+  const ambulo_problem *problem = p->s->problem;
+  int force = ambulo__channel_force(&problem->channels, 0);
+  const double *axes[2] = {problem->model->forward, problem->model->left};
+  for (int i = 0; i < 2; i++)
+    partials->ground_height += p->pull * side->normal[i] / p->weight *
+                               ambulo__stationary_along(p->s, side->node, force, axes[i]);
+}
+
+static void add_zmp(const force_row *p, int planar, ambulo__partials *partials) {
+  ambulo__support_row side = side_of(p);
+  side.turns = p->s->problem->definition.support == AMBULO_SUPPORT_HULL && !planar;
+  partials->support_margin -= p->pull * side.force;
+  add_height(p, &side, partials);
+  ambulo__support_side(p->s, p->outlines, &side, p->pull, partials);
+}
+
+/* which foot's box, and the numbers of the side that faces the row's normal */
+static void add_box(const force_row *p, const ambulo__support_row *side,
+                    const ambulo_contact *contact, double by_side, ambulo__partials *partials) {
+  ambulo_ground_reaction *r = &partials->reaction;
+  int front = side->normal[0] < 0.0;
+  if (fabs(side->normal[1]) > fabs(side->normal[0])) {
+    r->pressure_width -= by_side; /* k = +-y - width */
+    return;
+  }
+  double by_end = front ? -by_side : by_side; /* k = x + box_0, -(x + box_1) */
+  if (contact->mode == AMBULO_CONTACT_FLAT) {
+    r->flat_pressure[front] += by_end;
+  } else if (contact->mode == AMBULO_CONTACT_TOE) {
+    r->toe_pressure[front] += by_end;
+  } else {
+    const ambulo_problem_definition *d = &p->s->problem->definition;
+    ambulo__span span = {contact->from, contact->to};
+    (void)ambulo__loaded_span(d, contact->foot, p->row->time, &span);
+    double rolling = contact->to - span.from;
+    double progress = rolling > 0.0 ? (p->row->time - span.from) / rolling : 0.0;
+    r->heel_pressure[front] += by_end;
+    if (front) r->heel_roll += by_end * progress;
+  }
+}
+
+static void add_pressure(const force_row *p, ambulo__partials *partials) {
+  const ambulo_problem *problem = p->s->problem;
+  ambulo__support_row side = side_of(p);
+  const int *active = problem->active + 2 * (size_t)side.node;
+  int foot = p->row->subject == problem->model->feet[1].name;
+  double by_side = -p->pull * side.force;
+  ambulo__load load = ambulo__load_at(&problem->definition, p->outlines, p->row->time);
+  double by_apart = foot == 0 ? -load.share[1] : load.share[0]; /* k = .. - normal . s_j */
+  for (int i = 0; i < 2; i++) {
+    double by_place = by_side * side.normal[i];
+    partials->place[2 * active[foot] + i] += by_place;
+    if (active[1 - foot] < 0) continue;
+    partials->place[2 * active[0] + i] += by_apart * by_place;
+    partials->place[2 * active[1] + i] -= by_apart * by_place;
+  }
+  add_height(p, &side, partials);
+  add_box(p, &side, &problem->definition.contacts[active[foot]], by_side, partials);
+}
+
+static void add_friction(const force_row *p, ambulo__partials *partials) {
+  const ambulo_problem *problem = p->s->problem;
+  const ambulo__channels *channels = &problem->channels;
+  int channel = problem->table.terms[p->row->first_term].channel;
+  int first = ambulo__channel_force(channels, 0);
+  for (int foot = 0; foot < channels->feet; foot++) {
+    int own = ambulo__channel_foot_force(channels, foot, 0);
+    if (channel >= own && channel < own + 3) first = own;
+  }
+  double normal = ambulo__stationary_along(p->s, p->row->node, first, problem->model->up);
+  partials->reaction.friction += p->pull * normal / p->weight;
+}
+
+/* (S.5) -phi, n.F / W, 1 */
+static void add_row(const force_row *p, int planar, ambulo__partials *partials) {
+  int r = (int)(p->row - p->s->problem->table.rows);
+  int of_forces = 1;
+  switch ((ambulo__row_kind)p->row->kind) {
+  case AMBULO__KIND_ZMP:
+    add_zmp(p, planar, partials);
+    break;
+  case AMBULO__KIND_PRESSURE:
+    add_pressure(p, partials);
+    break;
+  case AMBULO__KIND_NORMAL_FORCE:
+    partials->minimum_force -= p->pull;
+    break;
+  case AMBULO__KIND_FRICTION:
+    add_friction(p, partials);
+    break;
+  case AMBULO__KIND_FREE_MOMENT:
+    partials->reaction.free_moment += p->pull;
+    break;
+  default:
+    of_forces = 0;
+  }
+  if (of_forces) partials->log_mass -= p->pull * (p->s->workspace->row_value[r] - p->row->constant);
+}
+
+ambulo_status ambulo__partials_of_forces(const ambulo__stationary *s, ambulo__partials *partials) {
+  const ambulo_problem *problem = s->problem;
+  const ambulo_model *model = problem->model;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(model, &s->workspace->allocator);
+  if (!outlines) return AMBULO_E_MEMORY;
+  int planar = !ambulo__model_moves_sideways(model);
+  force_row p = {.s = s, .outlines = outlines, .weight = ambulo__model_weight(model)};
+  for (int r = 0; r < problem->rows; r++) {
+    p.row = &problem->table.rows[r];
+    p.pull = -s->multiplier[r];
+    if (p.pull != 0.0) add_row(&p, planar, partials);
+  }
+  ambulo__free(&s->workspace->allocator, outlines);
+  return AMBULO_OK;
+}

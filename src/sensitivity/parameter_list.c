@@ -1,0 +1,43 @@
+/* sensitivity/parameter_list.c - a growing list of numbers, and which of them move together. */
+#include "sensitivity/parameters.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void ambulo__parameter_add(ambulo__parameters *p, ambulo__quantity quantity, double value,
+                           double derivative, const char *label, const char *name, ...) {
+  if (p->count == p->capacity && !p->failed) {
+    int larger = p->capacity ? 2 * p->capacity : 16;
+    void *moved = ambulo__realloc(&p->allocator, p->list, (size_t)larger, sizeof *p->list);
+    if (moved) {
+      p->list = moved;
+      p->capacity = larger;
+    }
+    p->failed = !moved;
+  }
+  if (p->failed) return;
+  ambulo__parameter *next = &p->list[p->count++];
+  *next = (ambulo__parameter){.quantity = quantity, .value = value, .derivative = derivative};
+  va_list arguments;
+  va_start(arguments, name);
+  (void)vsnprintf(next->name, sizeof next->name, name, arguments);
+  va_end(arguments);
+  (void)snprintf(next->label, sizeof next->label, "%s", label);
+}
+
+void ambulo__parameter_with(ambulo__parameters *p, double sign, const char *name, ...) {
+  if (p->failed) return;
+  ambulo__parameter *last = &p->list[p->count - 1];
+  last->with_sign = sign;
+  va_list arguments;
+  va_start(arguments, name);
+  (void)vsnprintf(last->with, sizeof last->with, name, arguments);
+  va_end(arguments);
+}
+
+int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign) {
+  const ambulo_coordinate *c = &problem->model->coordinates[i];
+  *sign = c->mirror_sign;
+  if (problem->definition.ends != AMBULO_ENDS_MIRRORED) return -1;
+  return c->mirror == i && c->mirror_sign > 0.0 ? -1 : c->mirror;
+}

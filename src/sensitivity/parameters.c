@@ -1,0 +1,221 @@
+/* sensitivity/parameters.c - the numbers of constraints, ground, ends and body, by their keys.
+ *
+ * What a key moves beside: `subject.mass` all bodies and, where the model's torques are shares of
+ * weight and stature, the torque limits. A key that is one of several for one member, or an end
+ * of a pair, has that member's partial; keys that move several have the chain rule's sum.
+ */
+#include "sensitivity/parameters.h"
+
+#include "gait/bounds.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* ---------------------------------------------------------------- constraints */
+
+static void add_clearance(ambulo__parameters *p) {
+  const ambulo_clearance *c = &p->problem->definition.clearance, *by = &p->partials->clearance;
+  if (c->height < 0.0) return;
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->height, by->height, "clearance",
+                        "constraints.clearance.height");
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, c->ceiling, by->ceiling,
+                        "height allowed to swinging feet", "constraints.clearance.ceiling");
+  ambulo__parameter_add(p, AMBULO__SMALL_ANGLE, c->turn, by->turn, "turn allowed to swinging feet",
+                        "constraints.clearance.turn");
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->outward, by->outward,
+                        "outward room of swinging feet", "constraints.clearance.outward");
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->inward, by->inward,
+                        "inward room of swinging feet", "constraints.clearance.inward");
+}
+
+static void add_contact_rows(ambulo__parameters *p) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  const ambulo__partials *by = p->partials;
+  if (d->contact_tolerance > 0.0) {
+    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, d->contact_tolerance, by->contact_tolerance,
+                          "contact tolerance", "constraints.contact_tolerance");
+    ambulo__parameter_add(p, AMBULO__SMALL_ANGLE, d->orientation_tolerance,
+                          by->orientation_tolerance, "orientation tolerance",
+                          "constraints.orientation_tolerance");
+  }
+  if (d->contact_tolerance > 0.0 && d->strike_pitch[0] < d->strike_pitch[1]) {
+    ambulo__parameter_add(p, AMBULO__ANGLE, d->strike_pitch[0], by->strike_pitch[0],
+                          "least pitch at heel strike", "constraints.strike_pitch[0]");
+    ambulo__parameter_add(p, AMBULO__ANGLE, d->strike_pitch[1], by->strike_pitch[1],
+                          "largest pitch at heel strike", "constraints.strike_pitch[1]");
+  }
+  if (d->support != AMBULO_SUPPORT_OFF)
+    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, d->support_margin, by->support_margin,
+                          "margin of the support polygon", "constraints.zmp_margin");
+  if (d->contact_count > 0)
+    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, d->ground_height, by->ground_height,
+                          "height of the ground", "constraints.ground_height");
+  add_clearance(p);
+}
+
+static void add_tube(ambulo__parameters *p, int t, int i) {
+  const ambulo_problem *problem = p->problem;
+  const ambulo_coordinate *c = &problem->model->coordinates[i];
+  const double *by = p->partials->half_width + t * problem->coordinates;
+  double sign, width = problem->definition.tubes[t].half_width[i];
+  int m = ambulo__parameter_partner(problem, i, &sign), pair = m >= 0 && m != i;
+  if (!isfinite(width) || width == 0.0 || (pair && m < i)) return;
+  char label[AMBULO__PARAMETER_TEXT];
+  (void)snprintf(label, sizeof label, "half width of the tube around %s%s", c->name,
+                 pair ? AMBULO__BOTH_OF_A_PAIR : "");
+  ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? AMBULO__ANGLE : AMBULO__STEP_LENGTH, width,
+                        by[i] + (pair ? by[m] : 0.0), label, "constraints.tubes[%d].coordinates.%s",
+                        t, c->name);
+  if (pair)
+    ambulo__parameter_with(p, 1.0, "constraints.tubes[%d].coordinates.%s", t,
+                           problem->model->coordinates[m].name);
+}
+
+static void add_tubes(ambulo__parameters *p) {
+  for (int t = 0; t < p->problem->definition.tube_count; t++) {
+    for (int i = 0; i < p->problem->coordinates; i++) add_tube(p, t, i);
+  }
+}
+
+/* --------------------------------------------------------------------- ground */
+
+static void add_pair(ambulo__parameters *p, const double value[2], const double by[2],
+                     const char *rear, const char *front, const char *key) {
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, value[0], by[0], rear,
+                        "ground_reaction.pressure.%s[0]", key);
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, value[1], by[1], front,
+                        "ground_reaction.pressure.%s[1]", key);
+}
+
+static void add_pressure(ambulo__parameters *p) {
+  const ambulo_ground_reaction *r = &p->problem->definition.ground_reaction;
+  const ambulo_ground_reaction *by = &p->partials->reaction;
+  add_pair(p, r->heel_pressure, by->heel_pressure, "rear end of the pressure under the heel",
+           "front end of the pressure under the heel", "heel");
+  add_pair(p, r->flat_pressure, by->flat_pressure, "rear end of the pressure under the flat foot",
+           "front end of the pressure under the flat foot", "flat");
+  add_pair(p, r->toe_pressure, by->toe_pressure, "rear end of the pressure under the toes",
+           "front end of the pressure under the toes", "toe");
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->heel_roll, by->heel_roll,
+                        "roll of the pressure under the heel", "ground_reaction.pressure.roll");
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->pressure_width, by->pressure_width,
+                        "width of the pressure", "ground_reaction.pressure.width");
+}
+
+static void add_ground(ambulo__parameters *p) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  const ambulo_ground_reaction *r = &d->ground_reaction, *by = &p->partials->reaction;
+  int reacts = r->kind != AMBULO_REACTION_NONE;
+  if (d->minimum_force >= 0.0)
+    ambulo__parameter_add(p, AMBULO__BODY_WEIGHT, d->minimum_force, p->partials->minimum_force,
+                          "least vertical force", "%s.minimum_force",
+                          reacts ? "ground_reaction" : "constraints");
+  if (!reacts) return;
+  ambulo__parameter_add(p, AMBULO__RATIO, r->shear, by->shear, "shear between the feet",
+                        "ground_reaction.shear");
+  if (r->friction >= 0.0)
+    ambulo__parameter_add(p, AMBULO__RATIO, r->friction, by->friction, "friction",
+                          "ground_reaction.friction");
+  if (r->free_moment >= 0.0)
+    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->free_moment, by->free_moment,
+                          "free moment allowed", "ground_reaction.free_moment");
+  if (r->pressure) add_pressure(p);
+}
+
+/* ----------------------------------------------------------------------- body */
+
+/* d/d ln M of torque limits that are shares of weight and stature */
+static double by_strength(const ambulo_problem *problem, const ambulo__partials *partials) {
+  const ambulo_model *model = problem->model;
+  double sum = 0.0, moment = model->units.moment;
+  for (int i = 0; moment != 0.0 && moment != 1.0 && i < problem->coordinates; i++) {
+    for (int side = 0; side < 2; side++) {
+      double limit = model->coordinates[i].torque[side];
+      int at = 2 * (AMBULO_LIMITED_TORQUE * problem->coordinates + i) + side;
+      if (isfinite(limit)) sum += limit * partials->limit[at];
+    }
+  }
+  return sum;
+}
+
+static void add_body(ambulo__parameters *p) {
+  const ambulo_model *model = p->problem->model;
+  const double *g = model->gravity;
+  double along[2] = {0.0, 0.0}, mass = model->units.mass;
+  for (int i = 0; i < 3; i++) {
+    along[0] -= g[i] * model->up[i];
+    along[1] -= g[i] * model->forward[i];
+  }
+  if (mass == 0.0) mass = model->mass - model->load.mass; /* made from C */
+  if (mass > 0.0 && model->units.mass != 1.0)
+    ambulo__parameter_add(p, AMBULO__MASS, mass,
+                          (p->partials->body + by_strength(p->problem, p->partials)) / mass,
+                          "body mass", "subject.mass");
+  if (model->load.mass > 0.0)
+    ambulo__parameter_add(p, AMBULO__MASS, model->load.mass, p->partials->load, "load",
+                          "load.mass");
+  if (p->problem->definition.contact_count > 0)
+    ambulo__parameter_add(p, AMBULO__ANGLE, atan2(along[1], along[0]), p->partials->slope, "slope",
+                          "ground.slope");
+}
+
+/* one limit, or those of both sides, which hold in each other's half of the stride */
+static void add_limit(ambulo__parameters *p, int what, int i, int side) {
+  static const char *const keys[] = {"range", "speed", "torque"};
+  static const char *const words[] = {"limit", "speed limit", "torque limit"};
+  static const ambulo__quantity turning[] = {AMBULO__ANGLE, AMBULO__TURNING_SPEED, AMBULO__TORQUE};
+  static const ambulo__quantity sliding[] = {AMBULO__STEP_LENGTH, AMBULO__SPEED, AMBULO__FORCE};
+  const ambulo_model *model = p->problem->model;
+  const ambulo_coordinate *c = &model->coordinates[i];
+  const double *limit = p->partials->limit + 2 * what * p->problem->coordinates;
+  double sign, by = limit[2 * i + side];
+  int m = ambulo__parameter_partner(p->problem, i, &sign), other = sign < 0.0 ? !side : side;
+  if (m >= 0) by += sign * limit[2 * m + other];
+  if (by == 0.0 || (m >= 0 && (m < i || (m == i && !side)))) return; /* no use, or said before */
+  char label[AMBULO__PARAMETER_TEXT];
+  (void)snprintf(label, sizeof label, "%s %s of %s%s", side ? "upper" : "lower", words[what],
+                 c->name, m >= 0 ? AMBULO__BOTH_OF_A_PAIR : "");
+  ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? turning[what] : sliding[what],
+                        ambulo__limits_of(c, (ambulo_limited)what)[side], by, label,
+                        "model.links[%s].coordinate.%s[%d]",
+                        model->links[model->coordinate_link[i]].name, keys[what], side);
+  if (m >= 0)
+    ambulo__parameter_with(p, sign, "model.links[%s].coordinate.%s[%d]",
+                           model->links[model->coordinate_link[m]].name, keys[what], other);
+}
+
+static void add_ends(ambulo__parameters *p) {
+  static const char *const keys[] = {"", "_speed", "_acceleration"};
+  static const char *const words[] = {"", "speed of ", "acceleration of "};
+  static const ambulo__quantity turning[] = {AMBULO__ANGLE, AMBULO__TURNING_SPEED,
+                                             AMBULO__TURNING_JOLT};
+  static const ambulo__quantity sliding[] = {AMBULO__STEP_LENGTH, AMBULO__SPEED, AMBULO__JOLT};
+  const ambulo_problem_definition *d = &p->problem->definition;
+  char label[AMBULO__PARAMETER_TEXT];
+  for (int e = 0; e < d->end_value_count; e++) {
+    const ambulo_end_value *end = &d->end_values[e];
+    const ambulo_coordinate *c = &d->model->coordinates[end->coordinate];
+    (void)snprintf(label, sizeof label, "%s %s%s", end->final ? "final" : "initial",
+                   words[end->order], c->name);
+    ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? turning[end->order] : sliding[end->order],
+                          end->value, p->partials->end_value[e], label, "ends.%s%s.%s",
+                          end->final ? "final" : "initial", keys[end->order], c->name);
+  }
+}
+
+ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
+  ambulo__parameters_of_walk(p);
+  add_body(p);
+  ambulo__parameters_of_terms(p);
+  add_contact_rows(p);
+  add_tubes(p);
+  add_ground(p);
+  add_ends(p);
+  for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
+    for (int i = 0; i < p->problem->coordinates; i++) {
+      add_limit(p, what, i, 0);
+      add_limit(p, what, i, 1);
+    }
+  }
+  return p->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+}

@@ -1,0 +1,71 @@
+/* sensitivity/parameters.h - the numbers of a problem under the names that a file has for them. */
+#ifndef AMBULO_SENSITIVITY_PARAMETERS_H
+#define AMBULO_SENSITIVITY_PARAMETERS_H
+
+#include "sensitivity/partials.h"
+
+/* What a number is, which decides on its unit and on the change that a person can picture. */
+typedef enum ambulo__quantity {
+  AMBULO__STEP_LENGTH,   /* m: 1 cm */
+  AMBULO__SHORT_LENGTH,  /* m: 1 mm, of tolerances */
+  AMBULO__ANGLE,         /* rad: 1 degree */
+  AMBULO__SMALL_ANGLE,   /* rad: 0.1 degrees, of tolerances */
+  AMBULO__TIME,          /* s: 10 ms */
+  AMBULO__SPEED,         /* m/s: 0.1 */
+  AMBULO__TURNING_SPEED, /* rad/s: 0.1 */
+  AMBULO__MASS,          /* kg: 1 */
+  AMBULO__TORQUE,        /* N m: 1 */
+  AMBULO__FORCE,         /* N: 10 */
+  AMBULO__BODY_WEIGHT,   /* body weights: 0.01 */
+  AMBULO__TURNING_JOLT,  /* rad/s^2: 1 */
+  AMBULO__JOLT,          /* m/s^2: 0.1 */
+  AMBULO__RATIO          /* any: 1 % of the value */
+} ambulo__quantity;
+
+enum { AMBULO__PARAMETER_TEXT = 320 };
+
+/* What a label ends with when the other side's number moves along. */
+#define AMBULO__BOTH_OF_A_PAIR " (both sides)"
+
+typedef struct ambulo__parameter {
+  char name[AMBULO__PARAMETER_TEXT];  /* "gait.step_length" */
+  char label[AMBULO__PARAMETER_TEXT]; /* "step length" */
+  char with[AMBULO__PARAMETER_TEXT];  /* the other side's, which moves by with_sign as much; "" */
+  double with_sign;
+  char words[3 * AMBULO__PARAMETER_TEXT];
+  ambulo__quantity quantity;
+  double value, derivative, step; /* SI, rad; step after ambulo__parameters_say */
+  double share;                   /* of f*, by one step; NaN where f* is not positive */
+  int order;                      /* before sorting */
+} ambulo__parameter;
+
+typedef struct ambulo__parameters {
+  ambulo_allocator allocator;
+  const ambulo_problem *problem;
+  const ambulo__partials *partials;
+  ambulo__parameter *list;
+  int count, capacity;
+  int failed; /* sticky: memory ran out */
+} ambulo__parameters;
+
+/* Adds one; `label` and the name's format are for people. */
+void ambulo__parameter_add(ambulo__parameters *parameters, ambulo__quantity quantity, double value,
+                           double derivative, const char *label, const char *name, ...);
+
+/* The one added last moves along with another, `sign` times. */
+void ambulo__parameter_with(ambulo__parameters *parameters, double sign, const char *name, ...);
+/* With mirrored ends left and right have to stay alike: the coordinate whose numbers move together
+ * with those of i (i itself, if it is its own image turned round), *sign times; -1: none has to. */
+int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign);
+
+/* Every number of the problem, with df*_dp; E_MEMORY leaves what ambulo__free of the list frees. */
+ambulo_status ambulo__parameters_collect(ambulo__parameters *parameters);
+/* The pieces: footholds, times, speed, travel; terms of the objective. */
+void ambulo__parameters_of_walk(ambulo__parameters *parameters);
+void ambulo__parameters_of_terms(ambulo__parameters *parameters);
+
+/* Steps, shares and words; the largest share comes first. */
+void ambulo__parameters_say(ambulo__parameters *parameters, double objective);
+const char *ambulo__quantity_unit(ambulo__quantity quantity);
+
+#endif

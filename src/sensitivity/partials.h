@@ -1,0 +1,109 @@
+/* sensitivity/partials.h - what the best objective does when a number of the problem changes.
+ *
+ * At a solution x* with multipliers lambda the envelope theorem (Fiacco 1976; Boyd & Vandenberghe,
+ * Convex Optimization, 5.6) gives the change of the least objective f* with a number p of the
+ * problem, without another solve:
+ *
+ *     df* / dp = dL(x*, lambda; p) / dp,     L = f(x; p) - sum_r lambda_r c_r(x; p)
+ *
+ * for rows c_r = 0 and c_r >= 0, lambda_r >= 0 of the latter. With the channels y(x; p) of
+ * gait/channels.h and their adjoints w = dL/dy (nlp/adjoint.h), whose rows have the weights
+ * -lambda_r,
+ *
+ *     dL / dp = df/dp | y - sum_r lambda_r dc_r/dp | y + sum w dy/dp | x
+ *
+ * Each file of this folder adds one of these parts to the partials of the members of the
+ * problem's definition; parameters.c makes of them what a file's keys say. All by hand.
+ *
+ * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c, bound_rows.c;
+ * terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c; duration.c; parameters.h,
+ * parameter_list.c, parameters.c, walk_parameters.c, term_parameters.c, words.c, sensitivities.c.
+ */
+#ifndef AMBULO_SENSITIVITY_PARTIALS_H
+#define AMBULO_SENSITIVITY_PARTIALS_H
+
+#include "gait/foot_outline.h"
+#include "linear/pool.h"
+#include "nlp/nlp.h"
+
+/* dL/dp of the members of a definition of the same names, per their SI units (those of J and of a
+ * row's multiplier in it). Members that are no numbers are unused. */
+typedef struct ambulo__partials {
+  double *place;           /* [contacts][2]: footholds, along forward and left */
+  double *limit;           /* [3][d][2]: by ambulo_limited, of a coordinate that is not fixed */
+  double *end_value;       /* [end_value_count] */
+  double *half_width;      /* [tubes][d] */
+  double *weight, *height; /* [terms] */
+  double *scale, *offset;  /* [terms][d] */
+  double *strength;        /* [terms][d][2]: of the peaks */
+  double travel, ground_height; /* m */
+  double duration;              /* s; contacts and breakpoints at fixed fractions of it */
+  double support_margin, minimum_force;
+  double contact_tolerance, orientation_tolerance, strike_pitch[2];
+  ambulo_clearance clearance;
+  ambulo_ground_reaction reaction;
+  double slope;    /* rad: gravity turned against forward, its size kept */
+  double log_mass; /* of the mass m wherever it stands in rows and terms, torques left out:
+                      dL/d ln m */
+  double body;     /* dL/d ln of the mass of all bodies but the load, in every place */
+  double load;     /* kg: of the load (ambulo_model.load) */
+} ambulo__partials;
+
+/* A solution: x* is the point that the workspace holds. */
+typedef struct ambulo__stationary {
+  const ambulo_problem *problem;
+  ambulo_workspace *workspace;
+  const double *multiplier; /* [rows] */
+} ambulo__stationary;
+
+/* Memory from `pool`; zero. E_MEMORY. */
+ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__pool *pool,
+                                      ambulo__partials *partials);
+/* All of them, at a point that need not be optimal: then they are those of L, not of f*. The
+ * workspace's adjoints are used up. E_MEMORY; E_NUMERIC if the point has no finite values. */
+ambulo_status ambulo__partials_at(const ambulo_problem *problem, ambulo_workspace *workspace,
+                                  const double *x, const double *multiplier, ambulo__pool *pool,
+                                  ambulo__partials *partials);
+
+/* The pieces, one file each; what the rows say of themselves. */
+void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *partials);
+ambulo_status ambulo__partials_of_forces(const ambulo__stationary *s, ambulo__partials *partials);
+void ambulo__partials_of_bounds(const ambulo__stationary *s, ambulo__partials *partials);
+void ambulo__partials_of_terms(const ambulo__stationary *s, ambulo__partials *partials);
+/* Through torques and forces; needs the adjoints of the channels, and log_mass. */
+ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__pool *pool,
+                                          ambulo__partials *partials);
+/* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
+void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);
+
+/* A side of a support region displaced: adds dc/d(place) of a row on it to the contacts' places,
+ * times pull. */
+typedef struct ambulo__support_row {
+  int node, turns;  /* 1: a side of a hull, which turns when its ends move apart */
+  double normal[2]; /* inwards */
+  double force;     /* n.F / m g */
+  double moment[2]; /* zero-moment point times `force`, along forward and left, m */
+} ambulo__support_row;
+void ambulo__support_side(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
+                          const ambulo__support_row *row, double pull, ambulo__partials *partials);
+
+static inline double ambulo__stationary_channel(const ambulo__stationary *s, int node,
+                                                int channel) {
+  const ambulo_workspace *w = s->workspace;
+  return w->channel[ambulo__lane_index(node, w->channel_count, channel)];
+}
+/* dL/dy of a channel at a node. */
+static inline double ambulo__stationary_adjoint(const ambulo__stationary *s, int node,
+                                                int channel) {
+  const ambulo_workspace *w = s->workspace;
+  return w->weight[ambulo__lane_index(node, w->channel_count, channel)];
+}
+/* Three channels from `first` on at a node, along a direction. */
+static inline double ambulo__stationary_along(const ambulo__stationary *s, int node, int first,
+                                              const double direction[3]) {
+  double sum = 0.0;
+  for (int i = 0; i < 3; i++) sum += direction[i] * ambulo__stationary_channel(s, node, first + i);
+  return sum;
+}
+
+#endif

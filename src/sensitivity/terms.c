@@ -1,0 +1,153 @@
+/* sensitivity/terms.c - the numbers of the objective's terms, at fixed channels.
+ *
+ * A term is J_t = weight sum_k w_k sum_j phi(u_jk) (objective/term.h), so that
+ *
+ *     dJ/dweight = J_t / weight,      dJ/dp = weight sum_k w_k sum_j phi'(u) du/dp
+ *
+ *     u = scale (y - offset)          du/dscale = y - offset,   du/doffset = -scale
+ *     torque over strength            du/dscale = u / scale,    du/doffset = -du/dtau,
+ *                                     du/dpeak = -u / peak of the direction that acts
+ *     mechanical power, torque rate   du/dscale = u / scale
+ *     power tau qd / m                du/d ln m = -u
+ *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
+ *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
+ *     clearance 1 - (n.p - h)/H       du/dh = 1 / H,            du/dH = (1 - u) / H,    where u > 0
+ *
+ * A slope s turns gravity, -|g| (cos s n + sin s f) in the ground's axes: with v = -g / |g| the
+ * vertical and l left, dv/ds = l x v = e_0 and de_0/ds = l x e_0 = -v.
+ */
+#include "sensitivity/partials.h"
+
+#include "nlp/states.h"
+#include "nlp/user_term.h"
+
+#include <math.h>
+
+typedef struct term_sum {
+  const ambulo__stationary *s;
+  const ambulo_term *term;
+  ambulo__partials *partials;
+  size_t coordinates; /* first of the term's in scale, offset */
+  int index;          /* of the term */
+  double up[3];       /* -g / |g| */
+} term_sum;
+
+static void simple_node(const term_sum *t, int node, int i) {
+  const ambulo_problem *p = t->s->problem;
+  double y = ambulo__stationary_channel(t->s, node, ambulo__term_channel(t->term, &p->channels, i));
+  double off = y - ambulo__term_offset(t->term, p->coordinates, node, i);
+  double scale = ambulo__term_scale(t->term, i), w = p->quadrature[node];
+  ambulo__residual phi = ambulo__term_residual(t->term, scale * off);
+  double slope = t->term->weight * w * phi.slope;
+  t->partials->weight[t->index] += w * phi.value;
+  t->partials->scale[t->coordinates + (size_t)i] += slope * off;
+  t->partials->offset[t->coordinates + (size_t)i] -= slope * scale;
+}
+
+/* de_0/ds = -v */
+static double upright_by_slope(const term_sum *t, int node) {
+  const ambulo_problem *p = t->s->problem;
+  double along = 0.0, square = 0.0;
+  for (int i = 0; i < 3; i++) {
+    const ambulo_point *a = &p->model->points[t->term->point[0]];
+    const ambulo_point *b = &p->model->points[t->term->point[1]];
+    square += (a->position[i] - b->position[i]) * (a->position[i] - b->position[i]);
+  }
+  for (int end = 0; end < 2; end++) {
+    int first = ambulo__channel_point(&p->channels, t->term->point[end], 0);
+    along += (end ? 1.0 : -1.0) * ambulo__stationary_along(t->s, node, first, t->up);
+  }
+  return -along / sqrt(square);
+}
+
+/* dv/ds = l x v, component `axis` */
+static double ahead(const term_sum *t, int axis) {
+  const double *l = t->s->problem->model->left;
+  int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  return l[a] * t->up[b] - l[b] * t->up[a];
+}
+
+static void strength_form(const term_sum *t, int i, const ambulo__form *form, double slope) {
+  size_t at = t->coordinates + (size_t)i;
+  double scale = ambulo__term_scale(t->term, i);
+  t->partials->scale[at] += slope * form->u / scale;
+  t->partials->offset[at] -= slope * form->slope[0];
+  if (!t->term->strength) return;
+  int down = form->u < 0.0;
+  double peak = t->term->strength[6 * i + 3 * down];
+  if (peak > 0.0) t->partials->strength[2 * at + (size_t)down] -= slope * form->u / peak;
+}
+
+static void clearance_form(const term_sum *t, const ambulo__form *form, double slope) {
+  t->partials->ground_height += slope / t->term->height;
+  t->partials->height[t->index] += slope * (1.0 - form->u) / t->term->height;
+}
+
+static void composite_form(const term_sum *t, int node, int j, const ambulo__form *form,
+                           double slope) {
+  size_t at = t->coordinates + (size_t)j;
+  switch (t->term->kind) {
+  case AMBULO_TORQUE_POWER:
+    strength_form(t, j, form, slope);
+    break;
+  case AMBULO_MECHANICAL_POWER:
+    t->partials->log_mass -= slope * form->u;
+    t->partials->scale[at] += slope * form->u / ambulo__term_scale(t->term, j);
+    break;
+  case AMBULO_TORQUE_RATE:
+    t->partials->scale[at] += slope * form->u / ambulo__term_scale(t->term, j);
+    break;
+  case AMBULO_GROUND_FORCE:
+    t->partials->log_mass -= slope * (form->u + t->up[j]);
+    t->partials->slope -= slope * ahead(t, j);
+    break;
+  case AMBULO_UPRIGHT:
+    if (j == 0) t->partials->slope += slope * upright_by_slope(t, node);
+    break;
+  case AMBULO_CLEARANCE:
+    clearance_form(t, form, slope);
+    break;
+  default:
+    break;
+  }
+}
+
+static void composite_node(const term_sum *t, const ambulo__term_context *context, int node) {
+  double w = ambulo__term_quadrature(t->s->problem, t->term, node);
+  int count = ambulo__term_forms(t->term, context, node);
+  for (int j = 0; j < count; j++) {
+    ambulo__form form;
+    ambulo__term_form(t->term, context, node, j, &form);
+    if (!form.count) continue;
+    ambulo__residual phi = ambulo__term_residual(t->term, form.u);
+    t->partials->weight[t->index] += w * phi.value;
+    composite_form(t, node, j, &form, t->term->weight * w * phi.slope);
+  }
+}
+
+static void sum_term(const term_sum *t) {
+  const ambulo_problem *p = t->s->problem;
+  ambulo__term_context context = ambulo__term_context_of(t->s->workspace);
+  for (int node = 0; node < p->nodes; node++) {
+    if (ambulo__is_user_term(t->term)) {
+      t->partials->weight[t->index] +=
+          p->quadrature[node] * ambulo__user_term_value(t->s->workspace, t->term, node);
+    } else if (ambulo__term_is_simple(t->term)) {
+      for (int i = 0; i < p->coordinates; i++) simple_node(t, node, i);
+    } else {
+      composite_node(t, &context, node);
+    }
+  }
+}
+
+/* (S.6) J_t / weight, weight w phi' du/dp */
+void ambulo__partials_of_terms(const ambulo__stationary *s, ambulo__partials *partials) {
+  const ambulo_problem *p = s->problem;
+  const double *g = p->model->gravity;
+  double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  for (int k = 0; k < p->definition.term_count; k++) {
+    term_sum t = {s, &p->definition.terms[k], partials, (size_t)k * (size_t)p->coordinates, k, {0}};
+    for (int i = 0; i < 3; i++) t.up[i] = size > 0.0 ? -g[i] / size : 0.0;
+    sum_term(&t);
+  }
+}

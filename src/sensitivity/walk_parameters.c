@@ -1,0 +1,142 @@
+/* sensitivity/walk_parameters.c - lengths and times of a walk: what one key of `gait`, `time` or
+ * `ends` moves when the other keys of the file stay.
+ *
+ * Step s = ceil(s/2) odd + floor(s/2) even steps (gait/expand.c); its foothold is x_s along forward
+ * and +-W / 2 to the side; the whole walk is x_steps long and lasts T:
+ *
+ *     step length L    sum dL/dplace_f dx_s/dL + dL/dtravel dx_steps/dL + dL/dT dT/dL
+ *                      dT/dL = dx_steps/dL / v where the time follows from a speed v
+ *     speed v          dL/dT dT/dv, dT/dv = -T / v; where the length follows from it too, as
+ * sqrt(v): dL/dv = L / (2 v), dT/dv = -T / (2 v) step width W     sum dL/dplace_l place_l / W step
+ * time        steps dL/dT
+ *
+ * T has no partial where other times stay in seconds: contacts that are listed, breakpoints, steps
+ * of two times, references, functions of the caller.
+ */
+#include "sensitivity/parameters.h"
+
+#include "gait/gait.h"
+
+#include <stdio.h>
+
+/* odd and even steps up to step s */
+static void count_steps(int s, double count[2]) {
+  const ambulo_gait marked = {.step_length = 1.0, .other_step_length = 2.0};
+  count[1] = ambulo__gait_place(&marked, s) - s;
+  count[0] = s - count[1];
+}
+
+/* the step whose stance the middle of a contact lies in */
+static int step_of(const ambulo_gait *gait, const ambulo_contact *contact) {
+  double middle = 0.5 * (contact->from + contact->to), stride = ambulo__gait_strike(gait, 2);
+  for (int s = -3; s <= gait->steps + 1; s++) {
+    int foot = s % 2 == 0 ? gait->first_foot : 1 - gait->first_foot;
+    double since = middle - ambulo__gait_strike(gait, s);
+    if (foot == contact->foot && since >= gait->heel_strike * stride - 1e-9 &&
+        since <= gait->toe_off * stride + 1e-9)
+      return s;
+  }
+  return 0;
+}
+
+/* dL/dp through footholds and travel, of the length of odd (0) and of even steps (1) */
+static void by_lengths(const ambulo__parameters *p, double by[2]) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  const ambulo_gait *gait = &p->problem->keys.walk;
+  double count[2];
+  by[0] = by[1] = 0.0;
+  for (int c = 0; c < d->contact_count; c++) {
+    count_steps(step_of(gait, &d->contacts[c]), count);
+    for (int k = 0; k < 2; k++) by[k] += count[k] * p->partials->place[2 * c];
+  }
+  count_steps(gait->steps, count);
+  for (int k = 0; k < 2 && !p->problem->keys.travel; k++) by[k] += count[k] * p->partials->travel;
+}
+
+static int moves_with_duration(const ambulo_problem *problem) {
+  const ambulo_problem_definition *d = &problem->definition;
+  int follows = d->user_row_count > 0 || d->breakpoints || d->tube_count > 0;
+  for (int t = 0; t < d->term_count; t++) follows |= d->terms[t].function || d->terms[t].reference;
+  if (d->contact_count > 0) follows |= !problem->keys.gait || problem->keys.times;
+  return !follows;
+}
+
+/* the keys of time, one of which decides */
+static void add_times(ambulo__parameters *p, double by_length) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  const ambulo_gait *gait = &keys->walk;
+  double by = p->partials->duration, duration = p->problem->definition.duration;
+  if (!moves_with_duration(p->problem)) return;
+  if (!keys->gait || keys->duration) {
+    ambulo__parameter_add(p, AMBULO__TIME, duration, by, "duration", "time.duration");
+  } else if (keys->step_time) {
+    ambulo__parameter_add(p, AMBULO__TIME, gait->step_time, gait->steps * by, "step time",
+                          "gait.step_time");
+  } else {
+    double speed = ambulo__gait_place(gait, gait->steps) / duration;
+    double part = keys->length ? 1.0 : 0.5;
+    double through_length = keys->length ? 0.0 : by_length * gait->step_length / (2.0 * speed);
+    ambulo__parameter_add(p, AMBULO__SPEED, speed, through_length - part * by * duration / speed,
+                          "speed", "gait.speed");
+  }
+}
+
+static void add_lengths(ambulo__parameters *p, const double by[2]) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  const ambulo_gait *gait = &keys->walk;
+  int follows_speed = keys->speed && !keys->duration && !keys->step_time && !keys->times;
+  if (!keys->length || (follows_speed && !moves_with_duration(p->problem))) return;
+  double slower = 0.0, count[2];
+  if (follows_speed)
+    slower = p->partials->duration * p->problem->definition.duration /
+             ambulo__gait_place(gait, gait->steps);
+  count_steps(gait->steps, count);
+  if (!keys->lengths) {
+    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length,
+                          by[0] + by[1] + slower * gait->steps, "step length", "gait.step_length");
+    return;
+  }
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length, by[0] + slower * count[0],
+                        "length of odd steps", "gait.step_length[0]");
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->other_step_length, by[1] + slower * count[1],
+                        "length of even steps", "gait.step_length[1]");
+}
+
+static void add_width(ambulo__parameters *p) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  double width = p->problem->keys.walk.step_width, by = 0.0;
+  if (!(width > 0.0)) return;
+  for (int c = 0; c < d->contact_count; c++)
+    by += p->partials->place[2 * c + 1] * d->contacts[c].place[1] / width;
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, width, by, "step width", "gait.step_width");
+}
+
+static void add_places(ambulo__parameters *p) {
+  static const char *const words[] = {"forward", "left"};
+  const ambulo_problem_definition *d = &p->problem->definition;
+  for (int c = 0; c < d->contact_count; c++) {
+    for (int i = 0; i < 2; i++) {
+      char label[64];
+      (void)snprintf(label, sizeof label, "foothold of contact %d, %s,", c, words[i]);
+      ambulo__parameter_add(p, AMBULO__STEP_LENGTH, d->contacts[c].place[i],
+                            p->partials->place[2 * c + i], label, "contacts[%d].place[%d]", c, i);
+    }
+  }
+}
+
+/* (S.11) sum dL/dplace dplace/dL + dL/dtravel dtravel/dL + dL/dT dx/dL / v */
+void ambulo__parameters_of_walk(ambulo__parameters *p) {
+  const ambulo_problem *problem = p->problem;
+  double by[2] = {0.0, 0.0};
+  if (problem->keys.gait) {
+    by_lengths(p, by);
+    add_lengths(p, by);
+    add_width(p);
+  } else {
+    add_places(p);
+  }
+  add_times(p, by[0] + by[1]);
+  if (problem->definition.ends != AMBULO_ENDS_FREE && (!problem->keys.gait || problem->keys.travel))
+    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
+                          "travel", "ends.travel");
+}

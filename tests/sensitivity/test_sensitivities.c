@@ -1,0 +1,215 @@
+/* Sensitivities against problems that are solved anew with a number moved, and what the list says.
+ */
+#include "ambulo/ambulo.h"
+#include "judge/result.h"
+#include "support/fail_alloc.h"
+#include "support/moved_problem.h"
+
+static ambulo_options tight(const ambulo_problem *problem) {
+  ambulo_options options = ambulo_problem_options(problem);
+  options.optimality_tolerance = 1e-6;
+  options.feasibility_tolerance = 1e-10;
+  options.maximum_iterations = 1000;
+  options.dense_samples = 1;
+  return options;
+}
+
+static ambulo_result *solve(const ambulo_problem *problem, const double *start) {
+  ambulo_options options = tight(problem);
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_solve(problem, &options, start, NULL, NULL, &result), AMBULO_OK);
+  assert_true(ambulo_verdict_is_solution(ambulo_result_verdict(result)));
+  return result;
+}
+
+static double best_at(const char *file, const char *const *base, int count,
+                      const ambulo_problem *problem, const ambulo_sensitivity *s, double by,
+                      const double *start) {
+  ambulo_problem *moved = moved_problem(file, base, count, problem, s, by);
+  assert_non_null(moved);
+  ambulo_result *result = solve(moved, start);
+  double objective = ambulo_result_objective(result);
+  ambulo_result_free(result);
+  ambulo_problem_free(moved);
+  return objective;
+}
+
+static const ambulo_sensitivity *find(const ambulo_sensitivity_list *list, const char *name) {
+  for (int i = 0; i < list->count; i++)
+    if (strcmp(list->items[i].name, name) == 0) return &list->items[i];
+  fail_msg("no sensitivity '%s'", name);
+  return NULL;
+}
+
+/* (f*(p + d) - f*(p - d)) / 2 d of each name, to `tolerance` */
+static void compare(const char *file, const char *const *base, int count, const char *const *names,
+                    double part, double tolerance) {
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  assert_int_equal(ambulo_problem_load(file, base, count, NULL, NULL, &problem), AMBULO_OK);
+  ambulo_result *result = solve(problem, NULL);
+  const double *x = ambulo_result_x(result);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  assert_string_equal(list->reason, "");
+  for (; *names; names++) {
+    const ambulo_sensitivity *s = find(list, *names);
+    double by = part * s->step, value[2];
+    for (int k = 0; k < 2; k++) value[k] = best_at(file, base, count, problem, s, k ? by : -by, x);
+    double slope = (value[1] - value[0]) / (2.0 * by);
+    if (!(fabs(slope - s->derivative) <= tolerance * fabs(slope)))
+      fail_msg("%s: %s is %.9g, solves give %.9g", file, s->name, s->derivative, slope);
+  }
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static void an_arm_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {"objective[0].scale={shoulder: 1, elbow: 1}"};
+  static const char *const names[] = {"time.duration",
+                                      "ends.final.shoulder",
+                                      "ends.initial_speed.elbow",
+                                      "objective[torque_squared].weight",
+                                      "objective[torque_squared].scale.elbow",
+                                      "model.links[upper].coordinate.range[0]",
+                                      NULL};
+  compare("models/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
+}
+
+static void a_planar_step_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {"angles=degrees", "constraints.zmp_margin=0.005"};
+  static const char *const names[] = {"gait.step_length",
+                                      "gait.speed",
+                                      "subject.mass",
+                                      "ground.slope",
+                                      "constraints.zmp_margin",
+                                      "model.links[shank_r].coordinate.range[0]",
+                                      "objective[torque_squared].scale.hip_flexion_r",
+                                      NULL};
+  compare("models/walker_2d_step.yaml", base, 2, names, 1e-3, 1e-4);
+}
+
+static void four_steps_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {"angles=degrees", "constraints.zmp_margin=0.005"};
+  static const char *const names[] = {"gait.step_length", "gait.step_width",        "time.duration",
+                                      "ground.slope",     "constraints.zmp_margin", NULL};
+  compare("models/yardstick_12.yaml", base, 2, names, 3e-3, 1e-4);
+}
+
+/* --------------------------------------------------------------- what is said */
+
+static const char step[] = "models/walker_2d_step.yaml";
+
+typedef struct solved {
+  ambulo_problem *problem;
+  ambulo_result *result;
+} solved;
+
+static void open_solved(solved *s, const char *file, const char *override) {
+  const char *const overrides[] = {override};
+  assert_int_equal(ambulo_problem_load(file, overrides, override != NULL, NULL, NULL, &s->problem),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_solve(s->problem, NULL, NULL, NULL, NULL, &s->result), AMBULO_OK);
+}
+
+static void close_solved(solved *s) {
+  ambulo_result_free(s->result);
+  ambulo_problem_free(s->problem);
+}
+
+static void the_dearest_stands_first(void **state) {
+  (void)state;
+  solved s;
+  ambulo_sensitivity_list *list = NULL;
+  open_solved(&s, step, NULL);
+  assert_int_equal(ambulo_sensitivities(s.problem, s.result, NULL, &list), AMBULO_OK);
+  double objective = ambulo_result_objective(s.result), before = INFINITY;
+  for (int i = 0; i < list->count; i++) {
+    const ambulo_sensitivity *one = &list->items[i];
+    double change = one->derivative * one->step;
+    assert_true(fabs(change) <= before);
+    before = fabs(change);
+    assert_close(one->share, change / objective, 1e-12);
+    const char *verb = change == 0.0 ? " costs nothing" : change > 0.0 ? " costs " : " saves ";
+    assert_non_null(strstr(one->words, verb));
+    assert_non_null(strstr(one->words, one->label));
+  }
+  const ambulo_sensitivity *weight = find(list, "objective[torque_squared].weight");
+  assert_close(weight->share, 0.01, 1e-9); /* the only term: 1 % more is 1 % more */
+  assert_string_equal(weight->words, "1 % more weight of torque_squared costs 1 %");
+  assert_close(weight->step, 1e-4, 1e-12);
+  assert_non_null(strstr(find(list, "gait.step_length")->words, "1 cm more step length saves "));
+  ambulo_sensitivities_free(list);
+  close_solved(&s);
+}
+
+/* a list with a reason, and nothing in it */
+static void expect_reason(const solved *s, const char *want) {
+  ambulo_sensitivity_list *list = NULL;
+  assert_int_equal(ambulo_sensitivities(s->problem, s->result, NULL, &list), AMBULO_OK);
+  assert_int_equal(list->count, 0);
+  assert_string_equal(list->reason, want);
+  ambulo_sensitivities_free(list);
+}
+
+static void no_optimum_has_none(void **state) {
+  (void)state;
+  solved s;
+  open_solved(&s, step, NULL);
+  s.result->verdict = AMBULO_FEASIBLE;
+  expect_reason(&s, "the point is not shown to be optimal");
+  close_solved(&s);
+  open_solved(&s, step, "objective=none");
+  expect_reason(&s, "there is no objective");
+  close_solved(&s);
+}
+
+static void arguments_are_checked(void **state) {
+  (void)state;
+  solved s;
+  ambulo_sensitivity_list *list = NULL;
+  open_solved(&s, step, NULL);
+  assert_int_equal(ambulo_sensitivities(NULL, s.result, NULL, &list), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_sensitivities(s.problem, NULL, NULL, &list), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_sensitivities(s.problem, s.result, NULL, NULL), AMBULO_E_ARGUMENT);
+  s.result->verdict = AMBULO_OPTIMAL;
+  s.result->x[0] = NAN;
+  assert_int_equal(ambulo_sensitivities(s.problem, s.result, NULL, &list), AMBULO_E_NUMERIC);
+  assert_null(list);
+  ambulo_sensitivities_free(NULL);
+  close_solved(&s);
+}
+
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  solved s;
+  open_solved(&s, "models/yardstick_12.yaml", NULL);
+  for (long k = 0; k < 10000; k++) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_sensitivity_list *list = NULL;
+    ambulo_status status = ambulo_sensitivities(s.problem, s.result, &allocator, &list);
+    if (status == AMBULO_OK) {
+      ambulo_sensitivities_free(list);
+    } else {
+      assert_int_equal(status, AMBULO_E_MEMORY);
+      assert_null(list);
+    }
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+  }
+  close_solved(&s);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(the_dearest_stands_first),
+      cmocka_unit_test(no_optimum_has_none),       cmocka_unit_test(arguments_are_checked),
+      cmocka_unit_test(every_allocation_may_fail),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,59 @@
+/* tests/support/moved_problem.h - a problem file with one number changed, and its Lagrangian.
+ *
+ * The name of a sensitivity is the path of an override; values are written in the file's units. */
+#ifndef AMBULO_TESTS_MOVED_PROBLEM_H
+#define AMBULO_TESTS_MOVED_PROBLEM_H
+
+#include "model/model.h"
+#include "nlp/nlp.h"
+#include "support/test.h"
+
+/* SI units and radians per unit of the file */
+static inline double unit_in_file(const ambulo_problem *problem, const ambulo_sensitivity *s) {
+  static const char *const cosines[] = {"constraints.orientation_tolerance",
+                                        "constraints.clearance.turn"};
+  const ambulo__model_units *units = &problem->model->units;
+  int of_model = strncmp(s->name, "model.", 6) == 0;
+  int turns = strncmp(s->unit, "rad", 3) == 0;
+  for (int i = 0; i < 2; i++)
+    if (strcmp(s->name, cosines[i]) == 0) return 1.0;
+  if (!of_model) return turns && problem->keys.radians > 0.0 ? problem->keys.radians : 1.0;
+  if (turns) return units->angle;
+  if (strcmp(s->unit, "N m") == 0) return units->moment;
+  if (strcmp(s->unit, "N") == 0) return units->force;
+  return units->length;
+}
+
+/* `base` (may be NULL) are overrides that stay; NULL when the problem is refused */
+static inline ambulo_problem *moved_problem(const char *path, const char *const *base, int count,
+                                            const ambulo_problem *problem,
+                                            const ambulo_sensitivity *s, double by) {
+  char text[400], with[400];
+  const char *overrides[8];
+  ambulo_problem *moved = NULL;
+  double unit = unit_in_file(problem, s), value = s->value + by;
+  (void)snprintf(text, sizeof text, "%s=%.17g", s->name, value / unit);
+  (void)snprintf(with, sizeof with, "%s=%.17g", s->with, s->with_sign * value / unit);
+  for (int i = 0; i < count; i++) overrides[i] = base[i];
+  overrides[count] = text;
+  overrides[count + 1] = with;
+  (void)!ambulo_problem_load(path, overrides, count + 1 + (s->with[0] != '\0'), NULL, NULL, &moved);
+  return moved;
+}
+
+/* f - sum lambda c at x; NAN when the problem has other rows */
+static inline double lagrangian_at(const ambulo_problem *problem, const double *x,
+                                   const double *multiplier, int rows) {
+  ambulo_workspace *workspace = NULL;
+  double value = NAN, *row = calloc((size_t)rows + 1, sizeof *row);
+  if (ambulo_problem_row_count(problem) == rows) {
+    assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+    assert_int_equal(ambulo_problem_evaluate(problem, workspace, x, &value, NULL, row), AMBULO_OK);
+    for (int r = 0; r < rows; r++) value -= multiplier[r] * row[r];
+  }
+  ambulo_workspace_free(workspace);
+  free(row);
+  return value;
+}
+
+#endif
