@@ -47,5 +47,9 @@ typedef struct ambulo__phases_of_foot {
 } ambulo__phases_of_foot;
 ambulo__phases_of_foot ambulo__phases_at(const ambulo__gait_context *context, int order, int node,
                                          int foot);
+/* 1 if contact[i] of what ambulo__phases_at gives is that before the node. */
+static inline int ambulo__phase_is_before(const ambulo__gait_context *context, int i) {
+  return i == 0 && context->before != NULL;
+}
 
 #endif

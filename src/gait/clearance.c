@@ -121,8 +121,10 @@ void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_tab
       for (int i = 0; i < phases.count; i++) {
         if (phases.contact[i] >= 0) continue;
         swing w = swing_at(context, node, foot, table);
+        table->before = ambulo__phase_is_before(context, i);
         swing_rows(&w);
       }
     }
   }
+  table->before = 0;
 }

@@ -25,6 +25,7 @@ typedef struct tube {
   const ambulo__foot_outline *outline;
   const ambulo_contact
       *contact[2]; /* of one foot: one, or the one that ends and the one that begins */
+  int before[2];   /* 1: the one that ends */
   int contacts, node;
   ambulo__row_table *table;
 } tube;
@@ -76,15 +77,22 @@ static void pitch_range(const tube *t, ambulo_contact_mode mode, double range[2]
   }
 }
 
+/* each side is that of the contact which leaves less room */
 static void pitch_bounds(const tube *t) {
   double range[2] = {-INFINITY, INFINITY}, one[2];
+  int before[2] = {0, 0};
   ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact[0]->foot);
   for (int i = 0; i < t->contacts; i++) {
     pitch_range(t, t->contact[i]->mode, one);
+    if (one[0] > range[0]) before[0] = t->before[i];
+    if (one[1] < range[1]) before[1] = t->before[i];
     range[0] = fmax(range[0], one[0]);
     range[1] = fmin(range[1], one[1]);
   }
-  angle_bounds(t, &pitch, "toes low", "toes high", range[0], range[1]);
+  t->table->before = before[0];
+  angle_bounds(t, &pitch, "toes low", "toes high", range[0], INFINITY);
+  t->table->before = before[1];
+  angle_bounds(t, &pitch, "toes low", "toes high", -INFINITY, range[1]);
 }
 
 /* the point that contact i holds; not again what the other one holds at the same place */
@@ -106,11 +114,13 @@ static void contact_rows(const tube *t) {
   const ambulo_problem_definition *d = t->context->definition;
   int on_toes = 1, foot = t->contact[0]->foot;
   for (int i = 0; i < t->contacts; i++) {
+    t->table->before = t->before[i];
     place_rows(t, i);
     on_toes &= t->contact[i]->mode == AMBULO_CONTACT_TOE;
   }
   pitch_bounds(t);
   if (!t->outline->moves_sideways) return;
+  t->table->before = t->before[t->contacts > 1 && t->contact[0]->mode == AMBULO_CONTACT_TOE];
   double o = d->orientation_tolerance * (on_toes ? 2.0 : 1.0);
   ambulo__linear yaw = ambulo__foot_yaw(t->context, foot);
   ambulo__linear roll = ambulo__foot_roll(t->context, foot);
@@ -131,11 +141,13 @@ void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_
       ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_PLACES, node, foot);
       tube t = {.context = context, .outline = &outlines[foot], .node = node, .table = table};
       for (int i = 0; i < 2 && i < phases.count; i++) {
-        if (phases.contact[i] >= 0)
-          t.contact[t.contacts++] = &context->definition->contacts[phases.contact[i]];
+        if (phases.contact[i] < 0) continue;
+        t.before[t.contacts] = ambulo__phase_is_before(context, i);
+        t.contact[t.contacts++] = &context->definition->contacts[phases.contact[i]];
       }
       if (t.contacts > 0) contact_rows(&t);
     }
   }
+  table->before = 0;
   ambulo__free(&table->allocator, outlines);
 }

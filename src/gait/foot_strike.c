@@ -63,10 +63,12 @@ void ambulo__foot_strike_rows(const ambulo__gait_context *context, ambulo__row_t
       for (int i = 0; i < phases.count; i++) {
         int contact = phases.contact[i];
         if (contact < 0 || is_covered(context, &phases, i)) continue;
+        table->before = ambulo__phase_is_before(context, i);
         contact_rows(context, node, &context->definition->contacts[contact], &outlines[foot],
                      table);
       }
     }
   }
+  table->before = 0;
   ambulo__free(&table->allocator, outlines);
 }

@@ -78,8 +78,10 @@ static void pressure_rows(const node_context *n, int foot) {
   if (n->load.share[foot] <= smallest_share) return;
   for (int i = 0; i < phases.count; i++) {
     int contact = phases.contact[i];
+    n->table->before = ambulo__phase_is_before(n->context, i);
     if (contact >= 0) contact_pressure_rows(n, foot, &n->context->definition->contacts[contact]);
   }
+  n->table->before = 0;
 }
 
 /* ------------------------------------------------------------------- friction */

@@ -77,6 +77,7 @@ void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const ch
                            .detail = detail,
                            .unit = ambulo__measure_text(measure),
                            .relation = (unsigned char)relation,
+                           .before = table->before != 0,
                            .node = node,
                            .time = time,
                            .constant = constant,

@@ -28,6 +28,7 @@ typedef struct ambulo__table_row {
   const char *unit;    /* text of the measure, or the caller's */
   /* small ambulo__row_kind, ambulo__measure, ambulo_relation: rows are many */
   unsigned char kind, measure, relation;
+  unsigned char before; /* 1: it is about what the feet did just before its node, on an event */
   int group; /* rows of one family have the same; 0 .. group_count - 1 */
   int node;  /* the node whose channels it uses; -1: several, or none */
   int user;  /* index of the caller's user row, whose value and coefficients come
@@ -46,6 +47,7 @@ typedef struct ambulo__row_table {
   int term_count, term_capacity;
   int *group_row; /* the first row of each group, in the order in which groups begin */
   int group_count, group_capacity;
+  int before;           /* what rows begun from now on have of that name; 0 after init */
   double weight;        /* of the body, N: what forces are measured by; 1 after init */
   ambulo_status status; /* sticky: E_MEMORY once an append failed, E_INTERNAL for a form that
                            overflowed */

@@ -121,10 +121,12 @@ static const int *feet_before(const ambulo__gait_context *context, int node) {
   return differs ? context->before + node * feet : NULL;
 }
 
-static void region_rows(const ambulo__gait_context *context, int node,
+static void region_rows(const ambulo__gait_context *context, int node, int before,
                         const ambulo__support_region *region, ambulo__row_table *table) {
+  table->before = before;
   for (int k = 0; k < region->count; k++)
     ambulo__zmp_side_row(context, node, AMBULO__KIND_ZMP, "support", &region->side[k], table);
+  table->before = 0;
 }
 
 ambulo_status ambulo__zmp_rows(const ambulo__gait_context *context, ambulo__row_table *table,
@@ -141,8 +143,8 @@ ambulo_status ambulo__zmp_rows(const ambulo__gait_context *context, ambulo__row_
       if (!status && node < distinct && !same_contacts(context, node))
         status = region_at(context, active, node, planar, &region, diagnostics);
       if (status) return status;
-      if (before) region_rows(context, node, &earlier, table);
-      if (node < distinct) region_rows(context, node, &region, table);
+      if (before) region_rows(context, node, 1, &earlier, table);
+      if (node < distinct) region_rows(context, node, 0, &region, table);
     }
     if (node < distinct && context->definition->minimum_force >= 0.0)
       force_row(context, node, table);

@@ -19,8 +19,11 @@ int ambulo__clearance_forms(const ambulo__term_context *context) {
   return POINTS_OF_A_FOOT * ambulo_model_foot_count(context->model);
 }
 
-/* part of a node's time that the foot is in the air: of the half intervals before and after it */
-static double air_part(const ambulo__term_context *context, int node, int foot) {
+int ambulo__clearance_foot(int j) {
+  return j / POINTS_OF_A_FOOT;
+}
+
+double ambulo__air_part(const ambulo__term_context *context, int node, int foot) {
   int at = node * ambulo_model_foot_count(context->model) + foot, in_air = context->active[at] < 0;
   if (!context->before || (context->before[at] < 0) == in_air) return in_air;
   const double *t = context->times;
@@ -31,9 +34,9 @@ static double air_part(const ambulo__term_context *context, int node, int foot) 
 
 void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                             int j, ambulo__form *form) {
-  int f = j / POINTS_OF_A_FOOT, which = j % POINTS_OF_A_FOOT;
+  int f = ambulo__clearance_foot(j), which = j % POINTS_OF_A_FOOT;
   const ambulo_foot *foot = ambulo_model_foot(context->model, f);
-  double part = air_part(context, node, f), root = sqrt(part);
+  double part = ambulo__air_part(context, node, f), root = sqrt(part);
   if (part == 0.0 || (which == 2 && !foot->has_tip)) return;
   int point = which == 0 ? foot->heel_center : which == 1 ? foot->toe_center : foot->tip;
   const double *up = ambulo_model_up(context->model);

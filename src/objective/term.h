@@ -100,6 +100,10 @@ void ambulo__upright_form(const ambulo_term *term, const ambulo__term_context *c
 void ambulo__ground_force_form(const ambulo__term_context *context, int node, int axis,
                                ambulo__form *form);
 int ambulo__clearance_forms(const ambulo__term_context *context);
+/* The part of a node's time that a foot is in the air: of the half intervals before and after. */
+double ambulo__air_part(const ambulo__term_context *context, int node, int foot);
+/* Whose height residual j of the clearance term is. */
+int ambulo__clearance_foot(int j);
 void ambulo__clearance_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                             int j, ambulo__form *form);
 void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_context *context,

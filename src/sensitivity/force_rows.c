@@ -51,6 +51,7 @@ static ambulo__support_row side_of(const force_row *p) {
     along[i] = ambulo__stationary_along(p->s, node, force, axes[i]) / p->weight;
   ambulo__support_row side = {
       .node = node,
+      .before = p->row->before,
       .normal = {-dot(coefficient, model->left), dot(coefficient, model->forward)},
       .force = along[2]};
   side.moment[0] =
@@ -106,20 +107,21 @@ static void add_box(const force_row *p, const ambulo__support_row *side,
 static void add_pressure(const force_row *p, ambulo__partials *partials) {
   const ambulo_problem *problem = p->s->problem;
   ambulo__support_row side = side_of(p);
-  const int *active = problem->active + 2 * (size_t)side.node;
+  const int *active = problem->active + 2 * (size_t)side.node; /* those that D is between */
   int foot = p->row->subject == problem->model->feet[1].name;
   double by_side = -p->pull * side.force;
+  int own = ambulo__stationary_contacts(p->s, side.node, side.before)[foot];
   ambulo__load load = ambulo__load_at(&problem->definition, p->outlines, p->row->time);
   double by_apart = foot == 0 ? -load.share[1] : load.share[0]; /* k = .. - normal . s_j */
   for (int i = 0; i < 2; i++) {
     double by_place = by_side * side.normal[i];
-    partials->place[2 * active[foot] + i] += by_place;
-    if (active[1 - foot] < 0) continue;
+    partials->place[2 * own + i] += by_place;
+    if (active[0] < 0 || active[1] < 0) continue;
     partials->place[2 * active[0] + i] += by_apart * by_place;
     partials->place[2 * active[1] + i] -= by_apart * by_place;
   }
   add_height(p, &side, partials);
-  add_box(p, &side, &problem->definition.contacts[active[foot]], by_side, partials);
+  add_box(p, &side, &problem->definition.contacts[own], by_side, partials);
 }
 
 static void add_friction(const force_row *p, ambulo__partials *partials) {

@@ -79,7 +79,8 @@ void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials 
 /* A side of a support region displaced: adds dc/d(place) of a row on it to the contacts' places,
  * times pull. */
 typedef struct ambulo__support_row {
-  int node, turns;  /* 1: a side of a hull, which turns when its ends move apart */
+  int node, before; /* of the row */
+  int turns;        /* 1: a side of a hull, which turns when its ends move apart */
   double normal[2]; /* inwards */
   double force;     /* n.F / m g */
   double moment[2]; /* zero-moment point times `force`, along forward and left, m */
@@ -87,6 +88,12 @@ typedef struct ambulo__support_row {
 void ambulo__support_side(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
                           const ambulo__support_row *row, double pull, ambulo__partials *partials);
 
+/* What the feet do that a row at a node speaks of: [feet], contacts or -1. */
+static inline const int *ambulo__stationary_contacts(const ambulo__stationary *s, int node,
+                                                     int before) {
+  const ambulo_problem *p = s->problem;
+  return (before ? p->before : p->active) + (size_t)node * (size_t)p->model->foot_count;
+}
 static inline double ambulo__stationary_channel(const ambulo__stationary *s, int node,
                                                 int channel) {
   const ambulo_workspace *w = s->workspace;

@@ -124,7 +124,7 @@ void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *p
                 kind == AMBULO__KIND_CONTACT || kind == AMBULO__KIND_CLEARANCE;
     if (!holds || p.pull == 0.0 || !read_row(&p)) continue;
     partials->ground_height -= p.pull * dot(p.total, problem->model->up);
-    int active = problem->active[p.row->node * problem->model->foot_count + p.foot];
+    int active = ambulo__stationary_contacts(s, p.row->node, p.row->before)[p.foot];
     if (kind == AMBULO__KIND_CLEARANCE) {
       add_clearance(&p, partials);
     } else {

@@ -28,7 +28,7 @@ typedef struct corner {
 static int find_ends(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
                      const ambulo__support_row *row, corner end[2]) {
   const ambulo_problem *p = s->problem;
-  const int *active = p->active + (size_t)row->node * (size_t)p->model->foot_count;
+  const int *active = ambulo__stationary_contacts(s, row->node, row->before);
   int found = 0;
   for (int foot = 0; foot < p->model->foot_count; foot++) {
     if (active[foot] < 0) continue;

@@ -11,7 +11,8 @@
  *     power tau qd / m                du/d ln m = -u
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
  *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
- *     clearance 1 - (n.p - h)/H       du/dh = 1 / H,            du/dH = (1 - u) / H,    where u > 0
+ *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u > 0,
+ *                                     r the root of the part of the node's time in the air
  *
  * A slope s turns gravity, -|g| (cos s n + sin s f) in the ground's axes: with v = -g / |g| the
  * vertical and l left, dv/ds = l x v = e_0 and de_0/ds = l x e_0 = -v.
@@ -78,13 +79,15 @@ static void strength_form(const term_sum *t, int i, const ambulo__form *form, do
   if (peak > 0.0) t->partials->strength[2 * at + (size_t)down] -= slope * form->u / peak;
 }
 
-static void clearance_form(const term_sum *t, const ambulo__form *form, double slope) {
-  t->partials->ground_height += slope / t->term->height;
-  t->partials->height[t->index] += slope * (1.0 - form->u) / t->term->height;
+static void clearance_form(const term_sum *t, const ambulo__term_context *context, int node, int j,
+                           const ambulo__form *form, double slope) {
+  double root = sqrt(ambulo__air_part(context, node, ambulo__clearance_foot(j)));
+  t->partials->ground_height += slope * root / t->term->height;
+  t->partials->height[t->index] += slope * (root - form->u) / t->term->height;
 }
 
-static void composite_form(const term_sum *t, int node, int j, const ambulo__form *form,
-                           double slope) {
+static void composite_form(const term_sum *t, const ambulo__term_context *context, int node, int j,
+                           const ambulo__form *form, double slope) {
   size_t at = t->coordinates + (size_t)j;
   switch (t->term->kind) {
   case AMBULO_TORQUE_POWER:
@@ -105,7 +108,7 @@ static void composite_form(const term_sum *t, int node, int j, const ambulo__for
     if (j == 0) t->partials->slope += slope * upright_by_slope(t, node);
     break;
   case AMBULO_CLEARANCE:
-    clearance_form(t, form, slope);
+    clearance_form(t, context, node, j, form, slope);
     break;
   default:
     break;
@@ -121,7 +124,7 @@ static void composite_node(const term_sum *t, const ambulo__term_context *contex
     if (!form.count) continue;
     ambulo__residual phi = ambulo__term_residual(t->term, form.u);
     t->partials->weight[t->index] += w * phi.value;
-    composite_form(t, node, j, &form, t->term->weight * w * phi.slope);
+    composite_form(t, context, node, j, &form, t->term->weight * w * phi.slope);
   }
 }
 

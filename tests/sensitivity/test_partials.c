@@ -7,7 +7,7 @@
 #include "sensitivity/partials.h"
 #include "support/moved_problem.h"
 
-enum { MOST_OVERRIDES = 5 };
+enum { MOST_OVERRIDES = 8 };
 
 typedef struct setting {
   const char *file;
@@ -180,6 +180,76 @@ static void a_walk_with_other_terms(void **state) {
   check(&c, NULL);
 }
 
+/* ------------------------------------------------------------ grids on events */
+
+#define ON_EVENTS "time.grid=events", "trajectory.knots=events"
+
+/* a node on an event has rows of both contacts, and half an interval of either length */
+static void a_planar_step_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walker_2d_step.yaml",
+      {"angles=degrees", "constraints.zmp_margin=0.005", "constraints.speed_limits=true",
+       "constraints.minimum_force=0.1", "trajectory.degree=4", ON_EVENTS},
+      {"gait.step_length", "gait.speed", "subject.mass", "ground.slope", "constraints.zmp_margin",
+       "constraints.minimum_force", "constraints.ground_height"}};
+  check(&c, NULL);
+}
+
+static void four_steps_on_hulls_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/yardstick_12.yaml",
+      {"angles=degrees", "constraints.zmp=hull", "constraints.zmp_margin=0.002",
+       "time.duration=null", "gait.step_time=0.6105", "time.intervals=40", ON_EVENTS},
+      {"gait.step_length", "gait.step_width", "gait.step_time", "ground.slope",
+       "constraints.zmp_margin", "constraints.ground_height"}};
+  check(&c, NULL);
+}
+
+static void contacts_one_by_one_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walker_2d_step.yaml",
+      {"gait=null", "ends=null", "time.duration=0.5", "angles=degrees",
+       "contacts=[{foot: right, mode: flat, from: 0, to: 0.3, place: [0, 0]}, "
+       "{foot: right, mode: toe, from: 0.3, to: 0.4, place: [0.01, 0]}, "
+       "{foot: left, mode: heel, from: 0.3, to: 0.5, place: [0.4, 0]}]",
+       ON_EVENTS},
+      {"contacts[0].place[0]", "contacts[1].place[0]", "contacts[2].place[0]", "subject.mass",
+       "ground.slope"}};
+  check(&c, "time.duration");
+}
+
+static void a_walk_under_load_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
+       "roll: 0.04, width: 0.035}",
+       "ground={slope: 3}", "ground_reaction.shear=0.8", ON_EVENTS},
+      {"load.mass", "subject.mass", "ground.slope", "gait.step_width", "gait.step_length",
+       "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
+       "constraints.contact_tolerance", "constraints.orientation_tolerance",
+       "constraints.clearance.inward", "constraints.strike_pitch[0]", "time.duration"}};
+  check(&c, NULL);
+}
+
+static void a_walk_with_other_terms_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {"objective=[{term: clearance, height: 0.06, weight: 3}, "
+       "{term: torque_rate, weight: 0.0001}, {term: mechanical_power, weight: 0.01}, "
+       "{term: upright, weight: 10, points: [pelvis, head_top]}, "
+       "{term: ground_force, weight: 0.3}]",
+       "time.duration=null", "gait.speed=1.26", "trajectory.degree=5", ON_EVENTS},
+      {"objective[clearance].height", "gait.speed", "gait.step_length",
+       "constraints.clearance.turn", "constraints.clearance.ceiling", "load.mass",
+       "constraints.ground_height", "objective[torque_rate].weight"}};
+  check(&c, NULL);
+}
+
 /* no step length: it follows from the speed, and the time from both */
 static void a_walk_at_a_speed(void **state) {
   (void)state;
@@ -266,6 +336,11 @@ int main(void) {
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_walk_at_a_speed),
+      cmocka_unit_test(a_planar_step_on_events),
+      cmocka_unit_test(four_steps_on_hulls_on_events),
+      cmocka_unit_test(contacts_one_by_one_on_events),
+      cmocka_unit_test(a_walk_under_load_on_events),
+      cmocka_unit_test(a_walk_with_other_terms_on_events),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),
       cmocka_unit_test(two_arms),

@@ -29,7 +29,7 @@ static inline ambulo_problem *moved_problem(const char *path, const char *const 
                                             const ambulo_problem *problem,
                                             const ambulo_sensitivity *s, double by) {
   char text[400], with[400];
-  const char *overrides[8];
+  const char *overrides[16];
   ambulo_problem *moved = NULL;
   double unit = unit_in_file(problem, s), value = s->value + by;
   (void)snprintf(text, sizeof text, "%s=%.17g", s->name, value / unit);
