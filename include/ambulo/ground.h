@@ -10,8 +10,9 @@ extern "C" {
 
 typedef enum ambulo_reaction_kind {
   AMBULO_REACTION_NONE,    /* torques as if the root were carried by its own six forces */
-  AMBULO_REACTION_TWO_STEP /* the root wrench is shared between the two feet and subtracted along
+  AMBULO_REACTION_TWO_STEP, /* the root wrench is shared between the two feet and subtracted along
                               the legs: real joint torques */
+  AMBULO_REACTION_SHARED    /* the contacts that are down share the root wrench by themselves */
 } ambulo_reaction_kind;
 
 /* Share a of the front foot in double support; u runs from its strike (0) to the toe-off of the
@@ -43,6 +44,16 @@ typedef struct ambulo_ground_reaction {
   double flat_pressure[2]; /* flat: behind from the heel, ahead from the ball (toe centre), m */
   double toe_pressure[2];  /* on its toes: from the ball, m */
   double pressure_width;   /* to either side, m */
+
+  /* Shared (kind AMBULO_REACTION_SHARED): the forces f_c and moments m_c of the contacts, about
+   * their centres p_c, are those that carry the root wrench and minimize
+   *   sum_c ( |f_c across e_c|^2 + slant^2 (f_c . e_c)^2 + |m_c|^2 / moment_arm^2 ) / w_c
+   * with e_c the direction from p_c to the centre of mass and w_c(t) from 0 to 1 and back over the
+   * times that a contact shares with its neighbours. */
+  double moment_arm;   /* > 0, m: the shorter, the less moment a contact takes */
+  double slant;        /* > 0; below 1, forces lean towards the centre of mass */
+  double loading_rate; /* of a contact's normal force, body weights per s: at most this times the
+                          time since it began and until it ends; negative: no rows */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;

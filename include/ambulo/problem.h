@@ -62,7 +62,11 @@ typedef struct ambulo_contact {
   int foot; /* index of the model's foot */
   ambulo_contact_mode mode;
   double from, to; /* s */
-  double place[2]; /* foothold of the heel centre: along forward, along left; m */
+  /* Where it is, along forward, left and up (zeros beyond the first two: level ground, straight
+   * ahead). */
+  double place[3];  /* foothold of the heel centre: m; the third above the ground's height */
+  double normal[3]; /* of the surface, of any length; all zero: up */
+  double heading;   /* of the foot about up, turned to the left, rad */
 } ambulo_contact;
 
 /* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps)
@@ -247,6 +251,7 @@ typedef struct ambulo_problem_definition {
   int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2; below 2 forces jump
                      from one period to the next */
   double travel;  /* m along forward */
+  double rise;    /* m along up: of stairs, over the motion */
   const ambulo_end_value *end_values;
   int end_value_count;
   int tube_count;

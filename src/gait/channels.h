@@ -15,17 +15,24 @@
  *   force    [3]        N                  4 d+3  | output rows (mechanics/plan.h)
  *   points   [p][3]     m                  4 d+6  |
  *
- * and with ground reaction (feet = 2), n = 4 d + 6 + 3 p,
+ * and with ground reaction, n = 4 d + 6 + 3 p, of s slots (gait/contact_load.h; of the two-step
+ * split: the two feet) with r = 4 numbers each,
  *
- *   reaction [feet][4]  N, N m             n      |  force on the foot, free moment
- *   com      [3]        m                  n+4 f /   centre of mass
+ *   reaction [s][4]     N, N m             n      |  force on the foot, free moment
+ *   com      [3]        m                  n+r s /   centre of mass
+ *
+ * or, where contacts share the load, r = 6:
+ *
+ *   reaction [s][6]     N, N m             n         force, moment about the contact's centre
  */
 #ifndef AMBULO_GAIT_CHANNELS_H
 #define AMBULO_GAIT_CHANNELS_H
 
 typedef struct ambulo__channels {
   int coordinates, points;
-  int feet; /* 0 without ground reaction */
+  int feet;      /* of the model, with ground reaction; else 0 */
+  int slots;     /* of ground reaction; the first are the feet's */
+  int slot_rows; /* 4 or 6 */
 } ambulo__channels;
 
 static inline int ambulo__channel_q(const ambulo__channels *c, int i) {
@@ -50,14 +57,22 @@ static inline int ambulo__channel_force(const ambulo__channels *c, int axis) {
 static inline int ambulo__channel_point(const ambulo__channels *c, int point, int axis) {
   return 4 * c->coordinates + 6 + 3 * point + axis;
 }
-static inline int ambulo__channel_foot_force(const ambulo__channels *c, int foot, int axis) {
-  return 4 * c->coordinates + 6 + 3 * c->points + 4 * foot + axis;
+static inline int ambulo__channel_foot_force(const ambulo__channels *c, int slot, int axis) {
+  return 4 * c->coordinates + 6 + 3 * c->points + c->slot_rows * slot + axis;
 }
+/* Where contacts share the load. */
+static inline int ambulo__channel_contact_moment(const ambulo__channels *c, int slot, int axis) {
+  return ambulo__channel_foot_force(c, slot, 3 + axis);
+}
+/* Of the two-step split. */
 static inline int ambulo__channel_free_moment(const ambulo__channels *c, int foot) {
   return ambulo__channel_foot_force(c, foot, 3);
 }
+static inline int ambulo__channel_center(const ambulo__channels *c, int axis) {
+  return ambulo__channel_foot_force(c, c->slots, axis);
+}
 static inline int ambulo__channel_count(const ambulo__channels *c) {
-  return 4 * c->coordinates + 6 + 3 * c->points + (c->feet ? 4 * c->feet + 3 : 0);
+  return ambulo__channel_foot_force(c, c->slots, c->slots ? 3 : 0);
 }
 /* First channel that the mechanics computes. */
 static inline int ambulo__channel_outputs(const ambulo__channels *c) {

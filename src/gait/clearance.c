@@ -7,11 +7,16 @@
  *     |yaw|, |roll| <= turn                                                             rad
  *     heel at most `outward` beside its next foothold, `inward` towards the other foot  m
  *
+ * heights above the surface under the swing (gait/contact_frame.h), which on stairs rises early and
+ * sinks late; yaw, roll and track against its axes.
+ *
  * A rigid foot turns about its ball at push-off, and its tip dips where people's toes bend:
  * asking the tip to clear at once forces a jump. The ball is the toe centre, or the corner ahead.
  */
+#include "gait/contact_frame.h"
 #include "gait/foot_frame.h"
 #include "gait/loading.h"
+#include "gait/swing.h"
 #include "base/instant.h"
 
 #include <math.h>
@@ -21,14 +26,16 @@ typedef struct swing {
   int node, foot;
   double phase; /* s */
   int tip;      /* 1: it has to clear */
+  ambulo__contact_frame surface;
   ambulo__row_table *table;
 } swing;
 
 static void height_bounds(const swing *w, int point, double low) {
   const ambulo__gait_context *context = w->context;
-  ambulo__linear form = {.constant = -context->definition->ground_height};
-  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), context->model->up,
-                     1.0);
+  const ambulo__contact_frame *s = &w->surface;
+  ambulo__linear form = {.constant = 0.0};
+  for (int i = 0; i < 3; i++) form.constant -= s->up[i] * s->origin[i];
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), s->up, 1.0);
   ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, context->model->points[point].name, "low",
                                "high", AMBULO__METRES};
   double ceiling = context->definition->clearance.ceiling;
@@ -75,10 +82,10 @@ static void track_bounds(const swing *w) {
   int heel = context->model->feet[w->foot].heel_center, is_left;
   int contact = ambulo__swing_track(d, w->foot, context->times[w->node], &is_left);
   if (contact < 0) return;
-  double track = d->contacts[contact].place[1];
-  ambulo__linear form = {.constant = -track};
-  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, heel, 0),
-                     context->model->left, 1.0);
+  const ambulo__contact_frame *s = &w->surface;
+  ambulo__linear form = {.constant = 0.0};
+  for (int i = 0; i < 3; i++) form.constant -= s->left[i] * s->origin[i];
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, heel, 0), s->left, 1.0);
   ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, context->model->points[heel].name,
                                "to the right", "to the left", AMBULO__METRES};
   ambulo__bounded_rows(context, w->node, &name, &form, is_left ? -c->inward : -c->outward,
@@ -94,11 +101,24 @@ static void swing_rows(const swing *w) {
   height_bounds(w, foot->toe_center, low);
   if (foot->has_tip && w->tip) height_bounds(w, foot->tip, low);
   if (!ambulo__foot_outline_of(w->context->model, w->foot).moves_sideways) return;
-  ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot);
-  ambulo__linear roll = ambulo__foot_roll(w->context, w->foot);
+  ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot, w->surface.left);
+  ambulo__linear roll = ambulo__foot_roll(w->context, w->foot, w->surface.up);
   turn_bounds(w, &yaw, "turned right", "turned left");
   turn_bounds(w, &roll, "left side low", "left side high");
   track_bounds(w);
+}
+
+/* over level ground along the track of the next foothold; else between the contacts */
+static ambulo__contact_frame surface_at(const swing *w, double time) {
+  const ambulo_problem_definition *d = w->context->definition;
+  ambulo_contact from = {.foot = w->foot}, to = from;
+  if (!ambulo__contacts_are_level(d)) {
+    (void)ambulo__swing_contacts(d, w->foot, time, &from, &to);
+    return ambulo__contact_frame_between(d, &from, &to, w->phase);
+  }
+  int is_left, contact = ambulo__swing_track(d, w->foot, time, &is_left);
+  if (contact >= 0) to.place[1] = d->contacts[contact].place[1];
+  return ambulo__contact_frame_of(d, &to);
 }
 
 /* at a node, up to both ends of the swing */
@@ -107,7 +127,9 @@ static swing swing_at(const ambulo__gait_context *context, int node, int foot,
   double time = context->times[node];
   ambulo__span air = ambulo__air_span(context->definition, foot, time);
   double length = air.to - air.from, tip_from = context->definition->clearance.tip_from;
-  swing w = {context, node, foot, length > 0.0 ? (time - air.from) / length : 0.0, 0, table};
+  swing w = {.context = context, .node = node, .foot = foot, .table = table};
+  w.phase = length > 0.0 ? (time - air.from) / length : 0.0;
+  w.surface = surface_at(&w, time);
   w.tip = time >= air.from + tip_from * length - AMBULO__INSTANT;
   return w;
 }

@@ -1,9 +1,10 @@
 /* gait/contact_tube.c - contacts that hold within a tolerance ("contact").
  *
  * On a loaded foot, with e the contact tolerance, o the orientation tolerance, r the point that the
- * contact holds and p its place (gait/foot_outline.h), x, y the axes of gait/foot_frame.h:
+ * contact holds and p its place (gait/foot_outline.h), f, l, n the axes of its surface
+ * (gait/contact_frame.h), yaw, pitch, roll those of gait/foot_frame.h:
  *
- *     -e <= f.r - p_f <= e,   -e <= l.r - p_l <= e,   -e <= n.r - h <= e           m
+ *     -e <= f.(r - p) <= e,   -e <= l.(r - p) <= e,   -e <= n.(r - p) <= e         m
  *     -o <= yaw, roll <= o      (twice that on the toes)                             rad
  *     heel   0 <= pitch <= sin 30 deg;  at the first node strike_pitch               rad
  *     flat   -o <= pitch <= o                toe   -0.95 <= pitch <= 0
@@ -13,6 +14,7 @@
  * Rows along left, yaw and roll are left out for planar feet. At a node where one contact ends and
  * another begins both points are held, and directions within what both allow.
  */
+#include "gait/contact_frame.h"
 #include "gait/foot_frame.h"
 #include "gait/loading.h"
 
@@ -30,11 +32,12 @@ typedef struct tube {
   ambulo__row_table *table;
 } tube;
 
-static void place_bounds(const tube *t, int point, const double direction[3], double place,
-                         const char *lower, const char *upper) {
+static void place_bounds(const tube *t, int point, const double direction[3],
+                         const double place[3], const char *lower, const char *upper) {
   const ambulo__gait_context *context = t->context;
   double e = context->definition->contact_tolerance;
-  ambulo__linear form = {.constant = -place};
+  ambulo__linear form = {.constant = 0.0};
+  for (int i = 0; i < 3; i++) form.constant -= direction[i] * place[i];
   ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), direction, 1.0);
   ambulo__bounded_name name = {AMBULO__KIND_CONTACT, context->model->points[point].name, lower,
                                upper, AMBULO__METRES};
@@ -81,7 +84,8 @@ static void pitch_range(const tube *t, ambulo_contact_mode mode, double range[2]
 static void pitch_bounds(const tube *t) {
   double range[2] = {-INFINITY, INFINITY}, one[2];
   int before[2] = {0, 0};
-  ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact[0]->foot);
+  ambulo__contact_frame frame = ambulo__contact_frame_of(t->context->definition, t->contact[0]);
+  ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact[0]->foot, frame.up);
   for (int i = 0; i < t->contacts; i++) {
     pitch_range(t, t->contact[i]->mode, one);
     if (one[0] > range[0]) before[0] = t->before[i];
@@ -97,17 +101,17 @@ static void pitch_bounds(const tube *t) {
 
 /* the point that contact i holds; not again what the other one holds at the same place */
 static void place_rows(const tube *t, int i) {
-  const ambulo_model *model = t->context->model;
   const ambulo_problem_definition *d = t->context->definition;
-  double place[2], before[2];
-  int point = ambulo__contact_point(model, t->outline, t->contact[i], place);
-  if (i > 0 && ambulo__contact_point(model, t->outline, t->contact[0], before) == point &&
-      before[0] == place[0] && before[1] == place[1])
+  ambulo__contact_frame frame = ambulo__contact_frame_of(d, t->contact[i]);
+  double place[3], before[3];
+  int point = ambulo__contact_point(d, t->outline, t->contact[i], place);
+  if (i > 0 && ambulo__contact_point(d, t->outline, t->contact[0], before) == point &&
+      before[0] == place[0] && before[1] == place[1] && before[2] == place[2])
     return;
-  place_bounds(t, point, model->forward, place[0], "behind", "ahead");
-  place_bounds(t, point, model->up, d->ground_height, "below", "above");
+  place_bounds(t, point, frame.forward, place, "behind", "ahead");
+  place_bounds(t, point, frame.up, place, "below", "above");
   if (t->outline->moves_sideways)
-    place_bounds(t, point, model->left, place[1], "to the right", "to the left");
+    place_bounds(t, point, frame.left, place, "to the right", "to the left");
 }
 
 static void contact_rows(const tube *t) {
@@ -122,8 +126,9 @@ static void contact_rows(const tube *t) {
   if (!t->outline->moves_sideways) return;
   t->table->before = t->before[t->contacts > 1 && t->contact[0]->mode == AMBULO_CONTACT_TOE];
   double o = d->orientation_tolerance * (on_toes ? 2.0 : 1.0);
-  ambulo__linear yaw = ambulo__foot_yaw(t->context, foot);
-  ambulo__linear roll = ambulo__foot_roll(t->context, foot);
+  ambulo__contact_frame frame = ambulo__contact_frame_of(d, t->contact[0]);
+  ambulo__linear yaw = ambulo__foot_yaw(t->context, foot, frame.left);
+  ambulo__linear roll = ambulo__foot_roll(t->context, foot, frame.up);
   angle_bounds(t, &yaw, "turned right", "turned left", -o, o);
   angle_bounds(t, &roll, "left side low", "left side high", -o, o);
 }

@@ -14,6 +14,7 @@
 #include "gait/bounds.h"
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
+#include "gait/swing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -150,9 +151,9 @@ static int is_placed(const ambulo_problem_definition *d, int point, int final) {
 static ambulo_status check_corner(const ambulo_problem_definition *d, int foot, int point, int down,
                                   int final, const double *place, ambulo_diagnostics *list) {
   const ambulo_model *model = d->model;
-  double height = -d->ground_height;
   if (!is_placed(d, point, final)) return AMBULO_OK;
-  for (int k = 0; k < 3; k++) height += model->up[k] * place[3 * point + k];
+  ambulo__contact_frame surface = ambulo__surface_below(d, foot, final ? d->duration : 0.0);
+  double height = ambulo__contact_frame_along(&surface, surface.up, place + 3 * point);
   double time = final ? d->duration : 0.0;
   if (down && fabs(height) > tolerance)
     return REFUSE(list, "change the end values, or the contact's time",

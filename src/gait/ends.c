@@ -8,7 +8,8 @@
  * image. s_0 = 1; s_o = 1 / max_c |D^o B_c(0)| is a time to the power o that turns
  * rates into the size of the control-point differences they stand for, so that all
  * these rows have the unit of q and compare with each other.
- * shift = travel (a . f) for the root translations (axis a, forward f) at o = 0.
+ * shift = travel (a . f) + rise (a . n) for the root translations (axis a, forward f, up n) at
+ * o = 0.
  */
 #include "gait/gait.h"
 #include "model/neutral_pose.h"
@@ -47,10 +48,13 @@ static double order_scale(const ambulo__gait_context *context, int order) {
 double ambulo__end_shift(const ambulo_problem_definition *definition, int i) {
   const ambulo_model *model = definition->model;
   if (definition->ends == AMBULO_ENDS_FREE || !ambulo__is_root_translation(model, i)) return 0.0;
-  double axis[3], along = 0.0;
+  double axis[3], along = 0.0, upward = 0.0;
   ambulo__neutral_axis(model, i, axis);
-  for (int k = 0; k < 3; k++) along += axis[k] * model->forward[k];
-  return definition->travel * along;
+  for (int k = 0; k < 3; k++) {
+    along += axis[k] * model->forward[k];
+    upward += axis[k] * model->up[k];
+  }
+  return definition->travel * along + definition->rise * upward;
 }
 
 static void matching_row(const ambulo__gait_context *context, int i, int order, int mirrored,

@@ -19,25 +19,28 @@ static ambulo__linear cosine(const ambulo__gait_context *context, int from, int 
   return form;
 }
 
-ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot) {
+ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot,
+                               const double left[3]) {
   const ambulo_foot *f = &context->model->feet[foot];
-  return cosine(context, f->heel_center, f->toe_center, context->model->left);
+  return cosine(context, f->heel_center, f->toe_center, left);
 }
 
-ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot) {
+ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot,
+                                 const double up[3]) {
   const ambulo_foot *f = &context->model->feet[foot];
-  return cosine(context, f->heel_center, f->toe_center, context->model->up);
+  return cosine(context, f->heel_center, f->toe_center, up);
 }
 
-ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot) {
+ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot,
+                                const double up[3]) {
   const ambulo_model *model = context->model;
   const int *corner = model->feet[foot].heel;
   ambulo__linear none = {.count = 0};
   if (corner[1] < 0) return none;
-  double a[3], b[3], left = 0.0;
+  double a[3], b[3], across = 0.0;
   ambulo__neutral_point(model, corner[0], a);
   ambulo__neutral_point(model, corner[1], b);
-  for (int i = 0; i < 3; i++) left += model->left[i] * (b[i] - a[i]);
-  return left >= 0.0 ? cosine(context, corner[0], corner[1], model->up)
-                     : cosine(context, corner[1], corner[0], model->up);
+  for (int i = 0; i < 3; i++) across += model->left[i] * (b[i] - a[i]);
+  return across >= 0.0 ? cosine(context, corner[0], corner[1], up)
+                       : cosine(context, corner[1], corner[0], up);
 }

@@ -1,7 +1,7 @@
 /* gait/foot_frame.h - how a foot is turned, as linear forms of its points.
  *
  * x points from the heel centre to the toe centre, y from the right to the left heel corner;
- * with forward f, left l and up n
+ * with the axes left l and up n of the surface on which it stands or over which it swings
  *
  *     yaw   = l . x        (turned to the left)
  *     pitch = n . x        (toes up)
@@ -14,9 +14,12 @@
 #include "gait/bounded.h"
 #include "gait/foot_outline.h"
 
-ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot);
-ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot);
+ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot,
+                               const double left[3]);
+ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot,
+                                 const double up[3]);
 /* No terms for a foot with a single heel corner. */
-ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot);
+ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot,
+                                const double up[3]);
 
 #endif

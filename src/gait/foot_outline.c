@@ -6,6 +6,7 @@
  *     ( u . d,  u_perp . d ),   d = (f . (r - r_h), l . (r - r_h)),  u_perp = (-u_l, u_f)
  */
 #include "gait/foot_outline.h"
+#include "gait/contact_frame.h"
 
 #include "model/neutral_pose.h"
 
@@ -69,12 +70,12 @@ int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel) {
   return is_heel ? mode == AMBULO_CONTACT_HEEL : mode == AMBULO_CONTACT_TOE;
 }
 
-int ambulo__contact_point(const ambulo_model *model, const ambulo__foot_outline *outline,
-                          const ambulo_contact *contact, double place[2]) {
-  const ambulo_foot *foot = &model->feet[contact->foot];
-  place[0] = contact->place[0];
-  place[1] = contact->place[1];
-  if (contact->mode != AMBULO_CONTACT_TOE) return foot->heel_center;
-  place[0] += outline->length;
-  return foot->toe_center;
+int ambulo__contact_point(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
+                          const ambulo_contact *contact, double place[3]) {
+  const ambulo_foot *foot = &d->model->feet[contact->foot];
+  ambulo__contact_frame frame = ambulo__contact_frame_of(d, contact);
+  int on_toes = contact->mode == AMBULO_CONTACT_TOE;
+  double ahead = on_toes ? outline->length : 0.0;
+  for (int i = 0; i < 3; i++) place[i] = frame.origin[i] + ahead * frame.forward[i];
+  return on_toes ? foot->toe_center : foot->heel_center;
 }

@@ -30,9 +30,10 @@ ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
 int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel);
 
 /* The point that a contact holds in place, and where: the heel centre on the foothold,
- * or (in toe contact) the toe centre where the flat foot has it. `outline`: of the contact's foot.
- * Returns the point. */
-int ambulo__contact_point(const ambulo_model *model, const ambulo__foot_outline *outline,
-                          const ambulo_contact *contact, double place[2]);
+ * or (in toe contact) the toe centre where the flat foot has it; world axes, m. `outline`: of the
+ * contact's foot. Returns the point. */
+int ambulo__contact_point(const ambulo_problem_definition *definition,
+                          const ambulo__foot_outline *outline, const ambulo_contact *contact,
+                          double place[3]);
 
 #endif

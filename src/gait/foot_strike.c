@@ -1,18 +1,23 @@
 /* gait/foot_strike.c - a loaded foot stays on its foothold ("foot strike").
  *
- *     f . r - place_f = 0,   l . r - place_l = 0,   m
+ *     f . (r - place) = 0,   l . (r - place) = 0,   m
  *
  * of the point that the contact holds (gait/foot_outline.h); a flat foot also keeps its
- * toe centre straight ahead, l . r_toe - place_l = 0: the heading. Rows along left are
+ * toe centre straight ahead, l . (r_toe - place) = 0: the heading. f and l are the axes of the
+ * contact's surface (gait/contact_frame.h). Rows along left are
  * left out where no coordinate can move the point sideways.
  */
 #include "gait/bounded.h"
+#include "gait/contact_frame.h"
 #include "gait/foot_outline.h"
 
 static void place_row(const ambulo__gait_context *context, int node, int point, const char *detail,
-                      const double direction[3], double place, ambulo__row_table *table) {
+                      const double direction[3], const double place[3],
+                      ambulo__row_table *table) {
+  double constant = 0.0;
+  for (int i = 0; i < 3; i++) constant -= direction[i] * place[i];
   ambulo__row_begin(table, AMBULO__KIND_FOOT_STRIKE, context->model->points[point].name, detail,
-                    AMBULO__METRES, AMBULO_EQUAL, node, context->times[node], -place);
+                    AMBULO__METRES, AMBULO_EQUAL, node, context->times[node], constant);
   for (int axis = 0; axis < 3; axis++) {
     ambulo__row_term_add(table, node, ambulo__channel_point(&context->channels, point, axis),
                          direction[axis]);
@@ -22,22 +27,22 @@ static void place_row(const ambulo__gait_context *context, int node, int point, 
 static void contact_rows(const ambulo__gait_context *context, int node,
                          const ambulo_contact *contact, const ambulo__foot_outline *outline,
                          ambulo__row_table *table) {
-  const ambulo_model *model = context->model;
-  double place[2];
-  int point = ambulo__contact_point(model, outline, contact, place);
-  place_row(context, node, point, "forward", model->forward, place[0], table);
+  ambulo__contact_frame frame = ambulo__contact_frame_of(context->definition, contact);
+  double place[3];
+  int point = ambulo__contact_point(context->definition, outline, contact, place);
+  place_row(context, node, point, "forward", frame.forward, place, table);
   if (!outline->moves_sideways) return;
-  place_row(context, node, point, "left", model->left, place[1], table);
+  place_row(context, node, point, "left", frame.left, place, table);
   if (contact->mode != AMBULO_CONTACT_FLAT) return;
-  int toe = model->feet[contact->foot].toe_center;
-  place_row(context, node, toe, "heading", model->left, place[1], table);
+  int toe = context->model->feet[contact->foot].toe_center;
+  place_row(context, node, toe, "heading", frame.left, place, table);
 }
 
 /* both hold the flat foot, or the same point on the same foothold: what the other says, this one
  * says
  */
 static int covers(const ambulo_contact *one, const ambulo_contact *other) {
-  if (one->place[0] != other->place[0] || one->place[1] != other->place[1]) return 0;
+  if (!ambulo__contacts_same_place(one, other)) return 0;
   return one->mode == AMBULO_CONTACT_FLAT || one->mode == other->mode;
 }
 

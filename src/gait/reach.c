@@ -70,12 +70,14 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
                                 double time, ambulo_diagnostics *diagnostics) {
   const ambulo_model *model = definition->model;
   const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
-  double place_a[2], place_b[2];
+  double place_a[3], place_b[3];
   ambulo__foot_outline outline_a = ambulo__foot_outline_of(model, a->foot);
   ambulo__foot_outline outline_b = ambulo__foot_outline_of(model, b->foot);
-  int point_a = ambulo__contact_point(model, &outline_a, a, place_a);
-  int point_b = ambulo__contact_point(model, &outline_b, b, place_b);
-  double distance = hypot(place_a[0] - place_b[0], place_a[1] - place_b[1]);
+  int point_a = ambulo__contact_point(definition, &outline_a, a, place_a);
+  int point_b = ambulo__contact_point(definition, &outline_b, b, place_b);
+  double square = 0.0;
+  for (int k = 0; k < 3; k++) square += (place_a[k] - place_b[k]) * (place_a[k] - place_b[k]);
+  double distance = sqrt(square);
   double slack = 2.0 * sqrt(3.0) * fmax(definition->contact_tolerance, 0.0);
   double reach = reach_between(model, point_a, point_b) + slack;
   if (distance <= reach + length_tolerance) return AMBULO_OK;

@@ -5,6 +5,7 @@
  * just before t. Overlaps and gaps are found on the time axis,
  * not only at the nodes: a finer grid must not turn a legal schedule into an illegal one.
  */
+#include "gait/contact_frame.h"
 #include "gait/gait.h"
 #include "base/instant.h"
 
@@ -17,6 +18,12 @@ int ambulo__contact_holds(const ambulo_contact *contact, double duration, double
   if (time < contact->from - AMBULO__INSTANT) return 0;
   if (time < contact->to - AMBULO__INSTANT) return 1;
   return contact->to >= duration - AMBULO__INSTANT && time <= duration + AMBULO__INSTANT;
+}
+
+/* zero, or within 60 degrees of up */
+static int normal_is_legal(const double normal[3]) {
+  double size = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  return size == 0.0 || (isfinite(size) && normal[2] >= 0.5 * size);
 }
 
 static ambulo_status check_contact(const ambulo_problem_definition *definition, int index,
@@ -34,11 +41,17 @@ static ambulo_status check_contact(const ambulo_problem_definition *definition, 
                   "contacts[%d]: foot '%s' in unknown mode %d; expected heel, flat or toe", index,
                   foot, (int)c->mode);
   }
-  if (!isfinite(c->place[0]) || !isfinite(c->place[1])) {
+  if (!isfinite(c->place[0]) || !isfinite(c->place[1]) || !isfinite(c->place[2])) {
     return REFUSE(list, NULL,
-                  "contacts[%d]: foot '%s' has the foothold (%g, %g) m; expected finite "
+                  "contacts[%d]: foot '%s' has the foothold (%g, %g, %g) m; expected finite "
                   "lengths",
-                  index, foot, c->place[0], c->place[1]);
+                  index, foot, c->place[0], c->place[1], c->place[2]);
+  }
+  if (!normal_is_legal(c->normal) || !isfinite(c->heading)) {
+    return REFUSE(list, NULL,
+                  "contacts[%d]: foot '%s' stands on the normal (%g, %g, %g), turned by %g rad; "
+                  "expected a finite normal, up to 60 degrees from up, and a finite angle",
+                  index, foot, c->normal[0], c->normal[1], c->normal[2], c->heading);
   }
   if (!(c->from >= -AMBULO__INSTANT) || !(c->to <= duration + AMBULO__INSTANT)) {
     return REFUSE(list, NULL,
@@ -131,6 +144,17 @@ void ambulo__schedule_before(const ambulo_problem_definition *d, const double *t
     before[i] = contact_before(d, i % feet, times[i / feet]);
 }
 
+/* one zero-moment point and one plane serve level ground only */
+static ambulo_status check_level(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  int two_step = d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP;
+  if ((!two_step && d->support == AMBULO_SUPPORT_OFF) || ambulo__contacts_are_level(d))
+    return AMBULO_OK;
+  return REFUSE(list, "ground_reaction: {kind: shared} stands on contacts of any place",
+                "contacts: footholds of different height, slope or heading do not go with %s; "
+                "expected level ground",
+                two_step ? "ground_reaction: {kind: two_step}" : "constraints.zmp");
+}
+
 ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
                                     const double *times, int nodes, int *active,
                                     ambulo_diagnostics *diagnostics) {
@@ -146,6 +170,8 @@ ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
                       definition->ground_reaction.kind != AMBULO_REACTION_NONE;
   ambulo_status gaps = needs_support ? check_gaps(definition, diagnostics) : AMBULO_OK;
   if (!status) status = gaps;
+  if (status) return status;
+  status = check_level(definition, diagnostics);
   if (status) return status;
   int feet = ambulo_model_foot_count(definition->model);
   for (int k = 0; k < nodes; k++) {

@@ -4,7 +4,8 @@
  * A foot that is down at T stands where it, or its mirror foot when the ends are mirrored, stands
  * at 0, moved on by the travel:
  *
- *     place(T) = (place_f(0) + travel, +-place_l(0)),   m;   - when mirrored
+ *     place(T) = (place_f(0) + travel, +-place_l(0), place_n(0) + rise),   m;   - when mirrored
+ *     heading(T) = +-heading(0)
  *
  * It need not be down at both: at T it may strike, or leave the ground. Rows at the last node are
  * left out where they repeat those of the first (gait/bounded.h), so a disagreement would be a foot
@@ -24,13 +25,34 @@ static int uses_places(const ambulo_problem_definition *d) {
          d->ground_reaction.kind != AMBULO_REACTION_NONE;
 }
 
+/* at the same place of the plane: height and heading */
+static ambulo_status check_turned(const ambulo_problem_definition *d, const ambulo_contact *first,
+                                  const ambulo_contact *last, double up,
+                                  ambulo_diagnostics *list) {
+  double heading = d->ends == AMBULO_ENDS_MIRRORED ? -first->heading : first->heading;
+  const char *foot = d->model->feet[last->foot].name;
+  if (fabs(last->place[2] - up) > tolerance)
+    return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, "change ends.rise",
+                         "ends.rise: foot '%s' stands %.6g m high at t = %.6g s, but ends with a "
+                         "rise of %.6g m put it at %.6g m; expected the same height",
+                         foot, last->place[2], d->duration, d->rise, up);
+  if (fabs(last->heading - heading) > tolerance)
+    return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere,
+                         "a motion that repeats itself does not turn; 'ends' without a kind does",
+                         "contacts: foot '%s' is turned by %.6g rad at t = %.6g s, and by %.6g rad "
+                         "where the motion begins again; expected the same",
+                         foot, last->heading, d->duration, heading);
+  return AMBULO_OK;
+}
+
 static ambulo_status check_pair(const ambulo_problem_definition *d, const ambulo_contact *first,
                                 const ambulo_contact *last, ambulo_diagnostics *list) {
   int mirrored = d->ends == AMBULO_ENDS_MIRRORED;
   double ahead = first->place[0] + d->travel;
   double left = mirrored ? -first->place[1] : first->place[1];
+  double up = first->place[2] + d->rise;
   if (fabs(last->place[0] - ahead) <= tolerance && fabs(last->place[1] - left) <= tolerance)
-    return AMBULO_OK;
+    return check_turned(d, first, last, up, list);
   const char *kind = mirrored ? "mirrored" : "periodic";
   return ambulo__error(
       list, AMBULO_E_PROBLEM, ambulo__nowhere,

@@ -83,7 +83,7 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
     double *c = dense->channel;
     ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
     for (int b = 0; b < p->blocks; b++, c += stride) {
-      p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
+      p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, b),
                           c + 3 * d8, scratch);
     }
     ambulo__row_runs_values(&p->row_runs, dense->channel, dense->row_value);

@@ -9,8 +9,10 @@
 #include <math.h>
 
 /* of the foot that the row is about, from what the kernels are told (nlp/ground.c): rows that
- * count by load come with ground reaction only */
+ * count by load come with ground reaction only; where contacts share the load they are about
+ * moments and have the load in them */
 static double load_share(const ambulo_problem *fine, const ambulo__table_row *row) {
+  if (fine->definition.ground_reaction.kind == AMBULO_REACTION_SHARED) return 1.0;
   double first = fine->ground[ambulo__lane_index(row->node, AMBULO__GROUND_ENTRIES, 0)];
   return row->subject == fine->model->feet[0].name ? first : 1.0 - first;
 }

@@ -113,7 +113,7 @@ void ambulo__adjoint_block(ambulo_workspace *workspace, int block) {
   size_t offset = (size_t)block * (size_t)workspace->channel_count * AMBULO__LANES;
   double *c = workspace->channel + offset, *w = workspace->weight + offset;
   double *g = workspace->gradient_lanes;
-  const double *ground = ambulo__ground_block(p->ground, block);
+  const double *ground = ambulo__ground_block(p, p->ground, block);
   p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, ground, c + 3 * d8, workspace->scratch);
   p->kernels->reverse(p->plan, c + d8, c + 2 * d8, ground, w + 3 * d8, g, g + d8, g + 2 * d8,
                       workspace->scratch);

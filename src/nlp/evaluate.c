@@ -32,7 +32,7 @@ static void compute_block(ambulo_workspace *workspace, int block) {
   const ambulo_problem *p = workspace->problem;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *c = block_of(workspace, workspace->channel, block);
-  p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, block),
+  p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, block),
                       c + 3 * d8, workspace->scratch);
 }
 
@@ -180,7 +180,7 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     double *c = block_of(workspace, workspace->channel, b);
     size_t all = (size_t)b * (size_t)pattern.count * AMBULO__LANES;
     size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
-    p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p->ground, b),
+    p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, b),
                          workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
                          workspace->scratch);
     ambulo__wrench_gather(workspace, b);

@@ -5,38 +5,79 @@
  * kappa = 0. Centre of pressure of foot j, from the ZMP p (gait/loading.h):
  *
  *     c_0 = p + a_1 D,    c_1 = p - a_0 D
+ *
+ * Where contacts share the load: [3 + 4 K][8], a point o near them, and for each of K slots its
+ * weight and centre (gait/contact_load.h, mechanics/kernel_contacts.h). o is the mean of the
+ * centres that are loaded.
  */
 #include "nlp/nlp.h"
 
+#include "gait/contact_load.h"
 #include "gait/loading.h"
 
 #include <math.h>
+#include <string.h>
+
+typedef struct fill {
+  const ambulo_problem *problem;
+  const ambulo__foot_outline *outlines;
+  ambulo__slots slots;
+  double *ground;
+} fill;
+
+static void set(double *lane, int entry, double value) {
+  lane[(size_t)entry * AMBULO__LANES] = value;
+}
+
+static void fill_split(const fill *f, int k, double time) {
+  const ambulo_problem *p = f->problem;
+  const ambulo_model *m = p->model;
+  ambulo__load load = {{1.0, 0.0}, {0.0, 0.0}};
+  double *lane = f->ground + ambulo__lane_index(k, AMBULO__GROUND_ENTRIES, 0);
+  if (isfinite(time)) load = ambulo__load_at(&p->definition, f->outlines, time);
+  set(lane, 0, load.share[0]);
+  for (int axis = 0; axis < 3; axis++)
+    set(lane, 1 + axis, load.apart[0] * m->forward[axis] + load.apart[1] * m->left[axis]);
+  set(lane, 4, isfinite(time) ? p->definition.ground_reaction.shear : 0.0);
+}
+
+static void fill_contacts(const fill *f, int k, double time) {
+  const ambulo_problem *p = f->problem;
+  double *lane = f->ground + ambulo__lane_index(k, ambulo__plan_ground_entries(p->plan), 0);
+  double sum[3] = {0.0, 0.0, 0.0};
+  int loaded = 0;
+  for (int i = 0; isfinite(time) && i < f->slots.count; i++) {
+    ambulo__contact_load load =
+        ambulo__contact_load_at(&p->definition, f->outlines, &f->slots, i, NULL, time);
+    set(lane, 3 + 4 * i, load.weight);
+    for (int axis = 0; axis < 3; axis++) {
+      set(lane, 4 + 4 * i + axis, load.center[axis]);
+      sum[axis] += load.center[axis];
+    }
+    loaded += load.loaded;
+  }
+  for (int axis = 0; loaded && axis < 3; axis++) set(lane, axis, sum[axis] / loaded);
+}
 
 ambulo_status ambulo__ground_fill(const ambulo_problem *p, const ambulo_allocator *a,
                                   const double *times, int count, double **ground) {
   *ground = NULL;
   if (!p->channels.feet) return AMBULO_OK;
-  size_t blocks = (size_t)ambulo__block_count(count), lanes = AMBULO__LANES;
-  double *g = ambulo__alloc_aligned(a, blocks * AMBULO__GROUND_ENTRIES * lanes, sizeof *g);
+  size_t lanes = (size_t)ambulo__block_count(count) * AMBULO__LANES;
+  size_t entries = (size_t)ambulo__plan_ground_entries(p->plan);
   ambulo__foot_outline *outlines = ambulo__foot_outlines(p->model, a);
-  if (!g || !outlines) {
-    ambulo__free_aligned(a, g);
+  fill f = {p, outlines, ambulo__slots_of(p->model), NULL};
+  f.ground = ambulo__alloc_aligned(a, lanes * entries, sizeof *f.ground);
+  if (!f.ground || !outlines) {
+    ambulo__free_aligned(a, f.ground);
     ambulo__free(a, outlines);
     return AMBULO_E_MEMORY;
   }
-  for (int k = 0; k < (int)(blocks * lanes); k++) {
-    ambulo__load load = {{1.0, 0.0}, {0.0, 0.0}};
-    if (k < count) load = ambulo__load_at(&p->definition, outlines, times[k]);
-    double *lane = g + ambulo__lane_index(k, AMBULO__GROUND_ENTRIES, 0);
-    lane[0] = load.share[0];
-    for (int axis = 0; axis < 3; axis++) {
-      lane[(size_t)(1 + axis) * lanes] =
-          load.apart[0] * p->model->forward[axis] + load.apart[1] * p->model->left[axis];
-    }
-    lane[4 * lanes] = k < count ? p->definition.ground_reaction.shear : 0.0;
-  }
+  int shared = p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED;
+  for (int k = 0; k < (int)lanes; k++)
+    (shared ? fill_contacts : fill_split)(&f, k, k < count ? times[k] : (double)NAN);
   ambulo__free(a, outlines);
-  *ground = g;
+  *ground = f.ground;
   return AMBULO_OK;
 }
 
@@ -53,12 +94,55 @@ void ambulo__pressure_centers(const double *ground, int node, const double *zmp,
   }
 }
 
+/* (W.10) adds the contact of one slot to what its foot carries; cop: times the normal force */
+static double add_slot(const ambulo_problem *p, const ambulo__contact_load *load, int slot,
+                       const double *channel, double grf[3], double cop[3], double *free_moment) {
+  double force[3], moment[3], normal = 0.0, along = 0.0, across = 0.0, twist = 0.0;
+  for (int i = 0; i < 3; i++) {
+    int f = ambulo__channel_foot_force(&p->channels, slot, i);
+    int m = ambulo__channel_contact_moment(&p->channels, slot, i);
+    force[i] = channel[(size_t)f * AMBULO__LANES];
+    moment[i] = channel[(size_t)m * AMBULO__LANES];
+    normal += force[i] * load->frame.up[i];
+    along -= moment[i] * load->frame.left[i];
+    across += moment[i] * load->frame.forward[i];
+    twist += moment[i] * force[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    grf[i] += force[i];
+    cop[i] += normal * load->center[i] + along * load->frame.forward[i] +
+              across * load->frame.left[i];
+  }
+  if (normal > 0.0) *free_moment += twist / normal;
+  return normal;
+}
+
+void ambulo__contact_pressures(const ambulo_problem *p, const ambulo__foot_outline *outlines,
+                               double time, const double *channel, double grf[6], double cop[6],
+                               double free_moment[2]) {
+  ambulo__slots slots = ambulo__slots_of(p->model);
+  double normal[2] = {0.0, 0.0};
+  memset(grf, 0, 6 * sizeof *grf);
+  memset(cop, 0, 6 * sizeof *cop);
+  memset(free_moment, 0, 2 * sizeof *free_moment);
+  for (int slot = 0; slot < slots.count; slot++) {
+    int foot = slots.foot[slot];
+    ambulo__contact_load load =
+        ambulo__contact_load_at(&p->definition, outlines, &slots, slot, NULL, time);
+    if (load.loaded && load.weight > 0.0)
+      normal[foot] += add_slot(p, &load, slot, channel, grf + 3 * foot, cop + 3 * foot,
+                               &free_moment[foot]);
+  }
+  for (int i = 0; i < 6; i++) cop[i] = normal[i / 3] > 0.0 ? cop[i] / normal[i / 3] : (double)NAN;
+}
+
 const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_problem *p) {
   return &p->definition.ground_reaction;
 }
 
 double ambulo_problem_load_share(const ambulo_problem *p, int foot, double time) {
   if (!p->channels.feet || foot < 0 || foot > 1) return 0.0;
+  if (p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED) return (double)NAN;
   ambulo__foot_outline outlines[2] = {ambulo__foot_outline_of(p->model, 0),
                                       ambulo__foot_outline_of(p->model, 1)};
   return ambulo__load_at(&p->definition, outlines, time).share[foot];

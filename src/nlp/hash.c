@@ -85,6 +85,7 @@ unsigned long long ambulo__problem_hash_of(const ambulo_problem *p) {
   h = add_numbers(h, ambulo__basis_breakpoints(p->basis),
                   (size_t)ambulo__basis_intervals(p->basis) + 1);
   if (p->definition.grid != AMBULO_GRID_UNIFORM) h = add_numbers(h, p->times, (size_t)p->nodes);
-  h = add_numbers(h, p->ground, (size_t)p->blocks * AMBULO__GROUND_ENTRIES * AMBULO__LANES);
+  h = add_numbers(h, p->ground,
+                  (size_t)(p->blocks * ambulo__plan_ground_entries(p->plan)) * AMBULO__LANES);
   return add_rows(add_terms(h, p), p);
 }

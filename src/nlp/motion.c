@@ -87,11 +87,33 @@ static void fill_feet(const ambulo_problem *p, const dense *d, int channels, int
       if (axis == 3 && motion->free_moment) motion->free_moment[at] = value;
     }
   }
-  for (int k = 0; d->ground && motion->cop && k < count; k++) {
+  int shared = p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED;
+  for (int k = 0; d->ground && !shared && motion->cop && k < count; k++) {
     double zmp[3];
     zmp_at(p, d, channels, k, zmp);
     ambulo__pressure_centers(d->ground, k, zmp, motion->cop + 6 * k);
   }
+}
+
+/* the same of contacts that share the load */
+static ambulo_status fill_contacts(const ambulo_problem *p, const dense *d,
+                                   const ambulo_allocator *a, const double *times, int count,
+                                   const ambulo_motion *motion) {
+  int channels = ambulo__channel_count(&p->channels);
+  if (p->definition.ground_reaction.kind != AMBULO_REACTION_SHARED) return AMBULO_OK;
+  ambulo__foot_outline *outlines = ambulo__foot_outlines(p->model, a);
+  if (!outlines) return AMBULO_E_MEMORY;
+  for (int k = 0; k < count; k++) {
+    double grf[6], cop[6], free_moment[2];
+    ambulo__contact_pressures(p, outlines, times[k],
+                              d->channel + ambulo__lane_index(k, channels, 0), grf, cop,
+                              free_moment);
+    if (motion->grf) memcpy(motion->grf + 6 * k, grf, sizeof grf);
+    if (motion->cop) memcpy(motion->cop + 6 * k, cop, sizeof cop);
+    if (motion->free_moment) memcpy(motion->free_moment + 2 * k, free_moment, sizeof free_moment);
+  }
+  ambulo__free(a, outlines);
+  return AMBULO_OK;
 }
 
 /* within the motion, but for rounding */
@@ -117,7 +139,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
     for (int b = 0; b < ambulo__block_count(count); b++) {
       double *y = d.channel + (size_t)b * stride;
-      p->kernels->outputs(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(d.ground, b),
+      p->kernels->outputs(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(p, d.ground, b),
                           y + 3 * d8, d.scratch);
     }
     int finite = unpack(&d, channels, 0, c, count, motion->q);
@@ -128,7 +150,8 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
     fill_feet(p, &d, channels, count, motion);
-    if (!finite) status = AMBULO_E_NUMERIC;
+    status = fill_contacts(p, &d, a, times, count, motion);
+    if (!status && !finite) status = AMBULO_E_NUMERIC;
   }
   dense_free(a, &d);
   return status;

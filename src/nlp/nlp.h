@@ -14,6 +14,7 @@
 #define AMBULO_NLP_NLP_H
 
 #include "ambulo/solve.h"
+#include "gait/foot_outline.h"
 #include "gait/gait.h"
 #include "mechanics/plan.h"
 #include "nlp/row_runs.h"
@@ -56,7 +57,7 @@ struct ambulo_problem {
   double *quadrature; /* [nodes], trapezoidal weights, s */
   int *active;        /* [nodes][feet] contact index or -1 */
   int *before;        /* [nodes][feet] just before the node; NULL but for grids on events */
-  double *ground;     /* [blocks][AMBULO__GROUND_ENTRIES][8]; NULL without ground reaction */
+  double *ground;     /* [blocks][entries][8], nlp/ground.c; NULL without ground reaction */
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;
@@ -120,11 +121,20 @@ ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, doubl
  * ambulo__free_aligned. *ground is NULL without ground reaction. E_MEMORY. */
 ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_allocator *allocator,
                                   const double *times, int count, double **ground);
-/* Centres of pressure cop[2][3] of the feet at one node from its ZMP; NaN for a foot in the air. */
+/* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN for
+ * a foot in the air. */
 void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
+/* Force grf[2][3], centre of pressure cop[2][3] and free moment [2] of the feet where contacts share
+ * the load, at `time`, from the channels of a node (`channel`: of the first, in the lanes); cop is
+ * NaN where a foot carries nothing. E_MEMORY. */
+void ambulo__contact_pressures(const ambulo_problem *problem, const ambulo__foot_outline *outlines,
+                               double time, const double *channel, double grf[6], double cop[6],
+                               double free_moment[2]);
 /* The entries of one block, NULL without ground reaction. */
-static inline const double *ambulo__ground_block(const double *ground, int block) {
-  return ground ? ground + (size_t)block * AMBULO__GROUND_ENTRIES * AMBULO__LANES : NULL;
+static inline const double *ambulo__ground_block(const ambulo_problem *problem,
+                                                 const double *ground, int block) {
+  size_t entries = (size_t)ambulo__plan_ground_entries(problem->plan);
+  return ground ? ground + (size_t)block * entries * AMBULO__LANES : NULL;
 }
 
 /* ------------------------------------------------------------- local rows */

@@ -10,6 +10,8 @@
 #include "nlp/problem.h"
 #include "base/instant.h"
 #include "gait/phases.h"
+#include "gait/contact_load.h"
+#include "gait/sharing.h"
 #include "nlp/memory.h"
 #include "objective/mirror_terms.h"
 
@@ -38,7 +40,10 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
                           .heel_roll = 0.04,
                           .flat_pressure = {-0.005, 0.02},
                           .toe_pressure = {-0.02, 0.055},
-                          .pressure_width = 0.035},
+                          .pressure_width = 0.035,
+                          .moment_arm = 0.1,
+                          .slant = 0.2,
+                          .loading_rate = 12.0},
       .ends_order = 1,
   };
   return definition;
@@ -135,7 +140,9 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   if (d->clearance.height >= 0.0) ambulo__clearance_rows(&context, &p->table);
   status = ambulo__zmp_rows(&context, &p->table, diagnostics);
   if (status) return status;
-  if (p->channels.feet) ambulo__reaction_rows(&context, &p->table);
+  if (d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP)
+    ambulo__reaction_rows(&context, &p->table);
+  if (d->ground_reaction.kind == AMBULO_REACTION_SHARED) ambulo__sharing_rows(&context, &p->table);
   ambulo__limit_rows(&context, &p->table);
   ambulo__tube_rows(&context, &p->table);
   ambulo__end_rows(&context, &p->table);
@@ -174,12 +181,20 @@ static ambulo_status build_plan(ambulo_problem *p, ambulo_diagnostics *diagnosti
   const ambulo_problem_definition *d = &p->definition;
   if (d->ground_reaction.kind == AMBULO_REACTION_NONE)
     return ambulo__plan_create(p->model, &p->allocator, &p->plan);
+  const ambulo_ground_reaction *r = &d->ground_reaction;
   int feet = ambulo_model_foot_count(p->model);
   if (feet != 2)
     return REFUSE(diagnostics, "ground_reaction: the model '%s' has %d feet; expected 2",
                   ambulo_model_name(p->model), feet);
-  p->channels.feet = feet;
-  return ambulo__plan_create_grounded(p->model, d->ground_height, &p->allocator, &p->plan);
+  p->channels.feet = p->channels.slots = feet;
+  p->channels.slot_rows = 4;
+  if (r->kind == AMBULO_REACTION_TWO_STEP)
+    return ambulo__plan_create_grounded(p->model, d->ground_height, &p->allocator, &p->plan);
+  ambulo__slots slots = ambulo__slots_of(p->model);
+  p->channels.slots = slots.count;
+  p->channels.slot_rows = 6;
+  return ambulo__plan_create_contacts(p->model, slots.link, slots.count, r->moment_arm, r->slant,
+                                      &p->allocator, &p->plan);
 }
 
 static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {

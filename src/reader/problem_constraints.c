@@ -115,6 +115,7 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
   check_steps(reader, ambulo__yaml_get(section, "kind"));
   d->ends_order = ambulo__yaml_integer(ambulo__yaml_get(section, "order"), 0, 2, 1);
   reader->keys.travel = ambulo__yaml_get(section, "travel") != NULL;
+  d->rise = ambulo__yaml_number_in(ambulo__yaml_get(section, "rise"), -1e6, 1e6, 0.0);
   d->travel = ambulo__yaml_number_in(ambulo__yaml_get(section, "travel"), -1e6, 1e6, d->travel);
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);
   end_list list = {ambulo__reader_alloc(reader, 4 * coordinates, sizeof(ambulo_end_value)), 0};

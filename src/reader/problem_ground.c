@@ -97,21 +97,25 @@ static void read_pressure(const ambulo__yaml_node *node, ambulo_ground_reaction 
 }
 
 static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
-  static const char *const kinds[] = {"none", "two_step"};
+  static const char *const kinds[] = {"none", "two_step", "shared"};
   static const char *const transfers[] = {"early", "linear", "smooth"};
   ambulo_problem_definition *d = &reader->definition;
   ambulo_ground_reaction *r = &d->ground_reaction;
   if (!section) return;
-  int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 2, 1);
+  int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 1);
   int transfer = ambulo__yaml_choice(ambulo__yaml_get(section, "transfer"), transfers, 3, 0);
   r->kind = (ambulo_reaction_kind)kind;
   r->transfer = (ambulo_transfer)transfer;
   r->exponent =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "exponent"), 1.0, 10.0, r->exponent);
   r->shear = ambulo__yaml_number_in(ambulo__yaml_get(section, "shear"), 0.0, 2.0, r->shear);
+  r->moment_arm = ambulo__yaml_number_in(ambulo__yaml_get(section, "moment_arm"), 1e-3, 10.0,
+                                         r->moment_arm);
+  r->slant = ambulo__yaml_number_in(ambulo__yaml_get(section, "slant"), 1e-2, 100.0, r->slant);
+  r->loading_rate = read_bound(ambulo__yaml_get(section, "loading_rate"), 1e4, r->loading_rate);
   r->friction = read_bound(ambulo__yaml_get(section, "friction"), 10.0, r->friction);
   r->free_moment = read_bound(ambulo__yaml_get(section, "free_moment"), 10.0, r->free_moment);
-  double force = d->minimum_force >= 0.0 || kind == 0 ? d->minimum_force : 0.2;
+  double force = d->minimum_force >= 0.0 || kind != 1 ? d->minimum_force : 0.2;
   d->minimum_force = read_bound(ambulo__yaml_get(section, "minimum_force"), 100.0, force);
   read_pressure(ambulo__yaml_get(section, "pressure"), r);
   ambulo__yaml_close(section);

@@ -34,7 +34,7 @@ static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_no
 
 /* ------------------------------------------------------------------- contacts */
 
-static void read_contact(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo_contact *contact) {
   static const char *const modes[] = {"heel", "flat", "toe"};
   contact->foot = read_foot(reader, ambulo__yaml_require(node, "foot"));
@@ -42,7 +42,11 @@ static void read_contact(const ambulo__problem_reader *reader, const ambulo__yam
   contact->mode = (ambulo_contact_mode)mode;
   contact->from = ambulo__yaml_number(ambulo__yaml_require(node, "from"), 0.0);
   contact->to = ambulo__yaml_number(ambulo__yaml_require(node, "to"), 0.0);
-  (void)ambulo__yaml_numbers(ambulo__yaml_require(node, "place"), 2, contact->place);
+  const ambulo__yaml_node *place = ambulo__yaml_require(node, "place");
+  int given = ambulo__yaml_is(place, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(place) : 0;
+  (void)ambulo__yaml_numbers(place, given == 3 ? 3 : 2, contact->place);
+  (void)ambulo__yaml_numbers(ambulo__yaml_get(node, "normal"), 3, contact->normal);
+  contact->heading = ambulo__read_plain_angle(reader, ambulo__yaml_get(node, "heading"), 0.0);
   ambulo__yaml_close(node);
 }
 

@@ -45,7 +45,7 @@ static ground ground_at(const ambulo__node_forces *f) {
   for (int i = 0; i < 6; i++)
     g.wrench[i] =
         ambulo__stationary_channel(f->s, f->node, ambulo__channel_moment(&p->channels, i));
-  int center = ambulo__channel_foot_force(&p->channels, p->channels.feet, 0);
+  int center = ambulo__channel_center(&p->channels, 0);
   g.height = ambulo__stationary_along(f->s, f->node, center, up) - h;
   g.normal = dot(up, g.wrench + 3);
   g.gain = g.kappa * g.product / g.height;
@@ -103,7 +103,7 @@ static double pull_of_ground(const ambulo__node_forces *f) {
       sum += ambulo__stationary_adjoint(f->s, f->node, force + i) * wrench[3 + i];
     sum += ambulo__stationary_adjoint(f->s, f->node, force + 3) * g.share[foot] * twist;
   }
-  int center = ambulo__channel_foot_force(c, c->feet, 0);
+  int center = ambulo__channel_center(c, 0);
   for (int i = 0; i < 3; i++)
     sum += ambulo__stationary_adjoint(f->s, f->node, center + i) * f->center[i];
   return sum;

@@ -27,7 +27,7 @@ static double pull_of_load(ambulo__node_forces *f) {
   for (int i = 0; i < 3; i++) force[i] -= model->gravity[i];
   ambulo__node_forces_clear(f);
   ambulo__node_forces_add(f, model->load.link, place, force);
-  int center = ambulo__channel_foot_force(channels, channels->feet, 0);
+  int center = ambulo__channel_center(channels, 0);
   for (int i = 0; channels->feet && i < 3; i++) {
     double c = ambulo__stationary_channel(f->s, f->node, center + i);
     f->center[i] = (place[i] - c) / model->mass;
@@ -59,7 +59,7 @@ static double pull_of_all(const ambulo__node_forces *f) {
       sum += ambulo__stationary_adjoint(f->s, f->node, y) *
              ambulo__stationary_channel(f->s, f->node, y);
     first = ambulo__channel_foot_force(c, 0, 0);
-    last = ambulo__channel_foot_force(c, c->feet, 0);
+    last = ambulo__channel_center(c, 0);
   }
   return sum;
 }

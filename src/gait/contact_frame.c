@@ -1,0 +1,94 @@
+/* gait/contact_frame.c - see contact_frame.h.
+ *
+ * Under a foot in the air, s its share of the way, S(s) = s^2 (3 - 2 s):
+ *
+ *     p_f, p_l, psi, u   x = (1 - S(s)) x_from + S(s) x_to
+ *     p_n                the same with s' = min(1, 2 s) up, max(0, 2 s - 1) down
+ */
+#include "gait/contact_frame.h"
+#include "model/model.h"
+
+#include <math.h>
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    out[i] = a[j] * b[k] - a[k] * b[j];
+  }
+}
+
+int ambulo__contact_is_level(const ambulo_contact *c) {
+  return c->heading == 0.0 && c->place[2] == 0.0 && c->normal[0] == 0.0 && c->normal[1] == 0.0;
+}
+
+int ambulo__contacts_same_place(const ambulo_contact *one, const ambulo_contact *other) {
+  for (int i = 0; i < 3; i++)
+    if (one->place[i] != other->place[i] || one->normal[i] != other->normal[i]) return 0;
+  return one->heading == other->heading;
+}
+
+int ambulo__contacts_are_level(const ambulo_problem_definition *d) {
+  for (int i = 0; i < d->contact_count; i++)
+    if (!ambulo__contact_is_level(&d->contacts[i])) return 0;
+  return 1;
+}
+
+ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *d,
+                                               const ambulo_contact *c) {
+  const ambulo_model *m = d->model;
+  ambulo__contact_frame frame;
+  double height = d->ground_height + c->place[2], ahead[3], length = 0.0;
+  for (int i = 0; i < 3; i++) {
+    frame.origin[i] = c->place[0] * m->forward[i] + c->place[1] * m->left[i] + height * m->up[i];
+    frame.forward[i] = m->forward[i];
+    frame.left[i] = m->left[i];
+    frame.up[i] = m->up[i];
+  }
+  if (c->heading == 0.0 && c->normal[0] == 0.0 && c->normal[1] == 0.0) return frame;
+  double size = sqrt(dot(c->normal, c->normal));
+  for (int i = 0; i < 3; i++) {
+    ahead[i] = cos(c->heading) * m->forward[i] + sin(c->heading) * m->left[i];
+    if (size > 0.0)
+      frame.up[i] = (c->normal[0] * m->forward[i] + c->normal[1] * m->left[i] +
+                     c->normal[2] * m->up[i]) /
+                    size;
+  }
+  cross(frame.up, ahead, frame.left);
+  length = sqrt(dot(frame.left, frame.left));
+  for (int i = 0; i < 3; i++) frame.left[i] /= length;
+  cross(frame.left, frame.up, frame.forward);
+  return frame;
+}
+
+static double smooth(double s) {
+  s = fmin(1.0, fmax(0.0, s));
+  return s * s * (3.0 - 2.0 * s);
+}
+
+ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definition *d,
+                                                    const ambulo_contact *from,
+                                                    const ambulo_contact *to, double share) {
+  ambulo_contact there = *to;
+  double along = smooth(share), rise = to->place[2] - from->place[2];
+  double climb = smooth(rise > 0.0 ? 2.0 * share : 2.0 * share - 1.0);
+  for (int i = 0; i < 2; i++) there.place[i] = from->place[i] + along * (to->place[i] - from->place[i]);
+  there.place[2] = from->place[2] + climb * rise;
+  there.heading = from->heading + along * (to->heading - from->heading);
+  for (int i = 0; i < 3; i++) {
+    double up = i == 2 ? 1.0 : 0.0; /* a normal of zero is up */
+    double a = from->normal[2] > 0.0 ? from->normal[i] : up, b = to->normal[2] > 0.0 ? to->normal[i] : up;
+    there.normal[i] = a + along * (b - a);
+  }
+  return ambulo__contact_frame_of(d, &there);
+}
+
+double ambulo__contact_frame_along(const ambulo__contact_frame *frame, const double direction[3],
+                                   const double point[3]) {
+  double sum = 0.0;
+  for (int i = 0; i < 3; i++) sum += direction[i] * (point[i] - frame->origin[i]);
+  return sum;
+}

@@ -1,0 +1,46 @@
+/* gait/contact_load.h - what the law that shares the load among contacts is told of them.
+ *
+ * A slot is a link that contacts act on: of each foot the link of its heel and, behind a joint of
+ * the toes, that of its toe centre. At most one contact of a slot is down at a time. */
+#ifndef AMBULO_GAIT_CONTACT_LOAD_H
+#define AMBULO_GAIT_CONTACT_LOAD_H
+
+#include "gait/contact_frame.h"
+#include "gait/foot_outline.h"
+
+enum { AMBULO__MOST_SLOTS = 6 };
+
+typedef struct ambulo__slots {
+  int count;
+  int foot[AMBULO__MOST_SLOTS]; /* whose; slot f < foot_count is foot f's */
+  int link[AMBULO__MOST_SLOTS];
+  int part[AMBULO__MOST_SLOTS]; /* an ambulo__foot_part */
+} ambulo__slots;
+
+typedef enum ambulo__foot_part {
+  AMBULO__WHOLE_FOOT, /* no joint between heel and toes */
+  AMBULO__REAR_FOOT,
+  AMBULO__FORE_FOOT
+} ambulo__foot_part;
+
+/* count = 0 for a model whose feet need more than AMBULO__MOST_SLOTS. */
+ambulo__slots ambulo__slots_of(const ambulo_model *model);
+
+/* A slot at a time. */
+typedef struct ambulo__contact_load {
+  int loaded;                  /* 0: all else is zero */
+  double weight;               /* w, 0 to 1 */
+  double center[3];            /* p: world, m */
+  double box[2], side;         /* the patch: from behind to ahead of the centre, to either side, m */
+  double most;                 /* normal force, body weights; may be infinite */
+  ambulo__contact_frame frame; /* of the contact */
+} ambulo__contact_load;
+
+/* `contact` NULL: that which is active at `time`; else that contact, at one of its ends.
+ * `outlines`: of the model's feet. */
+ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *definition,
+                                             const ambulo__foot_outline *outlines,
+                                             const ambulo__slots *slots, int slot,
+                                             const ambulo_contact *contact, double time);
+
+#endif
