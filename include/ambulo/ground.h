@@ -53,7 +53,8 @@ typedef struct ambulo_ground_reaction {
   double moment_arm;   /* > 0, m: the shorter, the less moment a contact takes */
   double slant;        /* > 0; below 1, forces lean towards the centre of mass */
   double loading_rate; /* of a contact's normal force, body weights per s: at most this times the
-                          time since it began and until it ends; negative: no rows */
+                          time since it began and until it ends, setting in over 0.01 s; negative:
+                          no rows */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;

@@ -171,7 +171,9 @@ typedef enum ambulo_term_kind {
   AMBULO_UPRIGHT,      /* squared horizontal direction cosines of the line point[0] to point[1] */
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
   AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
-  AMBULO_USER_SQUARE   /* function(user, state, gradient)^2 */
+  AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
+  AMBULO_FORCE_RATE    /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
+                          nodes; needs ground reaction */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {

@@ -22,7 +22,12 @@
  * half of the flat time where there is no such event in it. What a single contact carries does not
  * depend on its centre.
  *
- * Greatest normal force, body weights:   rho min(t - b, e - t)
+ * Greatest normal force, body weights:
+ *
+ *     min(g(t - b), g(e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
+ *
+ * with the loading rate rho and tau = 0.01 s over which it sets in: a force that began with its
+ * full rate would have a corner, which nodes do not follow and which rings.
  */
 #include "gait/contact_load.h"
 #include "base/instant.h"
@@ -32,7 +37,8 @@
 
 #include <math.h>
 
-static const double beyond_ball = 0.02; /* m: a */
+static const double beyond_ball = 0.02;   /* m: a */
+static const double loading_onset = 0.01; /* s: tau; rms above 15 Hz .0051 body weights, without .0097 */
 
 /* -------------------------------------------------------------------- slots */
 
@@ -133,6 +139,12 @@ static int part_of(ambulo__foot_part part, const ambulo_contact *contact, double
   return 1;
 }
 
+static double most_after(double rate, double time) {
+  if (rate < 0.0 || isinf(time)) return INFINITY;
+  time = fmax(0.0, time);
+  return rate * (time + loading_onset * expm1(-time / loading_onset));
+}
+
 /* (W.8) the contact of a slot */
 ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
                                              const ambulo__foot_outline *outlines,
@@ -156,8 +168,7 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
   load.box[0] = box[0] - center;
   load.box[1] = box[1] - center;
   load.side = r->pressure_width;
-  load.most = r->loading_rate < 0.0
-                  ? INFINITY
-                  : r->loading_rate * fmax(0.0, fmin(time - stance.from, stance.to - time));
+  load.most = fmin(most_after(r->loading_rate, time - stance.from),
+                   most_after(r->loading_rate, stance.to - time));
   return load;
 }

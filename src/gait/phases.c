@@ -115,8 +115,14 @@ static void share_rest(const ambulo__events *events, double duration, int left, 
   }
 }
 
+/* s in [0, 1] with the spacing at the ends 1 - grade of that without */
+static double graded(double grade, double s) {
+  const double turn = 6.28318530717958647692;
+  return s - grade * sin(turn * s) / turn;
+}
+
 ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, int intervals,
-                                 int least, const ambulo_allocator *allocator, double *times) {
+                                 int least, double grade, const ambulo_allocator *allocator, double *times) {
   size_t phases = (size_t)events->count + 1;
   if ((size_t)intervals < phases * (size_t)least) return AMBULO_E_LIMIT;
   int *count = ambulo__alloc(allocator, phases, sizeof *count);
@@ -126,7 +132,8 @@ ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, 
     share_rest(events, duration, left, time, count, remainder);
     for (int p = 0; p <= events->count; p++) {
       double begin = phase_begin(events, p), length = length_of(events, duration, p);
-      for (int i = 0; i < count[p]; i++) times[k++] = begin + i * length / count[p];
+      for (int i = 0; i < count[p]; i++)
+        times[k++] = begin + graded(grade, (double)i / count[p]) * length;
     }
     times[k] = duration;
   }
@@ -137,13 +144,13 @@ ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, 
 }
 
 static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_kind kind,
-                             int intervals, int least, const char *what,
+                             int intervals, int least, double grade, const char *what,
                              const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                              double *times) {
   ambulo__events events;
   ambulo_status status = ambulo__events_create(d, kind, allocator, &events);
   if (status) return status;
-  status = ambulo__phase_grid(&events, d->duration, intervals, least, allocator, times);
+  status = ambulo__phase_grid(&events, d->duration, intervals, least, grade, allocator, times);
   if (status == AMBULO_E_LIMIT)
     status = ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
                            "%s.intervals is %d; expected at least %d, %d for each of the %d phases "
@@ -160,7 +167,7 @@ ambulo_status ambulo__node_times(const ambulo_problem_definition *d,
                                  double *times) {
   int n = d->intervals;
   if (d->grid == AMBULO_GRID_EVENTS && !d->node_times)
-    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, "time", allocator,
+    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, AMBULO__NODE_GRADE, "time", allocator,
                    diagnostics, times);
   for (int k = 0; k <= n; k++)
     times[k] = d->node_times ? d->node_times[k] : (double)k * d->duration / (double)n;
@@ -171,7 +178,7 @@ ambulo_status ambulo__knot_times(const ambulo_problem_definition *d, int interva
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  double *times) {
   return grid_on(d, AMBULO__EVENTS_OF_CONTACTS, intervals, AMBULO__LEAST_KNOT_INTERVALS,
-                 "trajectory", allocator, diagnostics, times);
+                 0.0, "trajectory", allocator, diagnostics, times);
 }
 
 ambulo_status ambulo__knots_least(const ambulo_problem_definition *d,

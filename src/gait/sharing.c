@@ -15,7 +15,7 @@
 #include "gait/bounded.h"
 #include "gait/contact_load.h"
 #include "gait/sharing.h"
-#include "model/model.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 

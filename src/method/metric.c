@@ -127,7 +127,7 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
                           const ambulo_term *term, int node, double scale, int count) {
   const ambulo_problem *p = metric->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
-  int width = ambulo__node_width(p, node), last = term->kind == AMBULO_TORQUE_RATE;
+  int width = ambulo__node_width(p, node), last = ambulo__term_is_rate(term->kind);
   for (int ahead = 0; ahead <= last && ahead <= node; ahead++) {
     int base = node - ahead, forms = ambulo__term_forms(term, &context, base), shared;
     double weight = scale * term->weight * ambulo__term_quadrature(p, term, base);

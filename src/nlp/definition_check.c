@@ -64,6 +64,7 @@ static ambulo_status check_task(const ambulo_problem_definition *d, ambulo_diagn
       {"constraints.orientation_tolerance", "rad", &d->orientation_tolerance, 1, 0.0, 10.0},
       {"constraints.strike_pitch", "rad", d->strike_pitch, 2, -10.0, 10.0},
       {"ends.travel", "m", &d->travel, 1, -longest, longest},
+      {"ends.rise", "m", &d->rise, 1, -longest, longest},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }
@@ -91,6 +92,9 @@ static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diag
       {"ground_reaction.flat_pressure", "m", r->flat_pressure, 2, -longest, longest},
       {"ground_reaction.toe_pressure", "m", r->toe_pressure, 2, -longest, longest},
       {"ground_reaction.pressure_width", "m", &r->pressure_width, 1, 0.0, longest},
+      {"ground_reaction.moment_arm", "m", &r->moment_arm, 1, 1e-6, longest},
+      {"ground_reaction.slant", "", &r->slant, 1, 1e-6, largest},
+      {"ground_reaction.loading_rate", "1/s", &r->loading_rate, 1, -largest, largest},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }

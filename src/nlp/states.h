@@ -27,11 +27,11 @@ static inline ambulo__term_context ambulo__term_context_of(const ambulo_workspac
   return context;
 }
 
-/* Quadrature weight of a term at a node, s: trapezoidal; the torque rate is constant over the
+/* Quadrature weight of a term at a node, s: trapezoidal; a rate is constant over the
  * interval that begins at the node. */
 static inline double ambulo__term_quadrature(const ambulo_problem *p, const ambulo_term *term,
                                              int node) {
-  if (term->kind == AMBULO_TORQUE_RATE)
+  if (ambulo__term_is_rate(term->kind))
     return node + 1 < p->nodes ? p->times[node + 1] - p->times[node] : 0.0;
   return p->quadrature[node];
 }

@@ -50,7 +50,7 @@ static int same(double a, double b) {
 
 static int is_by_coordinate(ambulo_term_kind kind) {
   return kind != AMBULO_USER_TERM && kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE &&
-         kind != AMBULO_CLEARANCE;
+         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE;
 }
 
 static int has_offset(ambulo_term_kind kind) {

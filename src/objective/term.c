@@ -15,6 +15,7 @@ const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
       [AMBULO_UPRIGHT] = {.name = "upright", .uses_q = 1},
       [AMBULO_GROUND_FORCE] = {.name = "ground_force", .uses_tau = 1},
       [AMBULO_CLEARANCE] = {.name = "clearance", .uses_q = 1},
+      [AMBULO_FORCE_RATE] = {.name = "force_rate", .uses_tau = 1},
       [AMBULO_USER_SQUARE] = {.name = "user_square", .uses_tau = 1, .uses_qdd = 1, .uses_q = 1},
   };
   int index = (int)kind;
@@ -41,9 +42,14 @@ int ambulo__term_is_simple(const ambulo_term *term) {
   case AMBULO_UPRIGHT:
   case AMBULO_GROUND_FORCE:
   case AMBULO_CLEARANCE:
+  case AMBULO_FORCE_RATE:
     break;
   }
   return 0;
+}
+
+int ambulo__term_is_rate(ambulo_term_kind kind) {
+  return kind == AMBULO_TORQUE_RATE || kind == AMBULO_FORCE_RATE;
 }
 
 int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channels, int i) {
@@ -83,6 +89,8 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *cont
     return 3;
   case AMBULO_CLEARANCE:
     return ambulo__clearance_forms(context);
+  case AMBULO_FORCE_RATE:
+    return ambulo__force_rate_forms(context, node);
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:
   case AMBULO_ACCELERATION:
@@ -117,6 +125,9 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *cont
     break;
   case AMBULO_CLEARANCE:
     ambulo__clearance_form(term, context, node, j, form);
+    break;
+  case AMBULO_FORCE_RATE:
+    ambulo__force_rate_form(context, node, j, form);
     break;
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:

@@ -86,6 +86,8 @@ typedef struct ambulo__term_context {
   double ground_height;
 } ambulo__term_context;
 
+/* 1 if its residuals are differences between a node and the next. */
+int ambulo__term_is_rate(ambulo_term_kind kind);
 /* Residuals at one node (0 at nodes where the term says nothing). */
 int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *context, int node);
 /* Residual j of `term` at `node`. */
@@ -110,6 +112,10 @@ void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_contex
                               int node, int i, ambulo__form *form);
 void ambulo__strength_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                            int i, ambulo__form *form);
+
+int ambulo__force_rate_forms(const ambulo__term_context *context, int node);
+void ambulo__force_rate_form(const ambulo__term_context *context, int node, int j,
+                             ambulo__form *form);
 
 /* Value of a channel at a node; adds a channel with a slope to a form. A form that is full has no
  * value any more, u is NaN: a term that outgrows it fails loudly. */

@@ -156,6 +156,7 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_TORQUE_RATE:
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:
+  case AMBULO_FORCE_RATE:
     break;
   case AMBULO_CLEARANCE:
     term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);
@@ -170,18 +171,19 @@ static int has_smoothing(ambulo_term_kind kind) {
 
 static int has_scale(ambulo_term_kind kind) {
   return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE &&
-         kind != AMBULO_CLEARANCE;
+         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE;
 }
 
 static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
   static const char *const words[] = {"torque_squared",   "torque_absolute", "acceleration",
                                       "tracking",         "torque_power",    "torque_rate",
                                       "mechanical_power", "posture",         "upright",
-                                      "ground_force",     "clearance"};
+                                      "ground_force",     "clearance",       "force_rate"};
   static const ambulo_term_kind kinds[] = {
       AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
       AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
-      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE};
+      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,
+      AMBULO_FORCE_RATE};
   return kinds[ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), 0)];
 }
 

@@ -48,7 +48,7 @@ void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials 
   const ambulo_problem *p = s->problem;
   double sum = 0.0;
   for (int t = 0; t < p->definition.term_count; t++) {
-    int is_rate = p->definition.terms[t].kind == AMBULO_TORQUE_RATE;
+    int is_rate = ambulo__term_is_rate(p->definition.terms[t].kind);
     sum += (is_rate ? -1.0 : 1.0) * s->workspace->term_value[t];
   }
   for (int block = 0; block < p->blocks; block++) ambulo__adjoint_block(s->workspace, block);

@@ -100,6 +100,9 @@ static void composite_form(const term_sum *t, const ambulo__term_context *contex
   case AMBULO_TORQUE_RATE:
     t->partials->scale[at] += slope * form->u / ambulo__term_scale(t->term, j);
     break;
+  case AMBULO_FORCE_RATE:
+    t->partials->log_mass -= slope * form->u;
+    break;
   case AMBULO_GROUND_FORCE:
     t->partials->log_mass -= slope * (form->u + t->up[j]);
     t->partials->slope -= slope * ahead(t, j);

@@ -79,7 +79,7 @@ static void expect_counts(int intervals, int least, int first, int second, int t
   double event[2] = {0.2, 0.3}, times[64];
   ambulo__events events = {2, event};
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__phase_grid(&events, 1.0, intervals, least, &a, times), AMBULO_OK);
+  assert_int_equal(ambulo__phase_grid(&events, 1.0, intervals, least, 0.0, &a, times), AMBULO_OK);
   const int count[3] = {first, second, third};
   const double begin[4] = {0.0, 0.2, 0.3, 1.0};
   int k = 0;
@@ -106,9 +106,9 @@ static void too_few_intervals_are_refused(void **state) {
   double event[2] = {0.2, 0.3}, times[8];
   ambulo__events events = {2, event};
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo__phase_grid(&events, 1.0, 5, 2, &a, times), AMBULO_E_LIMIT);
+  assert_int_equal(ambulo__phase_grid(&events, 1.0, 5, 2, 0.0, &a, times), AMBULO_E_LIMIT);
   events.count = 0;
-  assert_int_equal(ambulo__phase_grid(&events, 1.0, 4, 2, &a, times), AMBULO_OK);
+  assert_int_equal(ambulo__phase_grid(&events, 1.0, 4, 2, 0.0, &a, times), AMBULO_OK);
   for (int k = 0; k <= 4; k++) assert_close(times[k], 0.25 * k, 0.0);
 }
 
@@ -127,7 +127,7 @@ static void any_phases_are_shared_out(void **state) {
     }
     for (int i = 0; i < count; i++) event[i] = at += length[i];
     ambulo__events events = {count, event};
-    assert_int_equal(ambulo__phase_grid(&events, all, intervals, 2, &a, times), AMBULO_OK);
+    assert_int_equal(ambulo__phase_grid(&events, all, intervals, 2, 0.0, &a, times), AMBULO_OK);
     for (int k = 0; k < intervals; k++) assert_true(times[k + 1] > times[k]);
     for (int i = 0; i <= count; i++) {
       double end = i < count ? event[i] : all;
