@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 typedef enum ambulo_reaction_kind {
-  AMBULO_REACTION_NONE,    /* torques as if the root were carried by its own six forces */
+  AMBULO_REACTION_NONE,     /* torques as if the root were carried by its own six forces */
   AMBULO_REACTION_TWO_STEP, /* the root wrench is shared between the two feet and subtracted along
                               the legs: real joint torques */
   AMBULO_REACTION_SHARED    /* the contacts that are down share the root wrench by themselves */

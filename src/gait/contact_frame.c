@@ -53,9 +53,9 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
   for (int i = 0; i < 3; i++) {
     ahead[i] = cos(c->heading) * m->forward[i] + sin(c->heading) * m->left[i];
     if (size > 0.0)
-      frame.up[i] = (c->normal[0] * m->forward[i] + c->normal[1] * m->left[i] +
-                     c->normal[2] * m->up[i]) /
-                    size;
+      frame.up[i] =
+          (c->normal[0] * m->forward[i] + c->normal[1] * m->left[i] + c->normal[2] * m->up[i]) /
+          size;
   }
   cross(frame.up, ahead, frame.left);
   length = sqrt(dot(frame.left, frame.left));
@@ -75,12 +75,14 @@ ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definit
   ambulo_contact there = *to;
   double along = smooth(share), rise = to->place[2] - from->place[2];
   double climb = smooth(rise > 0.0 ? 2.0 * share : 2.0 * share - 1.0);
-  for (int i = 0; i < 2; i++) there.place[i] = from->place[i] + along * (to->place[i] - from->place[i]);
+  for (int i = 0; i < 2; i++)
+    there.place[i] = from->place[i] + along * (to->place[i] - from->place[i]);
   there.place[2] = from->place[2] + climb * rise;
   there.heading = from->heading + along * (to->heading - from->heading);
   for (int i = 0; i < 3; i++) {
     double up = i == 2 ? 1.0 : 0.0; /* a normal of zero is up */
-    double a = from->normal[2] > 0.0 ? from->normal[i] : up, b = to->normal[2] > 0.0 ? to->normal[i] : up;
+    double a = from->normal[2] > 0.0 ? from->normal[i] : up,
+           b = to->normal[2] > 0.0 ? to->normal[i] : up;
     there.normal[i] = a + along * (b - a);
   }
   return ambulo__contact_frame_of(d, &there);

@@ -37,8 +37,9 @@
 
 #include <math.h>
 
-static const double beyond_ball = 0.02;   /* m: a */
-static const double loading_onset = 0.01; /* s: tau; rms above 15 Hz .0051 body weights, without .0097 */
+static const double beyond_ball = 0.02; /* m: a */
+static const double loading_onset =
+    0.01; /* s: tau; rms above 15 Hz .0051 body weights, without .0097 */
 
 /* -------------------------------------------------------------------- slots */
 
@@ -54,7 +55,8 @@ ambulo__slots ambulo__slots_of(const ambulo_model *m) {
   ambulo__slots s = {.count = 0};
   for (int fore = 0; fore < 2; fore++) {
     for (int f = 0; f < m->foot_count; f++) {
-      int heel = m->points[m->feet[f].heel_center].link, toe = m->points[m->feet[f].toe_center].link;
+      int heel = m->points[m->feet[f].heel_center].link,
+          toe = m->points[m->feet[f].toe_center].link;
       if (!fore) add_slot(&s, f, heel, heel == toe ? AMBULO__WHOLE_FOOT : AMBULO__REAR_FOOT);
       if (fore && heel != toe) add_slot(&s, f, toe, AMBULO__FORE_FOOT);
     }
@@ -90,8 +92,7 @@ static double flat_center(const ambulo__stance *stance, double toe, double time)
   double leaving = stance->comes > flat.from && stance->comes < flat.to ? stance->comes : middle;
   if (leaving < settled) settled = leaving = middle;
   if (stance->before == (int)AMBULO_CONTACT_HEEL) center *= ramp(time, flat.from, settled);
-  if (stance->after == (int)AMBULO_CONTACT_TOE)
-    center += 0.5 * toe * ramp(time, leaving, flat.to);
+  if (stance->after == (int)AMBULO_CONTACT_TOE) center += 0.5 * toe * ramp(time, leaving, flat.to);
   return center;
 }
 

@@ -28,11 +28,11 @@ ambulo__slots ambulo__slots_of(const ambulo_model *model);
 
 /* A slot at a time. */
 typedef struct ambulo__contact_load {
-  int loaded;                  /* 0: all else is zero */
-  double weight;               /* w, 0 to 1 */
-  double center[3];            /* p: world, m */
-  double box[2], side;         /* the patch: from behind to ahead of the centre, to either side, m */
-  double most;                 /* normal force, body weights; may be infinite */
+  int loaded;          /* 0: all else is zero */
+  double weight;       /* w, 0 to 1 */
+  double center[3];    /* p: world, m */
+  double box[2], side; /* the patch: from behind to ahead of the centre, to either side, m */
+  double most;         /* normal force, body weights; may be infinite */
   ambulo__contact_frame frame; /* of the contact */
 } ambulo__contact_load;
 

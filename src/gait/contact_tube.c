@@ -32,8 +32,8 @@ typedef struct tube {
   ambulo__row_table *table;
 } tube;
 
-static void place_bounds(const tube *t, int point, const double direction[3],
-                         const double place[3], const char *lower, const char *upper) {
+static void place_bounds(const tube *t, int point, const double direction[3], const double place[3],
+                         const char *lower, const char *upper) {
   const ambulo__gait_context *context = t->context;
   double e = context->definition->contact_tolerance;
   ambulo__linear form = {.constant = 0.0};

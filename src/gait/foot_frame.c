@@ -20,19 +20,19 @@ static ambulo__linear cosine(const ambulo__gait_context *context, int from, int 
 }
 
 ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot,
-                               const double left[3]) {
+                                const double left[3]) {
   const ambulo_foot *f = &context->model->feet[foot];
   return cosine(context, f->heel_center, f->toe_center, left);
 }
 
 ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot,
-                                 const double up[3]) {
+                                  const double up[3]) {
   const ambulo_foot *f = &context->model->feet[foot];
   return cosine(context, f->heel_center, f->toe_center, up);
 }
 
 ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot,
-                                const double up[3]) {
+                                 const double up[3]) {
   const ambulo_model *model = context->model;
   const int *corner = model->feet[foot].heel;
   ambulo__linear none = {.count = 0};

@@ -15,11 +15,10 @@
 #include "gait/foot_outline.h"
 
 ambulo__linear ambulo__foot_yaw(const ambulo__gait_context *context, int foot,
-                               const double left[3]);
+                                const double left[3]);
 ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot,
-                                 const double up[3]);
+                                  const double up[3]);
 /* No terms for a foot with a single heel corner. */
-ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot,
-                                const double up[3]);
+ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot, const double up[3]);
 
 #endif

@@ -12,8 +12,7 @@
 #include "gait/foot_outline.h"
 
 static void place_row(const ambulo__gait_context *context, int node, int point, const char *detail,
-                      const double direction[3], const double place[3],
-                      ambulo__row_table *table) {
+                      const double direction[3], const double place[3], ambulo__row_table *table) {
   double constant = 0.0;
   for (int i = 0; i < 3; i++) constant -= direction[i] * place[i];
   ambulo__row_begin(table, AMBULO__KIND_FOOT_STRIKE, context->model->points[point].name, detail,

@@ -122,7 +122,8 @@ static double graded(double grade, double s) {
 }
 
 ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, int intervals,
-                                 int least, double grade, const ambulo_allocator *allocator, double *times) {
+                                 int least, double grade, const ambulo_allocator *allocator,
+                                 double *times) {
   size_t phases = (size_t)events->count + 1;
   if ((size_t)intervals < phases * (size_t)least) return AMBULO_E_LIMIT;
   int *count = ambulo__alloc(allocator, phases, sizeof *count);
@@ -167,8 +168,8 @@ ambulo_status ambulo__node_times(const ambulo_problem_definition *d,
                                  double *times) {
   int n = d->intervals;
   if (d->grid == AMBULO_GRID_EVENTS && !d->node_times)
-    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, AMBULO__NODE_GRADE, "time", allocator,
-                   diagnostics, times);
+    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, AMBULO__NODE_GRADE,
+                   "time", allocator, diagnostics, times);
   for (int k = 0; k <= n; k++)
     times[k] = d->node_times ? d->node_times[k] : (double)k * d->duration / (double)n;
   return AMBULO_OK;
@@ -177,8 +178,8 @@ ambulo_status ambulo__node_times(const ambulo_problem_definition *d,
 ambulo_status ambulo__knot_times(const ambulo_problem_definition *d, int intervals,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  double *times) {
-  return grid_on(d, AMBULO__EVENTS_OF_CONTACTS, intervals, AMBULO__LEAST_KNOT_INTERVALS,
-                 0.0, "trajectory", allocator, diagnostics, times);
+  return grid_on(d, AMBULO__EVENTS_OF_CONTACTS, intervals, AMBULO__LEAST_KNOT_INTERVALS, 0.0,
+                 "trajectory", allocator, diagnostics, times);
 }
 
 ambulo_status ambulo__knots_least(const ambulo_problem_definition *d,

@@ -36,12 +36,13 @@ ambulo_status ambulo__knots_least(const ambulo_problem_definition *definition,
 
 /* Distributes `intervals` over the phases of [0, duration], at least `least` to each, the others in
  * proportion to duration (largest remainder): times[intervals + 1]. In each phase they stand at
- * s - grade sin(2 pi s) / 2 pi of its length, s = 0, 1/n ... 1: 0 equally spaced; near 1 dense beside
- * the events, where forces that begin and end bend most. E_LIMIT: fewer than
- * least * (events->count + 1); E_MEMORY. */
+ * s - grade sin(2 pi s) / 2 pi of its length, s = 0, 1/n ... 1: 0 equally spaced; near 1 dense
+ * beside the events, where forces that begin and end bend most. E_LIMIT: fewer than least *
+ * (events->count + 1); E_MEMORY. */
 #define AMBULO__NODE_GRADE 0.8
 ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, int intervals,
-                                 int least, double grade, const ambulo_allocator *allocator, double *times);
+                                 int least, double grade, const ambulo_allocator *allocator,
+                                 double *times);
 
 /* The time nodes of a definition, times[intervals + 1], s. Errors: E_PROBLEM, named in
  * `diagnostics`: more phases than there are intervals for; E_MEMORY. */

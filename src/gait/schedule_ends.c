@@ -27,8 +27,7 @@ static int uses_places(const ambulo_problem_definition *d) {
 
 /* at the same place of the plane: height and heading */
 static ambulo_status check_turned(const ambulo_problem_definition *d, const ambulo_contact *first,
-                                  const ambulo_contact *last, double up,
-                                  ambulo_diagnostics *list) {
+                                  const ambulo_contact *last, double up, ambulo_diagnostics *list) {
   double heading = d->ends == AMBULO_ENDS_MIRRORED ? -first->heading : first->heading;
   const char *foot = d->model->feet[last->foot].name;
   if (fabs(last->place[2] - up) > tolerance)

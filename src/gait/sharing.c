@@ -100,8 +100,8 @@ static void slot_rows(one *c, const ambulo__foot_outline *outlines, const ambulo
   c->moment = ambulo__channel_contact_moment(&context->channels, slot, 0);
   for (int i = 0; i < phases.count; i++) {
     if (phases.contact[i] < 0) continue;
-    c->load = ambulo__contact_load_at(d, outlines, slots, slot, &d->contacts[phases.contact[i]],
-                                      time);
+    c->load =
+        ambulo__contact_load_at(d, outlines, slots, slot, &d->contacts[phases.contact[i]], time);
     c->table->before = ambulo__phase_is_before(context, i);
     if (c->load.loaded && c->load.weight > AMBULO__LEAST_WEIGHT) contact_rows(c);
   }

@@ -22,7 +22,8 @@ static image image_of(const ambulo_problem_definition *d, int i, int period) {
   const ambulo_contact *c = &d->contacts[i];
   int mirrored = d->ends == AMBULO_ENDS_MIRRORED && period % 2 != 0;
   double later = period * d->duration;
-  return (image){mirrored ? d->model->feet[c->foot].mirror : c->foot, c->mode,
+  return (image){mirrored ? d->model->feet[c->foot].mirror : c->foot,
+                 c->mode,
                  {c->from + later, c->to + later}};
 }
 

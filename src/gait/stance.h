@@ -7,11 +7,11 @@
 
 /* Times, s, may lie outside [0, T] in a motion that repeats. */
 typedef struct ambulo__stance {
-  double from, to; /* infinite where a motion that does not repeat begins or ends with it */
-  double leaves;   /* those of other feet that hold as it begins: when the first of them ends, at
-                      the latest half-way; -infinity: none, or it has no beginning */
-  double comes;    /* those that hold as it ends: when the last of them began, at the earliest
-                      half-way; infinity: none, or it has no end */
+  double from, to;    /* infinite where a motion that does not repeat begins or ends with it */
+  double leaves;      /* those of other feet that hold as it begins: when the first of them ends, at
+                         the latest half-way; -infinity: none, or it has no beginning */
+  double comes;       /* those that hold as it ends: when the last of them began, at the earliest
+                         half-way; infinity: none, or it has no end */
   ambulo__span phase; /* the part of it in the contact's mode */
   int before, after;  /* modes of the parts before and after; -1: none */
 } ambulo__stance;

@@ -6,8 +6,8 @@
 
 /* The last contact of `foot` that ended by `time`, and the next that begins from it on, as they
  * are in the time of the motion: of one that repeats also those of its other periods, moved on by
- * the travel and, with mirrored ends, to the other side. Returns 1 if it has both; of one alone both
- * become that; 0 if it has none. */
+ * the travel and, with mirrored ends, to the other side. Returns 1 if it has both; of one alone
+ * both become that; 0 if it has none. */
 int ambulo__swing_contacts(const ambulo_problem_definition *definition, int foot, double time,
                            ambulo_contact *from, ambulo_contact *to);
 

@@ -60,7 +60,8 @@ AMBULO__INLINE wide3 solve6(wide6 f, wide3 v) {
 
 /* c - M v and c - M^T v */
 AMBULO__INLINE wide3 subtract_multiply33(wide3 c, wide33 m, wide3 v) {
-  return (wide3){subtract_dot3(c.x, m.x, v), subtract_dot3(c.y, m.y, v), subtract_dot3(c.z, m.z, v)};
+  return (wide3){subtract_dot3(c.x, m.x, v), subtract_dot3(c.y, m.y, v),
+                 subtract_dot3(c.z, m.z, v)};
 }
 
 AMBULO__INLINE wide3 subtract_multiply33_transposed(wide3 c, wide33 m, wide3 v) {
@@ -107,7 +108,8 @@ AMBULO__INLINE contacts_grasp grasp_factors(contacts_grasp g) {
 /* G^-1 t */
 AMBULO__INLINE wide_pair grasp_solve(const contacts_grasp *f, wide_pair t) {
   wide3 eta = solve6(f->moment, subtract_multiply33(t.angular, f->mixed, t.linear));
-  return (wide_pair){eta, subtract_multiply33_transposed(solve6(f->force, t.linear), f->mixed, eta)};
+  return (wide_pair){eta,
+                     subtract_multiply33_transposed(solve6(f->force, t.linear), f->mixed, eta)};
 }
 
 AMBULO__INLINE contacts_grasp load_grasp(const double *at) {
@@ -164,8 +166,8 @@ AMBULO__INLINE contacts_grasp contacts_couple(const ambulo__plan *plan, const do
                                               double *scratch) {
   const double preference = contacts_preference(plan);
   const wide3 zero = {{0}, {0}, {0}}, o = load3(ground);
-  contacts_grasp g = {scalar6(spread(1)), scalar6(spread(plan->moment_arm * plan->moment_arm)),
-                      {zero, zero, zero}};
+  contacts_grasp g = {
+      scalar6(spread(1)), scalar6(spread(plan->moment_arm * plan->moment_arm)), {zero, zero, zero}};
   for (int c = 0; c < plan->contacts; c++) {
     const double *contact = contact_ground(ground, c);
     double *at = contact_at(plan, c, scratch);
@@ -205,8 +207,8 @@ AMBULO__INLINE wide3 contact_push(const double *at, wide3 v) {
 }
 
 /* What the multipliers y make of a contact: its wrench, and its rows; keep: u. */
-AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *ground, int c, int keep,
-                                     wide_pair y, double *out, double *scratch) {
+AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *ground, int c,
+                                     int keep, wide_pair y, double *out, double *scratch) {
   double *at = contact_at(plan, c, scratch);
   wide3 p = load3(contact_ground(ground, c) + AMBULO__LANES);
   wide3 u = add_cross3(y.linear, y.angular, load3(at + contact_arm));

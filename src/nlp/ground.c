@@ -110,8 +110,8 @@ static double add_slot(const ambulo_problem *p, const ambulo__contact_load *load
   }
   for (int i = 0; i < 3; i++) {
     grf[i] += force[i];
-    cop[i] += normal * load->center[i] + along * load->frame.forward[i] +
-              across * load->frame.left[i];
+    cop[i] +=
+        normal * load->center[i] + along * load->frame.forward[i] + across * load->frame.left[i];
   }
   if (normal > 0.0) *free_moment += twist / normal;
   return normal;
@@ -130,8 +130,8 @@ void ambulo__contact_pressures(const ambulo_problem *p, const ambulo__foot_outli
     ambulo__contact_load load =
         ambulo__contact_load_at(&p->definition, outlines, &slots, slot, NULL, time);
     if (load.loaded && load.weight > 0.0)
-      normal[foot] += add_slot(p, &load, slot, channel, grf + 3 * foot, cop + 3 * foot,
-                               &free_moment[foot]);
+      normal[foot] +=
+          add_slot(p, &load, slot, channel, grf + 3 * foot, cop + 3 * foot, &free_moment[foot]);
   }
   for (int i = 0; i < 6; i++) cop[i] = normal[i / 3] > 0.0 ? cop[i] / normal[i / 3] : (double)NAN;
 }

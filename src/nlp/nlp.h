@@ -121,12 +121,12 @@ ambulo_status ambulo__term_gradient(ambulo_workspace *workspace, int term, doubl
  * ambulo__free_aligned. *ground is NULL without ground reaction. E_MEMORY. */
 ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_allocator *allocator,
                                   const double *times, int count, double **ground);
-/* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN for
- * a foot in the air. */
+/* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN
+ * for a foot in the air. */
 void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
-/* Force grf[2][3], centre of pressure cop[2][3] and free moment [2] of the feet where contacts share
- * the load, at `time`, from the channels of a node (`channel`: of the first, in the lanes); cop is
- * NaN where a foot carries nothing. E_MEMORY. */
+/* Force grf[2][3], centre of pressure cop[2][3] and free moment [2] of the feet where contacts
+ * share the load, at `time`, from the channels of a node (`channel`: of the first, in the lanes);
+ * cop is NaN where a foot carries nothing. E_MEMORY. */
 void ambulo__contact_pressures(const ambulo_problem *problem, const ambulo__foot_outline *outlines,
                                double time, const double *channel, double grf[6], double cop[6],
                                double free_moment[2]);

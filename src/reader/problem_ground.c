@@ -109,8 +109,8 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
   r->exponent =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "exponent"), 1.0, 10.0, r->exponent);
   r->shear = ambulo__yaml_number_in(ambulo__yaml_get(section, "shear"), 0.0, 2.0, r->shear);
-  r->moment_arm = ambulo__yaml_number_in(ambulo__yaml_get(section, "moment_arm"), 1e-3, 10.0,
-                                         r->moment_arm);
+  r->moment_arm =
+      ambulo__yaml_number_in(ambulo__yaml_get(section, "moment_arm"), 1e-3, 10.0, r->moment_arm);
   r->slant = ambulo__yaml_number_in(ambulo__yaml_get(section, "slant"), 1e-2, 100.0, r->slant);
   r->loading_rate = read_bound(ambulo__yaml_get(section, "loading_rate"), 1e4, r->loading_rate);
   r->friction = read_bound(ambulo__yaml_get(section, "friction"), 10.0, r->friction);

@@ -182,8 +182,7 @@ static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
   static const ambulo_term_kind kinds[] = {
       AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
       AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
-      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,
-      AMBULO_FORCE_RATE};
+      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,        AMBULO_FORCE_RATE};
   return kinds[ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), 0)];
 }
 

@@ -11,8 +11,8 @@
  *     power tau qd / m                du/d ln m = -u
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
  *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
- *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u > 0,
- *                                     r the root of the part of the node's time in the air
+ *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u >
+ * 0, r the root of the part of the node's time in the air
  *
  * A slope s turns gravity, -|g| (cos s n + sin s f) in the ground's axes: with v = -g / |g| the
  * vertical and l left, dv/ds = l x v = e_0 and de_0/ds = l x e_0 = -v.
