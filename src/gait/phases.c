@@ -163,13 +163,18 @@ static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_k
   return status;
 }
 
+/* where contacts share the load their forces begin and end by themselves; the split's do as told */
+static double grade_of(const ambulo_problem_definition *d) {
+  return d->ground_reaction.kind == AMBULO_REACTION_SHARED ? AMBULO__NODE_GRADE : 0.0;
+}
+
 ambulo_status ambulo__node_times(const ambulo_problem_definition *d,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  double *times) {
   int n = d->intervals;
   if (d->grid == AMBULO_GRID_EVENTS && !d->node_times)
-    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, AMBULO__NODE_GRADE,
-                   "time", allocator, diagnostics, times);
+    return grid_on(d, AMBULO__EVENTS_OF_ROWS, n, AMBULO__LEAST_NODE_INTERVALS, grade_of(d), "time",
+                   allocator, diagnostics, times);
   for (int k = 0; k <= n; k++)
     times[k] = d->node_times ? d->node_times[k] : (double)k * d->duration / (double)n;
   return AMBULO_OK;

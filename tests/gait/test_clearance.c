@@ -3,9 +3,9 @@
 #include "support/row_fixture.h"
 
 static const ambulo_contact contacts[] = {
-    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.1, {0.0, -0.08}},
-    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}},
-    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.9, 1.0, {0.6, -0.1}}};
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.1, .place = {0.0, -0.08}},
+    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, 0.1}},
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.9, 1.0, .place = {0.6, -0.1}}};
 
 static void open_with(row_fixture *f, int planar) {
   row_fixture_open(f, planar);
@@ -47,10 +47,10 @@ static void swings_hold_at_both_their_ends(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
-  f.definition.contacts =
-      (const ambulo_contact[]){{WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.0, -0.08}},
-                               {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}},
-                               {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, -0.1}}};
+  f.definition.contacts = (const ambulo_contact[]){
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.25, .place = {0.0, -0.08}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, 0.1}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.75, 1.0, .place = {0.6, -0.1}}};
   f.definition.contact_count = 3;
   f.definition.clearance.height = 0.02;
   f.definition.clearance.tip_from = 0.5;
@@ -78,8 +78,8 @@ static void the_last_swing_ends_at_the_last_node(void **state) {
     row_fixture f;
     row_fixture_open(&f, 0);
     f.definition.contacts = (const ambulo_contact[]){
-        {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, strikes ? 0.75 : 0.5, {0.0, -0.08}},
-        {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.1}}};
+        {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, strikes ? 0.75 : 0.5, .place = {0.0, -0.08}},
+        {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, 0.1}}};
     f.definition.contact_count = 2;
     f.definition.clearance.height = 0.02;
     f.definition.contact_tolerance = 0.002;
@@ -108,9 +108,9 @@ static void the_track_is_that_of_the_next_foothold(void **state) {
 static void the_left_foot_is_the_mirror_image(void **state) {
   (void)state;
   static const ambulo_contact mirrored[] = {
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.1, {0.0, 0.08}},
-      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, -0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.9, 1.0, {0.6, 0.1}}};
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.1, .place = {0.0, 0.08}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, -0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.9, 1.0, .place = {0.6, 0.1}}};
   row_fixture f;
   row_fixture_open(&f, 0);
   f.definition.contacts = mirrored;

@@ -2,9 +2,10 @@
 #include "gait/bounded.h"
 #include "support/row_fixture.h"
 
-static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, {0.6, 0.1}},
-                                          {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, {0.6, 0.1}},
-                                          {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, {0.6, 0.1}}};
+static const ambulo_contact contacts[] = {
+    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, .place = {0.6, 0.1}},
+    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, .place = {0.6, 0.1}},
+    {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, .place = {0.6, 0.1}}};
 
 static void prepare(row_fixture *f, int planar) {
   row_fixture_open(f, planar);
@@ -116,7 +117,7 @@ static void a_strike_is_the_first_node_of_any_grid(void **state) {
   f.times[1] = 0.01;
   f.times[2] = 0.02;
   f.definition.contacts =
-      (const ambulo_contact[]){{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.01, 1.0, {0.6, 0.1}}};
+      (const ambulo_contact[]){{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.01, 1.0, .place = {0.6, 0.1}}};
   f.definition.contact_count = 1;
   f.active[WALKER_LEFT] = -1;
   f.active[2 + WALKER_LEFT] = f.active[4 + WALKER_LEFT] = 0;

@@ -20,14 +20,14 @@ static ambulo_gait two_steps(void) {
 static void the_table_is_as_written_by_hand(void **state) {
   (void)state;
   static const ambulo_contact expected[] = {
-      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.1, {-0.55, -0.09}},
-      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.1, {0.05, 0.09}},
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.1, 0.6, {0.05, 0.09}},
-      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.6, 0.8, {0.05, 0.09}},
-      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.6, 0.8, {0.65, -0.09}},
-      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.8, 1.3, {0.65, -0.09}},
-      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 1.3, 1.4, {0.65, -0.09}},
-      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 1.3, 1.4, {1.25, 0.09}}};
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.1, .place = {-0.55, -0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.1, .place = {0.05, 0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.1, 0.6, .place = {0.05, 0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.6, 0.8, .place = {0.05, 0.09}},
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.6, 0.8, .place = {0.65, -0.09}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.8, 1.3, .place = {0.65, -0.09}},
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 1.3, 1.4, .place = {0.65, -0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 1.3, 1.4, .place = {1.25, 0.09}}};
   ambulo_model *model = walker_create(0);
   ambulo_gait gait = two_steps();
   ambulo_contact contacts[8];

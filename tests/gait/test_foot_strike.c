@@ -8,9 +8,10 @@ static void open_with(row_fixture *f, int planar, const ambulo_contact *contacts
   ambulo__foot_strike_rows(&f->context, &f->table);
 }
 
-static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, {0.6, 0.1}},
-                                          {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, {0.6, 0.1}},
-                                          {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, {0.6, 0.1}}};
+static const ambulo_contact contacts[] = {
+    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, .place = {0.6, 0.1}},
+    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, .place = {0.6, 0.1}},
+    {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, .place = {0.6, 0.1}}};
 
 static void places_by_mode(void **state) {
   (void)state;
@@ -58,9 +59,10 @@ static void points_at_events(void **state) {
 /* heel to toes at once, and a foot that goes on elsewhere: nothing covers anything */
 static void unlike_contacts_both_hold(void **state) {
   (void)state;
-  static const ambulo_contact apart[] = {{WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.25, {0.6, 0.1}},
-                                         {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.25, 0.5, {0.7, 0.1}},
-                                         {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.5, 1.0, {0.7, 0.1}}};
+  static const ambulo_contact apart[] = {
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.25, .place = {0.6, 0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.25, 0.5, .place = {0.7, 0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.5, 1.0, .place = {0.7, 0.1}}};
   row_fixture f;
   row_fixture_open(&f, 0);
   f.definition.contacts = apart;

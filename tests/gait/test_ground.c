@@ -5,9 +5,9 @@ static void heights_by_mode(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
-  const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, {0, 0}},
-                                     {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, {0, 0}},
-                                     {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, {0, 0}}};
+  const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, .place = {0, 0}},
+                                     {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.4, .place = {0, 0}},
+                                     {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.4, 0.6, .place = {0, 0}}};
   f.definition.contacts = contacts;
   f.definition.ground_height = 0.3;
   for (int k = 0; k < 3; k++) f.active[2 * k + WALKER_LEFT] = k;
@@ -35,8 +35,9 @@ static void heights_by_mode(void **state) {
 /* a corner that is down before or after an event is down at it; one row each */
 static void corners_at_events(void **state) {
   (void)state;
-  static const ambulo_contact contacts[] = {{WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.25, {0, 0}},
-                                            {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.25, 0.5, {0, 0}}};
+  static const ambulo_contact contacts[] = {
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.25, .place = {0, 0}},
+      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.25, 0.5, .place = {0, 0}}};
   for (int tolerance = 0; tolerance < 2; tolerance++) {
     row_fixture f;
     row_fixture_open(&f, 0);

@@ -195,9 +195,9 @@ static void contacts_need_not_be_legal(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("walk_normal");
   ambulo_problem_definition d = p->definition;
-  const ambulo_contact odd[] = {{7, AMBULO_CONTACT_FLAT, 0.3, 0.1, {0, 0}},
-                                {-1, AMBULO_CONTACT_FLAT, NAN, 9.0, {0, 0}},
-                                {0, AMBULO_CONTACT_TOE, -1.0, 0.3 + 1e-12, {0, 0}}};
+  const ambulo_contact odd[] = {{7, AMBULO_CONTACT_FLAT, 0.3, 0.1, .place = {0, 0}},
+                                {-1, AMBULO_CONTACT_FLAT, NAN, 9.0, .place = {0, 0}},
+                                {0, AMBULO_CONTACT_TOE, -1.0, 0.3 + 1e-12, .place = {0, 0}}};
   double times[26];
   d.contacts = odd;
   d.contact_count = 3;

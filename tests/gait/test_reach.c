@@ -8,8 +8,8 @@ static ambulo_status check_within(double tolerance, double apart, double left_to
   row_fixture f;
   row_fixture_open(&f, 0);
   const ambulo_contact contacts[] = {
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, left_to, {0.0, 0.0}},
-      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, right_from, 1.0, {apart, 0.0}}};
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, left_to, .place = {0.0, 0.0}},
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, right_from, 1.0, .place = {apart, 0.0}}};
   f.definition.contacts = contacts;
   f.definition.contact_count = 2;
   f.definition.foot_strike = strike;

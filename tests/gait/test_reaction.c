@@ -6,8 +6,9 @@
 #include "gait/loading.h"
 #include "support/row_fixture.h"
 
-static const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
-                                          {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 1.0, {0.5, 0.1}}};
+static const ambulo_contact contacts[] = {
+    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, .place = {0.0, -0.1}},
+    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 1.0, .place = {0.5, 0.1}}};
 
 static const double mg = 72.0 * 9.81;
 
@@ -17,7 +18,8 @@ static void prepare(row_fixture *f, int planar) {
   f->definition.contact_count = 2;
   f->definition.ground_reaction.kind = AMBULO_REACTION_TWO_STEP;
   f->definition.ground_reaction.transfer = AMBULO_TRANSFER_LINEAR;
-  f->context.channels.feet = 2;
+  f->context.channels.feet = f->context.channels.slots = 2;
+  f->context.channels.slot_rows = 4;
   free(f->channel);
   f->channel =
       calloc((size_t)(ROW_NODES * ambulo__channel_count(&f->context.channels)), sizeof(double));
@@ -130,9 +132,10 @@ static void planar_bodies_have_forward_rows_only(void **state) {
  * carries nothing and has none */
 static void events_have_both_boxes(void **state) {
   (void)state;
-  static const ambulo_contact three[] = {{WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, {0.0, -0.1}},
-                                         {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.75, {0.5, 0.1}},
-                                         {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.5, 0.1}}};
+  static const ambulo_contact three[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, .place = {0.0, -0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.75, .place = {0.5, 0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.75, 1.0, .place = {0.5, 0.1}}};
   row_fixture f;
   prepare(&f, 0);
   f.definition.contacts = three;

@@ -7,9 +7,10 @@ static void nodes_belong_to_half_open_spans(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
-  const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.0, 0.25, {0, 0}},
-                                     {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.25, 0.5 - 5e-10, {0, 0}},
-                                     {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.5, 1.0, {0, 0}}};
+  const ambulo_contact contacts[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.0, 0.25, .place = {0, 0}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.25, 0.5 - 5e-10, .place = {0, 0}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.5, 1.0, .place = {0, 0}}};
   f.definition.contacts = contacts;
   f.definition.contact_count = 3;
   f.definition.ground_penetration = 1;
@@ -28,10 +29,11 @@ static void nodes_on_events_know_what_was_before(void **state) {
   (void)state;
   row_fixture f;
   row_fixture_open(&f, 0);
-  const ambulo_contact contacts[] = {{WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.0, 0.25, {0, 0}},
-                                     {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.25, 0.5 - 5e-10, {0, 0}},
-                                     {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.5, 1.0, {0, 0}},
-                                     {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 1.0, 1.0, {0, 0}}};
+  const ambulo_contact contacts[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.0, 0.25, .place = {0, 0}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.25, 0.5 - 5e-10, .place = {0, 0}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.5, 1.0, .place = {0, 0}},
+      {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 1.0, 1.0, .place = {0, 0}}};
   f.definition.contacts = contacts;
   f.definition.contact_count = 4;
   int active[10], before[10];
@@ -59,7 +61,7 @@ static void expect_refusal(const ambulo_contact *contacts, int count, const char
 
 static void contradictions_are_named(void **state) {
   (void)state;
-  ambulo_contact good = {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0, 0}};
+  ambulo_contact good = {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0, 0}};
   ambulo_contact bad = good;
   bad.foot = 5;
   expect_refusal(&bad, 1, "contacts[0]: no foot 5; the model 'walker' has 2");
@@ -75,12 +77,13 @@ static void contradictions_are_named(void **state) {
   bad.from = 0.6;
   bad.to = 0.4;
   expect_refusal(&bad, 1, "foot 'left' from 0.6 s to 0.4 s; expected from < to");
-  const ambulo_contact overlap[] = {good, {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.7, 0.9, {0, 0}}};
+  const ambulo_contact overlap[] = {good,
+                                    {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.7, 0.9, .place = {0, 0}}};
   expect_refusal(
       overlap, 2,
       "contacts[0] and contacts[1] overlap on foot 'left': 0 s to 1 s and 0.7 s to 0.9 s");
-  const ambulo_contact gap[] = {{WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0, 0}},
-                                {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.45, 1.0, {0, 0}}};
+  const ambulo_contact gap[] = {{WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.3, .place = {0, 0}},
+                                {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.45, 1.0, .place = {0, 0}}};
   expect_refusal(gap, 2, "no foot touches the ground from 0.3 s to 0.45 s");
   expect_refusal(NULL, 0, "no foot touches the ground from 0 s to 1 s");
 }

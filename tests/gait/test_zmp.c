@@ -4,8 +4,8 @@
 static const double body_weight = 72.0 * 9.81;
 
 static const ambulo_contact contacts[] = {
-    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.3, 0.09}},
-    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 1.0, {0.0, -0.09}}};
+    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, 0.09}},
+    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 1.0, .place = {0.0, -0.09}}};
 
 /* the wrench of force F through p at every node */
 static void apply(row_fixture *f, const double p[3], const double force[3]) {

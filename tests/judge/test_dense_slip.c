@@ -111,9 +111,9 @@ static void a_coarse_grid_still_has_a_place_to_start_from(void **state) {
 static void open_leap(dense_fixture *f, double down, double up) {
   memset(f, 0, sizeof *f);
   f->model = walker_create();
-  ambulo_contact contacts[] = {{0, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.0, 0.0}},
-                               {1, AMBULO_CONTACT_FLAT, 0.0, 0.2, {0.0, 0.0}},
-                               {1, AMBULO_CONTACT_FLAT, down, up, {0.3, 0.0}}};
+  ambulo_contact contacts[] = {{0, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.0, 0.0}},
+                               {1, AMBULO_CONTACT_FLAT, 0.0, 0.2, .place = {0.0, 0.0}},
+                               {1, AMBULO_CONTACT_FLAT, down, up, .place = {0.3, 0.0}}};
   ambulo_problem_definition d = ambulo_problem_definition_default();
   d.model = f->model;
   d.duration = 1.0;

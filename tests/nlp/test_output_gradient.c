@@ -22,7 +22,7 @@ static double *lanes(int entries) {
 static void sweep(const block_sweep *s, int output) {
   const ambulo_workspace *w = s->workspace;
   const ambulo_problem *p = w->problem;
-  const double *ground = ambulo__ground_block(p->ground, s->block);
+  const double *ground = ambulo__ground_block(p, p->ground, s->block);
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   const double *q = w->channel + (size_t)s->block * (size_t)w->channel_count * AMBULO__LANES;
   memset(s->weights, 0, (size_t)s->outputs * AMBULO__LANES * sizeof *s->weights);

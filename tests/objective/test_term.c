@@ -2,7 +2,7 @@
 #include "objective/term.h"
 #include "support/test.h"
 
-static const ambulo__channels channels = {3, 2, 0};
+static const ambulo__channels channels = {.coordinates = 3, .points = 2};
 
 static void names_are_those_of_problem_files(void **state) {
   (void)state;

@@ -33,7 +33,7 @@ static inline void row_fixture_open(row_fixture *f, int planar) {
       (ambulo__gait_context){.definition = &f->definition,
                              .model = f->model,
                              .basis = f->basis,
-                             .channels = {f->model->coordinate_count, f->model->point_count, 0},
+                             .channels = {.coordinates = f->model->coordinate_count, .points = f->model->point_count},
                              .times = f->times,
                              .nodes = ROW_NODES,
                              .active = f->active};
