@@ -57,33 +57,17 @@ AMBULO__INLINE void local_ground(const ambulo__plan *plan, int keep, const doubl
   for (int f = 0; f < 2; f++) {
     if (local->foot[f] < 0) continue;
     const ambulo__local_step *step = &local->steps[local->foot[f]];
-    int again = f == 1 && local->foot[0] == local->foot[1];
-    take_off(step, step->body == AMBULO__BODY_NONE && !again, split.foot[f], scratch);
+    take_off(step, local->bare[f], split.foot[f], scratch);
   }
-}
-
-/* All outputs of a body on two feet. */
-AMBULO__INLINE void local_grounded(const ambulo__plan *plan, int keep, const double *q,
-                                   const double *qd, const double *qdd, const double *ground,
-                                   double *out, double *scratch) {
-  const ambulo__limb *limbs = plan->local.limbs;
-  for (int i = 0; i < plan->local.limb_count; i++) {
-    limb_down(plan, &limbs[i], keep, q, qd, qdd, scratch);
-  }
-  local_ground(plan, keep, ground, out, scratch);
-  for (int i = 0; i < plan->local.limb_count; i++) {
-    limb_up(plan, &limbs[i], keep, q, out, scratch);
-  }
-  for (int k = 0; k < plan->vanishing; k++) store(out + plan->roots[k], (wide){0});
 }
 
 /* Adds the virtual motion by the weights on tau of the joints of a path. */
 AMBULO__INLINE wide_pair virtual_of_path(const ambulo__local_plan *local, int path,
                                          const double *weights, wide_pair v,
                                          const double *scratch) {
-  const ambulo__pivot *pivot = &local->pivots[local->pivot_first[path]];
-  const ambulo__pivot *last = &local->pivots[local->pivot_first[path + 1]];
-  const ambulo__carrier *carrier = &local->carrier[local->carrier_first[path]];
+  const ambulo__pivot *pivot = &local->pivots[local->path[path].first_pivot];
+  const ambulo__pivot *last = &local->pivots[local->path[path + 1].first_pivot];
+  const ambulo__carrier *carrier = &local->carrier[local->path[path].first_carrier];
   for (; pivot < last; pivot++) {
     wide3 sum = {{0}, {0}, {0}};
     for (const ambulo__carrier *end = carrier + pivot->count; carrier < end; carrier++) {
@@ -100,6 +84,21 @@ AMBULO__INLINE wide_pair virtual_of_path(const ambulo__local_plan *local, int pa
   return v;
 }
 
+/* V of each foot or contact. */
+AMBULO__INLINE void virtual_of_feet(const ambulo__plan *plan, const double *weights, wide_pair *v,
+                                    const double *scratch) {
+  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
+  const ambulo__local_plan *local = &plan->local;
+  wide_pair along[AMBULO__MOST_PATHS];
+  for (int i = 0; i < local->path_count; i++) {
+    int above = local->path[i].above;
+    along[i] = virtual_of_path(local, i, weights, above < 0 ? zero : along[above], scratch);
+  }
+  for (int f = 0; f < plan->feet; f++) {
+    v[f] = local->foot_path[f] < 0 ? zero : along[local->foot_path[f]];
+  }
+}
+
 /* Q(v) */
 AMBULO__INLINE wide_pair turned_against(wide_pair w, wide_pair v) {
   return (wide_pair){add_cross3(cross3(w.angular, v.angular), w.linear, v.linear),
@@ -110,13 +109,10 @@ AMBULO__INLINE wide_pair turned_against(wide_pair w, wide_pair v) {
 static local_pulls local_ground_adjoints(const ambulo__plan *plan, const double *ground,
                                          const double *weights, wide_pair *root,
                                          const double *scratch) {
-  const wide_pair zero = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};
-  const ambulo__local_plan *local = &plan->local;
   const double *at = scratch + plan->ground_at + ground_foot;
-  wide_pair both = virtual_of_path(local, 0, weights, zero, scratch);
-  const wide_pair foot[2] = {virtual_of_path(local, 1, weights, both, scratch),
-                             virtual_of_path(local, 2, weights, both, scratch)};
+  wide_pair foot[2];
   local_pulls pulls;
+  virtual_of_feet(plan, weights, foot, scratch);
   pulls.center = ground_adjoints(plan, ground, weights, foot, root, scratch);
   pulls.center = scale3(spread(1 / plan->mass), pulls.center);
   for (int f = 0; f < 2; f++) {

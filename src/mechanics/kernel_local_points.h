@@ -209,8 +209,9 @@ static wide_pair weights_of_points(const ambulo__steps *steps, int number, wide_
 
 /* What acts on the body like weights on points (kernel_local_ground.h). */
 typedef struct local_pulls {
-  wide3 center;      /* on the centre of mass, over the mass: G */
-  wide_pair feet[2]; /* on the joints that carry a foot */
+  wide3 center;       /* on the centre of mass, over the mass: G */
+  wide_pair floating; /* on the joints that carry the whole body */
+  wide_pair feet[AMBULO__MOST_CONTACTS]; /* on the joints that carry a foot or contact */
 } local_pulls;
 
 /* R b, from what local_places has stored. */
@@ -232,8 +233,10 @@ AMBULO__INLINE wide_pair add_pulls(const ambulo__local_step *step, wide_pair sum
     if (!step->still) sum.angular = add_cross3(sum.angular, load3(at + local_origin), push);
     sum.linear = add3(sum.linear, push);
   }
-  if (step->feet & 1) sum = add_pair(pulls->feet[0], sum);
-  if (step->feet & 2) sum = add_pair(pulls->feet[1], sum);
+  if (step->floats) sum = add_pair(pulls->floating, sum);
+  for (int f = 0; step->feet >> f; f++) {
+    if (step->feet >> f & 1) sum = add_pair(pulls->feet[f], sum);
+  }
   return sum;
 }
 

@@ -31,7 +31,7 @@
  *   w_p = R (w - z qd),   alpha_p = R (alpha - w x z qd - z qdd),   a_p = R a - Omega_p r,
  * which costs less than to carry them to and from the second cache in bodies of many limbs. The
  * forward pass stores those of leaves, of forks, and above sliders.
- * Ground reaction: kernel_local_ground.h.
+ * Ground reaction: kernel_local_ground.h, on contacts kernel_local_contacts.h.
  * Points: kernel_local_points.h.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_REVERSE_H
@@ -315,11 +315,14 @@ static void local_reverse_part(const ambulo__plan *plan, const double *ground,
   wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES);
   local_pulls pulls, *acting = NULL;
   if (plan->grounded) {
-    pulls = local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
+    pulls = plan->contacts > 0
+                ? local_contact_adjoints(plan, ground, x->weights, &root, x->scratch)
+                : local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
     acting = &pulls;
   }
   local_adjoints(plan, root, x);
-  if (plan->points > 0) local_point_weights(plan, acting, x->weights, x->gq, x->scratch);
+  if (plan->points == 0 && !acting) return;
+  local_point_weights(plan, acting, x->weights, x->gq, x->scratch);
 }
 
 #endif

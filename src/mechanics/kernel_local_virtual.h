@@ -8,7 +8,7 @@
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_VIRTUAL_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_VIRTUAL_H
 
-#include "mechanics/kernel_local_ground.h"
+#include "mechanics/kernel_local_contacts.h"
 
 /* What goes along through the passes. */
 typedef struct local_arrays {

@@ -9,6 +9,7 @@
 #define AMBULO_MECHANICS_KERNEL_SOURCE_H
 
 #include "mechanics/kernel_jacobian.h"
+#include "mechanics/kernel_jacobian_contacts.h"
 #include "mechanics/kernel_jacobian_ground.h"
 #include "mechanics/kernel_local_reverse.h"
 
@@ -61,7 +62,11 @@ static void jacobian(const ambulo__plan *plan, const double *q, const double *qd
     const world_inputs x = {q + lane, qd + lane, qdd + lane};
     local_angles(&plan->local, x.q, scratch + lane);
     jacobian_part(plan, &x, jq + lane, jqd + lane, jqdd + lane, scratch + lane);
-    if (plan->grounded) jacobian_ground_part(plan, ground + lane, jq + lane, scratch + lane);
+    if (plan->contacts > 0) {
+      jacobian_contacts_part(plan, ground + lane, jq + lane, scratch + lane);
+    } else if (plan->grounded) {
+      jacobian_ground_part(plan, ground + lane, jq + lane, scratch + lane);
+    }
   }
 }
 

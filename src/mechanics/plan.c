@@ -193,7 +193,7 @@ static void collect_points(ambulo__plan *plan, const ambulo_model *model,
 }
 
 static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
-                             const double *ground_height) {
+                             const ambulo__footing *footing) {
   const ambulo_allocator *allocator = &plan->allocator;
   ambulo_status status = AMBULO_E_MEMORY;
   size_t frames = (size_t)plan->coordinates + 1;
@@ -208,7 +208,7 @@ static ambulo_status compile(ambulo__plan *plan, const ambulo_model *model,
   }
   collect_bodies(plan, model, placings, masses);
   collect_points(plan, model, placings);
-  if (ground_height && ambulo__plan_ground(plan, model, *ground_height)) goto done;
+  if (footing->feet > 0 && ambulo__plan_ground(plan, model, footing, placings)) goto done;
   ambulo__plan_place(plan);
   status = ambulo__plan_pattern_build(plan);
   if (status == AMBULO_OK) status = ambulo__plan_steps_build(plan);
@@ -219,7 +219,7 @@ done:
   return status;
 }
 
-static ambulo_status create(const ambulo_model *model, const double *ground_height,
+static ambulo_status create(const ambulo_model *model, const ambulo__footing *footing,
                             const ambulo_allocator *allocator, ambulo__plan **out) {
   ambulo_status status = AMBULO_E_MEMORY;
   ambulo_allocator memory = ambulo__allocator_or_default(allocator);
@@ -235,7 +235,7 @@ static ambulo_status create(const ambulo_model *model, const double *ground_heig
   plan->body = ambulo__alloc(&memory, frames, sizeof *plan->body);
   plan->point = ambulo__alloc(&memory, (size_t)plan->points, sizeof *plan->point);
   if (!plan->frames || !plan->joints || !plan->body || !plan->point) goto failed;
-  status = compile(plan, model, ground_height);
+  status = compile(plan, model, footing);
   if (status != AMBULO_OK) goto failed;
   *out = plan;
   return AMBULO_OK;
@@ -246,13 +246,36 @@ failed:
 
 ambulo_status ambulo__plan_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                   ambulo__plan **plan) {
-  return create(model, NULL, allocator, plan);
+  const ambulo__footing none = {0};
+  return create(model, &none, allocator, plan);
 }
 
 ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double ground_height,
                                            const ambulo_allocator *allocator, ambulo__plan **plan) {
   if (model->foot_count != 2) return AMBULO_E_ARGUMENT;
-  return create(model, &ground_height, allocator, plan);
+  ambulo__footing footing = {.feet = 2, .height = ground_height};
+  for (int f = 0; f < 2; f++) {
+    footing.link[f] = model->points[model->feet[f].heel_center].link;
+  }
+  return create(model, &footing, allocator, plan);
+}
+
+static int is_positive(double value) {
+  return value > 0 && isfinite(value);
+}
+
+ambulo_status ambulo__plan_create_contacts(const ambulo_model *model, const int *link, int count,
+                                           double moment_arm, double slant,
+                                           const ambulo_allocator *allocator, ambulo__plan **plan) {
+  ambulo__footing footing = {
+      .feet = count, .contacts = 1, .moment_arm = moment_arm, .slant = slant};
+  if (count < 1 || count > AMBULO__MOST_CONTACTS) return AMBULO_E_ARGUMENT;
+  if (!is_positive(moment_arm) || !is_positive(slant)) return AMBULO_E_ARGUMENT;
+  for (int c = 0; c < count; c++) {
+    if (link[c] < 0 || link[c] >= model->link_count) return AMBULO_E_ARGUMENT;
+    footing.link[c] = link[c];
+  }
+  return create(model, &footing, allocator, plan);
 }
 
 void ambulo__plan_free(ambulo__plan *plan) {

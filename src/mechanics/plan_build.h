@@ -22,10 +22,20 @@ void ambulo__mass_add(ambulo__mass *a, const ambulo__mass *b);
 /* Writes mass, com and the factors of the inertia. */
 void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
 
-/* Which joints carry which foot, and their rows; frames, joints, bodies, points are compiled.
- * Errors: E_MEMORY. */
+/* What the body stands on. */
+typedef struct ambulo__footing {
+  int feet;                              /* feet or contacts; 0: it is in the air */
+  int link[AMBULO__MOST_CONTACTS];       /* on which they act */
+  int contacts;                          /* not two feet */
+  double height;                         /* two feet: of the ground */
+  double moment_arm, slant;              /* contacts */
+} ambulo__footing;
+
+/* Which joints carry which foot or contact, and their rows; frames, joints, bodies, points are
+ * compiled. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model,
-                                  double ground_height);
+                                  const ambulo__footing *footing,
+                                  const ambulo__placing *placings);
 /* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
 void ambulo__plan_place(ambulo__plan *plan);
 /* The lists of steps, from all of the above. Errors: E_MEMORY. */
@@ -36,6 +46,13 @@ ambulo_status ambulo__plan_local_build(ambulo__plan *plan);
 void ambulo__plan_local_free(ambulo__plan *plan);
 /* The world axis along which a joint slides, -1: it turns, or slides in another direction. */
 int ambulo__plan_world_axis(const ambulo__joint *joint);
+/* On contacts (plan_contacts.c): what the factors behind the entries are, and the vectors that the
+ * kernels keep at plan->ground_at. */
+void ambulo__plan_contact_factors(ambulo__plan *plan);
+int ambulo__plan_contact_parts(const ambulo__plan *plan, int row, ambulo__row_part *part);
+int ambulo__plan_contact_entries(const ambulo__plan *plan);
+/* Adds a product with all rows of the root wrench; returns how many parts that are. */
+int ambulo__plan_add_wrench(const ambulo__plan *plan, int times, ambulo__row_part *part);
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
 

@@ -1,9 +1,9 @@
-/* mechanics/plan_ground.c - what ground reaction adds to a plan: who carries the feet.
+/* mechanics/plan_ground.c - what ground reaction adds to a plan: who carries the feet or contacts.
  *
- * A joint carries a foot if the foot's frame is its own or below it. Its torque then depends on
- * the foot's wrench, which depends on the motion of the whole body. If a joint carries both feet
- * and every body, and nothing is fixed to the world, its load and the ground's wrench cancel, and
- * tau vanishes identically.
+ * A joint carries a foot, or contact, if the frame that it acts on is the joint's own or below it.
+ * Its torque then depends on the foot's wrench, which depends on the motion of the whole body. If a
+ * joint carries all feet and every body, and nothing is fixed to the world, its load and the
+ * ground's wrench cancel, and tau vanishes identically.
  */
 #include <string.h>
 
@@ -25,20 +25,24 @@ static int carries_everything(const ambulo__plan *plan, int coordinate) {
 }
 
 ambulo_status ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model,
-                                  double ground_height) {
+                                  const ambulo__footing *footing,
+                                  const ambulo__placing *placings) {
+  const int all = (1 << footing->feet) - 1;
   plan->grounded = 1;
-  plan->ground_height = ground_height;
+  plan->feet = footing->feet;
+  plan->contacts = footing->contacts ? footing->feet : 0;
+  plan->ground_height = footing->height;
+  plan->moment_arm = footing->moment_arm;
+  plan->slant = footing->slant;
   memcpy(plan->up, model->up, sizeof plan->up);
-  for (int f = 0; f < 2; f++) {
-    plan->foot_frame[f] = plan->point[model->feet[f].heel_center].frame;
-  }
+  for (int f = 0; f < plan->feet; f++) plan->foot_frame[f] = placings[footing->link[f]].frame;
   plan->roots = ambulo__alloc(&plan->allocator, (size_t)plan->coordinates, sizeof *plan->roots);
   if (!plan->roots) return AMBULO_E_MEMORY;
   for (int k = 0; k < plan->coordinates; k++) {
     ambulo__joint *joint = &plan->joints[k];
-    joint->feet = carries(plan, k, plan->foot_frame[0]) + 2 * carries(plan, k, plan->foot_frame[1]);
+    for (int f = 0; f < plan->feet; f++) joint->feet |= carries(plan, k, plan->foot_frame[f]) << f;
     joint->torque_row = joint->feet == 0 ? AMBULO__ROW_SPARSE : AMBULO__ROW_REACTS;
-    if (joint->feet != 3 || !carries_everything(plan, k)) continue;
+    if (joint->feet != all || !carries_everything(plan, k)) continue;
     joint->torque_row = AMBULO__ROW_VANISHES;
     plan->roots[plan->vanishing++] = k * AMBULO__LANES;
   }

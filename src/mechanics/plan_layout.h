@@ -36,14 +36,14 @@ typedef struct ambulo__joint {
   int turned;     /* the axis is oblique: columns of the turned frame are computed first */
   double turn[9]; /* rows; turned frame in parent frame */
   int axis;       /* which column of the (turned) frame is the axis */
-  int feet;       /* feet it carries: 0 none, 1 the first, 2 the second, 3 both */
+  int feet;       /* feet or contacts that it carries, a bit each */
   int torque_row; /* ambulo__torque_row */
   int factors;    /* Jacobian: its factors in jq (plan_pattern.c), if the ground reacts */
   int motion_at;  /* Jacobian: S, 2 Sd and Sdd (18, kernel_world.h) */
 } ambulo__joint;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint; the same and, since it
- * carries a foot, multiples of the rows of the root wrench; or none: with ground reaction, because
+ * carries a foot or contact, multiples of the rows of the root wrench; or none: with ground reaction, because
  * it carries the whole body (tau = 0); without, because it is a row of the root force
  * (plan_pattern.c). */
 typedef enum ambulo__torque_row {
@@ -64,6 +64,28 @@ enum {
   AMBULO__FOOT_FACTORS = 20
 };
 
+/* On contacts: by the root wrench (6) and by the centre of mass (3), of a row of tau and of each of
+ * the six rows of a contact. */
+enum { AMBULO__CONTACT_FACTORS = 9 };
+
+/* On contacts, at ground_at: vectors of all contacts, then slots of vectors of each
+ * (kernel_contacts.h). */
+enum {
+  contacts_wrench = 0,                   /* M, F */
+  contacts_floating = 6 * AMBULO__LANES, /* 1 where no contact has weight, else 0 */
+  contacts_middle = 7 * AMBULO__LANES,   /* x */
+  contacts_factor = 10 * AMBULO__LANES,  /* of G: 21 */
+  contacts_first = 31 * AMBULO__LANES,
+  contact_acts = 0,                   /* (moment, force) about the world origin */
+  contact_share = 6 * AMBULO__LANES,  /* w */
+  contact_arm = 7 * AMBULO__LANES,    /* d */
+  contact_line = 10 * AMBULO__LANES,  /* r */
+  contact_moved = 13 * AMBULO__LANES, /* u */
+  contact_taste = 16 * AMBULO__LANES, /* k */
+  contact_close = 17 * AMBULO__LANES, /* 1 / r^2 */
+  contact_slot = 18 * AMBULO__LANES
+};
+
 typedef struct ambulo__plan_point {
   int frame;
   double position[3];
@@ -81,12 +103,15 @@ struct ambulo__plan {
   int positions_at;     /* Jacobian: positions of the points (3 per point) */
   size_t scratch;       /* doubles */
 
-  /* Ground reaction, see kernel_ground.h. */
-  int grounded, foot_frame[2];
-  double ground_height, up[3];
+  /* Ground reaction: two feet (kernel_ground.h), or contacts (kernel_contacts.h). */
+  int grounded, contacts;
+  int feet, foot_frame[AMBULO__MOST_CONTACTS]; /* feet or contacts, and what they act on */
+  double ground_height, up[3];                 /* of two feet */
+  double moment_arm, slant;                    /* of contacts: l, epsilon */
   int vanishing, *roots;       /* rows of tau that vanish (doubles) */
   double mass, fixed_first[3]; /* of the whole body; mass times position of what is fixed */
-  int ground_at; /* M, F (6), wrenches of the feet (12), height of the centre of mass, T */
+  int ground_at; /* on feet: M, F (6), wrenches of the feet (12), height of the centre of mass, T;
+                    on contacts: kernel_contacts.h */
 
   /* Jacobian pattern, see plan.h. Row of tau i: ancestors of i, i, descendants of i. */
   int *start, *column, *rate_start, *by_qdd;
@@ -95,7 +120,7 @@ struct ambulo__plan {
   int *ancestor;       /* ancestors of coordinate i, ascending, without i */
   int *upper;          /* same length: entry of column i in the row of that ancestor; -1 where
                           that row has none */
-  int foot_factors;    /* the feet's factors in jq (plan_pattern.c) */
+  int foot_factors;    /* the feet's or contacts' factors in jq (plan_pattern.c) */
 
   ambulo__steps steps;
   ambulo__local_plan local;

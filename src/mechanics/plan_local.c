@@ -176,7 +176,8 @@ static void set_angles(ambulo__plan *plan) {
   }
 }
 
-/* Frames down to each point, and with ground reaction to each body and to where masses stand.
+/* Frames down to each point, and with ground reaction to each body, to where masses stand, and to
+ * what feet and contacts act on.
  * Groups of points are in order of frames. */
 static void set_points(ambulo__plan *plan) {
   ambulo__local_step *steps = plan->local.steps;
@@ -192,9 +193,8 @@ static void set_points(ambulo__plan *plan) {
   for (int k = plan->coordinates - 1; k >= 0; k--) {
     int parent = plan->joints[k].parent;
     ambulo__local_step *step = &steps[k], *above = parent > 0 ? &steps[parent - 1] : NULL;
-    if (step->group >= 0 || step->weighs || (plan->grounded && step->body != AMBULO__BODY_NONE)) {
-      step->pointed = 1;
-    }
+    int bears = plan->grounded && (step->body != AMBULO__BODY_NONE || step->feet != 0);
+    if (step->group >= 0 || step->weighs || bears) step->pointed = 1;
     if (!step->pointed || !above) continue;
     above->pointed = 1;
     if (step->carried) {
@@ -212,7 +212,7 @@ static void set_point_passes(ambulo__plan *plan) {
     ambulo__local_step *step = &plan->local.steps[k];
     const ambulo__local_step *after = step + 1;
     step->draws = !step->carries_points || step->weighted || step->group >= 0 || step->weighs ||
-                  step->feet != 0;
+                  step->feet != 0 || step->floats;
     step->levers =
         step->draws || after->joint >= AMBULO__SLIDES || after->offset != AMBULO__OFFSET_NONE;
     int shows = 0, keeps = step->keeps | (step->weighs & 7);
@@ -244,26 +244,53 @@ static void add_carrier(ambulo__local_plan *local, ambulo__local_step *step, int
   if (!slides) step->keeps |= ambulo__shows_origin;
 }
 
-/* Who carries the feet. */
-static void set_ground(ambulo__plan *plan) {
-  static const int feet[3] = {3, 1, 2};
-  ambulo__local_plan *local = &plan->local;
-  for (int path = 0; path < 3; path++) {
-    int first = local->pivot_count;
-    local->pivot_first[path] = first;
-    local->carrier_first[path] = local->carrier_count;
-    for (int k = 0; k < plan->coordinates; k++) {
-      if (plan->joints[k].feet != feet[path]) continue;
-      ambulo__local_step *step = &local->steps[k];
-      step->vanishes = plan->joints[k].torque_row == AMBULO__ROW_VANISHES;
-      if (!step->vanishes) add_carrier(local, step, first);
-    }
+/* The path of the joints that carry these feet: it goes on from the last one that carries them and
+ * more. */
+static void add_path(const ambulo__plan *plan, ambulo__local_plan *local, int feet) {
+  int path = local->path_count++, above = path - 1;
+  while (above >= 0 && (local->path[above].feet & feet) != feet) above--;
+  local->path[path] =
+      (ambulo__path){feet, above, local->carrier_count, local->pivot_count};
+  for (int k = 0; k < plan->coordinates; k++) {
+    if (plan->joints[k].feet != feet || local->steps[k].vanishes) continue;
+    add_carrier(local, &local->steps[k], local->path[path].first_pivot);
   }
-  local->pivot_first[3] = local->pivot_count;
-  local->carrier_first[3] = local->carrier_count;
-  for (int f = 0; f < 2; f++) {
+  for (int f = 0; f < plan->feet; f++) {
+    if (feet >> f & 1) local->foot_path[f] = path;
+  }
+}
+
+static int has_path(const ambulo__local_plan *local, int feet) {
+  for (int i = 0; i < local->path_count; i++) {
+    if (local->path[i].feet == feet) return 1;
+  }
+  return 0;
+}
+
+/* Who carries the feet. Joints come after those that carry them, hence paths do. */
+static void set_ground(ambulo__plan *plan) {
+  ambulo__local_plan *local = &plan->local;
+  for (int f = 0; f < plan->feet; f++) local->foot_path[f] = -1;
+  for (int k = 0; k < plan->coordinates; k++) {
+    const ambulo__joint *joint = &plan->joints[k];
+    local->steps[k].vanishes = joint->torque_row == AMBULO__ROW_VANISHES;
+  }
+  for (int k = 0; k < plan->coordinates; k++) {
+    int feet = plan->joints[k].feet;
+    if (feet == 0 || local->steps[k].vanishes || has_path(local, feet)) continue;
+    add_path(plan, local, feet);
+  }
+  local->path[local->path_count] =
+      (ambulo__path){0, -1, local->carrier_count, local->pivot_count};
+  for (int f = 0; f < plan->feet; f++) {
     local->foot[f] = plan->foot_frame[f] - 1;
-    if (local->foot[f] >= 0) local->steps[local->foot[f]].feet |= (uint8_t)(1 << f);
+    if (local->foot[f] < 0) continue;
+    ambulo__local_step *step = &local->steps[local->foot[f]];
+    local->bare[f] = step->body == AMBULO__BODY_NONE && step->feet == 0;
+    step->feet |= (uint8_t)(1 << f);
+  }
+  if (plan->contacts > 0 && plan->vanishing > 0) {
+    local->steps[plan->roots[plan->vanishing - 1] / AMBULO__LANES].floats = 1;
   }
 }
 

@@ -124,7 +124,8 @@ typedef struct ambulo__local_step {
 
   /* ground reaction */
   uint8_t weighs;             /* bits 0 to 2: components of `moment`; 3: `anchored` */
-  uint8_t feet;               /* on this frame (1, 2, both: 3) */
+  uint8_t feet;               /* feet or contacts on this frame, a bit each */
+  bool floats;                /* the last joint that carries the whole body, on contacts */
   double moment[3], anchored; /* b and m of kernel_local_points.h */
 } ambulo__local_step;
 
@@ -148,7 +149,10 @@ typedef struct ambulo__limb {
   int fresh; /* first to write the local_load above `top` */
 } ambulo__limb;
 
-/* A joint that carries a foot, and where its axis in world axes stands (a slider's with its sign).
+/* Sets of contacts that lie one in the other or apart. */
+enum { AMBULO__MOST_PATHS = 2 * AMBULO__MOST_CONTACTS - 1 };
+
+/* A joint that carries a foot or contact, and where its axis in world axes stands (a slider's with its sign).
  */
 typedef struct ambulo__carrier {
   int axis_at;
@@ -163,6 +167,14 @@ typedef struct ambulo__pivot {
   int count;
 } ambulo__pivot;
 
+/* Joints, from the root on, that carry the same feet or contacts and whose tau does not vanish. */
+typedef struct ambulo__path {
+  int feet;          /* a bit each */
+  int above;         /* the path that it goes on from, which carries more; -1: none */
+  int first_carrier; /* up to those of the next path */
+  int first_pivot;
+} ambulo__path;
+
 typedef struct ambulo__local_plan {
   ambulo__local_step *steps; /* [coordinates] */
   ambulo__limb *limbs;       /* [limb_count] */
@@ -174,12 +186,13 @@ typedef struct ambulo__local_plan {
   int branched;           /* several joints stand on the world */
   int world_group;        /* points fixed to the world, -1: none */
   double fixed_moment[3]; /* ground reaction: b of the world, without the bodies fixed to it */
-  int foot[2]; /* ground reaction: step of the frame that a foot's wrench acts on, -1: none */
-  /* Ground reaction: the joints that carry both feet but whose tau does not vanish, then those that
-   * carry foot 0 alone, then foot 1, each from the root on. */
+  /* Ground reaction: step of the frame that the wrench of a foot or contact acts on, -1: none;
+   * whether nothing else is in its load yet; the last path above it, -1: none. */
+  int foot[AMBULO__MOST_CONTACTS], bare[AMBULO__MOST_CONTACTS], foot_path[AMBULO__MOST_CONTACTS];
   ambulo__carrier *carrier;
   ambulo__pivot *pivots;
-  int carrier_count, pivot_count, carrier_first[4], pivot_first[4];
+  ambulo__path path[AMBULO__MOST_PATHS + 1]; /* those above before those below, then the ends */
+  int carrier_count, pivot_count, path_count;
 } ambulo__local_plan;
 
 #endif

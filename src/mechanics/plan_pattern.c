@@ -17,7 +17,8 @@
  *   tau_i:      its entries, + 6 factors on (dM, dF), + one on n . dF by qdd
  *   F_0, F_1:   a_f dF -+ g (n . dF) +- g' (n . dF by qdd),   g and g' along D
  *   T_f:        6 factors on (dM, dF)
- * The feet's factors are a_0, a_1, g (3), g' (3), those of T_0 and those of T_1.
+ * The feet's factors are a_0, a_1, g (3), g' (3), those of T_0 and those of T_1. Contacts:
+ * plan_contacts.c.
  */
 #include "mechanics/plan_build.h"
 
@@ -86,6 +87,10 @@ static void count_entries(ambulo__plan *plan, size_t *pairs) {
 /* Behind the entries. */
 static void place_factors(ambulo__plan *plan) {
   if (!plan->grounded) return;
+  if (plan->contacts > 0) {
+    ambulo__plan_contact_factors(plan);
+    return;
+  }
   for (int k = 0; k < plan->coordinates; k++) {
     if (plan->joints[k].torque_row != AMBULO__ROW_REACTS) continue;
     plan->joints[k].factors = plan->count;
@@ -202,8 +207,7 @@ static int add_normal(const ambulo__plan *plan, int by_acceleration, int times, 
   return count;
 }
 
-/* ... and a product with all rows of the root wrench. */
-static int add_wrench(const ambulo__plan *plan, int times, ambulo__row_part *part) {
+int ambulo__plan_add_wrench(const ambulo__plan *plan, int times, ambulo__row_part *part) {
   for (int k = 0; k < 6; k++) {
     part[k] = (ambulo__row_part){plan->coordinates + k, 0, times + k, 1};
   }
@@ -225,13 +229,14 @@ static int ground_parts(const ambulo__plan *plan, int row, ambulo__row_part *par
     return 1;
   }
   if (k < 3) return foot_force_parts(plan, foot, k, part);
-  return add_wrench(plan, plan->foot_factors + factor_twist + 6 * foot, part);
+  return ambulo__plan_add_wrench(plan, plan->foot_factors + factor_twist + 6 * foot, part);
 }
 
 /* (W.J) which factors a row of the Jacobian has */
 int ambulo__plan_parts(const ambulo__plan *plan, int row,
                        ambulo__row_part part[AMBULO__MOST_PARTS]) {
   int feet = ambulo__plan_first_foot_row(plan), count = 1;
+  if (plan->contacts > 0) return ambulo__plan_contact_parts(plan, row, part);
   if (row >= feet) return ground_parts(plan, row - feet, part);
   part[0] = (ambulo__row_part){row, 0, -1, 1};
   if (row >= plan->coordinates) return 1;
@@ -239,7 +244,7 @@ int ambulo__plan_parts(const ambulo__plan *plan, int row,
   if (joint->torque_row == AMBULO__ROW_FOLLOWS) { /* its axis is one of the world frame */
     part[0] = (ambulo__row_part){plan->coordinates + 3 + joint->axis, 0, -1, joint->sign};
   } else if (joint->torque_row == AMBULO__ROW_REACTS) {
-    count += add_wrench(plan, joint->factors, part + count);
+    count += ambulo__plan_add_wrench(plan, joint->factors, part + count);
     count += add_normal(plan, 1, joint->factors + 6, 1, part + count);
   }
   return count;

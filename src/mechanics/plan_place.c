@@ -97,6 +97,8 @@ void ambulo__plan_place(ambulo__plan *plan) {
     plan->joints[k].still = is_still(plan, &plan->joints[k]);
   }
   find_last_carried(plan);
-  if (plan->grounded) plan->ground_at = take(used, 20);
+  if (plan->grounded) {
+    plan->ground_at = take(used, plan->contacts > 0 ? ambulo__plan_contact_entries(plan) : 20);
+  }
   place_jacobian(plan, used);
 }
