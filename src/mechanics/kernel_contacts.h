@@ -36,7 +36,7 @@
 
 #include "mechanics/kernel_wide.h"
 
-/* L D L^T of a symmetric matrix: 1 / D on the diagonal. With the leading minors n_1 = xx, n_2 and
+/* L D L^T of a symmetric matrix: 1 / D on the diagonal, L with the corner of its inverse. With the leading minors n_1 = xx, n_2 and
  * n_3, D is n_1, n_2 / n_1, n_3 / n_2, all by one division: of three that wait for each other most
  * of the time would be lost. n_3 stands here times n_1. */
 AMBULO__INLINE wide6 factor6(wide6 a) {
@@ -50,17 +50,15 @@ AMBULO__INLINE wide6 factor6(wide6 a) {
   f.yy = a.xx * inverse;
   f.yz = across * inverse;
   f.xy = a.xy * f.xx;
-  f.xz = a.xz * f.xx;
+  f.xz = f.xy * f.yz - a.xz * f.xx;
   return f;
 }
 
 AMBULO__INLINE wide3 solve6(wide6 f, wide3 v) {
-  v.y = v.y - f.xy * v.x;
-  v.z = (v.z - f.xz * v.x) - f.yz * v.y;
-  v.z = v.z * f.zz;
-  v.y = v.y * f.yy - f.yz * v.z;
-  v.x = (v.x * f.xx - f.xy * v.y) - f.xz * v.z;
-  return v;
+  wide y = v.y - f.xy * v.x, z = ((v.z - f.yz * v.y) + f.xz * v.x) * f.zz;
+  wide x = v.x * f.xx;
+  y = y * f.yy;
+  return (wide3){(x - f.xy * y) + f.xz * z, y - f.yz * z, z};
 }
 
 /* c - M v and c - M^T v */
