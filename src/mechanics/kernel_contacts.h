@@ -8,16 +8,17 @@
  *   r_c = c - p_c, with the centre of mass c: forces like to point at it.
  * The answer does not change if all weights are scaled, so that they sum up to 1 here. It also does
  * not depend on the point x about which moments are balanced; with x the weighted mean of p_c and
- * d_c = p_c - x, sum w_c d_c = 0 (but for rounding, which G has too). A contact that stands alone has d = 0 and takes the wrench as it
- * is, and far from the world origin nothing is lost to rounding. With k_c = g w_c / r_c^2 and the
- * line of a contact h_c = (d_c x r_c, r_c), the stationary point of the Lagrangian with multipliers
- * y = (eta, v) on the sums of moments and forces is
+ * d_c = p_c - x, sum w_c d_c = 0 (but for rounding, which G has too). A contact that stands alone
+ * has d = 0 and takes the wrench as it is, and far from the world origin nothing is lost to
+ * rounding. With k_c = g w_c / r_c^2 and the line of a contact h_c = (d_c x r_c, r_c), the
+ * stationary point of the Lagrangian with multipliers y = (eta, v) on the sums of moments and
+ * forces is
  *   f_c = w_c u_c + k_c (r_c . u_c) r_c,   m_c = w_c l^2 eta,   u_c = v + eta x d_c,
  *   G y = (M - x x F, F),   G = diag(l^2 1 + sum w_c (d_c^2 1 - d_c d_c^T), 1) + sum k_c h_c h_c^T
  * (no square root is needed). G is positive definite as it stands for any weights, zeros too:
  * blocks of 3 are eliminated, those by symmetric factors L D L^T. Where no weight is left (flight),
- * all w_c and k_c are zero, and so are the wrenches; a point with c on it has k r r^T = 0.
- * W_c = (m_c + p_c x f_c, f_c), about the world origin.
+ * all w_c and k_c are zero, and so are the wrenches. W_c = (m_c + p_c x f_c, f_c), about the world
+ * origin.
  *
  * Adjoints; x' is the adjoint of x. Weights on tau give the link of a contact a virtual motion
  * V_c = (beta, s) about the world origin, and tau has -V_c . W_c. With those on the rows of f_c and
@@ -36,9 +37,9 @@
 
 #include "mechanics/kernel_wide.h"
 
-/* L D L^T of a symmetric matrix: 1 / D on the diagonal, L with the corner of its inverse. With the leading minors n_1 = xx, n_2 and
- * n_3, D is n_1, n_2 / n_1, n_3 / n_2, all by one division: of three that wait for each other most
- * of the time would be lost. n_3 stands here times n_1. */
+/* L D L^T of a symmetric matrix: 1 / D on the diagonal, L with the corner of its inverse. With the
+ * leading minors n_1 = xx, n_2 and n_3, D is n_1, n_2 / n_1, n_3 / n_2, all by one division: of
+ * three that wait for each other most of the time would be lost. n_3 stands here times n_1. */
 AMBULO__INLINE wide6 factor6(wide6 a) {
   wide second = a.xx * a.yy - a.xy * a.xy, across = a.xx * a.yz - a.xy * a.xz;
   wide third = second * (a.xx * a.zz - a.xz * a.xz) - across * across;
@@ -63,7 +64,8 @@ AMBULO__INLINE wide3 solve6(wide6 f, wide3 v) {
 
 /* c - M v and c - M^T v */
 AMBULO__INLINE wide3 subtract_multiply33(wide3 c, wide33 m, wide3 v) {
-  return (wide3){subtract_dot3(c.x, m.x, v), subtract_dot3(c.y, m.y, v), subtract_dot3(c.z, m.z, v)};
+  return (wide3){subtract_dot3(c.x, m.x, v), subtract_dot3(c.y, m.y, v),
+                 subtract_dot3(c.z, m.z, v)};
 }
 
 AMBULO__INLINE wide3 subtract_multiply33_transposed(wide3 c, wide33 m, wide3 v) {
@@ -110,7 +112,8 @@ AMBULO__INLINE contacts_grasp grasp_factors(contacts_grasp g) {
 /* G^-1 t */
 AMBULO__INLINE wide_pair grasp_solve(const contacts_grasp *f, wide_pair t) {
   wide3 eta = solve6(f->moment, subtract_multiply33(t.angular, f->mixed, t.linear));
-  return (wide_pair){eta, subtract_multiply33_transposed(solve6(f->force, t.linear), f->mixed, eta)};
+  return (wide_pair){eta,
+                     subtract_multiply33_transposed(solve6(f->force, t.linear), f->mixed, eta)};
 }
 
 AMBULO__INLINE contacts_grasp load_grasp(const double *at) {
@@ -143,8 +146,8 @@ AMBULO__INLINE const double *contact_kept(const ambulo__plan *plan, int c, const
   return scratch + plan->ground_at + contacts_first + c * contact_slot;
 }
 
-/* What does not wait for the motion: x, w, d, and sum w d, which is what rounding leaves of zero. It
- * comes long before the rest, which waits for it no more. */
+/* What does not wait for the motion: x, w, d, and sum w d, which is what rounding leaves of zero.
+ * It comes long before the rest, which waits for it no more. */
 AMBULO__INLINE void contacts_place(const ambulo__plan *plan, const double *ground,
                                    double *scratch) {
   const wide one = spread(1);
@@ -180,7 +183,8 @@ AMBULO__INLINE contacts_grasp contacts_couple(const ambulo__plan *plan, const do
   const double preference = contacts_preference(plan);
   const wide zero = {0};
   const wide3 rest = load3(scratch + plan->ground_at + contacts_rest);
-  contacts_grasp g = {scalar6(spread(1)), scalar6(spread(plan->moment_arm * plan->moment_arm)),
+  contacts_grasp g = {scalar6(spread(1)),
+                      scalar6(spread(plan->moment_arm * plan->moment_arm)),
                       {{zero, -rest.z, rest.y}, {rest.z, zero, -rest.x}, {-rest.y, rest.x, zero}}};
   for (int c = 0; c < plan->contacts; c++) {
     double *at = contact_at(plan, c, scratch);
@@ -219,8 +223,8 @@ AMBULO__INLINE wide3 contact_push(const double *at, wide3 v) {
 }
 
 /* What the multipliers y make of a contact: its wrench, and its rows; keep: u. */
-AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *ground, int c, int keep,
-                                     wide_pair y, double *out, double *scratch) {
+AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *ground, int c,
+                                     int keep, wide_pair y, double *out, double *scratch) {
   double *at = contact_at(plan, c, scratch);
   wide3 p = load3(contact_ground(ground, c) + AMBULO__LANES);
   wide3 u = add_cross3(y.linear, y.angular, load3(at + contact_arm));
@@ -234,10 +238,10 @@ AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *gro
   store3(out + three, m);
 }
 
-/* (W'): Shares the root wrench w out, after contacts_place; first: the bodies' first mass moment, what is fixed left
- * out; out: rows of the contacts and of the centre of mass, or NULL. */
+/* (W'): Shares the root wrench w out, after contacts_place; first: the bodies' first mass moment,
+ * what is fixed left out; out: rows of the contacts and of the centre of mass, or NULL. */
 AMBULO__INLINE void contacts_share_out(const ambulo__plan *plan, const double *ground, int keep,
-                                     wide_pair w, wide3 first, double *out, double *scratch) {
+                                       wide_pair w, wide3 first, double *out, double *scratch) {
   double *at = scratch + plan->ground_at;
   wide3 center = add3(first, spread3(plan->fixed_first));
   center = scale3(spread(1 / plan->mass), center);
@@ -281,8 +285,8 @@ AMBULO__INLINE wide3 contact_pulls(const double *at, wide3 a, wide_pair z, wide3
 /* (W'.V): Adds M' and F' to *root, the weights on the root wrench; v: V of each contact. Returns
  * c'. */
 AMBULO__INLINE wide3 contacts_adjoints(const ambulo__plan *plan, const double *ground,
-                                     const double *weights, const wide_pair *v, wide_pair *root,
-                                     const double *scratch) {
+                                       const double *weights, const wide_pair *v, wide_pair *root,
+                                       const double *scratch) {
   const double *at = scratch + plan->ground_at;
   int last = ambulo__plan_first_foot_row(plan) + 6 * plan->contacts;
   wide_pair t = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};

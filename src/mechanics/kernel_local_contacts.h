@@ -68,8 +68,7 @@ static local_pulls local_contact_adjoints(const ambulo__plan *plan, const double
     pulls.feet[c] = turned_against(w, add_pair(v[c], *root));
   }
   wide_pair turned = turned_against(load_pair(at + contacts_wrench), *root);
-  pulls.floating =
-      (wide_pair){scale3(floating, turned.angular), scale3(floating, turned.linear)};
+  pulls.floating = (wide_pair){scale3(floating, turned.angular), scale3(floating, turned.linear)};
   return pulls;
 }
 

@@ -209,8 +209,8 @@ static wide_pair weights_of_points(const ambulo__steps *steps, int number, wide_
 
 /* What acts on the body like weights on points (kernel_local_ground.h). */
 typedef struct local_pulls {
-  wide3 center;       /* on the centre of mass, over the mass: G */
-  wide_pair floating; /* on the joints that carry the whole body */
+  wide3 center;                          /* on the centre of mass, over the mass: G */
+  wide_pair floating;                    /* on the joints that carry the whole body */
   wide_pair feet[AMBULO__MOST_CONTACTS]; /* on the joints that carry a foot or contact */
 } local_pulls;
 

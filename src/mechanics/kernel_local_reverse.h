@@ -315,9 +315,8 @@ static void local_reverse_part(const ambulo__plan *plan, const double *ground,
   wide_pair root = load_pair(x->weights + plan->coordinates * AMBULO__LANES);
   local_pulls pulls, *acting = NULL;
   if (plan->grounded) {
-    pulls = plan->contacts > 0
-                ? local_contact_adjoints(plan, ground, x->weights, &root, x->scratch)
-                : local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
+    pulls = plan->contacts > 0 ? local_contact_adjoints(plan, ground, x->weights, &root, x->scratch)
+                               : local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
     acting = &pulls;
   }
   local_adjoints(plan, root, x);

@@ -75,12 +75,11 @@ static inline int ambulo__plan_first_foot_row(const ambulo__plan *plan) {
  *
  * What follows from other rows is not stored (ambulo__plan_parts). Without entries are:
  * with ground reaction, the rows of tau that vanish identically (joints that carry the
- * whole body), and those of the feet or contacts and of the centre of mass; without, the rows of tau
- * that are rows of the root force (the sliders along world axes with which the whole
- * body stands on the world). With ground reaction a row of tau above a foot or contact has entries
- * for what it would be if these wrenches stood still in the world; the rest is a
- * product with the rows of the root wrench, whose factors stand behind the entries of
- * jq: from start[rows] to count. */
+ * whole body), and those of the feet or contacts and of the centre of mass; without, the rows of
+ * tau that are rows of the root force (the sliders along world axes with which the whole body
+ * stands on the world). With ground reaction a row of tau above a foot or contact has entries for
+ * what it would be if these wrenches stood still in the world; the rest is a product with the rows
+ * of the root wrench, whose factors stand behind the entries of jq: from start[rows] to count. */
 typedef struct ambulo__plan_pattern {
   const int *start;      /* [rows + 1] */
   const int *column;     /* [start[rows]] */

@@ -24,18 +24,17 @@ void ambulo__mass_factor(const ambulo__mass *mass, ambulo__body *body);
 
 /* What the body stands on. */
 typedef struct ambulo__footing {
-  int feet;                              /* feet or contacts; 0: it is in the air */
-  int link[AMBULO__MOST_CONTACTS];       /* on which they act */
-  int contacts;                          /* not two feet */
-  double height;                         /* two feet: of the ground */
-  double moment_arm, slant;              /* contacts */
+  int feet;                        /* feet or contacts; 0: it is in the air */
+  int link[AMBULO__MOST_CONTACTS]; /* on which they act */
+  int contacts;                    /* not two feet */
+  double height;                   /* two feet: of the ground */
+  double moment_arm, slant;        /* contacts */
 } ambulo__footing;
 
 /* Which joints carry which foot or contact, and their rows; frames, joints, bodies, points are
  * compiled. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model,
-                                  const ambulo__footing *footing,
-                                  const ambulo__placing *placings);
+                                  const ambulo__footing *footing, const ambulo__placing *placings);
 /* Scratch offsets of everything; frames, joints and bodies are complete otherwise. */
 void ambulo__plan_place(ambulo__plan *plan);
 /* The lists of steps, from all of the above. Errors: E_MEMORY. */

@@ -3,8 +3,8 @@
  * A contact's wrench (kernel_contacts.h) changes with the root wrench (M, F), by its rows, and with
  * the centre of mass r_G, which q_j moves as qdd_j accelerates it: dr_G/dq = (dF/dqdd) / m. Every
  * row of a contact, and the contacts' part in a row of tau above one, is therefore a sum of six
- * factors on (dM, dF) and three on dF by qdd over m (kernel_jacobian_contacts.h). Behind the entries
- * of jq stand those of the joints, then, contact by contact, those of its six rows.
+ * factors on (dM, dF) and three on dF by qdd over m (kernel_jacobian_contacts.h). Behind the
+ * entries of jq stand those of the joints, then, contact by contact, those of its six rows.
  */
 #include "mechanics/plan_build.h"
 

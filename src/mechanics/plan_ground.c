@@ -25,8 +25,7 @@ static int carries_everything(const ambulo__plan *plan, int coordinate) {
 }
 
 ambulo_status ambulo__plan_ground(ambulo__plan *plan, const ambulo_model *model,
-                                  const ambulo__footing *footing,
-                                  const ambulo__placing *placings) {
+                                  const ambulo__footing *footing, const ambulo__placing *placings) {
   const int all = (1 << footing->feet) - 1;
   plan->grounded = 1;
   plan->feet = footing->feet;

@@ -43,9 +43,9 @@ typedef struct ambulo__joint {
 } ambulo__joint;
 
 /* Row of tau in the Jacobians: the coordinates above and below the joint; the same and, since it
- * carries a foot or contact, multiples of the rows of the root wrench; or none: with ground reaction, because
- * it carries the whole body (tau = 0); without, because it is a row of the root force
- * (plan_pattern.c). */
+ * carries a foot or contact, multiples of the rows of the root wrench; or none: with ground
+ * reaction, because it carries the whole body (tau = 0); without, because it is a row of the root
+ * force (plan_pattern.c). */
 typedef enum ambulo__torque_row {
   AMBULO__ROW_SPARSE = 0,
   AMBULO__ROW_REACTS,
@@ -109,7 +109,7 @@ struct ambulo__plan {
   int feet, foot_frame[AMBULO__MOST_CONTACTS]; /* feet or contacts, and what they act on */
   double ground_height, up[3];                 /* of two feet */
   double moment_arm, slant;                    /* of contacts: l, epsilon */
-  int vanishing, *roots;       /* rows of tau that vanish (doubles) */
+  int vanishing, *roots;                       /* rows of tau that vanish (doubles) */
   double mass, fixed_first[3]; /* of the whole body; mass times position of what is fixed */
   int ground_at; /* on feet: M, F (6), wrenches of the feet (12), height of the centre of mass, T;
                     on contacts: kernel_contacts.h */

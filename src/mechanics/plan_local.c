@@ -249,8 +249,7 @@ static void add_carrier(ambulo__local_plan *local, ambulo__local_step *step, int
 static void add_path(const ambulo__plan *plan, ambulo__local_plan *local, int feet) {
   int path = local->path_count++, above = path - 1;
   while (above >= 0 && (local->path[above].feet & feet) != feet) above--;
-  local->path[path] =
-      (ambulo__path){feet, above, local->carrier_count, local->pivot_count};
+  local->path[path] = (ambulo__path){feet, above, local->carrier_count, local->pivot_count};
   for (int k = 0; k < plan->coordinates; k++) {
     if (plan->joints[k].feet != feet || local->steps[k].vanishes) continue;
     add_carrier(local, &local->steps[k], local->path[path].first_pivot);
@@ -280,8 +279,7 @@ static void set_ground(ambulo__plan *plan) {
     if (feet == 0 || local->steps[k].vanishes || has_path(local, feet)) continue;
     add_path(plan, local, feet);
   }
-  local->path[local->path_count] =
-      (ambulo__path){0, -1, local->carrier_count, local->pivot_count};
+  local->path[local->path_count] = (ambulo__path){0, -1, local->carrier_count, local->pivot_count};
   for (int f = 0; f < plan->feet; f++) {
     local->foot[f] = plan->foot_frame[f] - 1;
     if (local->foot[f] < 0) continue;

@@ -152,7 +152,8 @@ typedef struct ambulo__limb {
 /* Sets of contacts that lie one in the other or apart. */
 enum { AMBULO__MOST_PATHS = 2 * AMBULO__MOST_CONTACTS - 1 };
 
-/* A joint that carries a foot or contact, and where its axis in world axes stands (a slider's with its sign).
+/* A joint that carries a foot or contact, and where its axis in world axes stands (a slider's with
+ * its sign).
  */
 typedef struct ambulo__carrier {
   int axis_at;

@@ -28,8 +28,7 @@ typedef struct contact_case {
 } contact_case;
 
 static inline void contact_reference_rows(const contact_case *c, const double *state, int k,
-                                          double step, const double *ground,
-                                          double complex *rows) {
+                                          double step, const double *ground, double complex *rows) {
   int d = c->body.d;
   double z[2 * 3 * max_d];
   for (int i = 0; i < 3 * d; i++) {
@@ -42,7 +41,8 @@ static inline void contact_reference_rows(const contact_case *c, const double *s
 }
 
 static inline void contact_ground_of_lane(const contact_case *c, int lane, double *ground) {
-  for (int i = 0; i < 3 + 4 * c->contacts.count; i++) ground[i] = c->ground[i * AMBULO__LANES + lane];
+  for (int i = 0; i < 3 + 4 * c->contacts.count; i++)
+    ground[i] = c->ground[i * AMBULO__LANES + lane];
 }
 
 static inline double contact_weight(const contact_case *c, int contact, int lane,

@@ -314,8 +314,7 @@ static void equals_share_equally(void **state) {
         away[across] = k == 0 ? 0.1 : -0.1;
         *weight_at(&c, k, lane) = 0.8;
         for (int i = 0; i < 3; i++) {
-          weight_at(&c, k, lane)[(1 + i) * AMBULO__LANES] =
-              row_of(&c, center + i, lane) + away[i];
+          weight_at(&c, k, lane)[(1 + i) * AMBULO__LANES] = row_of(&c, center + i, lane) + away[i];
         }
       }
     }

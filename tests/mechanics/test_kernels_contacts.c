@@ -1,5 +1,6 @@
 /* Contacts in every kernel set, on random trees and the shipped bodies: outputs against the
- * reference, gradients and Jacobians against complex steps of it and against central differences. */
+ * reference, gradients and Jacobians against complex steps of it and against central differences.
+ */
 #include "contact_fixture.h"
 
 static const char *const order_names[] = {"by q", "by qd", "by qdd"};
@@ -86,7 +87,8 @@ static void check_jacobian(const contact_case *c, const char *isa, const double 
     for (int group = 0, from = 0; group < contact_groups; from = ends[group++]) {
       int where = 0, at = from * d;
       double error = difference(dense + at, 1, want + at, (ends[group] - from) * d, &where);
-      if (error > 1e-9) print_error("lane %d, %s %s:\n", lane, group_names[group], order_names[order]);
+      if (error > 1e-9)
+        print_error("lane %d, %s %s:\n", lane, group_names[group], order_names[order]);
       report_difference(&c->body, isa, "Jacobian", where, error, 1e-9);
     }
   }
@@ -187,8 +189,7 @@ static void instruction_sets_agree(void **state) {
       check_same(&c, isa_names[i], "outputs against the scalar twin", c.body.out, out, c.body.rows);
       check_same(&c, isa_names[i], "gradient against the scalar twin", other, gradient,
                  3 * c.body.d);
-      check_same(&c, isa_names[i], "Jacobian against the scalar twin", got, entries,
-                 pattern.count);
+      check_same(&c, isa_names[i], "Jacobian against the scalar twin", got, entries, pattern.count);
       free(got);
     }
     double *const arrays[] = {out, gradient, other, entries};

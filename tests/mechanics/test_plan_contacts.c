@@ -163,13 +163,12 @@ static void failed_allocations_unwind(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sizes_follow_the_contacts),
-      cmocka_unit_test(other_plans_have_no_contacts),
-      cmocka_unit_test(rows_of_a_walking_body),
-      cmocka_unit_test(factors_have_one_use),
-      cmocka_unit_test(joints_carry_what_acts_beyond_them),
-      cmocka_unit_test(what_is_no_contact_is_refused),
-      cmocka_unit_test(failed_allocations_unwind)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(sizes_follow_the_contacts),
+                                     cmocka_unit_test(other_plans_have_no_contacts),
+                                     cmocka_unit_test(rows_of_a_walking_body),
+                                     cmocka_unit_test(factors_have_one_use),
+                                     cmocka_unit_test(joints_carry_what_acts_beyond_them),
+                                     cmocka_unit_test(what_is_no_contact_is_refused),
+                                     cmocka_unit_test(failed_allocations_unwind)};
   return cmocka_run_group_tests_name("mechanics/plan_contacts", tests, NULL, NULL);
 }
