@@ -123,8 +123,8 @@ static inline void contact_case_open(contact_case *c, int number) {
   b->plan = NULL;
   contact_load(c, &source);
   assert_int_equal(ambulo__plan_create_contacts(b->model, c->contacts.link, c->contacts.count,
-                                                c->contacts.moment_arm, c->contacts.slant, NULL,
-                                                &b->plan),
+                                                creal(c->contacts.moment_arm),
+                                                creal(c->contacts.slant), NULL, &b->plan),
                    AMBULO_OK);
   b->d = ambulo__plan_coordinates(b->plan);
   b->rows = ambulo__plan_rows(b->plan);

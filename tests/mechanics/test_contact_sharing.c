@@ -159,7 +159,7 @@ static double dot3(const double a[3], const double b[3]) {
 static void prices(const contact_case *c, int contact, int lane, double by_force[3],
                    double by_moment[3]) {
   double f[3], m[3], e[3], size = 0, weight = *weight_at(c, contact, lane);
-  double slant = c->contacts.slant, reach = c->contacts.moment_arm;
+  double slant = creal(c->contacts.slant), reach = creal(c->contacts.moment_arm);
   contact_of(c, contact, lane, f, m);
   for (int i = 0; i < 3; i++) {
     int center = c->first_row + 6 * c->contacts.count + i;

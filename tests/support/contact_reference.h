@@ -23,7 +23,7 @@ enum { reference_most_contacts = 6 };
 
 typedef struct reference_contacts {
   int count, link[reference_most_contacts];
-  double moment_arm, slant;
+  scalar moment_arm, slant;
 } reference_contacts;
 
 /* x of a x = b, both overwritten; the largest pivot first. */
@@ -54,10 +54,10 @@ static inline void reference_solve(scalar a[6][6], scalar b[6]) {
 }
 
 /* J Q (6 x 6, forces first) of a contact; d: its arm about o. */
-static inline void reference_grasp(const reference_contacts *contacts, double weight,
-                                   const double p[3], const double d[3], const scalar center[3],
+static inline void reference_grasp(const reference_contacts *contacts, scalar weight,
+                                   const scalar p[3], const scalar d[3], const scalar center[3],
                                    scalar j[6][6], scalar q[6][6]) {
-  const double along = 1 / (contacts->slant * contacts->slant);
+  const scalar along = 1 / (contacts->slant * contacts->slant);
   scalar e[3], length = 0;
   for (int i = 0; i < 3; i++) e[i] = center[i] - p[i];
   length = csqrt(reference_dot(e, e));
@@ -77,7 +77,7 @@ static inline void reference_grasp(const reference_contacts *contacts, double we
 }
 
 /* Forces and moments [count][6] of the contacts; ground: o, then weight and centre of each. */
-static inline void reference_share(const reference_contacts *contacts, const double *ground,
+static inline void reference_share(const reference_contacts *contacts, const scalar *ground,
                                    const reference_wrench *root, const scalar center[3],
                                    scalar share[][6]) {
   scalar g[6][6] = {{0}}, y[6], o[3], arm[3];
@@ -90,9 +90,9 @@ static inline void reference_share(const reference_contacts *contacts, const dou
     y[3 + i] = root->moment[i] - arm[i];
   }
   for (int c = 0; c < contacts->count; c++) {
-    const double *of = ground + 3 + 4 * c, *p = of + 1;
-    double d[3] = {p[0] - ground[0], p[1] - ground[1], p[2] - ground[2]};
-    total += of[0];
+    const scalar *of = ground + 3 + 4 * c, *p = of + 1;
+    scalar d[3] = {p[0] - ground[0], p[1] - ground[1], p[2] - ground[2]};
+    total += creal(of[0]);
     reference_grasp(contacts, of[0], p, d, center, j[c], q[c]);
     for (int i = 0; i < 6; i++) {
       for (int k = 0; k < 6; k++) {
@@ -155,7 +155,7 @@ static inline ambulo_status contact_reference(const ambulo_model *model,
   if (status != AMBULO_OK) return status;
   const link_state *states = scratch;
   scalar *out = (scalar *)(void *)rows, *contact = out + d + 6 + points;
-  scalar center[3], share[reference_most_contacts][6];
+  scalar center[3], share[reference_most_contacts][6], told[3 + 4 * reference_most_contacts];
   reference_wrench root;
   reference_center_of_mass(model, states, center);
   for (int i = 0; i < 3; i++) {
@@ -163,7 +163,8 @@ static inline ambulo_status contact_reference(const ambulo_model *model,
     root.force[i] = out[d + 3 + i];
     contact[6 * contacts->count + i] = center[i];
   }
-  reference_share(contacts, ground, &root, center, share);
+  for (int i = 0; i < 3 + 4 * contacts->count; i++) told[i] = ground[i];
+  reference_share(contacts, told, &root, center, share);
   for (int c = 0; c < contacts->count; c++) {
     for (int i = 0; i < 6; i++) contact[6 * c + i] = share[c][i];
     reference_take_off(model, states, contacts->link[c], share[c], ground + 4 + 4 * c, out);
