@@ -109,14 +109,33 @@ static double *ground_shares(random_source *source) {
   return ground;
 }
 
-static rig rig_create(const ambulo_model *model, int grounded) {
+/* A point, then weights and centres of two contacts, one metre below the world origin. */
+static double *contact_weights(random_source *source) {
+  static const double middle[11] = {0, 0, -1, 0.5, 0.3, 0.1, -1, 0.5, -0.3, -0.1, -1};
+  double *ground = doubles(11 * AMBULO__LANES);
+  for (int i = 0; i < 11 * AMBULO__LANES; i++) {
+    ground[i] = middle[i / AMBULO__LANES] + random_between(source, -0.1, 0.1);
+  }
+  return ground;
+}
+
+typedef enum footing { in_air, on_feet, on_contacts } footing;
+
+static ambulo_status compile(const ambulo_model *model, footing kind, ambulo__plan **plan) {
+  int link[2];
+  if (kind == in_air) return ambulo__plan_create(model, NULL, plan);
+  if (kind == on_feet) return ambulo__plan_create_grounded(model, -10, NULL, plan);
+  for (int f = 0; f < 2; f++) link[f] = model->points[model->feet[f].heel_center].link;
+  return ambulo__plan_create_contacts(model, link, 2, 0.07, 0.2, NULL, plan);
+}
+
+static rig rig_create(const ambulo_model *model, footing kind) {
   rig r = {0};
   random_source source = {7};
   r.model = model;
-  if (grounded ? ambulo__plan_create_grounded(model, -10, NULL, &r.plan)
-               : ambulo__plan_create(model, NULL, &r.plan))
-    exit(1);
-  if (grounded) r.ground = ground_shares(&source);
+  if (compile(model, kind, &r.plan) != AMBULO_OK) exit(1);
+  if (kind == on_feet) r.ground = ground_shares(&source);
+  if (kind == on_contacts) r.ground = contact_weights(&source);
   if (ambulo_mechanics_create(model, NULL, &r.mechanics) != AMBULO_OK) exit(1);
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(r.plan);
   size_t n = (size_t)ambulo__plan_coordinates(r.plan) * AMBULO__LANES;
@@ -211,7 +230,7 @@ typedef struct subject {
 
 static void add_tree(subject *s, const char *kind, const random_tree *tree) {
   if (ambulo_model_create(&tree->definition, NULL, NULL, &s->model) != AMBULO_OK) exit(1);
-  s->rig = rig_create(s->model, 0);
+  s->rig = rig_create(s->model, in_air);
   (void)snprintf(s->name, sizeof s->name, "%s_%d", kind, ambulo_model_coordinate_count(s->model));
 }
 
@@ -223,7 +242,7 @@ static int collect(subject *subjects, const char *path) {
     (void)fprintf(stderr, "bench_mechanics: cannot load %s\n", path);
     return 0;
   }
-  subjects->rig = rig_create(subjects->model, 0);
+  subjects->rig = rig_create(subjects->model, in_air);
   (void)snprintf(subjects->name, sizeof subjects->name, "%.20s",
                  ambulo_model_name(subjects->model));
   for (int limbs = 0; limbs <= 8; limbs += 2) {
@@ -248,16 +267,19 @@ static double quotient(rig *above, rig *below, task run) {
   return bench_median(ratio, turns);
 }
 
-/* The body on its feet, over the body in the air. */
+/* The body on its feet over the body in the air, and on a contact at each foot over on its feet. */
 static void report_ground(bench_table *table, rig *air) {
   char quantity[bench_key];
-  rig r = rig_create(air->model, 1);
-  r.kernels = air->kernels;
+  rig feet = rig_create(air->model, on_feet), contacts = rig_create(air->model, on_contacts);
+  feet.kernels = contacts.kernels = air->kernels;
   for (int k = 0; k < tasks; k++) {
     (void)snprintf(quantity, sizeof quantity, "%s with ground reaction over without", task_name[k]);
-    bench_put(table, quantity, "ratio", quotient(&r, air, task_run[k]));
+    bench_put(table, quantity, "ratio", quotient(&feet, air, task_run[k]));
+    (void)snprintf(quantity, sizeof quantity, "%s with two contacts over two feet", task_name[k]);
+    bench_put(table, quantity, "ratio", quotient(&contacts, &feet, task_run[k]));
   }
-  rig_free(&r);
+  rig_free(&feet);
+  rig_free(&contacts);
 }
 
 static void report_ratios(bench_table *table, rig *r) {

@@ -8,16 +8,17 @@
  *   r_c = c - p_c, with the centre of mass c: forces like to point at it.
  * The answer does not change if all weights are scaled, so that they sum up to 1 here. It also does
  * not depend on the point x about which moments are balanced; with x the weighted mean of p_c and
- * d_c = p_c - x, sum w_c d_c = 0. A contact that stands alone has d = 0 and takes the wrench as it
- * is, and far from the world origin nothing is lost to rounding. With k_c = g w_c / r_c^2 and the
- * line of a contact h_c = (d_c x r_c, r_c), the stationary point of the Lagrangian with multipliers
- * y = (eta, v) on the sums of moments and forces is
+ * d_c = p_c - x, sum w_c d_c = 0 (but for rounding, which G has too). A contact that stands alone
+ * has d = 0 and takes the wrench as it is, and far from the world origin nothing is lost to
+ * rounding. With k_c = g w_c / r_c^2 and the line of a contact h_c = (d_c x r_c, r_c), the
+ * stationary point of the Lagrangian with multipliers y = (eta, v) on the sums of moments and
+ * forces is
  *   f_c = w_c u_c + k_c (r_c . u_c) r_c,   m_c = w_c l^2 eta,   u_c = v + eta x d_c,
  *   G y = (M - x x F, F),   G = diag(l^2 1 + sum w_c (d_c^2 1 - d_c d_c^T), 1) + sum k_c h_c h_c^T
  * (no square root is needed). G is positive definite as it stands for any weights, zeros too:
  * blocks of 3 are eliminated, those by symmetric factors L D L^T. Where no weight is left (flight),
- * all w_c and k_c are zero, and so are the wrenches; a point with c on it has k r r^T = 0.
- * W_c = (m_c + p_c x f_c, f_c), about the world origin.
+ * all w_c and k_c are zero, and so are the wrenches. W_c = (m_c + p_c x f_c, f_c), about the world
+ * origin.
  *
  * Adjoints; x' is the adjoint of x. Weights on tau give the link of a contact a virtual motion
  * V_c = (beta, s) about the world origin, and tau has -V_c . W_c. With those on the rows of f_c and
@@ -36,26 +37,29 @@
 
 #include "mechanics/kernel_wide.h"
 
-/* L D L^T of a symmetric matrix: 1 / D on the diagonal. */
+/* L D L^T of a symmetric matrix: 1 / D on the diagonal, L with the corner of its inverse. With the
+ * leading minors n_1 = xx, n_2 and n_3, D is n_1, n_2 / n_1, n_3 / n_2, all by one division: of
+ * three that wait for each other most of the time would be lost. n_3 stands here times n_1. */
 AMBULO__INLINE wide6 factor6(wide6 a) {
+  wide second = a.xx * a.yy - a.xy * a.xy, across = a.xx * a.yz - a.xy * a.xz;
+  wide third = second * (a.xx * a.zz - a.xz * a.xz) - across * across;
+  wide both = a.xx * second, inverse = 1 / (both * third);
   wide6 f;
-  f.xx = 1 / a.xx;
+  f.xx = second * third * inverse;
+  f.zz = both * both * inverse;
+  inverse = a.xx * third * inverse;
+  f.yy = a.xx * inverse;
+  f.yz = across * inverse;
   f.xy = a.xy * f.xx;
-  f.xz = a.xz * f.xx;
-  wide z = a.yz - f.xy * a.xz;
-  f.yy = 1 / (a.yy - f.xy * a.xy);
-  f.yz = z * f.yy;
-  f.zz = 1 / ((a.zz - f.xz * a.xz) - f.yz * z);
+  f.xz = f.xy * f.yz - a.xz * f.xx;
   return f;
 }
 
 AMBULO__INLINE wide3 solve6(wide6 f, wide3 v) {
-  v.y = v.y - f.xy * v.x;
-  v.z = (v.z - f.xz * v.x) - f.yz * v.y;
-  v.z = v.z * f.zz;
-  v.y = v.y * f.yy - f.yz * v.z;
-  v.x = (v.x * f.xx - f.xy * v.y) - f.xz * v.z;
-  return v;
+  wide y = v.y - f.xy * v.x, z = ((v.z - f.yz * v.y) + f.xz * v.x) * f.zz;
+  wide x = v.x * f.xx;
+  y = y * f.yy;
+  return (wide3){(x - f.xy * y) + f.xz * z, y - f.yz * z, z};
 }
 
 /* c - M v and c - M^T v */
@@ -142,47 +146,59 @@ AMBULO__INLINE const double *contact_kept(const ambulo__plan *plan, int c, const
   return scratch + plan->ground_at + contacts_first + c * contact_slot;
 }
 
-/* One over the sum of the weights, 0 where nothing is left of it; x - o; and 1 there, else 0. */
-AMBULO__INLINE wide contacts_middle_of(const ambulo__plan *plan, const double *ground, wide3 *x,
-                                       wide *floating) {
+/* What does not wait for the motion: x, w, d, and sum w d, which is what rounding leaves of zero.
+ * It comes long before the rest, which waits for it no more. */
+AMBULO__INLINE void contacts_place(const ambulo__plan *plan, const double *ground,
+                                   double *scratch) {
   const wide one = spread(1);
+  double *all = scratch + plan->ground_at;
   wide total = {0};
-  wide3 sum = {{0}, {0}, {0}}, o = load3(ground);
+  wide3 middle = {{0}, {0}, {0}}, o = load3(ground), rest = middle;
+  for (int c = 0; c < plan->contacts; c++) total += load(contact_ground(ground, c));
+  wide floating = (wide)((wide_bits)one & (wide_bits)(total < spread(1e-300)));
+  wide inverse = (one - floating) / (total + floating);
   for (int c = 0; c < plan->contacts; c++) {
     const double *contact = contact_ground(ground, c);
-    wide w = load(contact);
-    total += w;
-    sum = axpy3(sum, w, sub3(load3(contact + AMBULO__LANES), o));
+    double *at = contact_at(plan, c, scratch);
+    wide w = load(contact) * inverse;
+    wide3 d = sub3(load3(contact + AMBULO__LANES), o);
+    middle = axpy3(middle, w, d);
+    store(at + contact_share, w);
+    store3(at + contact_arm, d);
   }
-  *floating = (wide)((wide_bits)one & (wide_bits)(total < spread(1e-300)));
-  wide inverse = (one - *floating) / (total + *floating);
-  *x = scale3(inverse, sum);
-  return inverse;
+  for (int c = 0; c < plan->contacts; c++) {
+    double *at = contact_at(plan, c, scratch);
+    wide3 d = sub3(load3(at + contact_arm), middle);
+    rest = axpy3(rest, load(at + contact_share), d);
+    store3(at + contact_arm, d);
+  }
+  store(all + contacts_floating, floating);
+  store3(all + contacts_middle, add3(o, middle));
+  store3(all + contacts_rest, rest);
 }
 
 /* G, and what is kept of each contact for it; center: c. */
 AMBULO__INLINE contacts_grasp contacts_couple(const ambulo__plan *plan, const double *ground,
-                                              wide3 center, wide inverse, wide3 middle,
-                                              double *scratch) {
+                                              wide3 center, double *scratch) {
   const double preference = contacts_preference(plan);
-  const wide3 zero = {{0}, {0}, {0}}, o = load3(ground);
-  contacts_grasp g = {
-      scalar6(spread(1)), scalar6(spread(plan->moment_arm * plan->moment_arm)), {zero, zero, zero}};
+  const wide zero = {0};
+  const wide3 rest = load3(scratch + plan->ground_at + contacts_rest);
+  contacts_grasp g = {scalar6(spread(1)),
+                      scalar6(spread(plan->moment_arm * plan->moment_arm)),
+                      {{zero, -rest.z, rest.y}, {rest.z, zero, -rest.x}, {-rest.y, rest.x, zero}}};
   for (int c = 0; c < plan->contacts; c++) {
-    const double *contact = contact_ground(ground, c);
     double *at = contact_at(plan, c, scratch);
-    wide3 p = load3(contact + AMBULO__LANES), d = sub3(sub3(p, o), middle), r = sub3(center, p);
-    wide w = load(contact) * inverse, close = 1 / (dot3(r, r) + 1e-200);
+    wide3 r = sub3(center, load3(contact_ground(ground, c) + AMBULO__LANES));
+    wide3 d = load3(at + contact_arm), line = cross3(d, r);
+    wide w = load(at + contact_share), close = 1 / (dot3(r, r) + 1e-200);
     wide k = preference * w * close, spin = w * dot3(d, d);
-    wide3 line = cross3(d, r);
-    g.force = add_square6(g.force, k, r);
-    g.moment = add_square6(add_square6(g.moment, k, line), -w, d);
+    g.moment = add_square6(g.moment, -w, d);
     g.moment.xx += spin;
     g.moment.yy += spin;
     g.moment.zz += spin;
+    g.force = add_square6(g.force, k, r);
+    g.moment = add_square6(g.moment, k, line);
     g.mixed = add_product33(g.mixed, line, scale3(k, r));
-    store(at + contact_share, w);
-    store3(at + contact_arm, d);
     store3(at + contact_line, r);
     store(at + contact_taste, k);
     store(at + contact_close, close);
@@ -222,18 +238,15 @@ AMBULO__INLINE void contact_share_of(const ambulo__plan *plan, const double *gro
   store3(out + three, m);
 }
 
-/* (W'): Shares the root wrench w out; first: the bodies' first mass moment, what is fixed left
- * out; out: rows of the contacts and of the centre of mass, or NULL. */
-AMBULO__STEP void contacts_share_out(const ambulo__plan *plan, const double *ground, int keep,
-                                     wide_pair w, wide3 first, double *out, double *scratch) {
+/* (W'): Shares the root wrench w out, after contacts_place; first: the bodies' first mass moment,
+ * what is fixed left out; out: rows of the contacts and of the centre of mass, or NULL. */
+AMBULO__INLINE void contacts_share_out(const ambulo__plan *plan, const double *ground, int keep,
+                                       wide_pair w, wide3 first, double *out, double *scratch) {
   double *at = scratch + plan->ground_at;
-  wide3 middle, center = add3(first, spread3(plan->fixed_first));
-  wide floating, inverse = contacts_middle_of(plan, ground, &middle, &floating);
+  wide3 center = add3(first, spread3(plan->fixed_first));
   center = scale3(spread(1 / plan->mass), center);
-  const contacts_grasp g =
-      grasp_factors(contacts_couple(plan, ground, center, inverse, middle, scratch));
-  wide3 x = add3(load3(ground), middle);
-  const wide_pair y = grasp_solve(&g, about(x, w));
+  const contacts_grasp g = grasp_factors(contacts_couple(plan, ground, center, scratch));
+  const wide_pair y = grasp_solve(&g, about(load3(at + contacts_middle), w));
   for (int c = 0; c < plan->contacts; c++) {
     contact_share_of(plan, ground, c, keep, y, out, scratch);
   }
@@ -242,8 +255,6 @@ AMBULO__STEP void contacts_share_out(const ambulo__plan *plan, const double *gro
   }
   if (!keep) return;
   store_pair(at + contacts_wrench, w);
-  store(at + contacts_floating, floating);
-  store3(at + contacts_middle, x);
   store_grasp(at, &g);
 }
 
@@ -273,9 +284,9 @@ AMBULO__INLINE wide3 contact_pulls(const double *at, wide3 a, wide_pair z, wide3
 
 /* (W'.V): Adds M' and F' to *root, the weights on the root wrench; v: V of each contact. Returns
  * c'. */
-AMBULO__STEP wide3 contacts_adjoints(const ambulo__plan *plan, const double *ground,
-                                     const double *weights, const wide_pair *v, wide_pair *root,
-                                     const double *scratch) {
+AMBULO__INLINE wide3 contacts_adjoints(const ambulo__plan *plan, const double *ground,
+                                       const double *weights, const wide_pair *v, wide_pair *root,
+                                       const double *scratch) {
   const double *at = scratch + plan->ground_at;
   int last = ambulo__plan_first_foot_row(plan) + 6 * plan->contacts;
   wide_pair t = {{{0}, {0}, {0}}, {{0}, {0}, {0}}};

@@ -28,6 +28,9 @@
 
 #include "mechanics/kernel_subtree.h"
 
+/* A step of its own keeps its constants in registers; inlined together they would not fit. */
+#define AMBULO__STEP static __attribute__((noinline))
+
 /* Change of the subtree's force with q, qd, qdd of its joint, and t4. */
 typedef struct subtree_changes {
   wide_pair q, qd, qdd;

@@ -37,6 +37,7 @@ AMBULO__INLINE void local_grounded(const ambulo__plan *plan, int keep, const dou
                                    const double *qd, const double *qdd, const double *ground,
                                    double *out, double *scratch) {
   const ambulo__limb *limbs = plan->local.limbs;
+  if (plan->contacts > 0) contacts_place(plan, ground, scratch);
   for (int i = 0; i < plan->local.limb_count; i++) {
     limb_down(plan, &limbs[i], keep, q, qd, qdd, scratch);
   }

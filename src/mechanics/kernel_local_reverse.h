@@ -320,7 +320,8 @@ static void local_reverse_part(const ambulo__plan *plan, const double *ground,
     acting = &pulls;
   }
   local_adjoints(plan, root, x);
-  if (plan->points > 0) local_point_weights(plan, acting, x->weights, x->gq, x->scratch);
+  if (plan->points == 0 && !acting) return;
+  local_point_weights(plan, acting, x->weights, x->gq, x->scratch);
 }
 
 #endif

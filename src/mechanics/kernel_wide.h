@@ -17,9 +17,6 @@ enum { three = 3 * AMBULO__LANES };
 
 #define AMBULO__INLINE static inline __attribute__((always_inline, unused))
 
-/* A step of its own keeps its constants in registers; inlined together they would not fit. */
-#define AMBULO__STEP static __attribute__((noinline))
-
 /* Both compilers let a vector alias its element type; were it let alias everything (may_alias),
  * each store would make the plan be read again. */
 typedef double wide __attribute__((vector_size(8 * AMBULO__WIDTH)));

@@ -74,8 +74,9 @@ enum {
   contacts_wrench = 0,                   /* M, F */
   contacts_floating = 6 * AMBULO__LANES, /* 1 where no contact has weight, else 0 */
   contacts_middle = 7 * AMBULO__LANES,   /* x */
-  contacts_factor = 10 * AMBULO__LANES,  /* of G: 21 */
-  contacts_first = 31 * AMBULO__LANES,
+  contacts_rest = 10 * AMBULO__LANES,    /* sum w d */
+  contacts_factor = 13 * AMBULO__LANES,  /* of G: 21 */
+  contacts_first = 34 * AMBULO__LANES,
   contact_acts = 0,                   /* (moment, force) about the world origin */
   contact_share = 6 * AMBULO__LANES,  /* w */
   contact_arm = 7 * AMBULO__LANES,    /* d */
