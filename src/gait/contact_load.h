@@ -32,6 +32,7 @@ typedef struct ambulo__contact_load {
   double weight;       /* w, 0 to 1 */
   double center[3];    /* p: world, m */
   double box[2], side; /* the patch: from behind to ahead of the centre, to either side, m */
+  int arc;             /* point of the arc on which the foot rolls, or -1 */
   double most;         /* normal force, body weights; may be infinite */
   ambulo__contact_frame frame; /* of the contact */
 } ambulo__contact_load;
