@@ -37,7 +37,19 @@ static double dot(const double a[3], const double b[3]) {
 static int has_point(const ambulo_foot *f, int point) {
   for (int side = 0; side < 2; side++)
     if (f->heel[side] == point || f->toe[side] == point) return 1;
+  for (int end = 0; f->has_arcs && end < 2; end++)
+    if (f->arc[end] == point) return 1;
   return f->heel_center == point || f->toe_center == point || (f->has_tip && f->tip == point);
+}
+
+/* of an arc that rolls: its centre against where the foothold has it */
+static int read_arc(place_row *p, const ambulo__arc *arc, int origin) {
+  const ambulo_model *model = p->s->problem->model;
+  p->point = (arc->center - origin) / 3;
+  for (int i = 0; i < 3; i++) p->total[i] = p->first[i] = arc->sign * arc->forward[i];
+  for (p->foot = 0; p->foot < model->foot_count; p->foot++)
+    if (has_point(&model->feet[p->foot], p->point)) return 1;
+  return 0;
 }
 
 /* 0 when the row stands on no point of a foot */
@@ -46,6 +58,8 @@ static int read_row(place_row *p) {
   const ambulo_model *model = problem->model;
   const ambulo__row_term *term = problem->table.terms + p->row->first_term;
   int origin = ambulo__channel_point(&problem->channels, 0, 0);
+  const ambulo__arc *arc = ambulo__row_arc_of(&problem->table, p->row);
+  if (arc) return read_arc(p, arc, origin);
   if (p->row->term_count == 0) return 0;
   p->point = (term[0].channel - origin) / 3;
   for (int t = 0; t < p->row->term_count; t++) {
