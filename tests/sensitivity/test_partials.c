@@ -7,12 +7,12 @@
 #include "sensitivity/partials.h"
 #include "support/moved_problem.h"
 
-enum { MOST_OVERRIDES = 8 };
+enum { MOST_OVERRIDES = 8, MOST_WANTED = 16 };
 
 typedef struct setting {
   const char *file;
   const char *overrides[MOST_OVERRIDES];
-  const char *wanted[12]; /* names that have to be among those compared */
+  const char *wanted[MOST_WANTED]; /* names that have to be among those compared */
 } setting;
 
 static double noise(unsigned *state) {
@@ -34,20 +34,28 @@ static ambulo_result *scattered(const ambulo_problem *problem) {
   return result;
 }
 
+static int is_phase(const ambulo_sensitivity *s) {
+  return strncmp(s->name, "gait.phases.", 12) == 0;
+}
+
 static double step_of(const ambulo_sensitivity *s) {
+  if (is_phase(s)) return 2e-6; /* of nodes that are 1e-3 of a stride apart */
   return s->value == 0.0 ? 1e-3 * s->step : 1e-5 * fmax(fabs(s->value), 0.1 * s->step);
 }
 
-/* 0: the file refuses the number moved */
+/* 0: the file refuses the number moved. Differences of fourth order for phases, whose third
+ * derivatives go with the third power of a node's rate */
 static int compare(const setting *c, int count, const ambulo_problem *problem,
                    const ambulo_result *r, const ambulo_sensitivity *s) {
-  double value[2] = {NAN, NAN}, by = step_of(s);
-  for (int k = 0; k < 2; k++) {
-    ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, k ? by : -by);
+  static const double at[4] = {-1.0, 1.0, -2.0, 2.0};
+  double value[4] = {NAN, NAN, NAN, NAN}, by = step_of(s);
+  for (int k = 0; k < (is_phase(s) ? 4 : 2); k++) {
+    ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, at[k] * by);
     if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
     ambulo_problem_free(moved);
   }
   double difference = (value[1] - value[0]) / (2.0 * by);
+  if (is_phase(s)) difference = (4.0 * difference - (value[3] - value[2]) / (4.0 * by)) / 3.0;
   if (isnan(difference)) return 0;
   /* what rounding leaves of a difference of two values of this size */
   double slack = 1e-7 * fabs(s->derivative) + 4e-15 * (fabs(value[0]) + 1.0) / by;
@@ -67,15 +75,15 @@ static void check(const setting *c, const char *unwanted) {
                    AMBULO_OK);
   ambulo_result *result = scattered(problem);
   assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
-  int found[12] = {0};
+  int found[MOST_WANTED] = {0};
   for (int i = 0; i < list->count; i++) {
     int did = compare(c, count, problem, result, &list->items[i]);
     compared += did;
-    for (int k = 0; k < 12 && c->wanted[k]; k++)
+    for (int k = 0; k < MOST_WANTED && c->wanted[k]; k++)
       found[k] |=
           did && list->items[i].derivative != 0.0 && strcmp(c->wanted[k], list->items[i].name) == 0;
   }
-  for (int k = 0; k < 12 && c->wanted[k]; k++)
+  for (int k = 0; k < MOST_WANTED && c->wanted[k]; k++)
     if (!found[k]) fail_msg("%s: %s was not compared", c->file, c->wanted[k]);
   for (int i = 0; unwanted && i < list->count; i++)
     assert_string_not_equal(unwanted, list->items[i].name);
@@ -191,7 +199,8 @@ static void a_planar_step_on_events(void **state) {
       "models/walker_2d_step.yaml",
       {"angles=degrees", "constraints.zmp_margin=0.005", "constraints.speed_limits=true",
        "constraints.minimum_force=0.1", "trajectory.degree=4", ON_EVENTS},
-      {"gait.step_length", "gait.speed", "subject.mass", "ground.slope", "constraints.zmp_margin",
+      {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
+       "gait.phases.toe_off", "gait.step_length", "gait.speed", "subject.mass", "ground.slope", "constraints.zmp_margin",
        "constraints.minimum_force", "constraints.ground_height"}};
   check(&c, NULL);
 }
@@ -217,8 +226,9 @@ static void contacts_one_by_one_on_events(void **state) {
        "{foot: left, mode: heel, from: 0.3, to: 0.5, place: [0.4, 0]}]",
        ON_EVENTS},
       {"contacts[0].place[0]", "contacts[1].place[0]", "contacts[2].place[0]", "subject.mass",
-       "ground.slope"}};
+       "ground.slope", "contacts[1].to"}};
   check(&c, "time.duration");
+  check(&c, "contacts[0].to"); /* where the next one begins */
 }
 
 static void a_walk_under_load_on_events(void **state) {
@@ -228,7 +238,7 @@ static void a_walk_under_load_on_events(void **state) {
       {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
        "roll: 0.04, width: 0.035}",
        "ground={slope: 3}", "ground_reaction.shear=0.8", ON_EVENTS},
-      {"load.mass", "subject.mass", "ground.slope", "gait.step_width", "gait.step_length",
+      {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "load.mass", "ground.slope", "gait.step_width", "gait.step_length",
        "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
        "constraints.contact_tolerance", "constraints.orientation_tolerance",
        "constraints.clearance.inward", "constraints.strike_pitch[0]", "time.duration"}};
@@ -244,10 +254,57 @@ static void a_walk_with_other_terms_on_events(void **state) {
        "{term: upright, weight: 10, points: [pelvis, head_top]}, "
        "{term: ground_force, weight: 0.3}]",
        "time.duration=null", "gait.speed=1.26", "trajectory.degree=5", ON_EVENTS},
-      {"objective[clearance].height", "gait.speed", "gait.step_length",
+      {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off",
+       "objective[clearance].height", "gait.speed", "gait.step_length",
        "constraints.clearance.turn", "constraints.clearance.ceiling", "load.mass",
        "constraints.ground_height", "objective[torque_rate].weight"}};
   check(&c, NULL);
+}
+
+/* strikes before 0 and T, a smooth transfer; nodes move along fixed knots */
+static void a_walk_early_on_its_heel(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {"gait.phases={heel_strike: -0.03, foot_flat: 0.05, heel_off: 0.36, toe_off: 0.6}",
+       "ground_reaction.transfer=smooth", "constraints.clearance.height=0.03", "time.grid=events"},
+      {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
+       "gait.phases.toe_off", "ground_reaction.shear"}};
+  check(&c, NULL);
+}
+
+/* two steps, periodic, of other lengths and times */
+static void a_limp_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_asymmetric.yaml",
+      {"gait.phases={heel_strike: 0.01, foot_flat: 0.08, heel_off: 0.38, toe_off: 0.62}",
+       "ground_reaction.transfer=linear", "objective[0].weight=2", ON_EVENTS},
+      {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
+       "gait.phases.toe_off"}};
+  check(&c, NULL);
+}
+
+/* what another event, an end or a knot coincides with has no derivative */
+static void times_that_coincide(void **state) {
+  (void)state;
+  static const setting strike_at_0 = {"models/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
+                       heel_with_strike = {"models/walk_without_reaction.yaml",
+                                           {"gait.phases.heel_off=0.44", ON_EVENTS},
+                                           {"gait.phases.toe_off", "gait.phases.foot_flat"}},
+                       uniform = {"models/walker_2d_step.yaml", {NULL}, {NULL}},
+                       on_a_knot = {"models/walk_loaded.yaml",
+                                    {"time.grid=events", "trajectory.intervals=25"},
+                                    {"gait.step_length"}},
+                       above_cubic = {
+                           "models/walk_loaded.yaml",
+                           {"time.grid=events", "trajectory.intervals=25", "trajectory.degree=5"},
+                           {"gait.phases.toe_off"}};
+  check(&strike_at_0, "gait.phases.heel_strike");
+  check(&heel_with_strike, "gait.phases.heel_off");
+  check(&uniform, "gait.phases.toe_off");
+  check(&on_a_knot, "gait.phases.toe_off");
+  check(&above_cubic, NULL);
 }
 
 /* no step length: it follows from the speed, and the time from both */
@@ -340,6 +397,9 @@ int main(void) {
       cmocka_unit_test(four_steps_on_hulls_on_events),
       cmocka_unit_test(contacts_one_by_one_on_events),
       cmocka_unit_test(a_walk_under_load_on_events),
+      cmocka_unit_test(a_walk_early_on_its_heel),
+      cmocka_unit_test(a_limp_on_events),
+      cmocka_unit_test(times_that_coincide),
       cmocka_unit_test(a_walk_with_other_terms_on_events),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),
