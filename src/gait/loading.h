@@ -31,8 +31,8 @@ typedef struct ambulo__load {
 ambulo__load ambulo__load_at(const ambulo_problem_definition *definition,
                              const ambulo__foot_outline *outlines, double time);
 
-/* How far the box of a contact on the heel has rolled at a time: 0 at the strike, 1 when the foot is
- * flat. `begins`: the contact whose `from` the strike is. */
+/* How far the box of a contact on the heel has rolled at a time: 0 at the strike, 1 when the foot
+ * is flat. `begins`: the contact whose `from` the strike is. */
 typedef struct ambulo__roll {
   double part, duration; /* s: from strike to flat */
   int begins;

@@ -29,10 +29,10 @@ typedef struct ambulo__table_row {
   /* small ambulo__row_kind, ambulo__measure, ambulo_relation: rows are many */
   unsigned char kind, measure, relation;
   unsigned char before; /* 1: it is about what the feet did just before its node, on an event */
-  int group; /* rows of one family have the same; 0 .. group_count - 1 */
-  int node;  /* the node whose channels it uses; -1: several, or none */
-  int user;  /* index of the caller's user row, whose value and coefficients come
-                from its function at every evaluation; -1: linear, as above */
+  int group;            /* rows of one family have the same; 0 .. group_count - 1 */
+  int node;             /* the node whose channels it uses; -1: several, or none */
+  int user;             /* index of the caller's user row, whose value and coefficients come
+                           from its function at every evaluation; -1: linear, as above */
   double time;
   double constant;
   double size; /* in unit: what counts as one; violations are judged relative to it */

@@ -94,8 +94,8 @@ static double pull_of_ground(const ambulo__node_forces *f) {
   for (int foot = 0; foot < 2; foot++) {
     double wrench[6], share = foot ? -f->share : f->share;
     for (int i = 0; i < 6; i++)
-      wrench[i] = g.share[foot] * f->wrench[i] + share * g.wrench[i] +
-                  (foot ? -passed[i] : passed[i]);
+      wrench[i] =
+          g.share[foot] * f->wrench[i] + share * g.wrench[i] + (foot ? -passed[i] : passed[i]);
     int link = p->model->points[p->model->feet[foot].heel_center].link;
     for (; link >= 0; link = p->model->links[link].parent) {
       int i = p->model->links[link].coordinate;

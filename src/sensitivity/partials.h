@@ -43,17 +43,17 @@ typedef struct ambulo__partials {
   double contact_tolerance, orientation_tolerance, strike_pitch[2];
   ambulo_clearance clearance;
   ambulo_ground_reaction reaction;
-  double slope;    /* rad: gravity turned against forward, its size kept */
+  double slope;         /* rad: gravity turned against forward, its size kept */
   double *node_time;    /* [nodes], s: of a node alone */
   double *contact_time; /* [contacts][2], s: of from and to alone, nodes where they are */
   int events;           /* 0 where the grid is not on events */
   double *event_time;   /* [events], s: where contacts begin and end, inside (0, T) */
   double *event;        /* [events]: of an event, with all contacts, nodes and knots that go along;
                            NaN where something else is there at the same time */
-  double log_mass; /* of the mass m wherever it stands in rows and terms, torques left out:
-                      dL/d ln m */
-  double body;     /* dL/d ln of the mass of all bodies but the load, in every place */
-  double load;     /* kg: of the load (ambulo_model.load) */
+  double log_mass;      /* of the mass m wherever it stands in rows and terms, torques left out:
+                           dL/d ln m */
+  double body;          /* dL/d ln of the mass of all bodies but the load, in every place */
+  double load;          /* kg: of the load (ambulo_model.load) */
 } ambulo__partials;
 
 /* A solution: x* is the point that the workspace holds. */

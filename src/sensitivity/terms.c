@@ -11,8 +11,8 @@
  *     power tau qd / m                du/d ln m = -u
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
  *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
- *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u > 0,
- *                                     r the root of the part of the node's time in the air
+ *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u >
+ * 0, r the root of the part of the node's time in the air
  *
  * Times of nodes move quadrature weights and what is divided by them, h the interval ahead and r^2
  * the part in the air:
@@ -54,7 +54,8 @@ static void add_air(const term_sum *t, const ambulo__term_context *context, int 
   if (part <= 0.0 || part >= 1.0) return; /* between two phases: neither the first nor the last */
   int at = node * context->model->foot_count + foot, lands = context->active[at] >= 0;
   double ahead = lands ? 1.0 - part : part;
-  double pull = (lands ? -by_part : by_part) / (context->times[node + 1] - context->times[node - 1]);
+  double pull =
+      (lands ? -by_part : by_part) / (context->times[node + 1] - context->times[node - 1]);
   by[node + 1] += pull * (1.0 - ahead);
   by[node] -= pull;
   by[node - 1] += pull * ahead;

@@ -1,4 +1,5 @@
-/* sensitivity/time_parameters.c - phases of a gait and times of listed contacts, on a grid on events.
+/* sensitivity/time_parameters.c - phases of a gait and times of listed contacts, on a grid on
+ * events.
  *
  * Phase f of the stride S moves an event of each step (gait/expand.c), t = t_s + f S:
  *
@@ -60,6 +61,7 @@ static double pull_of(const stride *s, int phase) {
   return sum;
 }
 
+/* (S.14) S sum dL/de */
 static void add_phases(ambulo__parameters *p) {
   static const char *const keys[PHASES] = {"heel_strike", "foot_flat", "heel_off", "toe_off"};
   static const char *const words[PHASES] = {"heel strike", "foot flat", "heel off", "toe-off"};
@@ -92,7 +94,6 @@ static void add_contact_time(ambulo__parameters *p, int contact, int side) {
                         "contacts[%d].%s", contact, keys[side]);
 }
 
-/* (S.14) S sum dL/de */
 void ambulo__parameters_of_events(ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
   int stays = d->user_row_count > 0 || d->tube_count > 0 || p->partials->events == 0;

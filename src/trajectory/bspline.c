@@ -69,12 +69,19 @@ typedef struct moving {
 static moving moving_at(const ambulo__basis *basis, int interval, double t, double rate,
                         const double *breakpoint_rates) {
   int p = basis->degree;
-  moving m = {.knots = basis->knots, .t = t, .rate = rate, .first = interval + 1, .s = p + interval};
+  moving m = {
+      .knots = basis->knots, .t = t, .rate = rate, .first = interval + 1, .s = p + interval};
   for (int i = 0; breakpoint_rates && i < 2 * p; i++) {
     int b = interval + 1 + i - p;
     m.knot_rate[i] = b <= 0 || b >= basis->intervals ? 0.0 : breakpoint_rates[b];
   }
   return m;
+}
+
+static int is_still(const moving *m, int degree) {
+  int still = m->rate == 0.0;
+  for (int i = 0; i < 2 * degree; i++) still &= m->knot_rate[i] == 0.0;
+  return still;
 }
 
 /* N_j,k-1 over its knots' distance, and the tangent of that */
@@ -114,7 +121,7 @@ static void tangent(const ambulo__basis *basis, int interval, double t, double r
                     const double *breakpoint_rates, ambulo__basis_point *out) {
   int p = basis->degree;
   moving m = moving_at(basis, interval, t, rate, breakpoint_rates);
-  for (int order = 0; order <= 2; order++) {
+  for (int order = 0; order <= 2 && !is_still(&m, p); order++) {
     double w[AMBULO__MAX_SPAN] = {1.0};
     for (int k = 1; k <= p; k++) raise_both(&m, k, k > p - order, w, out->weight[order]);
   }

@@ -176,10 +176,12 @@ static void a_heel_rolls_until_it_is_flat(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(transfers_by_hand), cmocka_unit_test(centres_of_pressure_are_apart),
-      cmocka_unit_test(double_support_goes_on_beyond_the_ends), cmocka_unit_test(time_in_the_air),
-      cmocka_unit_test(spans_know_their_contacts), cmocka_unit_test(shares_have_slopes),
-      cmocka_unit_test(a_heel_rolls_until_it_is_flat)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(transfers_by_hand),
+                                     cmocka_unit_test(centres_of_pressure_are_apart),
+                                     cmocka_unit_test(double_support_goes_on_beyond_the_ends),
+                                     cmocka_unit_test(time_in_the_air),
+                                     cmocka_unit_test(spans_know_their_contacts),
+                                     cmocka_unit_test(shares_have_slopes),
+                                     cmocka_unit_test(a_heel_rolls_until_it_is_flat)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

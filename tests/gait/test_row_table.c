@@ -107,8 +107,8 @@ static void families_are_numbered_as_they_begin(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_and_terms_grow),
-      cmocka_unit_test(rows_know_which_phase_they_are_of), cmocka_unit_test(no_memory_is_remembered),
-      cmocka_unit_test(what_is_missed), cmocka_unit_test(families_are_numbered_as_they_begin)};
+      cmocka_unit_test(rows_and_terms_grow), cmocka_unit_test(rows_know_which_phase_they_are_of),
+      cmocka_unit_test(no_memory_is_remembered), cmocka_unit_test(what_is_missed),
+      cmocka_unit_test(families_are_numbered_as_they_begin)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

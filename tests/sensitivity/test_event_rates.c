@@ -20,7 +20,8 @@ static ambulo_problem *walk_with(const char *file, const char *phase, double val
 static void expect_rates(const char *file, const char *phase, double value) {
   double by = 1e-4, stride, node[MOST] = {0}, knot[MOST] = {0}, one[MOST];
   ambulo_problem *p = walk_with(file, phase, value);
-  ambulo_problem *moved[2] = {walk_with(file, phase, value - by), walk_with(file, phase, value + by)};
+  ambulo_problem *moved[2] = {walk_with(file, phase, value - by),
+                              walk_with(file, phase, value + by)};
   ambulo__event_map map, other;
   ambulo__pool pool;
   ambulo__pool_init(&pool, NULL);

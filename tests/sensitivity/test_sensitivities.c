@@ -105,10 +105,14 @@ static void phases_solved_anew(void **state) {
   static const char *const base[] = {"angles=degrees", "constraints.zmp_margin=0.005",
                                      "time.grid=events", "trajectory.knots=events",
                                      "trajectory.intervals=16"};
-  static const char *const names[] = {"gait.phases.heel_strike", "gait.phases.foot_flat",
-                                      "gait.phases.heel_off",    "gait.phases.toe_off",
-                                      "gait.step_length",        "gait.speed",
-                                      "ground.slope",            NULL};
+  static const char *const names[] = {"gait.phases.heel_strike",
+                                      "gait.phases.foot_flat",
+                                      "gait.phases.heel_off",
+                                      "gait.phases.toe_off",
+                                      "gait.step_length",
+                                      "gait.speed",
+                                      "ground.slope",
+                                      NULL};
   compare("models/walker_2d_step.yaml", base, 5, names, 3e-3, 1e-4);
 }
 
@@ -224,11 +228,10 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(phases_solved_anew),
-      cmocka_unit_test(the_dearest_stands_first),
-      cmocka_unit_test(no_optimum_has_none),       cmocka_unit_test(arguments_are_checked),
-      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),       cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),   cmocka_unit_test(phases_solved_anew),
+      cmocka_unit_test(the_dearest_stands_first), cmocka_unit_test(no_optimum_has_none),
+      cmocka_unit_test(arguments_are_checked),    cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
