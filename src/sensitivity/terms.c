@@ -11,8 +11,8 @@
  *     power tau qd / m                du/d ln m = -u
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
  *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
- *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u >
- * 0, r the root of the part of the node's time in the air
+ *     clearance, where u > 0,         du/dh = r / H,            du/dH = (r - u) / H
+ *       r (1 - (n.p - h) / H)         r the root of the part of the node's time in the air
  *
  * Times of nodes move quadrature weights and what is divided by them, h the interval ahead and r^2
  * the part in the air:

@@ -80,7 +80,9 @@ static void a_walk_early_on_its_heel(void **state) {
   static const setting c = {
       "models/walk_loaded.yaml",
       {"gait.phases={heel_strike: -0.03, foot_flat: 0.05, heel_off: 0.36, toe_off: 0.6}",
-       "ground_reaction.transfer=smooth", "constraints.clearance.height=0.03", "time.grid=events"},
+       "ground_reaction.transfer=smooth", "constraints.clearance.height=0.03", "time.grid=events",
+       "objective=[{term: clearance, height: 0.06, weight: 3}, {term: ground_force, weight: 0.3}, "
+       "{term: torque_rate, weight: 0.0001}]"},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
        "gait.phases.toe_off", "ground_reaction.shear"}};
   check(&c, NULL);
@@ -120,6 +122,34 @@ static void times_that_coincide(void **state) {
   check(&above_cubic, NULL);
 }
 
+static int has_duration(const ambulo_problem_definition *definition) {
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  int found = 0;
+  assert_int_equal(ambulo_problem_create(definition, NULL, NULL, &problem), AMBULO_OK);
+  ambulo_result *result = scattered(problem);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  for (int i = 0; i < list->count; i++) found |= !strcmp(list->items[i].name, "time.duration");
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  return found;
+}
+
+/* from C: nodes that stay in seconds */
+static void node_times_have_no_duration(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_load("models/two_link_reach.yaml", NULL, 0, NULL, NULL, &problem),
+                   AMBULO_OK);
+  ambulo_problem_definition d = problem->definition;
+  d.grid = AMBULO_GRID_EVENTS;
+  assert_int_equal(has_duration(&d), 1);
+  d.node_times = problem->times;
+  assert_int_equal(has_duration(&d), 0);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_planar_step_on_events),
@@ -129,6 +159,7 @@ int main(void) {
       cmocka_unit_test(a_walk_early_on_its_heel),
       cmocka_unit_test(a_limp_on_events),
       cmocka_unit_test(times_that_coincide),
+      cmocka_unit_test(node_times_have_no_duration),
       cmocka_unit_test(a_walk_with_other_terms_on_events),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
