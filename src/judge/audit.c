@@ -1,8 +1,10 @@
 /* judge/audit.c - see audit.h.
  *
- * First-order conditions. With g = grad J, the rows with |c| within the active tolerance
- * or below count as active, A. The nearest direction to -g that keeps the active rows to first
- * order,
+ * First-order conditions. With g = grad J, the rows with c within the active tolerance
+ * or below count as active, A; and those within ten times that whose multiplier times c, what
+ * taking up their slack could gain, is a trifle of J: a row that the last micrometre of the solve
+ * left a little inside would else be none at all, and its force a residual. The nearest direction
+ * to -g that keeps the active rows to first order,
  *
  *     minimize |d + g|^2 / 2   subject to   J_e d = 0, C d = 0, J_A d >= 0
  *
@@ -29,6 +31,8 @@
 
 enum { MULTIPLIER_PASSES = 12 };
 static const double active_factor = 10.0; /* times the feasibility tolerance */
+static const double near_factor = 100.0;  /* the same, of rows whose slack is a trifle */
+static const double trifle = 1e-2;        /* gain / J, times the optimality tolerance */
 static const double cone_penalty = 1e4;
 static const double far_away = -1e30; /* excess of a row that is not active */
 static const double cone_tolerance = 1e-9;
@@ -126,6 +130,24 @@ static void mark(ambulo__engine *e, double tolerance, int *active) {
   }
 }
 
+/* Takes rows beyond `tolerance` out that have no force, or slack worth more than a trifle; unit: of
+ * multipliers. Returns how many had a force. */
+static int drop_slack(const ambulo__engine *e, double tolerance, double unit,
+                      const ambulo_result *result, double worth, int *active) {
+  const ambulo__sparse_rows *rows = &e->linearized.rows.inequality;
+  const ambulo__table_row *table = e->setup->problem->table.rows;
+  int dropped = 0;
+  for (int i = 0; i < rows->count; i++) {
+    double slack = result->row[rows->row[i]];
+    double multiplier = -rows->scale[i] * e->iterate.lambda[i] * unit;
+    if (!active[i] || slack <= tolerance * table[rows->row[i]].size) continue;
+    if (multiplier > 0.0 && multiplier * slack <= worth) continue;
+    active[i] = 0;
+    dropped += multiplier > 0.0;
+  }
+  return dropped;
+}
+
 /* from multipliers for a gradient of length 1 to those of grad J = sum multiplier grad c */
 static void collect_multipliers(const ambulo__engine *e, double size, ambulo_result *result) {
   const ambulo__rows_split *s = e->setup->rows;
@@ -195,23 +217,30 @@ static void take_first_order(const ambulo__engine *e, double size, ambulo_result
   audit_complementarity(e, result);
 }
 
+/* from the solver's multipliers, if it has any; else from none */
+static int project_somehow(ambulo__engine *e, const int *active) {
+  if (!project(e, active)) return 0;
+  const ambulo__setup *s = e->setup;
+  normalize(&e->linearized.rows.inequality);
+  memset(e->iterate.lambda, 0, (size_t)s->inequalities * sizeof *e->iterate.lambda);
+  memset(e->iterate.equality_multiplier, 0,
+         (size_t)s->equalities * sizeof *e->iterate.equality_multiplier);
+  return project(e, active);
+}
+
 /* also marks the rows that are active */
 static void audit_first_order(ambulo__engine *e, const ambulo_options *options, int *active,
                               ambulo_result *result) {
   const ambulo__setup *s = e->setup;
-  ambulo__iterate *iterate = &e->iterate;
   double *gradient = e->quadratic->gradient, size = ambulo__largest(gradient, (size_t)s->n);
   /* the cone does not ask how long g is; its penalty and tolerances do */
   for (int i = 0; i < s->n && size > 0.0; i++) gradient[i] /= size;
-  mark(e, active_factor * options->feasibility_tolerance, active);
-  int failed = project(e, active); /* from the solver's multipliers, if it has any */
-  if (failed) {
-    normalize(&e->linearized.rows.inequality);
-    memset(iterate->lambda, 0, (size_t)s->inequalities * sizeof *iterate->lambda);
-    memset(iterate->equality_multiplier, 0,
-           (size_t)s->equalities * sizeof *iterate->equality_multiplier);
-    failed = project(e, active);
-  }
+  double tolerance = options->feasibility_tolerance, unit = size / s->objective_scale;
+  double worth = trifle * options->optimality_tolerance * fabs(result->objective);
+  mark(e, near_factor * tolerance, active);
+  int failed = project_somehow(e, active);
+  while (!failed && drop_slack(e, active_factor * tolerance, unit, result, worth, active))
+    failed = project_somehow(e, active);
   if (!failed) take_first_order(e, size, result);
   restore_scales(&e->linearized.rows);
 }

@@ -53,7 +53,25 @@ static void iterations_do_not_follow_the_grid(void **state) {
   }
 }
 
+/* rows that the last micrometres leave a little inside keep their force in the audit */
+static void tight_tolerances_are_met(void **state) {
+  (void)state;
+  static const double tolerance[] = {5e-7, 3e-7};
+  ambulo_problem *problem = load("walk_normal", 100);
+  for (int i = 0; i < 2; i++) {
+    ambulo_options options = ambulo_options_default();
+    ambulo_result *result = NULL;
+    options.feasibility_tolerance = tolerance[i];
+    assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+    assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
+    assert_true(ambulo_result_audit(result)->kkt < 1e-4);
+    ambulo_result_free(result);
+  }
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(iterations_do_not_follow_the_grid)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(iterations_do_not_follow_the_grid),
+                                     cmocka_unit_test(tight_tolerances_are_met)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
