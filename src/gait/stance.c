@@ -24,7 +24,7 @@ static image image_of(const ambulo_problem_definition *d, int i, int period) {
   double later = period * d->duration;
   return (image){mirrored ? d->model->feet[c->foot].mirror : c->foot,
                  c->mode,
-                 {c->from + later, c->to + later}};
+                 {.from = c->from + later, .to = c->to + later}};
 }
 
 /* Joins one more image of the foot, of `mode` unless -1, to the span; 0: none touches it from
@@ -84,7 +84,7 @@ static int mode_at(const ambulo_problem_definition *d, int foot, double time, in
 
 ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
                                  const ambulo_contact *contact) {
-  ambulo__span own = {contact->from, contact->to}, whole = grown(d, contact->foot, -1, own);
+  ambulo__span own = {.from = contact->from, .to = contact->to}, whole = grown(d, contact->foot, -1, own);
   ambulo__span open = opened(d, whole);
   ambulo__stance s = {.from = open.from, .to = open.to, .leaves = -INFINITY, .comes = INFINITY};
   double middle = 0.5 * (whole.from + whole.to);

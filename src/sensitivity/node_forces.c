@@ -115,7 +115,7 @@ void ambulo__node_forces_clear(ambulo__node_forces *f) {
   memset(f->wrench, 0, sizeof f->wrench);
   memset(f->center, 0, sizeof f->center);
   memset(f->apart, 0, sizeof f->apart);
-  f->shear = f->height = 0.0;
+  f->shear = f->height = f->share = 0.0;
 }
 
 double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const double wrench[6]) {

@@ -22,6 +22,7 @@ typedef struct ambulo__node_forces {
   double center[3];      /* tangent of the centre of mass, m */
   double apart[3];       /* tangent of D (mechanics/kernel_ground.h), m */
   double shear, height;  /* tangents of kappa and of the height of the ground, m */
+  double share;          /* tangent of a_0 */
 } ambulo__node_forces;
 
 /* Memory from `pool` but for the pose, which ambulo__node_forces_free frees. E_MEMORY. */

@@ -205,6 +205,7 @@ static void add_ends(ambulo__parameters *p) {
 
 ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   ambulo__parameters_of_walk(p);
+  ambulo__parameters_of_events(p);
   add_body(p);
   ambulo__parameters_of_terms(p);
   add_contact_rows(p);

@@ -19,6 +19,8 @@ typedef enum ambulo__quantity {
   AMBULO__BODY_WEIGHT,   /* body weights: 0.01 */
   AMBULO__TURNING_JOLT,  /* rad/s^2: 1 */
   AMBULO__JOLT,          /* m/s^2: 0.1 */
+  AMBULO__STRIDE_SHARE,  /* 1 % of the stride, of an event */
+  AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
   AMBULO__RATIO          /* any: 1 % of the value */
 } ambulo__quantity;
 
@@ -60,8 +62,9 @@ int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign
 
 /* Every number of the problem, with df*_dp; E_MEMORY leaves what ambulo__free of the list frees. */
 ambulo_status ambulo__parameters_collect(ambulo__parameters *parameters);
-/* The pieces: footholds, times, speed, travel; terms of the objective. */
+/* The pieces: footholds, times, speed, travel; events of contacts; terms of the objective. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
+void ambulo__parameters_of_events(ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);
 
 /* Steps, shares and words; the largest share comes first. */

@@ -14,10 +14,13 @@
  *     orientation tolerance                               1, of yaw and roll on the toes 2
  *     strike pitch p_0, p_1                               -cos p_0, cos p_1
  *     clearance height H, of a point due at a low = a H   -low / H
+ *
+ * and a = part(s), half of it of the heel, has times: dc/ds = -H part'(s), s along the swing.
  */
 #include "sensitivity/partials.h"
 
 #include "gait/gait.h"
+#include "gait/loading.h"
 
 #include <math.h>
 
@@ -107,6 +110,21 @@ static void add_contact(const place_row *p, const ambulo_contact *contact,
   }
 }
 
+/* low = H' part(s), s = (t - from) / (to - from) of the swing */
+static void add_swing(const place_row *p, ambulo__partials *partials) {
+  const ambulo_problem_definition *d = &p->s->problem->definition;
+  ambulo__span air = ambulo__air_span(d, p->foot, p->row->time);
+  double length = air.to - air.from, slope;
+  if (!(length > 0.0)) return;
+  double s = (p->row->time - air.from) / length;
+  (void)ambulo__clearance_part(s, &slope);
+  int is_heel = p->point == p->s->problem->model->feet[p->foot].heel_center;
+  double pull = -p->pull * (is_heel ? 0.5 : 1.0) * d->clearance.height * slope / length;
+  partials->node_time[p->row->node] += pull;
+  if (air.begins >= 0) partials->contact_time[2 * air.begins + 1] -= pull * (1.0 - s);
+  if (air.ends >= 0) partials->contact_time[2 * air.ends] -= pull * s;
+}
+
 static void add_clearance(const place_row *p, ambulo__partials *partials) {
   const ambulo_problem *problem = p->s->problem;
   const ambulo_problem_definition *d = &problem->definition;
@@ -119,6 +137,7 @@ static void add_clearance(const place_row *p, ambulo__partials *partials) {
   } else if (fabs(up) > fabs(left)) {
     double low = -p->row->constant - d->ground_height;
     if (d->clearance.height > 0.0) c->height -= p->pull * low / d->clearance.height;
+    add_swing(p, partials);
   } else {
     int is_left;
     int contact = ambulo__swing_track(d, p->foot, p->row->time, &is_left);
