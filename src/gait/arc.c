@@ -36,14 +36,14 @@ static double rolling(const ambulo__arc *a, const double *y, int stride, double 
   return a->room + a->sign * (dot(a->forward, y, a->center, stride) - a->flat + a->radius * theta);
 }
 
-/* (R.2) (e0 F_n -+ F_n d) / (m g) */
+/* (R.2) a + (e0 F_n -+ F_n d) / (m g) */
 static double pressure(const ambulo__arc *a, const double *y, int stride, double *slope) {
   double normal = dot(a->up, y, a->force, stride), turn = dot(a->left, y, a->moment, stride);
   double apart = a->along - dot(a->forward, y, a->center, stride);
   add(slope, a->force, a->up, (a->room + a->sign * apart) / a->weight);
   add(slope, a->moment, a->left, -a->sign / a->weight);
   add(slope, a->center, a->forward, -a->sign * normal / a->weight);
-  return (a->room * normal + a->sign * (normal * apart - turn)) / a->weight;
+  return a->slack + (a->room * normal + a->sign * (normal * apart - turn)) / a->weight;
 }
 
 double ambulo__arc_value(const ambulo__arc *arc, const double *y, int stride, double *slope) {

@@ -13,7 +13,7 @@
  *
  *     F_n d = -l . M + F_n f . (p - C)                     N m
  *
- * Rows:   e0 -+ e >= 0   (m),     (e0 F_n -+ F_n d) / (m g) >= 0   (m)
+ * Rows:   e0 -+ e >= 0   (m),     a + (e0 F_n -+ F_n d) / (m g) >= 0   (m), a the slack
  *
  * asin goes on as its tangent beyond a sine of .97, which no foot on the ground has. */
 #ifndef AMBULO_GAIT_ARC_H
@@ -25,10 +25,10 @@ typedef struct ambulo__arc {
   double sign, room; /* -1 or 1; e0, m */
   double radius, length;
   double forward[3], left[3], up[3];
-  double flat;           /* c */
-  int center, heel, toe; /* first channels: C, h, t */
-  int force, moment;     /* of a row on the centre of pressure: F, M; else -1 */
-  double along, weight;  /* f . p, m g */
+  double flat;                 /* c */
+  int center, heel, toe;       /* first channels: C, h, t */
+  int force, moment;           /* of a row on the centre of pressure: F, M; else -1 */
+  double along, weight, slack; /* f . p, m g; m */
 } ambulo__arc;
 
 /* The row's value at a node from its channels, channel k at y[k * stride]. Its slopes are added to

@@ -135,13 +135,15 @@ static void arc_rows(const tube *t, const ambulo_contact *contact,
   }
 }
 
-/* the point that contact i holds; not again what the other one holds at the same place */
+/* the point that contact i holds; not again what the other one holds at the same place: of a flat
+ * foot the arcs are where they are due */
 static void place_rows(const tube *t, int i) {
   const ambulo_problem_definition *d = t->context->definition;
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, t->contact[i]);
   double place[3], before[3];
   if (t->outline->has_arcs && t->contact[i]->mode != AMBULO_CONTACT_FLAT) {
-    arc_rows(t, t->contact[i], &frame);
+    if (t->contacts == 1 || t->contact[1 - i]->mode != AMBULO_CONTACT_FLAT)
+      arc_rows(t, t->contact[i], &frame);
     return;
   }
   int point = ambulo__contact_point(d, t->outline, t->contact[i], place);

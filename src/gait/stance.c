@@ -84,7 +84,8 @@ static int mode_at(const ambulo_problem_definition *d, int foot, double time, in
 
 ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
                                  const ambulo_contact *contact) {
-  ambulo__span own = {.from = contact->from, .to = contact->to}, whole = grown(d, contact->foot, -1, own);
+  ambulo__span own = {.from = contact->from, .to = contact->to},
+               whole = grown(d, contact->foot, -1, own);
   ambulo__span open = opened(d, whole);
   ambulo__stance s = {.from = open.from, .to = open.to, .leaves = -INFINITY, .comes = INFINITY};
   double middle = 0.5 * (whole.from + whole.to);
