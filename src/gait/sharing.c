@@ -8,7 +8,7 @@
  *     mu n.f -+ e.f >= 0,  e = f, l     body weights
  *     back n.f <= -l.m <= front n.f     m, divided by W: -l.m / n.f is how far the centre of
  *     -side n.f <= f.m <= side n.f      pressure is ahead of p, f.m / n.f how far to the left;
- *                                       all with an allowance a of 2e-5 m
+ *                                       all with an allowance a of 1e-4 m
  *     |n.m| <= bound W                  m, divided by W
  *
  * Of an arc that rolls, the centre of pressure is within 5 mm of under its centre (gait/arc.h).
@@ -22,10 +22,10 @@
 
 #include <math.h>
 
-/* m, times the weight: a contact that carries a thousandth of the weight may do so 2 cm beyond its
- * patch. Just after a strike forces are so small that rows without it can hardly be moved: walks
- * then take three to eight times the iterations and cost 8 % more */
-static const double allowance = 2e-5;
+/* m, times the weight: a contact that carries a hundredth of the weight may do so 1 cm beyond its
+ * patch. Just after a strike forces are so small that rows without it can hardly be moved, and
+ * walks take up to four times the iterations */
+static const double allowance = 1e-4;
 static const double under_arc = 0.005; /* m: an arc is no line; 2 mm under 800 N are worth joules */
 
 typedef struct one {
