@@ -18,6 +18,10 @@ typedef struct ambulo__problem_reader {
   ambulo_diagnostics *diagnostics;
   ambulo__yaml *document;         /* NULL before it is loaded */
   const char *directory;          /* where relative names start; "" for the current one */
+  const char *text, *name;        /* of the document, and what it is called */
+  size_t length;
+  const char *const *override; /* [override_count], which it is read with */
+  int override_count;
   ambulo__reader_block *blocks;   /* freed with the reader */
   ambulo_status failure;          /* E_MEMORY, or what a referenced file failed with */
   double radians;                 /* per unit of angle in the file; 0: not stated */

@@ -2,7 +2,8 @@
  *
  * Duration, number of steps, step time and speed say the same thing twice:
  *     step_time = step_length / speed,   duration = steps * step_time
- * What is missing is computed; what is given must agree. Of a speed alone follow both: people keep
+ * What is missing is computed; what is given must agree. A speed and a time make the length: so a
+ * cadence is varied at a given speed. Of a speed alone follow both: people keep
  * the walk ratio of step length and cadence when they walk slower or faster (Sekiya et al. 1996;
  * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute:
  *     v = L C / 60,   L = W C      =>      L = sqrt(60 v W)
@@ -187,22 +188,43 @@ static int read_two_times(const ambulo__problem_reader *reader, const ambulo__ya
   double mean = ambulo__gait_strike(gait, gait->steps) / (double)gait->steps;
   if (reader->has_duration)
     check_agreement(node, "step_time", mean, reader->definition.duration / (double)gait->steps);
+  const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
+  double velocity = ambulo__yaml_number_in(speed, 1e-3, 100.0, NAN);
+  double by_speed = ambulo__gait_place(gait, gait->steps) / (velocity * (double)gait->steps);
+  check_agreement(speed, "speed", by_speed, mean);
   return 1;
 }
 
-/* one length, two, or that which people choose at the speed */
+/* mean time of a step where keys of time say it; NAN */
+static double given_step_time(const ambulo__problem_reader *reader,
+                              const ambulo__yaml_node *section, const ambulo_gait *gait) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_time");
+  ambulo_gait timed = {.steps = gait->steps};
+  double times[2] = {NAN, NAN};
+  if (reader->has_duration) return reader->definition.duration / (double)gait->steps;
+  if (!is_list(node)) return ambulo__yaml_number_in(node, 1e-3, 1e3, NAN);
+  (void)ambulo__yaml_numbers(node, 2, times);
+  timed.step_time = times[0];
+  timed.other_step_time = times[1];
+  return ambulo__gait_strike(&timed, gait->steps) / (double)gait->steps;
+}
+
+/* one length, two, that of the speed and a time, or that which people choose at the speed */
 static void read_step_lengths(const ambulo__problem_reader *reader,
                               const ambulo__yaml_node *section, ambulo_gait *gait) {
   const double walk_ratio = 0.0035; /* statures per (step / min) */
   const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
   double stature = ambulo_model_stature(reader->model);
+  double speed = ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, NAN);
+  double length = node ? NAN : speed * given_step_time(reader, section, gait);
   if (is_list(node)) {
     double lengths[2] = {0.0, 0.0};
     (void)ambulo__yaml_numbers(node, 2, lengths);
     gait->step_length = lengths[0];
     gait->other_step_length = lengths[1];
-  } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
-    double speed = ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, 1.0);
+  } else if (!isnan(length)) {
+    gait->step_length = length;
+  } else if (!node && !isnan(speed) && stature > 0.0) {
     gait->step_length = sqrt(60.0 * speed * walk_ratio * stature);
   } else {
     gait->step_length =

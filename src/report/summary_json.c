@@ -4,7 +4,7 @@
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
 #include "report/summary_json.h"
 
-#include "ambulo/sensitivity.h"
+#include "ambulo/parameters.h"
 #include "format/json_text.h"
 #include "stride/impulse.h"
 #include "stride/stride.h"
@@ -150,6 +150,40 @@ static ambulo_status sensitivities(ambulo__json *json, const ambulo_problem *pro
   ambulo__json_text(json, "no_sensitivities", list->reason[0] ? list->reason : NULL);
   ambulo_sensitivities_free(list);
   return AMBULO_OK;
+}
+
+/* what became of the numbers that were free; nothing where none was */
+static void free_parameters(ambulo__json *json, const ambulo_result *result) {
+  static const char *const bounds[] = {"lower", NULL, "upper"};
+  const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
+  if (!o) return;
+  ambulo__json_open(json, "free", '{');
+  ambulo__json_text(json, "per", o->per == AMBULO_PER_DISTANCE ? "distance" : "none");
+  ambulo__json_number(json, "distance", o->distance);
+  ambulo__json_number(json, "objective", o->objective);
+  ambulo__json_number(json, "first_objective", o->first);
+  ambulo__json_open(json, "parameters", '[');
+  for (int i = 0; i < o->count; i++) {
+    const ambulo_parameter_value *p = &o->items[i];
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_text(json, "name", p->name);
+    ambulo__json_text(json, "unit", p->unit);
+    ambulo__json_number(json, "value", p->value);
+    ambulo__json_number(json, "lower", p->lower);
+    ambulo__json_number(json, "upper", p->upper);
+    ambulo__json_number(json, "first", p->first);
+    ambulo__json_number(json, "derivative", p->derivative);
+    ambulo__json_text(json, "at_bound", bounds[p->bound + 1]);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_integer(json, "converged", o->converged);
+  ambulo__json_text(json, "ending", o->ending);
+  ambulo__json_integer(json, "solves", o->solves);
+  ambulo__json_integer(json, "failed", o->failed);
+  ambulo__json_integer(json, "evaluations", o->evaluations);
+  ambulo__json_number(json, "seconds", o->seconds);
+  ambulo__json_close(json, '}');
 }
 
 static void conflict(ambulo__json *json, const ambulo_conflict *c) {
@@ -311,6 +345,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   body(json, ambulo_problem_model(problem));
   ambulo_status status = foot_strikes(json, problem);
   objective(json, problem, result);
+  free_parameters(json, result);
   if (!status) status = ground_reaction(json, problem, result);
   audit(json, result);
   between_nodes(json, result);

@@ -32,6 +32,7 @@ static ambulo_status fill(const ambulo__parameters *p, sensitivity_block *block)
                                .unit = ambulo__quantity_unit(from->quantity),
                                .value = from->value,
                                .derivative = from->derivative,
+                               .travel = from->travel,
                                .step = from->step,
                                .share = from->share,
                                .words = from->words};
