@@ -1,12 +1,14 @@
 /* outer/outer.c - ambulo_solve_parameters: NLopt's SLSQP over free parameters.
  *
- * NLopt sees u = (p - lower) / (upper - lower) and F / F(first). What it is told ends the run:
+ * NLopt sees u = (p - lower) / (upper - lower) and F / F(first). The run ends where
  *
- *     |projected dF/du| <= 1e-3 F             F could gain a thousandth over the whole bounds
- *     no step of 1e-4 of the bounds, no change of F by 1e-6
+ *     |projected dF/du| <= 1e-3 F                 F could gain a thousandth over the whole bounds
+ *     two trials in a row are within 2e-5 F of the best
  *
- * Below that is what is left of the inner solves: their active rows change with p, which F feels in
- * its second derivatives. Values that lead to no optimal motion are HUGE_VAL, from which SLSQP's
+ * or by NLopt's tests of u and F. F is known to about 1e-5: that is what inner solves from different
+ * starts differ by, and where steps of SLSQP begin to turn in circles. Measured on walks with one
+ * to three free parameters, SLSQP took 5 to 12 solves, MMA, CCSAQ and L-BFGS up to four times as
+ * many. Values that lead to no optimal motion are HUGE_VAL, from which SLSQP's
  * search comes back toward the best. Its answer is not believed: the best trial is kept here.
  */
 #include "outer/outcome.h"
@@ -20,9 +22,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double small_gradient = 1e-3, small_step = 1e-4, small_change = 1e-6;
+static const double small_gradient = 1e-3, small_step = 1e-4, small_change = 1e-5;
+static const double near_best = 2e-5;
 static const double close_to_bound = 1e-6; /* of the width */
-enum { CALLS = 4 };
+enum { CALLS = 4, TRIALS_NEAR = 2 };
 static const int most_calls = 10000; /* of a function that has limits of its own */
 
 /* ------------------------------------------------------------------- checking */
@@ -116,6 +119,9 @@ static int is_stationary(const ambulo__outer *run) {
 }
 
 static void keep_better(ambulo__outer *run) {
+  double change = fabs(run->latest.objective - run->best.objective);
+  int is_near = run->best.result && change <= near_best * fabs(run->best.objective);
+  run->near = is_near ? run->near + 1 : 0;
   if (run->best.result && !(run->latest.objective < run->best.objective)) return;
   ambulo__outer_trial before = run->best;
   run->best = run->latest;
@@ -163,7 +169,8 @@ static double objective(unsigned n, const double *u, double *gradient, void *dat
   }
   const ambulo__outer_trial *t = trial_at(c);
   run->converged = is_stationary(run);
-  if (!t || run->converged || ambulo__outer_over(run)) nlopt_force_stop(c->opt);
+  run->settled = run->near >= TRIALS_NEAR;
+  if (!t || run->converged || run->settled || ambulo__outer_over(run)) nlopt_force_stop(c->opt);
   for (unsigned i = 0; gradient && i < n; i++)
     gradient[i] = t ? t->gradient[i] * width(run, (int)i) / scale : 0.0;
   return t ? t->objective / scale : HUGE_VAL;
@@ -203,7 +210,7 @@ static ambulo_status descend(ambulo__outer *run) {
     double before = run->best.objective;
     nlopt_result result = minimize(&c, u);
     status = result == NLOPT_OUT_OF_MEMORY ? AMBULO_E_MEMORY : run->status;
-    if (run->ending != AMBULO_ENDING_NONE || run->converged) break;
+    if (run->ending != AMBULO_ENDING_NONE || run->converged || run->settled) break;
     run->settled = result == NLOPT_FTOL_REACHED || result == NLOPT_XTOL_REACHED;
     if (!(before - run->best.objective > small_change * fabs(before))) break;
   }

@@ -35,7 +35,8 @@ typedef struct ambulo__outer {
   ambulo__outer_trial best, latest; /* best.result NULL before the first solve */
   int solves, failed, evaluations;
   int converged; /* dF/dp is small at the best values, or points out of the bounds */
-  int settled;   /* NLopt's own tests of F and p were met */
+  int settled;   /* F and p do not change any more */
+  int near;      /* trials in a row whose F was that of the best */
   ambulo_status status; /* of a failure that ends the run */
   ambulo_ending ending; /* a limit, or the caller; NONE: none */
 } ambulo__outer;
