@@ -41,14 +41,18 @@ static double step_of(const ambulo_sensitivity *s) {
 /* 0: the file refuses the number moved */
 static int compare(const setting *c, int count, const ambulo_problem *problem,
                    const ambulo_result *r, const ambulo_sensitivity *s) {
-  double value[2] = {NAN, NAN}, by = step_of(s);
+  double value[2] = {NAN, NAN}, travel[2] = {0.0, 0.0}, by = step_of(s);
   for (int k = 0; k < 2; k++) {
     ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, k ? by : -by);
     if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
+    if (moved) travel[k] = moved->definition.travel;
     ambulo_problem_free(moved);
   }
   double difference = (value[1] - value[0]) / (2.0 * by);
   if (isnan(difference)) return 0;
+  double further = (travel[1] - travel[0]) / (2.0 * by);
+  if (!(fabs(further - s->travel) <= 1e-8 * (1.0 + fabs(s->travel))))
+    fail_msg("%s: %s carries by %.12g, %.12g by differences", c->file, s->name, s->travel, further);
   /* what rounding leaves of a difference of two values of this size */
   double slack = 1e-7 * fabs(s->derivative) + 4e-15 * (fabs(value[0]) + 1.0) / by;
   if (fabs(difference - s->derivative) <= slack) return 1;
@@ -189,6 +193,25 @@ static void a_walk_at_a_speed(void **state) {
   check(&c, NULL);
 }
 
+/* the length is that of the speed and the time: neither moves without it */
+static void a_cadence_at_a_speed(void **state) {
+  (void)state;
+  static const setting by_step = {
+      "models/walk_normal.yaml",
+      {"gait.step_length=null", "time.duration=null", "gait.speed=1.26", "gait.step_time=0.54"},
+      {"gait.step_time", "gait.speed", "gait.step_width"}};
+  static const setting by_duration = {"models/walk_normal.yaml",
+                                      {"gait.step_length=null", "gait.speed=1.26"},
+                                      {"time.duration", "gait.speed"}};
+  static const setting unlike = {"models/walk_asymmetric.yaml",
+                                 {"gait.step_length=null", "gait.speed=1.26",
+                                  "gait.step_time=[0.5, 0.6]"},
+                                 {"gait.speed"}};
+  check(&by_step, "time.duration");
+  check(&by_duration, "gait.step_time");
+  check(&unlike, "gait.step_time");
+}
+
 static void a_walk_in_tubes(void **state) {
   (void)state;
   static const setting c = {
@@ -266,6 +289,7 @@ int main(void) {
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_walk_at_a_speed),
+      cmocka_unit_test(a_cadence_at_a_speed),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),
       cmocka_unit_test(two_arms),
