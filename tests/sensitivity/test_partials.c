@@ -207,7 +207,12 @@ static void a_cadence_at_a_speed(void **state) {
                                  {"gait.step_length=null", "gait.speed=1.26",
                                   "gait.step_time=[0.5, 0.6]"},
                                  {"gait.speed"}};
+  static const setting two_steps = {
+      "models/walk_asymmetric.yaml",
+      {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.55"},
+      {"gait.step_time", "gait.speed"}};
   check(&by_step, "time.duration");
+  check(&two_steps, "time.duration");
   check(&by_duration, "gait.step_time");
   check(&unlike, "gait.step_time");
 }
