@@ -55,7 +55,7 @@ AMBULO_API int ambulo_verdict_is_solution(ambulo_verdict verdict);
   X(AMBULO_ENDING_ITERATIONS, "maximum_iterations", "the iteration limit was met")                 \
   X(AMBULO_ENDING_EVALUATIONS, "maximum_evaluations", "the evaluation limit was met")              \
   X(AMBULO_ENDING_TIME, "time_limit", "the time limit was met")                                    \
-  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")                                        \
+  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")                                      \
   X(AMBULO_ENDING_SOLVES, "maximum_solves", "the limit of inner solves was met")
 
 typedef enum ambulo_ending {

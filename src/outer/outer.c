@@ -5,11 +5,11 @@
  *     |projected dF/du| <= 1e-3 F                 F could gain a thousandth over the whole bounds
  *     two trials in a row are within 2e-5 F of the best
  *
- * or by NLopt's tests of u and F. F is known to about 1e-5: that is what inner solves from different
- * starts differ by, and where steps of SLSQP begin to turn in circles. Measured on walks with one
- * to three free parameters, SLSQP took 5 to 12 solves, MMA, CCSAQ and L-BFGS up to four times as
- * many. Values that lead to no optimal motion are HUGE_VAL, from which SLSQP's
- * search comes back toward the best. Its answer is not believed: the best trial is kept here.
+ * or by NLopt's tests of u and F. F is known to about 1e-5: that is what inner solves from
+ * different starts differ by, and where steps of SLSQP begin to turn in circles. Measured on walks
+ * with one to three free parameters, SLSQP took 5 to 12 solves, MMA, CCSAQ and L-BFGS up to four
+ * times as many. Values that lead to no optimal motion are HUGE_VAL, from which SLSQP's search
+ * comes back toward the best. Its answer is not believed: the best trial is kept here.
  */
 #include "outer/outcome.h"
 #include "base/clock.h"

@@ -29,14 +29,14 @@ typedef struct ambulo__outer {
   ambulo_options options; /* of the whole run */
   const double *start;
   double started;                   /* s */
-  ambulo__parameters known; /* what the problem's numbers are called */
-  int *which;               /* [count]: the free ones among them */
-  double first;             /* F where the run began */
+  ambulo__parameters known;         /* what the problem's numbers are called */
+  int *which;                       /* [count]: the free ones among them */
+  double first;                     /* F where the run began */
   ambulo__outer_trial best, latest; /* best.result NULL before the first solve */
   int solves, failed, evaluations;
-  int converged; /* dF/dp is small at the best values, or points out of the bounds */
-  int settled;   /* F and p do not change any more */
-  int near;      /* trials in a row whose F was that of the best */
+  int converged;        /* dF/dp is small at the best values, or points out of the bounds */
+  int settled;          /* F and p do not change any more */
+  int near;             /* trials in a row whose F was that of the best */
   ambulo_status status; /* of a failure that ends the run */
   ambulo_ending ending; /* a limit, or the caller; NONE: none */
 } ambulo__outer;

@@ -20,8 +20,10 @@ static double elapsed(const ambulo__outer *run) {
 int ambulo__outer_over(ambulo__outer *run) {
   const ambulo_options *o = &run->options;
   if (run->ending != AMBULO_ENDING_NONE) return 1;
-  if (o->time_limit > 0.0 && elapsed(run) >= o->time_limit) run->ending = AMBULO_ENDING_TIME;
-  else if (run->solves >= run->parameters.maximum_solves) run->ending = AMBULO_ENDING_SOLVES;
+  if (o->time_limit > 0.0 && elapsed(run) >= o->time_limit)
+    run->ending = AMBULO_ENDING_TIME;
+  else if (run->solves >= run->parameters.maximum_solves)
+    run->ending = AMBULO_ENDING_SOLVES;
   return run->ending != AMBULO_ENDING_NONE;
 }
 
@@ -99,8 +101,7 @@ static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, cons
   ambulo_result *result = NULL;
   options.progress = show;
   options.user = run;
-  if (options.time_limit > 0.0)
-    options.time_limit = fmax(1e-3, options.time_limit - elapsed(run));
+  if (options.time_limit > 0.0) options.time_limit = fmax(1e-3, options.time_limit - elapsed(run));
   ambulo_diagnostics_clear(t->messages);
   ambulo_status status =
       ambulo_solve(t->problem, &options, start, &run->allocator, t->messages, &result);

@@ -6,8 +6,8 @@
  * its message begins with.
  *
  * Reading order: problem_reader.h, problem_file.c, problem_reader.c, problem_grid.c,
- * problem_schedule.c, problem_constraints.c, problem_objective.c, problem_solver.c, problem_free.h; model_file.h,
- * model_reader.h, model_links.c; solution_load.c.
+ * problem_schedule.c, problem_constraints.c, problem_objective.c, problem_solver.c, problem_free.h;
+ * model_file.h, model_reader.h, model_links.c; solution_load.c.
  */
 #include "reader/problem_free.h"
 
@@ -267,9 +267,8 @@ static const char *directory_of(ambulo__problem_reader *reader, const char *path
 /* from the reader's text to a problem; the reader is used up */
 static ambulo_status read_text(ambulo__problem_reader *reader, ambulo_problem **problem) {
   ambulo__yaml *document = NULL;
-  ambulo_status status =
-      ambulo__yaml_load_text(reader->text, reader->length, reader->name, &reader->allocator,
-                             reader->diagnostics, &document);
+  ambulo_status status = ambulo__yaml_load_text(reader->text, reader->length, reader->name,
+                                                &reader->allocator, reader->diagnostics, &document);
   reader->document = document;
   if (!status) status = read_document(reader, document, problem);
   ambulo__yaml_free(document);

@@ -1,9 +1,9 @@
-/* reader/problem_free.c - `free:` of a problem file: which numbers the solver chooses, between which
- * bounds.
+/* reader/problem_free.c - `free:` of a problem file: which numbers the solver chooses, between
+ * which bounds.
  *
- * The keys are names of sensitivities, which are known once there is a problem. Each bound is tried:
- * the file is read with it, so that what no file may say is told at the bound. Whether a problem
- * makes sense at a bound is found out by the run.
+ * The keys are names of sensitivities, which are known once there is a problem. Each bound is
+ * tried: the file is read with it, so that what no file may say is told at the bound. Whether a
+ * problem makes sense at a bound is found out by the run.
  */
 #include "reader/problem_free.h"
 
@@ -58,8 +58,7 @@ static void list_known(const gathered *g, char text[LIST]) {
 
 static void refuse_name(const gathered *g, const ambulo__yaml_node *node, const char *name) {
   char list[LIST], hint[LIST + 40];
-  const char **names =
-      ambulo__reader_alloc(g->reader, (size_t)g->known.count, sizeof *names);
+  const char **names = ambulo__reader_alloc(g->reader, (size_t)g->known.count, sizeof *names);
   if (!names) return;
   for (int i = 0; i < g->known.count; i++) names[i] = g->known.list[i].name;
   const char *near = ambulo__nearest(name, names, (size_t)g->known.count);
@@ -89,8 +88,7 @@ static ambulo_status try_bound(const gathered *g, const ambulo__yaml_node *node,
   ambulo_diagnostics *list = ambulo_diagnostics_create(&g->reader->allocator);
   if (!list) return AMBULO_E_MEMORY;
   ambulo_problem *at = NULL;
-  ambulo_status status =
-      ambulo_problem_at(g->problem, values, &g->reader->allocator, list, &at);
+  ambulo_status status = ambulo_problem_at(g->problem, values, &g->reader->allocator, list, &at);
   ambulo_problem_free(at);
   int own = status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_ARGUMENT;
   const ambulo_diagnostic *first = ambulo_diagnostics_get(list, 0);
@@ -218,8 +216,15 @@ static size_t lay_out(const gathered *g, char *block) {
     key[i].with = with;
   }
   if (!block) return used;
-  *s = (ambulo__free_section){ambulo_parameters_default(), item, key, text, r->length, name,
-                              directory, override, r->override_count};
+  *s = (ambulo__free_section){ambulo_parameters_default(),
+                              item,
+                              key,
+                              text,
+                              r->length,
+                              name,
+                              directory,
+                              override,
+                              r->override_count};
   s->parameters.items = item;
   s->parameters.count = g->count;
   s->parameters.per = g->per;

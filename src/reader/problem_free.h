@@ -15,13 +15,13 @@ typedef struct ambulo__free_key {
 
 /* One block, freed with the problem. */
 typedef struct ambulo__free_section {
-  ambulo_parameters parameters;  /* items are `item` */
-  const ambulo_parameter *item;  /* [count] */
-  const ambulo__free_key *key;   /* [count] */
-  const char *text;              /* the file as it was */
+  ambulo_parameters parameters; /* items are `item` */
+  const ambulo_parameter *item; /* [count] */
+  const ambulo__free_key *key;  /* [count] */
+  const char *text;             /* the file as it was */
   size_t length;
-  const char *name, *directory;  /* as for ambulo_problem_load_text */
-  const char *const *override;   /* [overrides], which it was read with */
+  const char *name, *directory; /* as for ambulo_problem_load_text */
+  const char *const *override;  /* [overrides], which it was read with */
   int overrides;
 } ambulo__free_section;
 

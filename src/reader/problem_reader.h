@@ -16,9 +16,9 @@ typedef struct ambulo__reader_block ambulo__reader_block;
 typedef struct ambulo__problem_reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
-  ambulo__yaml *document;         /* NULL before it is loaded */
-  const char *directory;          /* where relative names start; "" for the current one */
-  const char *text, *name;        /* of the document, and what it is called */
+  ambulo__yaml *document;  /* NULL before it is loaded */
+  const char *directory;   /* where relative names start; "" for the current one */
+  const char *text, *name; /* of the document, and what it is called */
   size_t length;
   const char *const *override; /* [override_count], which it is read with */
   int override_count;

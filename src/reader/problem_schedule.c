@@ -115,7 +115,7 @@ static int is_list(const ambulo__yaml_node *node) {
 static walking_pace read_pace(const ambulo__yaml_node *section) {
   const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
   walking_pace p = {ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, NAN),
-            {NAN, NAN}};
+                    {NAN, NAN}};
   if (is_list(time)) {
     (void)ambulo__yaml_numbers(time, 2, p.times);
   } else {
@@ -219,7 +219,8 @@ static int read_two_times(const ambulo__problem_reader *reader, const ambulo__ya
 }
 
 /* mean time of a step where the keys of time say it, else NaN */
-static double given_step_time(const ambulo__problem_reader *reader, const walking_pace *pace, int steps) {
+static double given_step_time(const ambulo__problem_reader *reader, const walking_pace *pace,
+                              int steps) {
   const ambulo_gait timed = {.step_time = pace->times[0], .other_step_time = pace->times[1]};
   if (reader->has_duration) return reader->definition.duration / (double)steps;
   return ambulo__gait_strike(&timed, steps) / (double)steps;

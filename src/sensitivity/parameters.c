@@ -171,7 +171,8 @@ static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   double sign, by = limit[2 * i + side];
   int m = ambulo__parameter_partner(p->problem, i, &sign), other = sign < 0.0 ? !side : side;
   if (m >= 0) by += sign * limit[2 * m + other];
-  if ((by == 0.0 && !p->all) || (m >= 0 && (m < i || (m == i && !side)))) return; /* no use, or said before */
+  if ((by == 0.0 && !p->all) || (m >= 0 && (m < i || (m == i && !side))))
+    return; /* no use, or said before */
   char label[AMBULO__PARAMETER_TEXT];
   (void)snprintf(label, sizeof label, "%s %s of %s%s", side ? "upper" : "lower", words[what],
                  c->name, m >= 0 ? AMBULO__BOTH_OF_A_PAIR : "");

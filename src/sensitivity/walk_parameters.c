@@ -6,11 +6,10 @@
  *
  *     step length L    sum dL/dplace_f dx_s/dL + dL/dtravel dx_steps/dL + dL/dT dT/dL
  *                      dT/dL = dx_steps/dL / v where the time follows from a speed v
- *     step time S      steps dL/dT; at a speed v that the length follows from, L = v S, also v dL/dL
- *     speed v          dL/dT dT/dv, dT/dv = -T / v
- *                      where the length follows from it too, as sqrt(v): dT/dv = -T / (2 v), and
- *                      dL/dL L / (2 v); where it follows from it and a time, dL/dL S alone
- *     step width W     sum dL/dplace_l place_l / W
+ *     step time S      steps dL/dT; at a speed v that the length follows from, L = v S, also v
+ * dL/dL speed v          dL/dT dT/dv, dT/dv = -T / v where the length follows from it too, as
+ * sqrt(v): dT/dv = -T / (2 v), and dL/dL L / (2 v); where it follows from it and a time, dL/dL S
+ * alone step width W     sum dL/dplace_l place_l / W
  *
  * T has no partial where other times stay in seconds: contacts that are listed, breakpoints, steps
  * of two times, references, functions of the caller.
