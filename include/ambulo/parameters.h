@@ -13,9 +13,9 @@
  *
  *     dF/dp = (df*_dp - F dD/dp) / D
  *
- * F is a local minimum of F within the bounds, in the valley of the motions that the start leads
- * to. Values of p at which the inner solve finds no optimal motion are given up, and the run goes
- * on between them and the best.
+ * p is a local minimum of F within the bounds, in the valley of the motions that the start leads
+ * to. Values of p at which the inner solve finds no optimal motion are given up (while none was
+ * found yet: no motion that holds), and the run goes on between them and the best.
  */
 #ifndef AMBULO_PARAMETERS_H
 #define AMBULO_PARAMETERS_H
@@ -73,8 +73,8 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem
  * by a non-zero return; the best solution so far is kept.
  *
  * *best is the problem at the best values, to be freed by the caller after *result, which is its
- * solution, judged like any other. Where the first inner solve finds no optimal motion its result
- * is returned with ambulo_parameters_outcome.solves 1.
+ * solution, judged like any other. Where the first inner solve finds no motion that holds (verdict
+ * optimal or feasible) its result is returned with ambulo_parameters_outcome.solves 1.
  * Errors: those of ambulo_solve; E_ARGUMENT (an item has no sensitivity, bounds do not hold its
  * value, named in diagnostics). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_parameters(
@@ -89,7 +89,7 @@ typedef struct ambulo_parameter_value {
   const char *name, *label, *unit; /* "gait.step_time", "step time", "s" */
   double value, lower, upper;      /* in unit */
   double first;                    /* where the run began */
-  double derivative; /* dF/dp; NaN where the first inner solve found no optimal motion */
+  double derivative;               /* dF/dp; NaN where the first inner solve found nothing */
   ambulo_bound bound;
 } ambulo_parameter_value;
 

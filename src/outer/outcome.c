@@ -18,7 +18,7 @@ typedef struct ambulo__outcome {
 
 static const char *why(const ambulo__outer *run) {
   if (!(run->best.objective < HUGE_VAL))
-    return "the first solve found no optimal motion, so that nothing was varied";
+    return "the first solve found no motion that holds, so that nothing was varied";
   if (run->ending != AMBULO_ENDING_NONE) return ambulo_ending_text(run->ending);
   if (run->converged) return "the gradient is small, or points out of the bounds";
   if (run->settled) return "objective and parameters settled";

@@ -110,6 +110,7 @@ int ambulo__outer_bound(const ambulo__outer *run, const double *value, int i) {
 /* largest |dF/du| that a step within the bounds could follow, against F */
 static int is_stationary(const ambulo__outer *run) {
   const ambulo__outer_trial *t = &run->best;
+  if (ambulo_result_verdict(t->result) != AMBULO_OPTIMAL) return 0;
   double most = 0.0;
   for (int i = 0; i < run->parameters.count; i++) {
     double down = -t->gradient[i] * width(run, i);
@@ -246,7 +247,7 @@ static ambulo_status search(ambulo__outer *run) {
   }
   keep_better(run);
   run->first = run->best.objective;
-  if (run->best.objective < HUGE_VAL) status = descend(run);
+  if (run->best.objective < HUGE_VAL && !ambulo__outer_over(run)) status = descend(run);
   if (!status) ambulo__diagnostics_append(run->best.messages, run->diagnostics);
   return status ? status : ambulo__outcome_attach(run);
 }

@@ -74,13 +74,12 @@ static ambulo_status value_of(ambulo__outer *run, ambulo__outer_trial *t) {
   int per_distance = run->parameters.per == AMBULO_PER_DISTANCE;
   t->distance = per_distance ? fabs(t->problem->definition.travel) : 1.0;
   if (t->distance < least_travel) return AMBULO_OK;
-  ambulo_status status = ambulo_sensitivities(t->problem, t->result, &run->allocator, &list);
+  ambulo_status status =
+      ambulo__sensitivities_nearly(t->problem, t->result, &run->allocator, &list);
   if (status == AMBULO_E_NUMERIC) return AMBULO_OK;
   if (status) return status;
-  if (!list->reason[0]) {
-    t->objective = ambulo_result_objective(t->result) / t->distance;
-    take_gradient(run, t, list);
-  }
+  t->objective = ambulo_result_objective(t->result) / t->distance;
+  take_gradient(run, t, list);
   ambulo_sensitivities_free(list);
   return AMBULO_OK;
 }
@@ -114,6 +113,12 @@ static ambulo_status solve_from(ambulo__outer *run, ambulo__outer_trial *t, cons
 
 static int is_optimal(const ambulo__outer_trial *t) {
   return t->result && ambulo_result_verdict(t->result) == AMBULO_OPTIMAL;
+}
+
+/* a run that has nothing optimal yet goes on from a motion that holds */
+static int counts(const ambulo__outer *run, const ambulo__outer_trial *t) {
+  if (is_optimal(t)) return 1;
+  return !is_optimal(&run->best) && ambulo_result_verdict(t->result) == AMBULO_FEASIBLE;
 }
 
 static ambulo_status solve(ambulo__outer *run, ambulo__outer_trial *t) {
@@ -154,7 +159,7 @@ ambulo_status ambulo__outer_try(ambulo__outer *run) {
                            ambulo_problem_variable_count(t->problem),
                            ambulo_problem_variable_count(run->problem));
   if (!status) status = solve(run, t);
-  if (!status && is_optimal(t)) status = value_of(run, t);
+  if (!status && counts(run, t)) status = value_of(run, t);
   if (status && is_about_values(run, status)) status = AMBULO_OK;
   if (!(t->objective < HUGE_VAL) && !was_cut(t)) run->failed++;
   return status;

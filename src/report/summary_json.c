@@ -6,6 +6,7 @@
 
 #include "ambulo/parameters.h"
 #include "format/json_text.h"
+#include "gait/gait.h"
 #include "stride/impulse.h"
 #include "stride/stride.h"
 #include "stride/strikes.h"
@@ -288,6 +289,22 @@ static ambulo_status foot_strikes(ambulo__json *json, const ambulo_problem *prob
   return AMBULO_OK;
 }
 
+/* a regular walk as it came out; of unlike steps the mean */
+static void gait(ambulo__json *json, const ambulo_problem *problem) {
+  const ambulo_gait *walk = &problem->keys.walk;
+  if (!problem->keys.gait) return;
+  double steps = walk->steps, duration = ambulo_problem_duration(problem);
+  double travel = ambulo__gait_place(walk, walk->steps);
+  ambulo__json_open(json, "gait", '{');
+  ambulo__json_number(json, "steps", steps);
+  ambulo__json_number(json, "step_time", duration / steps);
+  ambulo__json_number(json, "step_length", travel / steps);
+  ambulo__json_number(json, "step_width", walk->step_width);
+  ambulo__json_number(json, "speed", travel / duration);
+  ambulo__json_number(json, "stride_frequency", steps / (2.0 * duration));
+  ambulo__json_close(json, '}');
+}
+
 static void nlopt(ambulo__json *json, const ambulo_result *result) {
   const ambulo_nlopt_work *work = ambulo_result_nlopt(result);
   ambulo__json_open(json, "nlopt", '{');
@@ -344,6 +361,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
   body(json, ambulo_problem_model(problem));
   ambulo_status status = foot_strikes(json, problem);
+  gait(json, problem);
   objective(json, problem, result);
   free_parameters(json, result);
   if (!status) status = ground_reaction(json, problem, result);

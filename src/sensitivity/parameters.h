@@ -2,6 +2,7 @@
 #ifndef AMBULO_SENSITIVITY_PARAMETERS_H
 #define AMBULO_SENSITIVITY_PARAMETERS_H
 
+#include "ambulo/sensitivity.h"
 #include "sensitivity/partials.h"
 
 /* What a number is, which decides on its unit and on the change that a person can picture. */
@@ -72,6 +73,12 @@ double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__param
 /* The pieces: footholds, times, speed, travel; terms of the objective. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);
+
+/* ambulo_sensitivities of a point that may not be optimal: as good as it is. */
+ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
+                                           const ambulo_result *result,
+                                           const ambulo_allocator *allocator,
+                                           ambulo_sensitivity_list **list);
 
 /* Steps, shares and words; the largest share comes first. */
 void ambulo__parameters_say(ambulo__parameters *parameters, double objective);
