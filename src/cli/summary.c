@@ -29,7 +29,7 @@ static void print_parameters(const ambulo_result *result) {
            p->upper, p->first, bounds[p->bound + 1]);
   }
   const char *per = o->per == AMBULO_PER_DISTANCE ? "per metre" : "objective";
-  printf("  %-24s %.6g (before %.6g)\n", per, o->objective, o->first);
+  if (!isnan(o->objective)) printf("  %-24s %.6g (before %.6g)\n", per, o->objective, o->first);
   printf("  %-24s %s, %.1f s\n", "outer run", o->ending, o->seconds);
 }
 

@@ -24,7 +24,6 @@
 
 static const double small_gradient = 1e-3, small_step = 1e-4, small_change = 1e-5;
 static const double near_best = 2e-5;
-static const double close_to_bound = 1e-6; /* of the width */
 enum { CALLS = 4, TRIALS_NEAR = 2 };
 static const int most_calls = 10000; /* of a function that has limits of its own */
 
@@ -99,12 +98,6 @@ static ambulo_status check(ambulo__outer *run) {
 
 static double width(const ambulo__outer *run, int i) {
   return run->parameters.items[i].upper - run->parameters.items[i].lower;
-}
-
-int ambulo__outer_bound(const ambulo__outer *run, const double *value, int i) {
-  const ambulo_parameter *item = &run->parameters.items[i];
-  double slack = close_to_bound * width(run, i);
-  return value[i] <= item->lower + slack ? -1 : value[i] >= item->upper - slack;
 }
 
 /* largest |dF/du| that a step within the bounds could follow, against F */

@@ -11,7 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double least_travel = 1e-9; /* m: below it nothing is per distance */
+static const double close_to_bound = 1e-6; /* of the width */
+static const double least_travel = 1e-9;   /* m: below it nothing is per distance */
 
 static double elapsed(const ambulo__outer *run) {
   return ambulo__seconds_now() - run->started;
@@ -25,6 +26,12 @@ int ambulo__outer_over(ambulo__outer *run) {
   else if (run->solves >= run->parameters.maximum_solves)
     run->ending = AMBULO_ENDING_SOLVES;
   return run->ending != AMBULO_ENDING_NONE;
+}
+
+int ambulo__outer_bound(const ambulo__outer *run, const double *value, int i) {
+  const ambulo_parameter *item = &run->parameters.items[i];
+  double slack = close_to_bound * (item->upper - item->lower);
+  return value[i] <= item->lower + slack ? -1 : value[i] >= item->upper - slack;
 }
 
 void ambulo__outer_drop(ambulo__outer_trial *trial) {

@@ -48,10 +48,9 @@ static int fill(const ambulo__free_section *s, const double *values, char *at,
   return count;
 }
 
-ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *values,
-                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                                ambulo_problem **at) {
-  if (!problem || !values || !at || !problem->free) return AMBULO_E_ARGUMENT;
+ambulo_status ambulo__problem_at(ambulo__text_loader *load, const ambulo_problem *problem,
+                                 const double *values, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo_problem **at) {
   const ambulo__free_section *s = problem->free;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   size_t most = (size_t)s->overrides + 2 * (size_t)s->parameters.count + 1;
@@ -60,8 +59,8 @@ ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *val
   ambulo_status status = AMBULO_E_MEMORY;
   if (override && text) {
     int count = fill(s, values, text, override);
-    status = ambulo_problem_load_text(s->text, s->length, s->name, s->directory, override, count,
-                                      &own, diagnostics, at);
+    status =
+        load(s->text, s->length, s->name, s->directory, override, count, &own, diagnostics, at);
   }
   ambulo__free(&own, override);
   ambulo__free(&own, text);

@@ -249,6 +249,7 @@ static ambulo__problem_reader reader_make(const ambulo_allocator *allocator,
   ambulo__problem_reader reader = {.allocator = ambulo__allocator_or_default(allocator),
                                    .diagnostics = diagnostics,
                                    .directory = "",
+                                   .load = ambulo_problem_load_text,
                                    .definition = ambulo_problem_definition_default(),
                                    .options = ambulo_options_default()};
   return reader;
@@ -313,4 +314,11 @@ ambulo_status ambulo_problem_load_text(const char *text, size_t length, const ch
   reader.override = overrides;
   reader.override_count = override_count;
   return ambulo__conclude(diagnostics, errors, read_text(&reader, problem), name);
+}
+
+ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *values,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_problem **at) {
+  if (!problem || !values || !at || !problem->free) return AMBULO_E_ARGUMENT;
+  return ambulo__problem_at(ambulo_problem_load_text, problem, values, allocator, diagnostics, at);
 }

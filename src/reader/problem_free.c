@@ -88,7 +88,8 @@ static ambulo_status try_bound(const gathered *g, const ambulo__yaml_node *node,
   ambulo_diagnostics *list = ambulo_diagnostics_create(&g->reader->allocator);
   if (!list) return AMBULO_E_MEMORY;
   ambulo_problem *at = NULL;
-  ambulo_status status = ambulo_problem_at(g->problem, values, &g->reader->allocator, list, &at);
+  ambulo_status status =
+      ambulo__problem_at(g->reader->load, g->problem, values, &g->reader->allocator, list, &at);
   ambulo_problem_free(at);
   int own = status == AMBULO_E_SCHEMA || status == AMBULO_E_PARSE || status == AMBULO_E_ARGUMENT;
   const ambulo_diagnostic *first = ambulo_diagnostics_get(list, 0);

@@ -25,6 +25,11 @@ typedef struct ambulo__free_section {
   int overrides;
 } ambulo__free_section;
 
+/* ambulo_problem_at of a problem that has the section, by `load`. */
+ambulo_status ambulo__problem_at(ambulo__text_loader *load, const ambulo_problem *problem,
+                                 const double *values, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo_problem **at);
+
 /* Reads root's `free` into problem->free, once the problem is made; E_SCHEMA, E_PROBLEM where the
  * document has faults, E_MEMORY. Nothing without such a section. */
 ambulo_status ambulo__read_free(ambulo__problem_reader *reader, const ambulo__yaml_node *root,

@@ -159,6 +159,12 @@ static void add_body(ambulo__parameters *p) {
                           "ground.slope");
 }
 
+static int has_rows(const ambulo_problem *problem, int what) {
+  const ambulo_problem_definition *d = &problem->definition;
+  if (what == AMBULO_LIMITED_POSITION) return d->joint_limits != AMBULO_LIMIT_OFF;
+  return what == AMBULO_LIMITED_SPEED ? d->speed_limits : d->torque_limits;
+}
+
 /* one limit, or those of both sides, which hold in each other's half of the stride */
 static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   static const char *const keys[] = {"range", "speed", "torque"};
@@ -171,7 +177,8 @@ static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   double sign, by = limit[2 * i + side];
   int m = ambulo__parameter_partner(p->problem, i, &sign), other = sign < 0.0 ? !side : side;
   if (m >= 0) by += sign * limit[2 * m + other];
-  if ((by == 0.0 && !p->all) || (m >= 0 && (m < i || (m == i && !side))))
+  if ((by == 0.0 && !(p->all && has_rows(p->problem, what))) ||
+      (m >= 0 && (m < i || (m == i && !side))))
     return; /* no use, or said before */
   char label[AMBULO__PARAMETER_TEXT];
   (void)snprintf(label, sizeof label, "%s %s of %s%s", side ? "upper" : "lower", words[what],

@@ -203,10 +203,10 @@ static void a_cadence_at_a_speed(void **state) {
   static const setting by_duration = {"models/walk_normal.yaml",
                                       {"gait.step_length=null", "gait.speed=1.26"},
                                       {"time.duration", "gait.speed"}};
-  static const setting unlike = {"models/walk_asymmetric.yaml",
-                                 {"gait.step_length=null", "gait.speed=1.26",
-                                  "gait.step_time=[0.5, 0.6]"},
-                                 {"gait.speed"}};
+  static const setting unlike = {
+      "models/walk_asymmetric.yaml",
+      {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=[0.5, 0.6]"},
+      {"gait.speed"}};
   static const setting two_steps = {
       "models/walk_asymmetric.yaml",
       {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.55"},
