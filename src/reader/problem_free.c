@@ -63,7 +63,11 @@ static void refuse_name(const gathered *g, const ambulo__yaml_node *node, const 
   for (int i = 0; i < g->known.count; i++) names[i] = g->known.list[i].name;
   const char *near = ambulo__nearest(name, names, (size_t)g->known.count);
   list_known(g, list);
-  if (near)
+  if (strcmp(name, "gait.step_time") == 0 && g->reader->gait)
+    (void)snprintf(hint, sizeof hint,
+                   "give gait.step_time a value, beside gait.speed and in place of time.duration "
+                   "and gait.step_length");
+  else if (near)
     (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near);
   else
     (void)snprintf(hint, sizeof hint, "those are %s", list);
