@@ -56,6 +56,7 @@ typedef struct ambulo_sensitivity {
   double derivative; /* df*_dp with all other keys of the file as they are, per unit: a step length
                         at a given speed brings the step time along, `subject.mass` brings torque
                         limits that are shares of the weight */
+  double travel;     /* d travel / dp, m per unit: what it adds to the distance between the ends */
   double step;       /* a change that one can picture, in unit: 1 cm, 1 degree, 1 kg, 1 % */
   double share;      /* derivative * step / f*: .008 is 0.8 %; NaN where f* is not positive */
   const char *words; /* "1 cm more step length costs 0.8 %" */

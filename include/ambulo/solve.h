@@ -55,7 +55,8 @@ AMBULO_API int ambulo_verdict_is_solution(ambulo_verdict verdict);
   X(AMBULO_ENDING_ITERATIONS, "maximum_iterations", "the iteration limit was met")                 \
   X(AMBULO_ENDING_EVALUATIONS, "maximum_evaluations", "the evaluation limit was met")              \
   X(AMBULO_ENDING_TIME, "time_limit", "the time limit was met")                                    \
-  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")
+  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")                                      \
+  X(AMBULO_ENDING_SOLVES, "maximum_solves", "the limit of inner solves was met")
 
 typedef enum ambulo_ending {
 #define AMBULO_ENDING_ENUM(id, name, text) id,
@@ -95,6 +96,9 @@ typedef struct ambulo_progress {
   double seconds, time_limit;  /* since the start; 0 limit: none */
   double seconds_left;         /* estimate; < 0: unknown */
   const char *stage;           /* "set-up", "coarse grids", "solve", "audit", "explanation" */
+  int solve;                   /* with free parameters (parameters.h): the inner solve that this is
+                                  of, from 1 on; 0 without */
+  double best;                 /* ... their least F so far; NAN before there is one */
 } ambulo_progress;
 
 typedef struct ambulo_options {

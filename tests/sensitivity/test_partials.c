@@ -106,6 +106,30 @@ static void a_walk_at_a_speed(void **state) {
   check(&c, NULL);
 }
 
+/* the length is that of the speed and the time: neither moves without it */
+static void a_cadence_at_a_speed(void **state) {
+  (void)state;
+  static const setting by_step = {
+      "models/walk_normal.yaml",
+      {"gait.step_length=null", "time.duration=null", "gait.speed=1.26", "gait.step_time=0.54"},
+      {"gait.step_time", "gait.speed", "gait.step_width"}};
+  static const setting by_duration = {"models/walk_normal.yaml",
+                                      {"gait.step_length=null", "gait.speed=1.26"},
+                                      {"time.duration", "gait.speed"}};
+  static const setting unlike = {
+      "models/walk_asymmetric.yaml",
+      {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=[0.5, 0.6]"},
+      {"gait.speed"}};
+  static const setting two_steps = {
+      "models/walk_asymmetric.yaml",
+      {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.55"},
+      {"gait.step_time", "gait.speed"}};
+  check(&by_step, "time.duration");
+  check(&two_steps, "time.duration");
+  check(&by_duration, "gait.step_time");
+  check(&unlike, "gait.step_time");
+}
+
 static void a_walk_in_tubes(void **state) {
   (void)state;
   static const setting c = {
@@ -183,6 +207,7 @@ int main(void) {
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_walk_at_a_speed),
+      cmocka_unit_test(a_cadence_at_a_speed),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),
       cmocka_unit_test(two_arms),

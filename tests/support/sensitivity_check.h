@@ -51,15 +51,19 @@ static inline double step_of(const ambulo_sensitivity *s) {
 static inline int compare(const setting *c, int count, const ambulo_problem *problem,
                           const ambulo_result *r, const ambulo_sensitivity *s) {
   static const double at[4] = {-1.0, 1.0, -2.0, 2.0};
-  double value[4] = {NAN, NAN, NAN, NAN}, by = step_of(s);
+  double value[4] = {NAN, NAN, NAN, NAN}, travel[4] = {0.0}, by = step_of(s);
   for (int k = 0; k < (is_phase(s) ? 4 : 2); k++) {
     ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, at[k] * by);
     if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
+    if (moved) travel[k] = moved->definition.travel;
     ambulo_problem_free(moved);
   }
   double difference = (value[1] - value[0]) / (2.0 * by);
   if (is_phase(s)) difference = (4.0 * difference - (value[3] - value[2]) / (4.0 * by)) / 3.0;
   if (isnan(difference)) return 0;
+  double further = (travel[1] - travel[0]) / (2.0 * by);
+  if (!(fabs(further - s->travel) <= 1e-8 * (1.0 + fabs(s->travel))))
+    fail_msg("%s: %s carries by %.12g, %.12g by differences", c->file, s->name, s->travel, further);
   /* what rounding leaves of a difference of two values of this size */
   double slack = 1e-7 * fabs(s->derivative) + 4e-15 * (fabs(value[0]) + 1.0) / by;
   if (fabs(difference - s->derivative) <= slack) return 1;
