@@ -9,7 +9,7 @@
  * from 30 % of its swing on */
 static void events_are_those_of_the_gait(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &a, &events),
@@ -40,7 +40,7 @@ static void events_are_found_by_their_times(void **state) {
 /* contacts alone: no tip */
 static void knots_know_contacts_only(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_CONTACTS, &a, &events),
@@ -54,7 +54,7 @@ static void knots_know_contacts_only(void **state) {
 /* nothing has to clear the ground without rows that ask for it, nor a foot without a tip */
 static void tips_that_need_not_clear_make_no_event(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   dense_fixture f;
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
@@ -162,8 +162,9 @@ static void the_walk_has_nodes_at_its_events(void **state) {
   static const int first[] = {0, 4, 6, 12, 19, 25};
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events"};
   ambulo_problem *p = NULL;
-  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", settings, 2, NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 2, NULL, NULL, &p),
+      AMBULO_OK);
   const double toe_off = 0.62 * 1.08 - 0.54, tip = toe_off + 0.3 * (1.08 - 0.62 * 1.08);
   const double want[] = {0.0, 0.08 * 1.08, toe_off, tip, 0.38 * 1.08, 0.54};
   for (int i = 0; i < 6; i++) assert_close(p->times[first[i]], want[i], 1e-12);
@@ -190,7 +191,7 @@ static void the_walk_has_nodes_at_its_events(void **state) {
 
 static void uniform_grids_are_as_before(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   assert_int_equal(ambulo_problem_grid(p), AMBULO_GRID_UNIFORM);
   assert_null(p->before);
   for (int k = 0; k <= 25; k++) assert_true(p->times[k] == k * p->definition.duration / 25);
@@ -208,7 +209,7 @@ static void uniform_grids_are_as_before(void **state) {
 /* contacts that no problem would have still give rising times */
 static void contacts_need_not_be_legal(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   ambulo_problem_definition d = p->definition;
   const ambulo_contact odd[] = {{7, AMBULO_CONTACT_FLAT, 0.3, 0.1, .place = {0, 0}},
                                 {-1, AMBULO_CONTACT_FLAT, NAN, 9.0, .place = {0, 0}},
@@ -234,8 +235,9 @@ static void lack_of_memory_is_survived(void **state) {
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events"};
   ambulo_problem *p = NULL;
   int done = 0;
-  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", settings, 2, NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 2, NULL, NULL, &p),
+      AMBULO_OK);
   for (long k = 0; k < 400 && !done; k++) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);

@@ -2,6 +2,7 @@
  * variant of one has, against lists written out here; and rows of the caller. */
 #include "gait/row_kind.h"
 #include "nlp/problem.h"
+#include "support/problem_path.h"
 #include "support/engine_fixture.h"
 
 /* family, units that its rows come in, reluctance */
@@ -63,7 +64,7 @@ static void check_row(const ambulo_problem *p, const ambulo__table_row *row) {
 static ambulo_problem *load(const char *name, const char *const *overrides, int count) {
   char path[96];
   ambulo_problem *p = NULL;
-  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  problem_path(name, path, sizeof path);
   assert_int_equal(ambulo_problem_load(path, overrides, count, NULL, NULL, &p), AMBULO_OK);
   return p;
 }
@@ -85,16 +86,16 @@ static void every_row_is_of_a_kind(void **state) {
   static const struct {
     const char *name, *overrides[2];
   } problems[] = {
-      {"walk_normal", {NULL}},
-      {"walk_normal", {"constraints.torque_limits=true"}},
-      {"walk_normal", {"constraints.joint_limits=nodes"}},
-      {"walk_normal_21", {NULL}},
-      {"walk_slow", {NULL}},
-      {"walk_fast", {NULL}},
-      {"walk_loaded", {NULL}},
-      {"walk_uphill", {NULL}},
-      {"walk_tracking", {NULL}},
-      {"walk_asymmetric", {NULL}},
+      {"two_step/walk_normal", {NULL}},
+      {"two_step/walk_normal", {"constraints.torque_limits=true"}},
+      {"two_step/walk_normal", {"constraints.joint_limits=nodes"}},
+      {"two_step/walk_normal_21", {NULL}},
+      {"two_step/walk_slow", {NULL}},
+      {"two_step/walk_fast", {NULL}},
+      {"two_step/walk_loaded", {NULL}},
+      {"two_step/walk_uphill", {NULL}},
+      {"two_step/walk_tracking", {NULL}},
+      {"two_step/walk_asymmetric", {NULL}},
       {"walk_without_reaction", {NULL}},
       {"yardstick_12", {NULL}},
       {"yardstick_36", {NULL}},

@@ -97,7 +97,7 @@ static void every_shipped_walk_comes_back(void **state) {
 /* what inverse wrote is a motion too */
 static void its_own_table_comes_back(void **state) {
   ambulo_problem *problem = NULL;
-  const char *motion = solve(state, "models/walk_normal.yaml", &problem);
+  const char *motion = solve(state, "tests/two_step/walk_normal.yaml", &problem);
   const ambulo_model *model = ambulo_problem_model(problem);
   const char *first = scratch_path(state, "first.csv"), *second = scratch_path(state, "second.csv");
   ambulo__motion *a = NULL, *b = NULL;
@@ -119,7 +119,7 @@ static void its_own_table_comes_back(void **state) {
 /* wrench, power and residual are what they are called; other ways to name the same forces */
 static void wrench_power_and_residual(void **state) {
   ambulo_problem *problem = NULL;
-  const char *motion = solve(state, "models/walk_normal.yaml", &problem);
+  const char *motion = solve(state, "tests/two_step/walk_normal.yaml", &problem);
   const ambulo_model *model = ambulo_problem_model(problem);
   ambulo_inverse_options options = ambulo_inverse_options_default();
   ambulo__motion *with = inverse_of(model, motion, &options, NULL, AMBULO_OK);

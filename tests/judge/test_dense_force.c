@@ -61,7 +61,7 @@ static void a_bent_force_is_off_by_what_the_basis_says(void **state) {
 static void each_foot_has_its_own(void **state) {
   (void)state;
   enum { SAMPLES = 10, FEET = 2 };
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   ambulo_workspace *w = NULL;
   ambulo__dense dense;
   int nodes = (p->nodes - 1) * SAMPLES + 1;

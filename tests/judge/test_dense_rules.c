@@ -4,11 +4,21 @@
 #include "support/arm.h"
 #include "support/engine_fixture.h"
 
-static const char *const names[] = {"walk_normal",    "walk_normal_21", "walk_slow",
-                                    "walk_fast",      "walk_loaded",    "walk_uphill",
-                                    "walk_tracking",  "yardstick_12",   "walk_asymmetric",
-                                    "fig5b_torque",   "walker_2d_step", "walk_without_reaction",
-                                    "two_link_reach", "fig5a_feasible", "pendulum_swing"};
+static const char *const names[] = {"two_step/walk_normal",
+                                    "two_step/walk_normal_21",
+                                    "two_step/walk_slow",
+                                    "two_step/walk_fast",
+                                    "two_step/walk_loaded",
+                                    "two_step/walk_uphill",
+                                    "two_step/walk_tracking",
+                                    "yardstick_12",
+                                    "two_step/walk_asymmetric",
+                                    "fig5b_torque",
+                                    "walker_2d_step",
+                                    "walk_without_reaction",
+                                    "two_link_reach",
+                                    "fig5a_feasible",
+                                    "pendulum_swing"};
 
 static void check_rows(const char *name, const char *override) {
   ambulo_problem *p = load_problem_with(name, override);

@@ -34,7 +34,7 @@ static void close_all(poison *f) {
 /* one row of each family in turn, in the middle of the motion */
 static void a_row_that_is_not_finite_is_named(void **state) {
   (void)state;
-  static const char *const names[] = {"walk_normal", "walk_without_reaction"};
+  static const char *const names[] = {"two_step/walk_normal", "walk_without_reaction"};
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   int tried = 0;
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
@@ -82,7 +82,7 @@ static void a_force_or_place_that_is_not_finite_is_named(void **state) {
   static const int nodes[] = {123, 120};
   static const double bad[] = {NAN, INFINITY};
   poison f;
-  open_with(&f, "walk_normal");
+  open_with(&f, "two_step/walk_normal");
   const ambulo_model *model = f.problem->model;
   int up = fabs(model->up[1]) > 0.5 ? 1 : 2, ahead = fabs(model->forward[0]) > 0.5 ? 0 : 1;
   int left = strcmp(model->feet[0].name, "left") == 0 ? 0 : 1; /* it stands at 0.26 s */
@@ -111,7 +111,7 @@ static void a_force_or_place_that_is_not_finite_is_named(void **state) {
 static void units_are_not_mixed(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "walk_normal");
+  open_with(&f, "two_step/walk_normal");
   int contacts = 0;
   for (int rule = 0; rule < AMBULO__DENSE_RULES; rule++) {
     const ambulo__dense_entry *entry = &f.clean.entry[rule];
@@ -131,7 +131,7 @@ static void units_are_not_mixed(void **state) {
 static void the_first_that_is_not_finite_stays(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "walk_normal");
+  open_with(&f, "two_step/walk_normal");
   const ambulo_problem *fine = f.dense.fine;
   double first = -1.0;
   int poisoned = 0, rule = -1;
@@ -154,7 +154,7 @@ static void the_first_that_is_not_finite_stays(void **state) {
 static void what_lies_beside_an_event_is_kept_apart(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "walk_normal");
+  open_with(&f, "two_step/walk_normal");
   const ambulo_problem *fine = f.dense.fine;
   const ambulo_problem_definition *d = &f.problem->definition;
   int beside = 0, apart = 0, rule = -1;
@@ -212,7 +212,7 @@ static void limits_count_by_their_size(void **state) {
 static void centres_of_pressure_count_by_the_load(void **state) {
   (void)state;
   poison f;
-  open_with(&f, "walk_normal");
+  open_with(&f, "two_step/walk_normal");
   const ambulo_problem *fine = f.dense.fine;
   for (int r = 0; r < fine->rows; r++) f.dense.row_value[r] = 1.0;
   for (int r = 0; r < fine->rows; r++) {

@@ -37,8 +37,8 @@ static void check_gradients(const char *name, const char *override, double size)
 static void gradients_are_the_dense_ones(void **state) {
   (void)state;
   check_gradients("yardstick_12", NULL, 0.2);
-  check_gradients("walk_normal", NULL, 0.01);
-  check_gradients("walk_normal", "constraints.torque_limits=true", 0.01);
+  check_gradients("two_step/walk_normal", NULL, 0.01);
+  check_gradients("two_step/walk_normal", "constraints.torque_limits=true", 0.01);
 }
 
 static void transpose_is_adjoint_of_product(void **state) {

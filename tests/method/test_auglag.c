@@ -49,9 +49,10 @@ nlopt_result nlopt_add_inequality_mconstraint(nlopt_opt opt, unsigned m, nlopt_m
 }
 
 static const char *const walks[] = {
-    "yardstick_12", "yardstick_36",  "walk_normal", "walk_fast",      "walk_loaded",
-    "walk_slow",    "walk_tracking", "walk_uphill", "walker_2d_step", "walk_without_reaction",
-    "fig5b_torque"};
+    "yardstick_12",           "yardstick_36",         "two_step/walk_normal",
+    "two_step/walk_fast",     "two_step/walk_loaded", "two_step/walk_slow",
+    "two_step/walk_tracking", "two_step/walk_uphill", "walker_2d_step",
+    "walk_without_reaction",  "fig5b_torque"};
 /* their known optima; walk_tracking has another, 0.12 % lower */
 static const double optima[] = {0.356402,  1.020010,  0.0639944, 0.0798675, 0.113891, 0.0569162,
                                 0.0126245, 0.0579266, 0.953141,  1.13688,   0.135367};
@@ -94,7 +95,8 @@ static void nlopt_iterates(void **state) {
     assert_true(work->seconds > 0.0 && work->seconds < ambulo_result_timing(result)->total);
     double share = ambulo_result_objective(result) / optima[i];
     if (fabs(share - 1.0) > 1e-3) print_error("%s: %.6f of its optimum\n", walks[i], share);
-    assert_true(share < 1.001 && share > (strcmp(walks[i], "walk_tracking") ? 0.999 : 0.998));
+    assert_true(share < 1.001 &&
+                share > (strcmp(walks[i], "two_step/walk_tracking") ? 0.999 : 0.998));
     ambulo_result_free(result);
     ambulo_problem_free(problem);
   }
@@ -147,7 +149,7 @@ static int compare(FILE *theirs, FILE *ours) {
 
 static void multipliers_are_nlopts(void **state) {
   (void)state;
-  static const char *const names[] = {"yardstick_12", "walker_2d_step", "walk_normal"};
+  static const char *const names[] = {"yardstick_12", "walker_2d_step", "two_step/walk_normal"};
   int *verbose = dlsym(RTLD_DEFAULT, "auglag_verbose");
   if (!verbose) skip(); /* an NLopt that keeps it to itself */
   for (int i = 0; i < 3; i++) {
@@ -277,7 +279,7 @@ static void a_solution_is_left_alone(void **state) {
   (void)state;
   engine_fixture f;
   ambulo_ending ending = AMBULO_ENDING_NONE;
-  engine_open(&f, "walk_normal");
+  engine_open(&f, "two_step/walk_normal");
   assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
   int outer = f.run.nlopt.outer, inner = f.run.nlopt.inner;
   ambulo__stopping stopping = ambulo__stopping_begin(0);

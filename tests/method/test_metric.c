@@ -130,7 +130,7 @@ static void compare_shipped(const char *name) {
 /* and of walks: terms about feet and forces; nodes on knots, which fewer unknowns reach */
 static void curvature_of_a_walk_too(void **state) {
   (void)state;
-  compare_shipped("walk_normal");
+  compare_shipped("two_step/walk_normal");
   compare_shipped("walker_2d_step");
 }
 
@@ -200,10 +200,13 @@ static void scale_takes_the_unit_away(void **state) {
 /* angles and postures are not bent by accelerations as much as torques are */
 static void postures_do_not_move_the_scale(void **state) {
   (void)state;
-  double with = scale_with("walk_normal", NULL);
-  assert_close(scale_with("walk_normal", "objective[1].weight=0") / with, 1.0, 0.1); /* upright */
-  assert_close(scale_with("walk_normal", "objective[4].weight=0") / with, 1.0, 0.1); /* ankle */
-  assert_close(scale_with("walk_normal", "objective[5].weight=0") / with, 1.0, 0.1); /* pelvis */
+  double with = scale_with("two_step/walk_normal", NULL);
+  assert_close(scale_with("two_step/walk_normal", "objective[1].weight=0") / with, 1.0,
+               0.1); /* upright */
+  assert_close(scale_with("two_step/walk_normal", "objective[4].weight=0") / with, 1.0,
+               0.1); /* ankle */
+  assert_close(scale_with("two_step/walk_normal", "objective[5].weight=0") / with, 1.0,
+               0.1); /* pelvis */
 }
 
 /* the scale of torque squared for one slider from rest to rest; tau = mass qdd, a row of the root

@@ -30,7 +30,7 @@ static void fixture_close(fixture *f) {
 static void feet_supply_the_root_wrench(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "models/walk_normal.yaml");
+  fixture_open(&f, "tests/two_step/walk_normal.yaml");
   size_t n = (size_t)f.nodes;
   double *tau = calloc(n * (size_t)f.d, sizeof(double)), *wrench = calloc(6 * n, sizeof(double));
   double *grf = calloc(6 * n, sizeof(double)), *cop = calloc(6 * n, sizeof(double));
@@ -77,7 +77,7 @@ static void feet_supply_the_root_wrench(void **state) {
 static void shares_reach_the_kernels(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "models/walk_normal.yaml");
+  fixture_open(&f, "tests/two_step/walk_normal.yaml");
   const double *g = f.problem->ground;
   int left = ambulo_model_find_foot(f.problem->model, "left");
   double sign = left == 0 ? 1.0 : -1.0;
@@ -103,7 +103,7 @@ static void shares_reach_the_kernels(void **state) {
 static void gradients_agree_with_differences(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "models/walk_normal.yaml");
+  fixture_open(&f, "tests/two_step/walk_normal.yaml");
   ambulo_derivative_error errors[32];
   int count = 0;
   assert_int_equal(
@@ -184,7 +184,7 @@ static void check_channel_gradients(const char *path) {
  * ground reaction (foot 1, centre of mass) and without (torques of the root's sliders) */
 static void channel_gradients_agree_with_differences(void **state) {
   (void)state;
-  check_channel_gradients("models/walk_normal.yaml");
+  check_channel_gradients("tests/two_step/walk_normal.yaml");
   check_channel_gradients("models/yardstick_12.yaml");
 }
 
@@ -200,8 +200,9 @@ static void forces_at_the_end_are_held_unless_they_repeat(void **state) {
     ambulo_problem *p = NULL;
     int forces[4] = {0}, places = 0;
     const char *overrides[] = {orders[order], phases};
-    assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", overrides, 2, NULL, NULL, &p),
-                     AMBULO_OK);
+    assert_int_equal(
+        ambulo_problem_load("tests/two_step/walk_normal.yaml", overrides, 2, NULL, NULL, &p),
+        AMBULO_OK);
     assert_int_equal(ambulo_problem_contact_at(p, 1, ambulo_problem_duration(p)), -1);
     assert_true(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p)) >= 0);
     assert_int_equal(ambulo_problem_contact_at(p, 0, ambulo_problem_duration(p) + 0.01), -1);

@@ -82,14 +82,14 @@ static void outputs_in_the_air(void **state) {
 
 static void outputs_on_the_ground(void **state) {
   (void)state;
-  check_problem("walk_normal", 1);
-  check_problem("walk_uphill", 1);
+  check_problem("two_step/walk_normal", 1);
+  check_problem("two_step/walk_uphill", 1);
 }
 
 /* with the gradients of the root wrench, which only ground reaction needs */
 static void any_allocation_of_a_workspace_may_fail(void **state) {
   (void)state;
-  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_problem *p = load_problem("two_step/walk_normal");
   int completed = 0;
   for (long k = 0; k < 100 && !completed; k++) {
     fail_alloc memory = fail_alloc_at(k);

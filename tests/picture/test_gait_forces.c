@@ -8,8 +8,9 @@ static void panels_of_ground_reaction(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
-  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/two_step/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
+      AMBULO_OK);
   assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);

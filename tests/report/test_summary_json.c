@@ -62,8 +62,9 @@ static void test_stride(void **state) {
   ambulo_result *result = NULL;
   char *text = NULL;
   double sum = 0.0;
-  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("tests/two_step/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
+      AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   assert_int_equal(ambulo_report_summary(problem, result, NULL, &text), AMBULO_OK);
   assert_int_equal(occurrences(text, "\"foot\": \"left\""), 1);

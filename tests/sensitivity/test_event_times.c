@@ -62,7 +62,7 @@ static void contacts_one_by_one_on_events(void **state) {
 static void a_walk_under_load_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_loaded.yaml",
+      "tests/two_step/walk_loaded.yaml",
       {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
        "roll: 0.04, width: 0.035}",
        "ground={slope: 3}", "ground_reaction.shear=0.8", ON_EVENTS},
@@ -77,7 +77,7 @@ static void a_walk_under_load_on_events(void **state) {
 static void a_walk_with_other_terms_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_loaded.yaml",
+      "tests/two_step/walk_loaded.yaml",
       {"objective=[{term: clearance, height: 0.06, weight: 3}, "
        "{term: torque_rate, weight: 0.0001}, {term: mechanical_power, weight: 0.01}, "
        "{term: upright, weight: 10, points: [pelvis, head_top]}, "
@@ -94,7 +94,7 @@ static void a_walk_with_other_terms_on_events(void **state) {
 static void a_walk_early_on_its_heel(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_loaded.yaml",
+      "tests/two_step/walk_loaded.yaml",
       {"gait.phases={heel_strike: -0.03, foot_flat: 0.05, heel_off: 0.36, toe_off: 0.6}",
        "ground_reaction.transfer=smooth", "constraints.clearance.height=0.03", "time.grid=events",
        "objective=[{term: clearance, height: 0.06, weight: 3}, {term: ground_force, weight: 0.3}, "
@@ -108,7 +108,7 @@ static void a_walk_early_on_its_heel(void **state) {
 static void a_limp_on_events(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_asymmetric.yaml",
+      "tests/two_step/walk_asymmetric.yaml",
       {"gait.phases={heel_strike: 0.01, foot_flat: 0.08, heel_off: 0.38, toe_off: 0.62}",
        "ground_reaction.transfer=linear", "objective[0].weight=2", ON_EVENTS},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
@@ -119,16 +119,16 @@ static void a_limp_on_events(void **state) {
 /* what another event, an end or a knot coincides with has no derivative */
 static void times_that_coincide(void **state) {
   (void)state;
-  static const setting strike_at_0 = {"models/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
+  static const setting strike_at_0 = {"tests/two_step/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
                        heel_with_strike = {"models/walk_without_reaction.yaml",
                                            {"gait.phases.heel_off=0.44", ON_EVENTS},
                                            {"gait.phases.toe_off", "gait.phases.foot_flat"}},
                        uniform = {"models/walker_2d_step.yaml", {NULL}, {NULL}},
-                       on_a_knot = {"models/walk_loaded.yaml",
+                       on_a_knot = {"tests/two_step/walk_loaded.yaml",
                                     {"time.grid=events", "trajectory.intervals=25"},
                                     {"gait.step_length"}},
                        above_cubic = {
-                           "models/walk_loaded.yaml",
+                           "tests/two_step/walk_loaded.yaml",
                            {"time.grid=events", "trajectory.intervals=25", "trajectory.degree=5"},
                            {"gait.phases.toe_off"}};
   expect_absent(&strike_at_0, "gait.phases.heel_strike");

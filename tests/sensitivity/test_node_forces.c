@@ -111,7 +111,7 @@ static void open_walk(walk *w, const char *changed, double by) {
   const char *overrides[] = {text};
   (void)snprintf(text, sizeof text, "%s=%.17g", changed, by);
   assert_int_equal(
-      ambulo_problem_load("models/walk_loaded.yaml", overrides, 1, NULL, NULL, &w->problem),
+      ambulo_problem_load("tests/two_step/walk_loaded.yaml", overrides, 1, NULL, NULL, &w->problem),
       AMBULO_OK);
   assert_int_equal(ambulo_workspace_create(w->problem, NULL, &w->workspace), AMBULO_OK);
   int n = ambulo_problem_variable_count(w->problem);

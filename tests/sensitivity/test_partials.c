@@ -69,7 +69,7 @@ static void breakpoints_stay_in_seconds(void **state) {
 static void a_walk_under_load(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_loaded.yaml",
+      "tests/two_step/walk_loaded.yaml",
       {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
        "roll: 0.04, width: 0.035}",
        "ground={slope: 3}", "constraints.torque_limits=true", "ground_reaction.shear=0.8"},
@@ -83,7 +83,7 @@ static void a_walk_under_load(void **state) {
 static void a_walk_with_other_terms(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_loaded.yaml",
+      "tests/two_step/walk_loaded.yaml",
       {"objective=[{term: clearance, height: 0.06, weight: 3}, {term: posture, name: rests, "
        "scale: {knee_angle_r: 1, knee_angle_l: 1, hip_adduction_r: 2, hip_adduction_l: 2}, "
        "angles: {knee_angle_r: 10, knee_angle_l: 10, hip_adduction_r: 3, hip_adduction_l: 3}}, "
@@ -100,7 +100,7 @@ static void a_walk_with_other_terms(void **state) {
 /* no step length: it follows from the speed, and the time from both */
 static void a_walk_at_a_speed(void **state) {
   (void)state;
-  static const setting c = {"models/walk_normal.yaml",
+  static const setting c = {"tests/two_step/walk_normal.yaml",
                             {"gait.step_length=null", "time.duration=null", "gait.speed=1.26"},
                             {"gait.speed", "gait.step_width", "subject.mass"}};
   check(&c, NULL);
@@ -110,18 +110,18 @@ static void a_walk_at_a_speed(void **state) {
 static void a_cadence_at_a_speed(void **state) {
   (void)state;
   static const setting by_step = {
-      "models/walk_normal.yaml",
+      "tests/two_step/walk_normal.yaml",
       {"gait.step_length=null", "time.duration=null", "gait.speed=1.26", "gait.step_time=0.54"},
       {"gait.step_time", "gait.speed", "gait.step_width"}};
-  static const setting by_duration = {"models/walk_normal.yaml",
+  static const setting by_duration = {"tests/two_step/walk_normal.yaml",
                                       {"gait.step_length=null", "gait.speed=1.26"},
                                       {"time.duration", "gait.speed"}};
   static const setting unlike = {
-      "models/walk_asymmetric.yaml",
+      "tests/two_step/walk_asymmetric.yaml",
       {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=[0.5, 0.6]"},
       {"gait.speed"}};
   static const setting two_steps = {
-      "models/walk_asymmetric.yaml",
+      "tests/two_step/walk_asymmetric.yaml",
       {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.55"},
       {"gait.step_time", "gait.speed"}};
   check(&by_step, "time.duration");
@@ -133,7 +133,7 @@ static void a_cadence_at_a_speed(void **state) {
 static void a_walk_in_tubes(void **state) {
   (void)state;
   static const setting c = {
-      "models/walk_tracking.yaml",
+      "tests/two_step/walk_tracking.yaml",
       {"constraints.tubes=[{reference: walk_tracking_angles.csv, coordinates: {hip_flexion_r: "
        "20}}, "
        "{reference: walk_tracking_angles.csv, coordinates: {knee_angle_r: 9}}]",
@@ -145,7 +145,7 @@ static void a_walk_in_tubes(void **state) {
 
 static void a_step_in_a_tube_on_both_sides(void **state) {
   (void)state;
-  static const setting c = {"models/walk_tracking.yaml",
+  static const setting c = {"tests/two_step/walk_tracking.yaml",
                             {"constraints.tubes=[{reference: walk_tracking_angles.csv, "
                              "coordinates: {knee_angle_r: 20, knee_angle_l: 20}}]"},
                             {"constraints.tubes[0].coordinates.knee_angle_r"}};

@@ -1,13 +1,14 @@
 /* Grids that are finer by four: the same problem is solved, in little more iterations. What each
  * holds: penalties row by row where common ones drown the metric (linear/kkt.c), and polishing that
  * is relative to the metric (method/polish.c). */
+#include "support/problem_path.h"
 #include "support/engine_fixture.h"
 
 static ambulo_problem *load(const char *name, int intervals) {
   char path[96], time[48], spline[48];
   const char *overrides[] = {time, spline};
   ambulo_problem *problem = NULL;
-  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  problem_path(name, path, sizeof path);
   (void)snprintf(time, sizeof time, "time.intervals=%d", intervals);
   (void)snprintf(spline, sizeof spline, "trajectory.intervals=%d", intervals);
   assert_int_equal(ambulo_problem_load(path, overrides, 2, NULL, NULL, &problem), AMBULO_OK);
@@ -40,7 +41,7 @@ static void iterations_do_not_follow_the_grid(void **state) {
   } cases[] = {{"yardstick_72", 72, 288, 2.65089},
                {"walker_2d_step", 40, 160, 1.0943},
                {"walker_2d_step", 160, 640, 1.0999},
-               {"walk_normal", 25, 100, 0.06731},
+               {"two_step/walk_normal", 25, 100, 0.06731},
                {"two_link_reach", 40, 2560, 5.16544}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     double objective;
@@ -57,7 +58,7 @@ static void iterations_do_not_follow_the_grid(void **state) {
 static void tight_tolerances_are_met(void **state) {
   (void)state;
   static const double tolerance[] = {5e-7, 3e-7};
-  ambulo_problem *problem = load("walk_normal", 100);
+  ambulo_problem *problem = load("two_step/walk_normal", 100);
   for (int i = 0; i < 2; i++) {
     ambulo_options options = ambulo_options_default();
     ambulo_result *result = NULL;

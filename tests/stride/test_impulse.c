@@ -30,8 +30,9 @@ static double along(const double *a, const double *b) {
  * 1.08 s, and nothing forward on level ground */
 static void a_stride_gains_no_momentum(void **state) {
   (void)state;
-  static const char *const files[] = {"models/walk_normal.yaml", "models/walk_uphill.yaml",
-                                      "models/walk_asymmetric.yaml"};
+  static const char *const files[] = {"tests/two_step/walk_normal.yaml",
+                                      "tests/two_step/walk_uphill.yaml",
+                                      "tests/two_step/walk_asymmetric.yaml"};
   for (int i = 0; i < 3; i++) {
     solved s = solve(files[i], NULL, 0);
     const ambulo_model *model = s.problem->model;
@@ -53,7 +54,8 @@ static void a_stride_gains_no_momentum(void **state) {
 static void each_foot_gets_its_own(void **state) {
   (void)state;
   static const char *const coarse[] = {"time.intervals=12", "trajectory.intervals=9"};
-  static const char *const files[] = {"models/walk_asymmetric.yaml", "models/walk_normal.yaml"};
+  static const char *const files[] = {"tests/two_step/walk_asymmetric.yaml",
+                                      "tests/two_step/walk_normal.yaml"};
   enum { FINE = 20001 };
   for (int k = 0; k < 2; k++) {
     solved s = solve(files[k], coarse, 2);
@@ -90,8 +92,8 @@ static void nothing_without_ground_reaction(void **state) {
 static void every_allocation_may_fail(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load("models/walk_normal.yaml", NULL, 0, NULL, NULL, &problem),
-                   0);
+  assert_int_equal(
+      ambulo_problem_load("tests/two_step/walk_normal.yaml", NULL, 0, NULL, NULL, &problem), 0);
   double *x = calloc((size_t)problem->variables, sizeof *x), impulse[6] = {7.0};
   for (long k = 0; k < 100; k++) {
     fail_alloc memory = fail_alloc_at(k);

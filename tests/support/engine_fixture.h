@@ -9,6 +9,7 @@
 #include "method/polish.h"
 #include "method/restore.h"
 #include "method/retraction.h"
+#include "support/problem_path.h"
 #include "support/test.h"
 
 typedef struct engine_fixture {
@@ -24,7 +25,7 @@ typedef struct engine_fixture {
 static inline ambulo_problem *load_problem_with(const char *name, const char *override) {
   char path[96];
   ambulo_problem *problem = NULL;
-  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  problem_path(name, path, sizeof path);
   ambulo_status status =
       ambulo_problem_load(path, &override, override != NULL, NULL, NULL, &problem);
   if (status) print_error("%s: %s\n", path, ambulo_status_name(status));

@@ -1,5 +1,6 @@
 /* Grids on events: f* is a smooth function of the event times, contacts hold up to them, and what
  * is foretold about finer grids comes true. */
+#include "support/problem_path.h"
 #include "support/test.h"
 
 #include "ambulo/ambulo.h"
@@ -25,7 +26,7 @@ static ambulo_result *solve_with_slope(const char *const *settings, int count, d
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(
-      ambulo_problem_load("models/walk_normal.yaml", settings, count, NULL, NULL, &problem),
+      ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, count, NULL, NULL, &problem),
       AMBULO_OK);
   ambulo_options options = ambulo_problem_options(problem);
   if (tolerance > 0.0) options.optimality_tolerance = options.feasibility_tolerance = tolerance;
@@ -118,8 +119,8 @@ static void contacts_hold_up_to_their_events(void **state) {
 static void gradients_are_exact(void **state) {
   (void)state;
   enum { MOST = 40 };
-  static const char *const walks[] = {"walk_normal", "yardstick_12", "walk_tracking",
-                                      "walker_2d_step"};
+  static const char *const walks[] = {"two_step/walk_normal", "yardstick_12",
+                                      "two_step/walk_tracking", "walker_2d_step"};
   static const char *const settings[] = {"time.grid=events", "trajectory.knots=events",
                                          "time.intervals=42", "trajectory.intervals=30"};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
@@ -128,7 +129,7 @@ static void gradients_are_exact(void **state) {
     ambulo_workspace *workspace = NULL;
     ambulo_derivative_error errors[MOST];
     int count = 0;
-    (void)snprintf(path, sizeof path, "models/%s.yaml", walks[i]);
+    problem_path(walks[i], path, sizeof path);
     assert_int_equal(ambulo_problem_load(path, settings, 4, NULL, NULL, &problem), AMBULO_OK);
     assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
     int n = ambulo_problem_variable_count(problem);
