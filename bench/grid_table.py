@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """What a time grid and a trajectory cost and give: the table of docs/performance.md.
 
-    python3 bench/grid_table.py build/ambulo models walk_normal walk_fast walk_slow
+    python3 bench/grid_table.py build/ambulo models --shipped walk_normal walk_fast walk_slow
+    python3 bench/grid_table.py build/ambulo tests/two_step walk_normal walk_fast walk_slow
 
-For each walk and setting, solved from zero:
+--shipped: each walk as its file says, and how far its objective is from that of four times the
+nodes. Without it, for each walk and setting of a list (walks with the prescribed split), solved from
+zero:
   f           objective, and how far it is from that of a grid four times as fine (K 48 of degree
               4, nodes and knots on events), %, and from that trajectory's on sixteen times the nodes
   slip ...    worst violation between the nodes by family (summary.json, ten samples an interval)
@@ -13,7 +16,7 @@ For each walk and setting, solved from zero:
   time        of the fastest of five solves, s
 Needs numpy.
 """
-import json, math, os, subprocess, sys, tempfile
+import json, math, os, re, subprocess, sys, tempfile
 import numpy
 
 SAMPLES = 2001
@@ -114,8 +117,45 @@ def row(program, problem, settings, folder):
     return summary["verdict"], objective, worst, turns, rms, min(seconds)
 
 
+def objective_of(summary):
+    return summary["objective"]["total"] if isinstance(summary["objective"], dict) else summary["objective"]
+
+
+def shipped(program, models, names):
+    """each walk as its file says: against four times its nodes, between them, forces, time"""
+    print("| walk | N, K | f | off 4x % | worst between nodes: mm | rad | BW | extrema | rms > 15 Hz BW"
+          " | iterations | CPU s |")
+    print("| --- | --- |" + " ---: |" * 9)
+    with tempfile.TemporaryDirectory() as folder:
+        for name in names:
+            problem = os.path.join(models, name + ".yaml")
+            before = os.times()
+            summary = solve(program, problem, [], folder)
+            after = os.times()
+            cpu = after.children_user + after.children_system - before.children_user - before.children_system
+            turns, rms = curves(folder, summary["body"]["mass"])
+            worst = {"m": 0.0, "rad": 0.0, "body weights": 0.0}
+            for family in summary["between_nodes"]["families"]:
+                if family["unit"] in worst:
+                    worst[family["unit"]] = max(worst[family["unit"]], family["worst"])
+            with open(problem) as file:
+                text = file.read()
+            nodes, pieces = (int(re.search(key + r":.*intervals: (\d+)", text)[1])
+                             for key in ("time", "trajectory"))
+            f = objective_of(summary)
+            fine = solve(program, problem, [f"time.intervals={4 * nodes}"], folder)
+            marks = ["" if s["verdict"] == "optimal" else f" ({s['verdict']})" for s in (summary, fine)]
+            print(f"| {name} | {nodes}, {pieces} | {f:.5f}{marks[0]}"
+                  f" | {100.0 * (f / objective_of(fine) - 1.0):+.1f}{marks[1]} | {1e3 * worst['m']:.2f}"
+                  f" | {worst['rad']:.4f} | {worst['body weights']:.3f} | {turns} | {rms:.4f}"
+                  f" | {summary['iterations']} | {cpu:.2f} |", flush=True)
+
+
 def main():
     program, models, names = sys.argv[1], sys.argv[2], sys.argv[3:]
+    if names[:1] == ["--shipped"]:
+        shipped(program, models, names[1:])
+        return
     print("| walk | grid, trajectory | f | off 4x % | off 16x % | slip mm | contact mm | contact rad | clearance mm"
           " | pressure mm | ground force BW | friction BW | extrema | rms > 15 Hz BW | time s |")
     print("| --- | --- |" + " ---: |" * 13)

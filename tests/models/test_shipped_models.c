@@ -86,6 +86,20 @@ static void two_link(void **state) {
   ambulo_model_free(model);
 }
 
+/* 2 cm behind the ankle and under the ball, radii 2.5 and 3.4 cm, of a body of 1.75 m */
+static void stands_on_arcs(const ambulo_foot *foot, const pose *p, double size) {
+  static const double radius[2] = {0.025, 0.034};
+  const double *held[2] = {p->points[foot->heel_center], p->points[foot->toe_center]};
+  assert_true(foot->has_arcs);
+  for (int end = 0; end < 2; end++) {
+    const double *center = p->points[foot->arc[end]];
+    assert_close(center[0] - held[end][0], 0, 1e-9);
+    assert_close(center[1] - held[end][1], radius[end] / 1.75 * size, 1e-5);
+    assert_close(center[2] - held[end][2], 0, 1e-9);
+  }
+  assert_close(held[1][0] - held[0][0], 0.16 / 1.75 * size, 1e-5);
+}
+
 /* q = 0: upright, both soles on the ground, whatever the subject; the whole weight is there */
 static void standing(const char *name, ambulo_subject subject) {
   ambulo_model *model = load(name, &subject);
@@ -102,8 +116,9 @@ static void standing(const char *name, ambulo_subject subject) {
     assert_close(toe[1], 0, 2e-6);
     /* a foot with a tip turns about its ball at push-off; the tip is its end */
     const double *end = foot->has_tip ? p.points[foot->tip] : toe;
-    assert_close(end[0] - heel[0], 0.245 / 1.75 * size, 1e-5);
+    assert_close(end[0] - heel[0], 0.215 / 1.75 * size, 1e-5);
     assert_true(toe[0] <= end[0]);
+    stands_on_arcs(foot, &p, size);
     assert_close(p.points[foot->heel[0]][1], 0, 2e-6);
     assert_close(p.points[foot->toe[0]][1], 0, 2e-6);
   }

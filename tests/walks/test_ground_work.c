@@ -107,7 +107,8 @@ static double lifted(const walk *w) {
 /* --------------------------------------------------------------- at the feet */
 
 static void cross(const double a[3], const double b[3], double c[3]) {
-  for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+  for (int i = 0; i < 3; i++)
+    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 static double dot(const double a[3], const double b[3]) {
@@ -173,10 +174,10 @@ static double work_at_the_feet(const walk *w) {
 
 static void the_ground_does_next_to_no_work(void **state) {
   (void)state;
-  static const char *const walks[] = {
-      "models/walk_normal.yaml", "models/walk_normal_21.yaml", "models/walk_slow.yaml",
-      "models/walk_fast.yaml",   "models/walk_loaded.yaml",    "models/walk_uphill.yaml",
-      "models/walk_asymmetric.yaml", "models/walk_tracking.yaml"};
+  static const char *const walks[] = {"models/walk_normal.yaml",     "models/walk_normal_21.yaml",
+                                      "models/walk_slow.yaml",       "models/walk_fast.yaml",
+                                      "models/walk_loaded.yaml",     "models/walk_uphill.yaml",
+                                      "models/walk_asymmetric.yaml", "models/walk_tracking.yaml"};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
     walk w;
     double positive;
