@@ -65,6 +65,21 @@ static void the_own_start_stays_what_it_is(void **state) {
   ambulo_problem_free(problem);
 }
 
+static void no_start_may_lead_anywhere(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_load("tests/infeasible/equalities_contradict.yaml", NULL, 0, NULL,
+                                       NULL, &problem),
+                   AMBULO_OK);
+  ambulo_result *result = solve(problem, 3, NULL);
+  const ambulo_starts *s = ambulo_result_starts(result);
+  assert_int_equal(s->count, 3);
+  assert_int_equal(s->solved + s->basin_count, 0);
+  assert_int_equal(result->verdict, AMBULO_INFEASIBLE);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 static int stop_after(void *user, const ambulo_progress *progress) {
   (void)progress;
   return --*(int *)user < 0;
@@ -125,6 +140,7 @@ int main(void) {
                                      cmocka_unit_test(every_run_is_the_same),
                                      cmocka_unit_test(the_own_start_stays_what_it_is),
                                      cmocka_unit_test(a_stop_keeps_what_is_there),
+                                     cmocka_unit_test(no_start_may_lead_anywhere),
                                      cmocka_unit_test(nonsense_is_refused),
                                      cmocka_unit_test(memory_runs_out)};
   return cmocka_run_group_tests(tests, NULL, NULL);
