@@ -38,7 +38,7 @@ static int limited(int foretold, int now) {
 static int next_grid(const refinement *r, int *intervals, int *spline) {
   const ambulo_problem *p = current(r);
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(r->result);
-  if (!dense || dense->failing == 0 || !ambulo_verdict_is_solution(r->result->verdict)) return 0;
+  if (!dense || !ambulo_verdict_is_solution(r->result->verdict)) return 0;
   int nodes = p->definition.intervals, knots = ambulo__basis_intervals(p->basis);
   *intervals = limited(dense->intervals, nodes);
   *spline = limited(dense->spline_intervals, knots);
