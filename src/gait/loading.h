@@ -2,11 +2,8 @@
 #ifndef AMBULO_GAIT_LOADING_H
 #define AMBULO_GAIT_LOADING_H
 
+#include "gait/contact_image.h"
 #include "gait/foot_outline.h"
-
-typedef struct ambulo__span {
-  double from, to; /* s; may lie outside [0, T] when the motion is periodic or mirrored */
-} ambulo__span;
 
 /* The uninterrupted contact of `foot` around `time`; 0 if the foot is in the air. */
 int ambulo__loaded_span(const ambulo_problem_definition *definition, int foot, double time,
