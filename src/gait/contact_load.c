@@ -28,7 +28,7 @@
  *
  * Greatest normal force, body weights:
  *
- *     min(g(t - b), g(e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
+ *     g(min(t - b, e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
  *
  * [b, e] now the time that the contact is down, with the loading rate rho and tau = 0.01 s over
  * which it sets in: a force that began with its full rate would have a corner, which nodes do not
@@ -171,10 +171,14 @@ static double narrow(ambulo__foot_part part, roll at, double length, ambulo__con
   return end ? fmin(at.along, 0.5) * length : ahead;
 }
 
-static double most_after(double rate, double time) {
+/* g, and s dg/ds */
+static double most_after(double rate, double time, double *by_time) {
+  *by_time = 0.0;
   if (rate < 0.0 || isinf(time)) return INFINITY;
   time = fmax(0.0, time);
-  return rate * (time + loading_onset * expm1(-time / loading_onset));
+  double onset = expm1(-time / loading_onset);
+  *by_time = -rate * onset * time;
+  return rate * (time + loading_onset * onset);
 }
 
 /* (W.8) the contact of a slot */
@@ -204,7 +208,6 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
   load.side = r->pressure_width;
   load.since = time - down.from;
   load.until = down.to - time;
-  load.most =
-      fmin(most_after(r->loading_rate, load.since), most_after(r->loading_rate, load.until));
+  load.most = most_after(r->loading_rate, fmin(load.since, load.until), &load.most_by_time);
   return load;
 }

@@ -39,6 +39,7 @@ typedef struct ambulo__contact_load {
   double rolled;       /* how much of heel_roll is in it */
   double since, until; /* it came down, it leaves: s from now on either side; may be infinite */
   double most;         /* normal force, body weights; may be infinite */
+  double most_by_time; /* its derivative by ln T, all times being shares of the duration T */
   ambulo__contact_frame frame; /* of the contact */
 } ambulo__contact_load;
 
