@@ -43,14 +43,16 @@ static void meet_others(const ambulo_problem_definition *d, int foot, double mid
   }
 }
 
-/* mode of the part of the foot's stance that ends or begins at `time`; -1 */
-static int mode_at(const ambulo_problem_definition *d, int foot, double time, int begins) {
+/* mode of the foot's part that ends where the phase begins, or begins where it ends; -1. A contact
+ * that begins with the next period has no length at T. */
+static int mode_beside(const ambulo_problem_definition *d, int foot, ambulo__span phase, int after) {
   int last = ambulo__image_periods(d);
   for (int i = 0; i < d->contact_count; i++) {
     for (int period = -last; period <= last; period++) {
-      ambulo__span span = ambulo__image_span(d, i, period);
-      double end = begins ? span.from : span.to;
-      if (ambulo__image_foot(d, i, period) == foot && fabs(end - time) <= AMBULO__INSTANT)
+      ambulo__span s = ambulo__image_span(d, i, period);
+      double apart = after ? s.from - phase.to : s.to - phase.from;
+      if (ambulo__image_foot(d, i, period) == foot && fabs(apart) <= AMBULO__INSTANT &&
+          s.to - s.from > AMBULO__INSTANT)
         return (int)d->contacts[i].mode;
     }
   }
@@ -71,8 +73,8 @@ ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
   ambulo__span open = opened(d, whole);
   ambulo__stance s = {.from = open.from, .to = open.to, .leaves = -INFINITY, .comes = INFINITY};
   s.phase = ambulo__uninterrupted(d, foot, 1 << contact->mode, own);
-  s.before = mode_at(d, foot, s.phase.from, 0);
-  s.after = mode_at(d, foot, s.phase.to, 1);
+  s.before = mode_beside(d, foot, s.phase, 0);
+  s.after = mode_beside(d, foot, s.phase, 1);
   meet_others(d, foot, 0.5 * (whole.from + whole.to), &s);
   return s;
 }
