@@ -73,8 +73,7 @@ ambulo__slots ambulo__slots_of(const ambulo_model *m) {
 const char *ambulo__slot_name(const ambulo_model *m, const ambulo__slots *slots, int slot) {
   const ambulo_foot *foot = &m->feet[slots->foot[slot]];
   if (slots->part[slot] == (int)AMBULO__WHOLE_FOOT) return foot->name;
-  int point =
-      slots->part[slot] == (int)AMBULO__REAR_FOOT ? foot->heel_center : foot->toe_center;
+  int point = slots->part[slot] == (int)AMBULO__REAR_FOOT ? foot->heel_center : foot->toe_center;
   return m->points[point].name;
 }
 

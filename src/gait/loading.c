@@ -33,8 +33,8 @@ int ambulo__loaded_span(const ambulo_problem_definition *d, int foot, double tim
                         ambulo__span *span) {
   const ambulo_contact *contact = ambulo__contact_of(d, foot, time);
   if (!contact) return 0;
-  *span = ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE,
-                                (ambulo__span){contact->from, contact->to});
+  *span =
+      ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, (ambulo__span){contact->from, contact->to});
   return 1;
 }
 

@@ -45,7 +45,8 @@ static void meet_others(const ambulo_problem_definition *d, int foot, double mid
 
 /* mode of the foot's part that ends where the phase begins, or begins where it ends; -1. A contact
  * that begins with the next period has no length at T. */
-static int mode_beside(const ambulo_problem_definition *d, int foot, ambulo__span phase, int after) {
+static int mode_beside(const ambulo_problem_definition *d, int foot, ambulo__span phase,
+                       int after) {
   int last = ambulo__image_periods(d);
   for (int i = 0; i < d->contact_count; i++) {
     for (int period = -last; period <= last; period++) {

@@ -8,7 +8,7 @@
 static const double steepest = 10.0; /* most that ground_reaction.friction may be */
 static const double least_pressing =
     0.02; /* body weights: less of a contact's force tells nothing of a centre of pressure */
-static const double fastest = 1e4;   /* ... and ground_reaction.loading_rate */
+static const double fastest = 1e4; /* ... and ground_reaction.loading_rate */
 
 static void zmp(const ambulo__advice *a) {
   double margin = a->problem->definition.support_margin;

@@ -102,9 +102,9 @@ static void warn_of_others(const ambulo__yaml_node *section, int kind) {
   static const struct {
     const char *key;
     int kind;
-  } own[] = {{"transfer", AMBULO_REACTION_TWO_STEP},  {"exponent", AMBULO_REACTION_TWO_STEP},
-             {"shear", AMBULO_REACTION_TWO_STEP},     {"moment_arm", AMBULO_REACTION_SHARED},
-             {"slant", AMBULO_REACTION_SHARED},       {"loading_rate", AMBULO_REACTION_SHARED}};
+  } own[] = {{"transfer", AMBULO_REACTION_TWO_STEP}, {"exponent", AMBULO_REACTION_TWO_STEP},
+             {"shear", AMBULO_REACTION_TWO_STEP},    {"moment_arm", AMBULO_REACTION_SHARED},
+             {"slant", AMBULO_REACTION_SHARED},      {"loading_rate", AMBULO_REACTION_SHARED}};
   for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
     const ambulo__yaml_node *node = ambulo__yaml_get(section, own[i].key);
     if (!node || kind == AMBULO_REACTION_NONE || kind == own[i].kind) continue;

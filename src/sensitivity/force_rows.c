@@ -12,7 +12,8 @@
  *     friction        c = mu n.F / W -+ e.F / W                        dc/dmu = n.F / W
  *     free moment     c = bound +- T / W                               dc/dbound = 1
  *
- * and where contacts share the load sharing_rows.c. All but their constants are measured in W: dc/d ln m = -(c - constant).
+ * and where contacts share the load sharing_rows.c. All but their constants are measured in W: dc/d
+ * ln m = -(c - constant).
  */
 #include "sensitivity/partials.h"
 

@@ -60,8 +60,7 @@ void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot
   int slot = (p->table.terms[row->first_term].channel - first) / channels->slot_rows;
   int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.foot[slot]];
   contact_row c = {.contact = &p->definition.contacts[own], .pull = pull};
-  c.load =
-      ambulo__contact_load_at(&p->definition, outlines, &slots, slot, c.contact, row->time);
+  c.load = ambulo__contact_load_at(&p->definition, outlines, &slots, slot, c.contact, row->time);
   int force = ambulo__channel_foot_force(channels, slot, 0);
   c.phi = ambulo__stationary_along(s, row->node, force, c.load.frame.up) / weight;
   switch ((ambulo__row_kind)row->kind) {

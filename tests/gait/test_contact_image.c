@@ -80,8 +80,8 @@ static void touching_contacts_of_chosen_modes_are_one_span(void **state) {
   d.ends = AMBULO_ENDS_FREE;
   ambulo__span cut = ambulo__uninterrupted(&d, WALKER_LEFT, AMBULO__ANY_MODE, heel);
   assert_close(cut.to, 0.5, 0.0);
-  ambulo__span other = ambulo__uninterrupted(&d, WALKER_RIGHT, AMBULO__ANY_MODE,
-                                             (ambulo__span){0.3, 0.4});
+  ambulo__span other =
+      ambulo__uninterrupted(&d, WALKER_RIGHT, AMBULO__ANY_MODE, (ambulo__span){0.3, 0.4});
   assert_close(other.from, 0.0, 0.0);
   ambulo_model_free(model);
 }

@@ -1,6 +1,6 @@
 /* What the law that shares the load is told of contacts: a stride of 1 s, phases 0 / 0.1 / 0.4 /
- * 0.6 of it, left strikes at 0. Double support from 0 to 0.1 s and from 0.5 to 0.6 s. Walker: heel to
- * toe 0.22 m, no joint of the toes. */
+ * 0.6 of it, left strikes at 0. Double support from 0 to 0.1 s and from 0.5 to 0.6 s. Walker: heel
+ * to toe 0.22 m, no joint of the toes. */
 #include "gait/contact_load.h"
 #include "support/toed_body.h"
 #include "support/walker_fixture.h"
@@ -88,8 +88,8 @@ static void weights_rise_while_the_other_foot_is_there(void **state) {
   for (int i = 0; i < f.definition.contact_count; i++)
     if (f.contacts[i].foot == WALKER_LEFT && f.contacts[i].mode == AMBULO_CONTACT_TOE)
       left = &f.contacts[i];
-  ambulo__contact_load last = ambulo__contact_load_at(&f.definition, f.outlines, &f.slots,
-                                                      WALKER_LEFT, left, left->to);
+  ambulo__contact_load last =
+      ambulo__contact_load_at(&f.definition, f.outlines, &f.slots, WALKER_LEFT, left, left->to);
   assert_true(last.loaded);
   assert_close(last.weight, 0.0, 1e-12);
   assert_close(last.most, 0.0, 1e-9);

@@ -208,21 +208,19 @@ static void bounds_can_be_off(void **state) {
   f.definition.ground_reaction.loading_rate = -1.0;
   f.definition.ground_reaction.pressure = 0;
   ambulo__sharing_rows(&f.context, &f.table);
-  for (int r = 0; r < f.table.row_count; r++)
-    assert_string_equal(f.table.rows[r].detail, "pulls");
+  for (int r = 0; r < f.table.row_count; r++) assert_string_equal(f.table.rows[r].detail, "pulls");
   row_fixture_close(&f);
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(contacts_push_and_are_loaded_at_a_rate),
-      cmocka_unit_test(each_contact_has_its_friction),
-      cmocka_unit_test(pressure_stays_in_the_patch),
-      cmocka_unit_test(each_contact_has_its_free_moment),
-      cmocka_unit_test(rows_are_about_the_axes_of_the_surface),
-      cmocka_unit_test(contacts_without_weight_have_no_rows),
-      cmocka_unit_test(events_have_both_boxes),
-      cmocka_unit_test(planar_bodies_have_forward_rows_only),
-      cmocka_unit_test(bounds_can_be_off)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(contacts_push_and_are_loaded_at_a_rate),
+                                     cmocka_unit_test(each_contact_has_its_friction),
+                                     cmocka_unit_test(pressure_stays_in_the_patch),
+                                     cmocka_unit_test(each_contact_has_its_free_moment),
+                                     cmocka_unit_test(rows_are_about_the_axes_of_the_surface),
+                                     cmocka_unit_test(contacts_without_weight_have_no_rows),
+                                     cmocka_unit_test(events_have_both_boxes),
+                                     cmocka_unit_test(planar_bodies_have_forward_rows_only),
+                                     cmocka_unit_test(bounds_can_be_off)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

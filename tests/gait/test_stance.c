@@ -166,11 +166,10 @@ static void a_short_touch_is_loaded_up_to_half_its_time(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_mirrored_step_has_stances_beyond_its_ends),
-      cmocka_unit_test(a_stride_of_two_steps_has_the_same_stances),
-      cmocka_unit_test(a_motion_that_is_cut_has_no_beginning),
-      cmocka_unit_test(a_foot_that_is_always_down_has_no_end),
-      cmocka_unit_test(a_short_touch_is_loaded_up_to_half_its_time)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_mirrored_step_has_stances_beyond_its_ends),
+                                     cmocka_unit_test(a_stride_of_two_steps_has_the_same_stances),
+                                     cmocka_unit_test(a_motion_that_is_cut_has_no_beginning),
+                                     cmocka_unit_test(a_foot_that_is_always_down_has_no_end),
+                                     cmocka_unit_test(a_short_touch_is_loaded_up_to_half_its_time)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,17 +18,16 @@ static void rate_open(rate_fixture *f, int slots) {
   const double *g = ambulo_model_gravity(f->model);
   f->weight = ambulo_model_mass(f->model) * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
   for (int i = 0; i < RATE_CHANNELS * AMBULO__LANES; i++) f->lanes[i] = sin(1.7 * i);
-  f->context =
-      (ambulo__term_context){.model = f->model,
-                             .channels = {.coordinates = 2,
-                                          .points = 2,
-                                          .feet = slots ? 2 : 0,
-                                          .slots = slots,
-                                          .slot_rows = 6},
-                             .channel_count = RATE_CHANNELS,
-                             .lanes = f->lanes,
-                             .nodes = FORM_NODES,
-                             .times = times};
+  f->context = (ambulo__term_context){.model = f->model,
+                                      .channels = {.coordinates = 2,
+                                                   .points = 2,
+                                                   .feet = slots ? 2 : 0,
+                                                   .slots = slots,
+                                                   .slot_rows = 6},
+                                      .channel_count = RATE_CHANNELS,
+                                      .lanes = f->lanes,
+                                      .nodes = FORM_NODES,
+                                      .times = times};
 }
 
 static double *rate_at(rate_fixture *f, int node, int slot, int axis) {
@@ -65,8 +64,8 @@ static void slopes_are_what_a_change_makes(void **state) {
     ambulo__form form, moved;
     ambulo__term_form(&term, &f.context, 1, j, &form);
     for (int c = 0; c < form.count; c++) {
-      double *value = &f.lanes[ambulo__lane_index(1 + form.ahead[c], RATE_CHANNELS,
-                                                  form.channel[c])];
+      double *value =
+          &f.lanes[ambulo__lane_index(1 + form.ahead[c], RATE_CHANNELS, form.channel[c])];
       assert_true(value == rate_at(&f, 1 + form.ahead[c], j / 3, j % 3));
       *value += 1000.0;
       ambulo__term_form(&term, &f.context, 1, j, &moved);

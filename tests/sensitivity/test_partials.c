@@ -270,14 +270,14 @@ static void a_walk_on_shared_contacts(void **state) {
 
 static void a_walk_on_shared_contacts_on_events(void **state) {
   (void)state;
-  static const setting c = {
-      "models/walk_loaded.yaml",
-      {SHARED, "time.intervals=40", "time.duration=null", "gait.speed=1.26",
-       "ground_reaction.minimum_force=0.1", ON_EVENTS},
-      {"ground_reaction.moment_arm", "ground_reaction.slant", "ground_reaction.loading_rate",
-       "ground_reaction.pressure.heel[0]", "ground_reaction.pressure.toe[0]", "load.mass",
-       "subject.mass", "gait.step_width", "gait.step_length", "gait.speed",
-       "ground_reaction.minimum_force", "ground.slope"}};
+  static const setting c = {"models/walk_loaded.yaml",
+                            {SHARED, "time.intervals=40", "time.duration=null", "gait.speed=1.26",
+                             "ground_reaction.minimum_force=0.1", ON_EVENTS},
+                            {"ground_reaction.moment_arm", "ground_reaction.slant",
+                             "ground_reaction.loading_rate", "ground_reaction.pressure.heel[0]",
+                             "ground_reaction.pressure.toe[0]", "load.mass", "subject.mass",
+                             "gait.step_width", "gait.step_length", "gait.speed",
+                             "ground_reaction.minimum_force", "ground.slope"}};
   check(&c, NULL);
 }
 

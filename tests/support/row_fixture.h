@@ -29,14 +29,14 @@ static inline void row_fixture_open(row_fixture *f, int planar) {
   assert_int_equal(ambulo__basis_create(AMBULO__BSPLINE, 3, 4, 1.0, NULL, NULL, &f->basis),
                    AMBULO_OK);
   for (int k = 0; k < ROW_NODES; k++) f->times[k] = 0.25 * k;
-  f->context =
-      (ambulo__gait_context){.definition = &f->definition,
-                             .model = f->model,
-                             .basis = f->basis,
-                             .channels = {.coordinates = f->model->coordinate_count, .points = f->model->point_count},
-                             .times = f->times,
-                             .nodes = ROW_NODES,
-                             .active = f->active};
+  f->context = (ambulo__gait_context){
+      .definition = &f->definition,
+      .model = f->model,
+      .basis = f->basis,
+      .channels = {.coordinates = f->model->coordinate_count, .points = f->model->point_count},
+      .times = f->times,
+      .nodes = ROW_NODES,
+      .active = f->active};
   int count = ambulo__channel_count(&f->context.channels);
   f->channel = calloc((size_t)(ROW_NODES * count), sizeof(double));
   ambulo__row_table_init(&f->table, NULL);

@@ -15,7 +15,8 @@ typedef struct toed_parts {
   ambulo_point points[TOED_POINTS];
 } toed_parts;
 
-/* a fixed link that carries the frame to the joint, and the toes, whose frame is the foot's again */
+/* a fixed link that carries the frame to the joint, and the toes, whose frame is the foot's again
+ */
 static inline void toed_joint(toed_parts *parts, int links, const ambulo_model *body, int foot) {
   static const char *const names[2][2] = {{"ball_joint_r", "toes_r"}, {"ball_joint_l", "toes_l"}};
   const ambulo_foot *f = &body->feet[foot];
