@@ -135,15 +135,12 @@ static void footholds_of_any_kind_go_on_as_they_began(void **state) {
     int number; /* which is changed: 0 height, 1 heading, 2 to 4 the normal */
     double first, last;
     const char *phrase;
-  } cases[] = {{0, 0.0, 0.2, NULL},
-               {0, 0.1, 0.2, "ends.rise: foot 'right' stands 0.2 m high"},
-               {1, 0.1, -0.1, NULL},
-               {1, 0.1, 0.1, "is turned by 0.1 rad at t = 0.5 s, and by -0.1 rad"},
-               {2, -0.1, -0.1, NULL},
-               {2, -0.1, 0.0, "expected the same direction"},
-               {3, 0.1, -0.1, NULL},
-               {3, 0.1, 0.1, "expected the same direction"},
-               {4, 1.0, 2.0, NULL}}; /* of any length */
+  } cases[] = {
+      {0, 0.0, 0.2, NULL},   {0, 0.1, 0.2, "ends.rise: foot 'right' stands 0.2 m high"},
+      {1, 0.1, -0.1, NULL},  {1, 0.1, 0.1, "is turned by 0.1 rad at t = 0.5 s, and by -0.1 rad"},
+      {2, -0.1, -0.1, NULL}, {2, -0.1, 0.0, "expected the same direction"},
+      {3, 0.1, -0.1, NULL},  {3, 0.1, 0.1, "expected the same direction"},
+      {4, 1.0, 2.0, NULL}}; /* of any length */
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     fixture f;
     ambulo_gait gait = walk(1);

@@ -241,6 +241,8 @@ static void friction_is_what_the_pair_of_rows_asks_for(void **state) {
   assert_string_equal(p->table.rows[other].detail, "backward");
   values[row] = mu * normal - along;
   values[other] = mu * normal + along;
+  assert_string_equal(p->table.rows[row + 1].detail, "to the right"); /* no partner of `row` */
+  values[row + 1] = 0.3;
   values[find_row(p, &m, 6)] = -1e-9; /* unloaded: no friction follows from it */
   values[find_row(p, &m, 6) + other - row] = 1e-9;
   ambulo__explanation *out = calloc(1, sizeof *out);
@@ -285,7 +287,8 @@ int main(void) {
       cmocka_unit_test(contacts_that_share_have_words_of_their_own),
       cmocka_unit_test(pressure_is_missed_by_what_its_force_makes_of_it),
 
-      cmocka_unit_test(what_a_row_misses_can_be_set), cmocka_unit_test(on_an_event_both_boxes_move),
+      cmocka_unit_test(what_a_row_misses_can_be_set),
+      cmocka_unit_test(on_an_event_both_boxes_move),
       cmocka_unit_test(without_a_file_there_are_no_settings),
       cmocka_unit_test(friction_is_what_the_pair_of_rows_asks_for),
       cmocka_unit_test(friction_that_does_not_help_is_not_asked_for)};

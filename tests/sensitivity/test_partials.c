@@ -254,7 +254,8 @@ static void a_walk_with_other_terms_on_events(void **state) {
 #define SHARED                                                                                     \
   "ground_reaction={kind: shared, moment_arm: 0.15, slant: 0.3, loading_rate: 14, pressure: "      \
   "{heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], roll: 0.04, width: 0.035}}",   \
-      "objective=[{term: torque_power}, {term: force_rate, weight: 0.02}]"
+      "objective=[{term: torque_squared, scale: {default: 0.001}}, {term: force_rate, weight: "    \
+      "0.02}]"
 
 static void a_walk_on_shared_contacts(void **state) {
   (void)state;

@@ -218,10 +218,10 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(the_dearest_stands_first),
-      cmocka_unit_test(no_optimum_has_none),       cmocka_unit_test(uneven_ground_has_none), cmocka_unit_test(arguments_are_checked),
-      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),     cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew), cmocka_unit_test(the_dearest_stands_first),
+      cmocka_unit_test(no_optimum_has_none),    cmocka_unit_test(uneven_ground_has_none),
+      cmocka_unit_test(arguments_are_checked),  cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -134,9 +134,8 @@ static void the_table_has_their_columns(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(feet_change_sides),
-                                     cmocka_unit_test(forces_and_peaks),
-                                     cmocka_unit_test(places_rise_with_the_ends),
-                                     cmocka_unit_test(the_table_has_their_columns)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(feet_change_sides), cmocka_unit_test(forces_and_peaks),
+      cmocka_unit_test(places_rise_with_the_ends), cmocka_unit_test(the_table_has_their_columns)};
   return cmocka_run_group_tests_name("stride/stride_feet", tests, NULL, NULL);
 }

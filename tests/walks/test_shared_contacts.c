@@ -1,126 +1,11 @@
-/* Contacts that share the load, in whole problems at points of no meaning: a walk with mirrored
- * ends, one on feet with a joint of the toes, and one on footholds of any height, slope and
- * heading. What the kernels give is compared with mechanics by other routes. */
-#include "ambulo/ambulo.h"
-#include "gait/contact_load.h"
+/* Contacts that share the load, in whole problems (support/shared_fixture.h). What the kernels give
+ * is compared with mechanics by other routes. */
 #include "gait/stance.h"
 #include "mechanics/pose.h"
-#include "nlp/nlp.h"
 #include "stride/impulse.h"
-#include "support/toed_body.h"
+#include "support/shared_fixture.h"
 
-enum { KINDS = 3, MOST_ERRORS = 32 };
-
-typedef struct fixture {
-  ambulo_model *model;
-  ambulo_problem *problem;
-  ambulo_workspace *workspace;
-  double *x;
-  double weight; /* m g, N */
-} fixture;
-
-/* a mirrored step of 0.54 s */
-static int regular(const ambulo_model *model, ambulo_problem_definition *d,
-                   ambulo_contact *contacts) {
-  const ambulo_gait gait = {.steps = 1,
-                            .step_length = 0.68,
-                            .step_time = 0.54,
-                            .step_width = 0.1,
-                            .foot_flat = 0.08,
-                            .heel_off = 0.38,
-                            .toe_off = 0.62};
-  d->duration = 0.54;
-  d->ends = AMBULO_ENDS_MIRRORED;
-  d->travel = 0.68;
-  int count = 0;
-  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 12, &count), AMBULO_OK);
-  return count;
-}
-
-/* up a turning stair of leaning treads */
-static int irregular(ambulo_problem_definition *d, ambulo_contact *contacts) {
-  static const ambulo_contact list[] = {
-      {0, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0.0, -0.1, 0.0}, {-0.1, 0.05, 1.0}, 0.0},
-      {0, AMBULO_CONTACT_TOE, 0.3, 0.4, {0.0, -0.1, 0.0}, {-0.1, 0.05, 1.0}, 0.0},
-      {1, AMBULO_CONTACT_FLAT, 0.2, 0.8, {0.3, 0.1, 0.15}, {0.1, -0.2, 2.0}, 0.3},
-      {0, AMBULO_CONTACT_HEEL, 0.65, 0.75, {0.6, 0.1, 0.3}, {0, 0, 0}, 0.5},
-      {0, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, 0.1, 0.3}, {0, 0, 0}, 0.5}};
-  d->duration = 1.0;
-  memcpy(contacts, list, sizeof list);
-  return (int)(sizeof list / sizeof *list);
-}
-
-static void fixture_open(fixture *f, int kind) {
-  ambulo_problem_definition d = ambulo_problem_definition_default();
-  ambulo_contact contacts[12];
-  ambulo_term terms[] = {ambulo_term_default(AMBULO_TORQUE_POWER),
-                         ambulo_term_default(AMBULO_FORCE_RATE)};
-  if (kind == 1) {
-    f->model = toed_body();
-  } else {
-    assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &f->model),
-                     AMBULO_OK);
-  }
-  double scale[TOED_COORDINATES];
-  for (int i = 0; i < TOED_COORDINATES; i++) scale[i] = 0.01;
-  terms[0].scale = scale;
-  d.model = f->model;
-  d.contacts = contacts;
-  d.contact_count = kind == 2 ? irregular(&d, contacts) : regular(f->model, &d, contacts);
-  d.intervals = 40;
-  d.spline_intervals = 12;
-  d.degree = 4;
-  d.grid = d.knots = AMBULO_GRID_EVENTS;
-  d.ground_reaction.kind = AMBULO_REACTION_SHARED;
-  d.contact_tolerance = 0.002;
-  d.ground_penetration = 1;
-  d.clearance.height = 0.02;
-  d.terms = terms;
-  d.term_count = 2;
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  if (ambulo_problem_create(&d, NULL, list, &f->problem)) {
-    char text[400];
-    ambulo_diagnostics_format(list, 0, text, sizeof text);
-    fail_msg("%s", text);
-  }
-  ambulo_diagnostics_free(list);
-  assert_int_equal(ambulo_workspace_create(f->problem, NULL, &f->workspace), AMBULO_OK);
-  f->weight = ambulo__model_weight(f->model);
-  int n = f->problem->coordinates;
-  f->x = calloc((size_t)f->problem->variables, sizeof *f->x);
-  for (int i = 0; i < f->problem->variables; i++)
-    f->x[i] = (i % n < 3 ? 0.01 : 0.1) * sin(0.3 * (i / n) + 1.7 * (i % n) + kind);
-  assert_int_equal(ambulo__evaluate(f->workspace, f->x), AMBULO_OK);
-}
-
-static void fixture_close(fixture *f) {
-  free(f->x);
-  ambulo_workspace_free(f->workspace);
-  ambulo_problem_free(f->problem);
-  ambulo_model_free(f->model);
-}
-
-static double channel(const fixture *f, int node, int index) {
-  return f->workspace->channel[ambulo__lane_index(node, f->workspace->channel_count, index)];
-}
-
-/* of a slot at a node: weight, centre, force, moment about the centre */
-typedef struct contact {
-  double weight, center[3], force[3], moment[3];
-} contact;
-
-static contact contact_at(const fixture *f, int node, int slot) {
-  const ambulo__channels *c = &f->problem->channels;
-  int entries = ambulo__plan_ground_entries(f->problem->plan);
-  const double *lane = f->problem->ground + ambulo__lane_index(node, entries, 0);
-  contact of = {.weight = lane[(size_t)(3 + 4 * slot) * AMBULO__LANES]};
-  for (int i = 0; i < 3; i++) {
-    of.center[i] = lane[(size_t)(4 + 4 * slot + i) * AMBULO__LANES];
-    of.force[i] = channel(f, node, ambulo__channel_foot_force(c, slot, i));
-    of.moment[i] = channel(f, node, ambulo__channel_contact_moment(c, slot, i));
-  }
-  return of;
-}
+enum { MOST_ERRORS = 32 };
 
 static void cross(const double a[3], const double b[3], double out[3]) {
   for (int i = 0; i < 3; i++) {
@@ -407,92 +292,6 @@ static void gradients_are_those_of_differences(void **state) {
   }
 }
 
-/* --------------------------------------------------------------- after a solve */
-
-#define STANDING                                                                                   \
-  "ambulo: 1\nkind: problem\nname: stand\nmodel: models/lower_body_18.yaml\n"                      \
-  "subject: {mass: 75, stature: 1.75, sex: male}\nangles: degrees\n"                               \
-  "time: {duration: 1.0, intervals: 12}\ntrajectory: {basis: bspline, intervals: 6}\n"             \
-  "contacts:\n"                                                                                    \
-  "  - {foot: left, mode: flat, from: 0, to: 1, place: [0, 0.1]}\n"                                \
-  "  - {foot: right, mode: flat, from: 0, to: 1, place: [0, -0.1]}\n"                              \
-  "ground_reaction: {kind: shared}\n"                                                              \
-  "constraints: {contact_tolerance: 0.002}\nends: {kind: periodic, travel: 0}\n"                   \
-  "objective:\n"                                                                                   \
-  "  - {term: torque_squared, scale: {default: 0.01}}\n"                                           \
-  "  - {term: upright, weight: 10, points: [pelvis, head_top]}\n"                                  \
-  "  - {term: acceleration, weight: 1e-4}\n"
-
-/* who stands on both feet alike has half of the weight on each */
-static void standing_feet_carry_half_each(void **state) {
-  (void)state;
-  ambulo_problem *problem = NULL;
-  ambulo_result *result = NULL;
-  ambulo_workspace *workspace = NULL;
-  assert_int_equal(ambulo_problem_load_text(STANDING, strlen(STANDING), "stand", ".", NULL, 0, NULL,
-                                            NULL, &problem),
-                   AMBULO_OK);
-  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
-  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
-  enum { TIMES = 9 };
-  double times[TIMES], grf[6 * TIMES], cop[6 * TIMES], weight = 75.0 * 9.81;
-  for (int k = 0; k < TIMES; k++) times[k] = k / (TIMES - 1.0);
-  ambulo_motion motion = {.grf = grf, .cop = cop};
-  assert_int_equal(
-      ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
-      AMBULO_OK);
-  for (int k = 0; k < TIMES; k++) {
-    const double *right = grf + 6 * k, *left = right + 3, *place = cop + 6 * k;
-    assert_close(right[1] / weight, 0.5, 1e-4); /* stands still, but for what the solver left */
-    assert_close((left[1] - right[1]) / weight, 0.0, 1e-9);
-    assert_close((left[0] - right[0]) / weight, 0.0, 1e-9);
-    assert_close((left[2] + right[2]) / weight, 0.0, 1e-9);
-    assert_close(place[0], place[3], 1e-9);
-    assert_close(place[2], -place[5], 1e-9);
-    assert_true(right[2] < 0.0); /* they push at the body between them */
-  }
-  ambulo_workspace_free(workspace);
-  ambulo_result_free(result);
-  ambulo_problem_free(problem);
-}
-
-/* at most what the loading rate lets it carry; the forces' own bounds hold between the nodes */
-static void a_solved_walk_loads_its_feet_in_time(void **state) {
-  (void)state;
-  static const char *const settings[] = {"ground_reaction={kind: shared, loading_rate: 12}",
-                                         "time.grid=events",
-                                         "trajectory.knots=events",
-                                         "trajectory.degree=4",
-                                         "trajectory.intervals=12",
-                                         "time.intervals=32"};
-  ambulo_problem *problem = NULL;
-  ambulo_result *result = NULL;
-  ambulo_workspace *workspace = NULL;
-  assert_int_equal(
-      ambulo_problem_load("models/walk_normal.yaml", settings, 6, NULL, NULL, &problem), AMBULO_OK);
-  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
-  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
-  enum { TIMES = 26 };
-  double times[TIMES], grf[6 * TIMES], weight = 75.0 * 9.81, last = 0.0;
-  for (int k = 0; k < TIMES; k++) times[k] = 0.005 * k;
-  ambulo_motion motion = {.grf = grf};
-  assert_int_equal(
-      ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
-      AMBULO_OK);
-  int strikes = ambulo_problem_contact_at(problem, 0, 0.2) < 0;
-  for (int k = 0; k < TIMES; k++) {
-    double upward = grf[6 * k + 3 * strikes + 1] / weight;
-    assert_true(upward <= 12.0 * times[k] + 0.02);
-    last = fmax(last, upward);
-  }
-  assert_true(last > 0.5);
-  ambulo_workspace_free(workspace);
-  ambulo_result_free(result);
-  ambulo_problem_free(problem);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(contacts_carry_the_body),
@@ -501,8 +300,6 @@ int main(void) {
       cmocka_unit_test(a_force_begins_and_ends_at_zero),
       cmocka_unit_test(forces_are_continuous),
       cmocka_unit_test(momentum_is_balanced),
-      cmocka_unit_test(gradients_are_those_of_differences),
-      cmocka_unit_test(standing_feet_carry_half_each),
-      cmocka_unit_test(a_solved_walk_loads_its_feet_in_time)};
+      cmocka_unit_test(gradients_are_those_of_differences)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
