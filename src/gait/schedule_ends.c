@@ -51,7 +51,7 @@ static ambulo_status check_turned(const ambulo_problem_definition *d, const ambu
                          foot, last->place[2], d->duration, d->rise, up);
   if (fabs(last->heading - heading) > tolerance)
     return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere,
-                         "a motion that repeats itself does not turn; 'ends' without a kind does",
+                         "a motion that turns does not repeat itself: leave 'ends.kind' out",
                          "contacts: foot '%s' is turned by %.6g rad at t = %.6g s, and by %.6g rad "
                          "where the motion begins again; expected the same",
                          foot, last->heading, d->duration, heading);
@@ -61,7 +61,7 @@ static ambulo_status check_turned(const ambulo_problem_definition *d, const ambu
         "contacts: foot '%s' stands on the normal (%.6g, %.6g, %.6g) at t = %.6g s, and on (%.6g, "
         "%.6g, %.6g) where the motion begins again; expected the same direction",
         foot, last->normal[0], last->normal[1], last->normal[2], d->duration, first->normal[0],
-        side * first->normal[1], first->normal[2]);
+        side * first->normal[1] + 0.0, first->normal[2]); /* no -0 */
   return AMBULO_OK;
 }
 
