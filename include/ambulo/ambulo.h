@@ -5,6 +5,8 @@
  *     problem.h    what to minimize, subject to what (immutable)
  *     evaluate.h   what a problem says of one point: values, gradients, the motion
  *     solve.h      the solver, the verdict and the audit
+ *     sensitivity.h  what each number of a problem costs
+ *     parameters.h   numbers of a problem that the solver chooses
  *     ground.h     parts of a problem: the ground's force, feet in the air
  *     report.h     results on disk, comparison with people
  *     inverse.h    inverse dynamics of motions in files
@@ -31,6 +33,7 @@
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
+#include "ambulo/parameters.h"
 #include "ambulo/problem.h"
 #include "ambulo/report.h"
 #include "ambulo/sensitivity.h"

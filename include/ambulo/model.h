@@ -88,6 +88,10 @@ typedef struct ambulo_foot {
                        -1: itself) */
   int has_tip;      /* 1: a tip reaches further ahead than the pivot of push-off */
   int tip;          /* its point: it only has to clear the ground late in swing */
+  /* Heel and forefoot as arcs, on which the foot rolls without slip. Their radius is the height of
+   * the centre above the heel centre at q = 0; one at that height is a point that stays. */
+  int has_arcs; /* 1: both */
+  int arc[2];   /* points: centre of the heel's, of the forefoot's */
 } ambulo_foot;
 
 /* ------------------------------------------------------------ build in code */

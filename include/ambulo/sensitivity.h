@@ -1,10 +1,10 @@
 /* ambulo/sensitivity.h - what each number of a problem costs, at its solution.
  *
- * For every number p that a problem is made of - step length and width, times, slope, mass and
- * load, limits, tolerances, friction, weights, strengths, prescribed ends - the derivative of the
- * least objective f* with p, without another solve. By the envelope theorem (Fiacco, Mathematical
- * Programming 12, 1976) it is the derivative of the Lagrangian at the solution x* with its
- * multipliers (ambulo_result_multipliers):
+ * For every number p that a problem is made of - step length and width, times, phases, slope, mass
+ * and load, limits, tolerances, friction, weights, strengths, prescribed ends - the derivative of
+ * the least objective f* with p, without another solve. By the envelope theorem (Fiacco,
+ * Mathematical Programming 12, 1976) it is the derivative of the Lagrangian at the solution x* with
+ * its multipliers (ambulo_result_multipliers):
  *
  *     df*_dp = d/dp [ f(x*; p) - sum_r multiplier_r c_r(x*; p) ]
  *
@@ -18,12 +18,18 @@
  *     as a step length moves the corners of a flat foot, every choice gives the same value. If p
  *     moves one of them alone, f* has a kink at p (or the problem has a solution on one side
  *     only), and the value is between the slopes of the two sides.
+ *   - Phases of a gait, and times of listed contacts at which no other contact begins or ends, are
+ *     there on grids on events (AMBULO_GRID_EVENTS without node_times): nodes, and knots if they
+ *     are on events, go along, and each phase keeps its number of intervals. A time that coincides
+ *     with 0, T, another event or, for nodes that move along fixed knots of a cubic, with a knot
+ *     has no derivative and is left out; so are all beside references, tubes and functions of the
+ *     caller.
  *   - A number on which the grid, or what is active at a node, depends in jumps has no derivative
- *     and is left out: phases of a gait, times of listed contacts, numbers of intervals. Left out
- *     as well are those that act through a file (stature, a reference) or a curve (exponents,
+ *     and is left out: those times on uniform grids, numbers of intervals. Left out as well are
+ *     those that act through a file (stature, a reference) or a curve (exponents,
  *     smoothings, passive torques, shapes of strength), and a duration beside which other times
- *     stay in seconds (listed contacts, breakpoints, steps of two times, references, functions of
- *     the caller).
+ *     stay in seconds (listed contacts, breakpoints, node times, steps of two times, references,
+ *     functions of the caller).
  *   - Functions of the caller are taken to depend on p only through their node's state.
  */
 #ifndef AMBULO_SENSITIVITY_H
@@ -44,11 +50,13 @@ typedef struct ambulo_sensitivity {
                         side's number, which moves along; "" for none */
   double with_sign;  /* ... by so many times as much: 1 or -1; 0 for none */
   const char *label; /* in words: "step length" */
-  const char *unit;  /* SI and rad, also where a file has degrees; "" for weights and scales */
+  const char *unit;  /* SI and rad, also where a file has degrees; "" for weights, scales,
+                        phases */
   double value;      /* what it is now, in unit */
   double derivative; /* df*_dp with all other keys of the file as they are, per unit: a step length
                         at a given speed brings the step time along, `subject.mass` brings torque
                         limits that are shares of the weight */
+  double travel;     /* d travel / dp, m per unit: what it adds to the distance between the ends */
   double step;       /* a change that one can picture, in unit: 1 cm, 1 degree, 1 kg, 1 % */
   double share;      /* derivative * step / f*: .008 is 0.8 %; NaN where f* is not positive */
   const char *words; /* "1 cm more step length costs 0.8 %" */

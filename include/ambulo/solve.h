@@ -55,7 +55,8 @@ AMBULO_API int ambulo_verdict_is_solution(ambulo_verdict verdict);
   X(AMBULO_ENDING_ITERATIONS, "maximum_iterations", "the iteration limit was met")                 \
   X(AMBULO_ENDING_EVALUATIONS, "maximum_evaluations", "the evaluation limit was met")              \
   X(AMBULO_ENDING_TIME, "time_limit", "the time limit was met")                                    \
-  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")
+  X(AMBULO_ENDING_CALLER, "stopped", "stopped by the caller")                                      \
+  X(AMBULO_ENDING_SOLVES, "maximum_solves", "the limit of inner solves was met")
 
 typedef enum ambulo_ending {
 #define AMBULO_ENDING_ENUM(id, name, text) id,
@@ -95,7 +96,12 @@ typedef struct ambulo_progress {
   double seconds, time_limit;  /* since the start; 0 limit: none */
   double seconds_left;         /* estimate; < 0: unknown */
   const char *stage;           /* "set-up", "coarse grids", "solve", "audit", "explanation" */
+  int solve;                   /* with free parameters (parameters.h): the inner solve that this is
+                                  of, from 1 on; 0 without */
+  double best;                 /* ... their least F so far; NAN before there is one */
 } ambulo_progress;
+
+#define AMBULO_MOST_STARTS 100
 
 typedef struct ambulo_options {
   int cookie; /* set by ambulo_options_default() */
@@ -115,6 +121,9 @@ typedef struct ambulo_options {
   ambulo_finisher finisher;     /* with presolve */
   ambulo_equalities equalities; /* with presolve; _NLOPT not with AMBULO_SLSQP, which gets them all
                                    anyway */
+  int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as
+                 fine, the same in every run, of which the best is gone on from
+                 (ambulo_result_starts); without effect where the caller gives a start */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;
@@ -307,6 +316,20 @@ AMBULO_API int ambulo_result_iterations(const ambulo_result *result);
 AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
 AMBULO_API const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *result);
+/* Valleys of the objective that several starts (ambulo_options.starts) ended in. */
+typedef struct ambulo_basin {
+  double objective; /* on the coarse grid */
+  int found, first; /* how many starts ended there; number of the first, 0 is the solver's own */
+  double distance;  /* from the cheapest: root mean square over the control points, rad and m */
+} ambulo_basin;
+typedef struct ambulo_starts {
+  int count, solved;          /* starts tried; that ended at a motion which holds every row */
+  int intervals;              /* of the coarse grid */
+  const ambulo_basin *basins; /* [basin_count], the cheapest, which is gone on from, first */
+  int basin_count;
+} ambulo_starts;
+/* NULL for one start. */
+AMBULO_API const ambulo_starts *ambulo_result_starts(const ambulo_result *result);
 /* Why the solver ended, in words, with the method and what it took. */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
 /* The same as a code. */

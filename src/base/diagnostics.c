@@ -167,6 +167,19 @@ void ambulo__note(ambulo_diagnostics *list, ambulo__place place, const char *for
   va_end(arguments);
 }
 
+void ambulo__diagnostics_append(const ambulo_diagnostics *from, ambulo_diagnostics *list) {
+  for (size_t i = 0; i < ambulo_diagnostics_count(from); i++) {
+    const ambulo_diagnostic *m = ambulo_diagnostics_get(from, i);
+    ambulo__place place = {m->file, m->line, m->column, m->path};
+    if (m->severity == AMBULO_ERROR)
+      (void)ambulo__error(list, m->status, place, m->hint, "%s", m->message);
+    else if (m->severity == AMBULO_WARNING)
+      ambulo__warning(list, place, m->hint, "%s", m->message);
+    else
+      ambulo__note(list, place, "%s", m->message);
+  }
+}
+
 /* -------------------------------------------------------------- formatting */
 
 typedef struct writer {

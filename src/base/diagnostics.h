@@ -31,6 +31,9 @@ void ambulo__warning(ambulo_diagnostics *list, ambulo__place place, const char *
 void ambulo__note(ambulo_diagnostics *list, ambulo__place place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Adds what is in `from` to `list`, in order. Either may be NULL. */
+void ambulo__diagnostics_append(const ambulo_diagnostics *from, ambulo_diagnostics *list);
+
 /* The candidate nearest to `word` in edit distance (at most a third of its
  * letters wrong, case ignored), or NULL. */
 const char *ambulo__nearest(const char *word, const char *const *candidates, size_t count);

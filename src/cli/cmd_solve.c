@@ -55,7 +55,7 @@ typedef struct job {
   const ambulo__cli_input *input;
   char *directory; /* where the result goes */
   ambulo_report_options report;
-  ambulo_problem *problem;
+  ambulo_problem *problem; /* of the file; with free parameters, then that of their best values */
   ambulo_result *result;
   double *start;      /* NULL: zero */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
@@ -64,18 +64,27 @@ typedef struct job {
   int terminal; /* 1: show progress */
 } job;
 
+/* "solve 3 (best 0.0921): " of a run over free parameters */
+static void show_solve(const ambulo_progress *p) {
+  fputc('\r', stderr);
+  if (p->solve > 0) fprintf(stderr, "solve %d", p->solve);
+  if (p->solve > 0 && !isnan(p->best)) fprintf(stderr, " (best %.6g)", p->best);
+  if (p->solve > 0) fputs(": ", stderr);
+}
+
 static int show_progress(void *user, const ambulo_progress *p) {
   const job *j = user;
   if (j->terminal && isnan(p->objective) && p->iteration > 0) {
     /* within an iteration: its line stays */
   } else if (j->terminal && isnan(p->objective)) {
-    fprintf(stderr, "\r%s: %.1f s\033[K", p->stage, p->seconds);
+    show_solve(p);
+    fprintf(stderr, "%s: %.1f s\033[K", p->stage, p->seconds);
     fflush(stderr);
   } else if (j->terminal) {
     char left[40] = "";
     if (p->seconds_left >= 0.0) snprintf(left, sizeof left, ", %.0f s left", p->seconds_left);
-    fprintf(stderr,
-            "\riteration %d: objective %.6g, violation %.1e, %d evaluations, %.1f s%s\033[K",
+    show_solve(p);
+    fprintf(stderr, "iteration %d: objective %.6g, violation %.1e, %d evaluations, %.1f s%s\033[K",
             p->iteration, p->objective, p->violation, p->evaluations, p->seconds, left);
     fflush(stderr);
   }
@@ -150,14 +159,28 @@ static ambulo_status load_start(job *j) {
   return ambulo_solution_start(start, j->problem, NULL, j->diagnostics, j->start);
 }
 
+static ambulo_status solve_parameters(job *j, const ambulo_options *options) {
+  ambulo_problem *best = NULL;
+  ambulo_status status = ambulo_solve_parameters(j->problem, NULL, options, j->start, NULL,
+                                                 j->diagnostics, &best, &j->result);
+  if (status) return status;
+  ambulo_problem_free(j->problem);
+  j->problem = best;
+  return AMBULO_OK;
+}
+
 static ambulo_status solve(job *j) {
   ambulo_options options = ambulo_problem_options(j->problem);
   if (j->time_limit >= 0.0) options.time_limit = j->time_limit;
   options.progress = show_progress;
   options.user = j;
   catch_signals();
-  ambulo_status status =
-      ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
+  ambulo_status status;
+  if (ambulo_problem_parameters(j->problem).count > 0) {
+    status = solve_parameters(j, &options);
+  } else {
+    status = ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
+  }
   if (j->terminal) fprintf(stderr, "\r\033[K");
   return status;
 }

@@ -17,6 +17,22 @@ static void print_objective(const ambulo_problem *problem, const ambulo_result *
     printf("  %-24s %.6g\n", ambulo_problem_term_name(problem, i), terms[i]);
 }
 
+/* what was free, where it went, and what it brought */
+static void print_parameters(const ambulo_result *result) {
+  static const char *const bounds[] = {", at its lower bound", "", ", at its upper bound"};
+  const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
+  if (!o) return;
+  printf("free parameters\n");
+  for (int i = 0; i < o->count; i++) {
+    const ambulo_parameter_value *p = &o->items[i];
+    printf("  %-24s %.6g %s (%.6g to %.6g; before %.6g)%s\n", p->name, p->value, p->unit, p->lower,
+           p->upper, p->first, bounds[p->bound + 1]);
+  }
+  const char *per = o->per == AMBULO_PER_DISTANCE ? "per metre" : "objective";
+  if (!isnan(o->objective)) printf("  %-24s %.6g (before %.6g)\n", per, o->objective, o->first);
+  printf("  %-24s %s, %.1f s\n", "outer run", o->ending, o->seconds);
+}
+
 static void print_place(const ambulo_violation *v) {
   if (v->subject && v->subject[0]) printf("  %s", v->subject);
   if (v->detail && v->detail[0]) printf(" %s", v->detail);
@@ -96,6 +112,17 @@ void ambulo__cli_print_last(const ambulo_result *result) {
   if (dense && dense->summary[0]) printf("%s\n", dense->summary);
 }
 
+/* "starts  8, of which 7 hold every row: 0.0640 (5 times, gone on from), 0.0712 (2 times)" */
+static void print_starts(const ambulo_starts *starts) {
+  if (!starts) return;
+  printf("starts       %d, of which %d hold every row on %d intervals", starts->count,
+         starts->solved, starts->intervals);
+  for (int b = 0; b < starts->basin_count; b++)
+    printf("%s %.6g (%d times%s)", b ? "," : ":", starts->basins[b].objective,
+           starts->basins[b].found, b ? "" : ", gone on from");
+  printf("\n");
+}
+
 void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result *result) {
   ambulo_verdict verdict = ambulo_result_verdict(result);
   const ambulo_timing *timing = ambulo_result_timing(result);
@@ -106,6 +133,7 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
     printf("verdict      %s: %s\n", ambulo_verdict_name(verdict), ambulo_verdict_text(verdict));
   }
   print_objective(problem, result);
+  print_parameters(result);
   print_audit(result);
   print_families(result);
   print_between(result);
@@ -121,6 +149,7 @@ void ambulo__cli_print_result(const ambulo_problem *problem, const ambulo_result
   if (nlopt->calls > 0)
     printf("NLopt        %d calls, %d outer iterations, %d evaluations, last result %s\n",
            nlopt->calls, nlopt->outer, nlopt->inner, nlopt->result_name);
+  print_starts(ambulo_result_starts(result));
   if (ambulo_result_ending(result)) printf("ending       %s\n", ambulo_result_ending(result));
 }
 

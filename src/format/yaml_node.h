@@ -19,6 +19,8 @@
 #include "ambulo/status.h"
 #include "base/diagnostics.h"
 
+enum { AMBULO__YAML_MAX_BYTES = 16 << 20 }; /* of a document */
+
 typedef struct ambulo__yaml ambulo__yaml;           /* a document */
 typedef struct ambulo__yaml_node ambulo__yaml_node; /* a node of it */
 

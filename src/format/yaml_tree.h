@@ -13,9 +13,8 @@
 
 enum {
   AMBULO__YAML_MAX_DEPTH = 32,
-  AMBULO__YAML_MAX_KEYS = 1024,     /* of one mapping: lookups compare one by one */
-  AMBULO__YAML_MAX_NODES = 1000000, /* about 130 MB */
-  AMBULO__YAML_MAX_BYTES = 16 << 20
+  AMBULO__YAML_MAX_KEYS = 1024,    /* of one mapping: lookups compare one by one */
+  AMBULO__YAML_MAX_NODES = 1000000 /* about 130 MB */
 };
 
 typedef struct ambulo__yaml_key_text {

@@ -92,11 +92,16 @@ static void track_bounds(const swing *w) {
                        is_left ? c->outward : c->inward, w->table);
 }
 
+double ambulo__clearance_part(double s, double *slope) {
+  double rise = 4.0 * s, fall = 6.0 * (1.0 - s), part = fmin(1.0, fmin(rise, fall));
+  if (slope) *slope = part == rise ? 4.0 : part == fall ? -6.0 : 0.0;
+  return fmax(0.0, part);
+}
+
 static void swing_rows(const swing *w) {
   const ambulo_clearance *c = &w->context->definition->clearance;
   const ambulo_foot *foot = &w->context->model->feet[w->foot];
-  double s = w->phase;
-  double low = c->height * fmax(0.0, fmin(1.0, fmin(4.0 * s, 6.0 * (1.0 - s))));
+  double low = c->height * ambulo__clearance_part(w->phase, NULL);
   height_bounds(w, foot->heel_center, 0.5 * low);
   height_bounds(w, foot->toe_center, low);
   if (foot->has_tip && w->tip) height_bounds(w, foot->tip, low);

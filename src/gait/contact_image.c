@@ -29,7 +29,8 @@ int ambulo__image_foot(const ambulo_problem_definition *d, int index, int period
 
 ambulo__span ambulo__image_span(const ambulo_problem_definition *d, int index, int period) {
   double later = period * d->duration;
-  return (ambulo__span){d->contacts[index].from + later, d->contacts[index].to + later};
+  return (ambulo__span){d->contacts[index].from + later, d->contacts[index].to + later, index,
+                        index};
 }
 
 ambulo_contact ambulo__contact_image(const ambulo_problem_definition *d, int index, int period) {
@@ -60,8 +61,14 @@ static int grow(const ambulo_problem_definition *d, int foot, int modes, ambulo_
       int reaches =
           image.from < span->from - AMBULO__INSTANT || image.to > span->to + AMBULO__INSTANT;
       if (!touches || !reaches) continue;
-      span->from = fmin(span->from, image.from);
-      span->to = fmax(span->to, image.to);
+      if (image.from < span->from) {
+        span->from = image.from;
+        span->begins = i;
+      }
+      if (image.to > span->to) {
+        span->to = image.to;
+        span->ends = i;
+      }
       return 1;
     }
   }

@@ -4,9 +4,10 @@
 
 #include "ambulo/problem.h"
 
-/* s; may lie outside [0, T] where the motion repeats */
 typedef struct ambulo__span {
-  double from, to;
+  double from, to;  /* s; may lie outside [0, T] where the motion repeats */
+  int begins, ends; /* the contact with whose start or end the span begins, and ends; -1: none.
+                       Loaded: its `from`, `to`; in the air: its `to`, `from` */
 } ambulo__span;
 
 /* How many periods before and after are looked at; 0 for a motion that does not repeat. */

@@ -185,7 +185,7 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
                                              const ambulo__foot_outline *outlines,
                                              const ambulo__slots *slots, int slot,
                                              const ambulo_contact *contact, double time) {
-  ambulo__contact_load load = {.loaded = 0};
+  ambulo__contact_load load = {.loaded = 0, .arc = -1};
   int foot = slots->foot[slot];
   ambulo__foot_part part = (ambulo__foot_part)slots->part[slot];
   const ambulo_ground_reaction *r = &d->ground_reaction;
@@ -205,6 +205,8 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
   load.box[0] -= center;
   load.box[1] -= center;
   load.side = r->pressure_width;
+  if (outlines[foot].has_arcs && contact->mode != AMBULO_CONTACT_FLAT)
+    load.arc = outlines[foot].arc[contact->mode == AMBULO_CONTACT_TOE];
   load.since = time - down.from;
   load.until = down.to - time;
   load.most = most_after(r->loading_rate, fmin(load.since, load.until), &load.most_by_time);

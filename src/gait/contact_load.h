@@ -38,6 +38,7 @@ typedef struct ambulo__contact_load {
   int cut[2];          /* 1: that end of it is at the joint of the toes */
   double rolled;       /* how much of heel_roll is in it */
   double since, until; /* it came down, it leaves: s from now on either side; may be infinite */
+  int arc;             /* point of the arc on which the foot rolls, or -1 */
   double most;         /* normal force, body weights; may be infinite */
   double most_by_time; /* its derivative by ln T, all times being shares of the duration T */
   ambulo__contact_frame frame; /* of the contact */

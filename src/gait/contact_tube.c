@@ -9,6 +9,9 @@
  *     heel   0 <= pitch <= sin 30 deg;  at the first node strike_pitch               rad
  *     flat   -o <= pitch <= o                toe   -0.95 <= pitch <= 0
  *
+ * Feet with arcs roll on their heel and on their toes: there C, the arc's centre, is held at its
+ * radius above the surface, and ahead within e of where it has rolled to (gait/arc.h).
+ *
  * A body that rolls over its feet with fewer control points than nodes cannot hold every contact
  * exactly at every node; two millimetres leave it the room that soft tissue leaves people.
  * Rows along left, yaw and roll are left out for planar feet. At a node where one contact ends and
@@ -99,11 +102,50 @@ static void pitch_bounds(const tube *t) {
   angle_bounds(t, &pitch, "toes low", "toes high", -INFINITY, range[1]);
 }
 
-/* the point that contact i holds; not again what the other one holds at the same place */
+/* the arc on which the foot rolls: its centre at its radius above the surface, on the track, and
+ * ahead as far as it has rolled */
+static void arc_rows(const tube *t, const ambulo_contact *contact,
+                     const ambulo__contact_frame *frame) {
+  const ambulo__gait_context *context = t->context;
+  const ambulo_foot *foot = &context->model->feet[contact->foot];
+  int end = contact->mode == AMBULO_CONTACT_TOE, point = t->outline->arc[end];
+  double ahead = t->outline->arc_ahead[end], radius = t->outline->radius[end], place[3];
+  for (int i = 0; i < 3; i++)
+    place[i] = frame->origin[i] + ahead * frame->forward[i] + radius * frame->up[i];
+  place_bounds(t, point, frame->up, place, "below", "above");
+  if (t->outline->moves_sideways)
+    place_bounds(t, point, frame->left, place, "to the right", "to the left");
+  ambulo__arc arc = {.room = context->definition->contact_tolerance,
+                     .radius = radius,
+                     .length = ambulo__foot_length(context->model, contact->foot),
+                     .center = ambulo__channel_point(&context->channels, point, 0),
+                     .heel = ambulo__channel_point(&context->channels, foot->heel_center, 0),
+                     .toe = ambulo__channel_point(&context->channels, foot->toe_center, 0),
+                     .force = -1,
+                     .moment = -1};
+  for (int i = 0; i < 3; i++) {
+    arc.forward[i] = frame->forward[i];
+    arc.up[i] = frame->up[i];
+    arc.flat += frame->forward[i] * place[i];
+  }
+  for (int side = 0; side < 2; side++) {
+    arc.sign = side ? -1.0 : 1.0;
+    ambulo__row_arc(t->table, AMBULO__KIND_CONTACT, context->model->points[point].name,
+                    side ? "ahead" : "behind", t->node, context->times[t->node], &arc);
+  }
+}
+
+/* the point that contact i holds; not again what the other one holds at the same place: of a flat
+ * foot the arcs are where they are due */
 static void place_rows(const tube *t, int i) {
   const ambulo_problem_definition *d = t->context->definition;
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, t->contact[i]);
   double place[3], before[3];
+  if (t->outline->has_arcs && t->contact[i]->mode != AMBULO_CONTACT_FLAT) {
+    if (t->contacts == 1 || t->contact[1 - i]->mode != AMBULO_CONTACT_FLAT)
+      arc_rows(t, t->contact[i], &frame);
+    return;
+  }
   int point = ambulo__contact_point(d, t->outline, t->contact[i], place);
   if (i > 0 && ambulo__contact_point(d, t->outline, t->contact[0], before) == point &&
       before[0] == place[0] && before[1] == place[1] && before[2] == place[2])

@@ -44,3 +44,11 @@ ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot,
   return across >= 0.0 ? cosine(context, corner[0], corner[1], up)
                        : cosine(context, corner[1], corner[0], up);
 }
+
+double ambulo__foot_length(const ambulo_model *model, int foot) {
+  double a[3], b[3], square = 0.0;
+  ambulo__neutral_point(model, model->feet[foot].heel_center, a);
+  ambulo__neutral_point(model, model->feet[foot].toe_center, b);
+  for (int i = 0; i < 3; i++) square += (b[i] - a[i]) * (b[i] - a[i]);
+  return sqrt(square);
+}

@@ -20,5 +20,7 @@ ambulo__linear ambulo__foot_pitch(const ambulo__gait_context *context, int foot,
                                   const double up[3]);
 /* No terms for a foot with a single heel corner. */
 ambulo__linear ambulo__foot_roll(const ambulo__gait_context *context, int foot, const double up[3]);
+/* Distance of heel and toe centre at q = 0, m. */
+double ambulo__foot_length(const ambulo_model *model, int foot);
 
 #endif

@@ -35,6 +35,20 @@ static void add_corner(const ambulo_model *model, int index, int is_heel, const 
   outline->place[c][1] = -ahead[1] * d[0] + ahead[0] * d[1];
 }
 
+static void add_arcs(const ambulo_model *model, const ambulo_foot *foot, const double origin[3],
+                     const double ahead[2], ambulo__foot_outline *outline) {
+  outline->has_arcs = foot->has_arcs;
+  for (int end = 0; foot->has_arcs && end < 2; end++) {
+    double d[2], r[3];
+    project(model, foot->arc[end], origin, d);
+    ambulo__neutral_point(model, foot->arc[end], r);
+    outline->arc[end] = foot->arc[end];
+    outline->arc_ahead[end] = ahead[0] * d[0] + ahead[1] * d[1];
+    for (int axis = 0; axis < 3; axis++)
+      outline->radius[end] += model->up[axis] * (r[axis] - origin[axis]);
+  }
+}
+
 ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot) {
   ambulo__foot_outline outline = {.count = 0};
   const ambulo_foot *f = &model->feet[foot];
@@ -50,6 +64,7 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
   } else {
     ahead[0] = 1.0;
   }
+  add_arcs(model, f, origin, ahead, &outline);
   for (int side = 0; side < 2; side++) add_corner(model, f->heel[side], 1, origin, ahead, &outline);
   for (int side = 0; side < 2; side++) add_corner(model, f->toe[side], 0, origin, ahead, &outline);
   return outline;

@@ -19,6 +19,9 @@ typedef struct ambulo__foot_outline {
   int point[AMBULO__FOOT_CORNERS];       /* the model's point of each corner */
   int is_heel[AMBULO__FOOT_CORNERS];     /* heel corner, else toe corner */
   double place[AMBULO__FOOT_CORNERS][2]; /* relative to the heel centre, m */
+  int has_arcs;
+  int arc[2];                     /* the model's points: centres of the arcs of heel and forefoot */
+  double arc_ahead[2], radius[2]; /* along forward from the heel centre, above it: m */
 } ambulo__foot_outline;
 
 ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot);

@@ -97,6 +97,8 @@ int ambulo__is_strike(const ambulo_problem_definition *definition, int foot, con
                       int nodes, int node);
 /* "clearance": heights, directions and track of a foot in the air (m, rad). */
 void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table);
+/* What part of the clearance height is due at s of the swing, and its slope by s (may be NULL). */
+double ambulo__clearance_part(double s, double *slope);
 /* The contact beside which a foot in the air stays: its nearest, the next one first; -1 if it has
  * none. *is_left: its track is the left one of the two feet's. */
 int ambulo__swing_track(const ambulo_problem_definition *definition, int foot, double time,

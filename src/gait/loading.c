@@ -7,6 +7,7 @@
  * With u = (t - strike of the front foot) / (toe-off of the rear foot - strike), the share of the
  * front foot is
  *   early   a = 1 - (1 - u)^e          smooth   a = u^2 (3 - 2 u)          linear   a = u
+ *           a' = e (1 - u)^(e - 1)              a' = 6 u (1 - u)                    a' = 1
  * e = 1.4 follows the vertical forces that people show in double support (Winter, Biomechanics
  * and Motor Control of Human Movement). Nominal centres of pressure: the heel of the front foot,
  * 0.02 m ahead of the toe centre (ball) of the rear foot; D is their difference.
@@ -33,21 +34,27 @@ int ambulo__loaded_span(const ambulo_problem_definition *d, int foot, double tim
                         ambulo__span *span) {
   const ambulo_contact *contact = ambulo__contact_of(d, foot, time);
   if (!contact) return 0;
-  *span =
-      ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, (ambulo__span){contact->from, contact->to});
+  int own = (int)(contact - d->contacts);
+  *span = ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, ambulo__image_span(d, own, 0));
   return 1;
 }
 
 ambulo__span ambulo__air_span(const ambulo_problem_definition *d, int foot, double time) {
   int last = ambulo__image_periods(d);
-  ambulo__span air = {-(last + 1) * d->duration, (last + 2) * d->duration};
-  if (last == 0) air = (ambulo__span){0.0, d->duration};
+  ambulo__span air = {-(last + 1) * d->duration, (last + 2) * d->duration, -1, -1};
+  if (last == 0) air = (ambulo__span){0.0, d->duration, -1, -1};
   for (int i = 0; i < d->contact_count; i++) {
     for (int period = -last; period <= last; period++) {
       ambulo__span image = ambulo__image_span(d, i, period);
       if (ambulo__image_foot(d, i, period) != foot) continue;
-      if (image.to <= time + AMBULO__INSTANT) air.from = fmax(air.from, image.to);
-      if (image.from >= time - AMBULO__INSTANT) air.to = fmin(air.to, image.from);
+      if (image.to <= time + AMBULO__INSTANT && image.to > air.from) {
+        air.from = image.to;
+        air.begins = i;
+      }
+      if (image.from >= time - AMBULO__INSTANT && image.from < air.to) {
+        air.to = image.from;
+        air.ends = i;
+      }
     }
   }
   return air;
@@ -64,6 +71,19 @@ static double share_of_front(const ambulo_ground_reaction *reaction, double u) {
     break;
   }
   return u;
+}
+
+static double slope_of_front(const ambulo_ground_reaction *reaction, double u) {
+  if (u < 0.0 || u > 1.0) return 0.0;
+  switch (reaction->transfer) {
+  case AMBULO_TRANSFER_EARLY:
+    return reaction->exponent * pow(1.0 - u, reaction->exponent - 1.0);
+  case AMBULO_TRANSFER_SMOOTH:
+    return 6.0 * u * (1.0 - u);
+  case AMBULO_TRANSFER_LINEAR:
+    break;
+  }
+  return 1.0;
 }
 
 /* the foot that came down later; of two at once the one that stays longer, then the one ahead */
@@ -107,4 +127,34 @@ ambulo__load ambulo__load_at(const ambulo_problem_definition *d,
   }
   ambulo__load load = {{loaded[1] ? 0.0 : 1.0, loaded[1] ? 1.0 : 0.0}, {0.0, 0.0}};
   return load;
+}
+
+/* u' = (t' - (1 - u) from' - u to') / length */
+ambulo__share_slopes ambulo__load_slopes_at(const ambulo_problem_definition *d, double time) {
+  ambulo__share_slopes slopes = {0.0, 0.0, 0.0, -1, -1};
+  ambulo__span span[2];
+  for (int foot = 0; foot < 2; foot++)
+    if (!ambulo__loaded_span(d, foot, time, &span[foot])) return slopes;
+  const ambulo_contact *contact[2] = {ambulo__contact_of(d, 0, time),
+                                      ambulo__contact_of(d, 1, time)};
+  int front = front_foot(span, contact), rear = 1 - front;
+  double length = span[rear].to - span[front].from;
+  if (!(length > AMBULO__INSTANT)) return slopes;
+  double u = (time - span[front].from) / length;
+  double slope = (front == 0 ? 1.0 : -1.0) * slope_of_front(&d->ground_reaction, u) / length;
+  slopes.by_time = slope;
+  slopes.by_begin = -(1.0 - u) * slope;
+  slopes.by_end = -u * slope;
+  slopes.begins = span[front].begins;
+  slopes.ends = span[rear].ends;
+  return slopes;
+}
+
+ambulo__roll ambulo__heel_roll_at(const ambulo_problem_definition *d, const ambulo_contact *contact,
+                                  double time) {
+  ambulo__span span = {.from = contact->from, .begins = (int)(contact - d->contacts)};
+  (void)ambulo__loaded_span(d, contact->foot, time, &span);
+  double rolling = contact->to - span.from;
+  ambulo__roll roll = {rolling > 0.0 ? (time - span.from) / rolling : 0.0, rolling, span.begins};
+  return roll;
 }

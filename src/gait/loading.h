@@ -26,4 +26,22 @@ typedef struct ambulo__load {
 ambulo__load ambulo__load_at(const ambulo_problem_definition *definition,
                              const ambulo__foot_outline *outlines, double time);
 
+/* How far the box of a contact on the heel has rolled at a time: 0 at the strike, 1 when the foot
+ * is flat. `begins`: the contact whose `from` the strike is. */
+typedef struct ambulo__roll {
+  double part, duration; /* s: from strike to flat */
+  int begins;
+} ambulo__roll;
+ambulo__roll ambulo__heel_roll_at(const ambulo_problem_definition *definition,
+                                  const ambulo_contact *contact, double time);
+
+/* How the share of foot 0 changes with the time, and with those of the double support around it;
+ * 1/s. Zero while one foot is loaded. */
+typedef struct ambulo__share_slopes {
+  double by_time, by_begin, by_end;
+  int begins, ends; /* the contacts that `from` and `to` of the double support are those of */
+} ambulo__share_slopes;
+ambulo__share_slopes ambulo__load_slopes_at(const ambulo_problem_definition *definition,
+                                            double time);
+
 #endif

@@ -6,7 +6,6 @@
  */
 #include "gait/phases.h"
 #include "base/instant.h"
-#include "gait/loading.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,16 +25,35 @@ static void insert(ambulo__events *events, double time, double duration) {
   events->time[at] = time;
 }
 
+double ambulo__tip_time(const ambulo_problem_definition *d, int foot, double time,
+                        ambulo__span *air) {
+  *air = ambulo__air_span(d, foot, time);
+  return air->from + d->clearance.tip_from * (air->to - air->from);
+}
+
+int ambulo__event_at(const ambulo__events *events, double time) {
+  int low = 0, high = events->count; /* the first that is not before `time` */
+  while (low < high) {
+    int middle = low + (high - low) / 2;
+    if (events->time[middle] < time - AMBULO__INSTANT) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < events->count && events->time[low] <= time + AMBULO__INSTANT ? low : -1;
+}
+
 /* where in the swing beside `time` the foot's tip begins to have to clear the ground */
 static void insert_tip(const ambulo_problem_definition *d, int foot, double time,
                        ambulo__events *events) {
+  ambulo__span air;
   if (!d->model->feet[foot].has_tip) return;
-  ambulo__span air = ambulo__air_span(d, foot, time);
-  insert(events, air.from + d->clearance.tip_from * (air.to - air.from), d->duration);
+  insert(events, ambulo__tip_time(d, foot, time, &air), d->duration);
 }
 
-static int has_tip_rows(const ambulo_problem_definition *d, ambulo__event_kind kind) {
-  int known = kind == AMBULO__EVENTS_OF_ROWS && d->clearance.height >= 0.0;
+int ambulo__has_tip_rows(const ambulo_problem_definition *d) {
+  int known = d->clearance.height >= 0.0;
   for (int i = 0; known && i < d->contact_count; i++)
     known = d->contacts[i].foot >= 0 && d->contacts[i].foot < d->model->foot_count;
   return known;
@@ -46,7 +64,7 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__
   events->count = 0;
   events->time = ambulo__alloc(allocator, 4 * (size_t)d->contact_count, sizeof *events->time);
   if (!events->time) return AMBULO_E_MEMORY;
-  int tips = has_tip_rows(d, kind);
+  int tips = kind == AMBULO__EVENTS_OF_ROWS && ambulo__has_tip_rows(d);
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *c = &d->contacts[i];
     insert(events, c->from, d->duration);

@@ -9,6 +9,7 @@
 #include "base/diagnostics.h"
 #include "ambulo/problem.h"
 #include "base/alloc.h"
+#include "gait/loading.h"
 
 /* Inside (0, T), rising and apart by more than 1e-9 s. */
 typedef struct ambulo__events {
@@ -25,6 +26,15 @@ typedef enum ambulo__event_kind {
 ambulo_status ambulo__events_create(const ambulo_problem_definition *definition,
                                     ambulo__event_kind kind, const ambulo_allocator *allocator,
                                     ambulo__events *events);
+
+/* In the swing of `foot` beside `time` its tip has to clear the ground from air->from + tip_from
+ * (air->to - air->from) on, which this returns. */
+double ambulo__tip_time(const ambulo_problem_definition *definition, int foot, double time,
+                        ambulo__span *air);
+/* 1 if the definition has rows on the tips of feet. Contacts need not be legal. */
+int ambulo__has_tip_rows(const ambulo_problem_definition *definition);
+/* The event at `time`, -1: there is none. */
+int ambulo__event_at(const ambulo__events *events, double time);
 
 /* Fewest intervals of a phase: of the time nodes, and of the trajectory. */
 enum { AMBULO__LEAST_NODE_INTERVALS = 2, AMBULO__LEAST_KNOT_INTERVALS = 1 };

@@ -48,12 +48,8 @@ static void box_of(const node_context *n, const ambulo_contact *contact, double 
     box[0] = length + r->toe_pressure[0];
     box[1] = length + r->toe_pressure[1];
   } else {
-    ambulo__span span = {contact->from, contact->to};
-    (void)ambulo__loaded_span(d, contact->foot, time, &span);
-    double rolling = contact->to - span.from;
-    double progress = rolling > 0.0 ? (time - span.from) / rolling : 0.0;
     box[0] = r->heel_pressure[0];
-    box[1] = r->heel_pressure[1] + r->heel_roll * progress;
+    box[1] = r->heel_pressure[1] + r->heel_roll * ambulo__heel_roll_at(d, contact, time).part;
   }
 }
 

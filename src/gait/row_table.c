@@ -14,6 +14,7 @@ void ambulo__row_table_clear(ambulo__row_table *table) {
   if (!table) return;
   ambulo__free(&table->allocator, table->rows);
   ambulo__free(&table->allocator, table->terms);
+  ambulo__free(&table->allocator, table->arcs);
   ambulo__free(&table->allocator, table->group_row);
   ambulo__row_table_init(table, &table->allocator);
 }
@@ -98,6 +99,23 @@ void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int
                            .time = time,
                            .user = index};
   append(table, row);
+}
+
+void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                     const char *detail, int node, double time, const ambulo__arc *arc) {
+  void *arcs = table->arcs;
+  if (table->status) return;
+  int grown = grow(&table->allocator, &arcs, table->arc_count, &table->arc_capacity, sizeof *arc);
+  table->arcs = arcs;
+  if (!grown) {
+    table->status = AMBULO_E_MEMORY;
+    return;
+  }
+  ambulo__row_begin(table, kind, subject, detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node, time,
+                    0.0);
+  if (table->status) return;
+  table->arcs[table->arc_count] = *arc;
+  table->rows[table->row_count - 1].user = table->arc_count++;
 }
 
 double ambulo__row_missed(const ambulo__table_row *row, double value) {

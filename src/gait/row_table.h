@@ -4,7 +4,8 @@
  *
  * Every row of the gait problem has this form once the moment equation of the ZMP is
  * written without the division (Eq. 17'). A term may instead stand on one unknown
- * (node = -1, channel = index into x): control-point bounds.
+ * (node = -1, channel = index into x): control-point bounds. Rows of arcs that roll (gait/arc.h)
+ * and of the caller are functions of one node's channels.
  *
  * Modules append rows here, in physical units; nlp gives them numbers.
  */
@@ -13,6 +14,7 @@
 
 #include "ambulo/problem.h"
 #include "base/alloc.h"
+#include "gait/arc.h"
 #include "gait/row_kind.h"
 
 typedef struct ambulo__row_term {
@@ -31,8 +33,8 @@ typedef struct ambulo__table_row {
   unsigned char before; /* 1: it is about what the feet did just before its node, on an event */
   int group;            /* rows of one family have the same; 0 .. group_count - 1 */
   int node;             /* the node whose channels it uses; -1: several, or none */
-  int user;             /* index of the caller's user row, whose value and coefficients come
-                           from its function at every evaluation; -1: linear, as above */
+  int user;             /* value and coefficients come from a function at every evaluation: index of
+                           the caller's user row, of the table's arc, by kind; -1: linear, as above */
   double time;
   double constant;
   double size; /* in unit: what counts as one; violations are judged relative to it */
@@ -45,6 +47,8 @@ typedef struct ambulo__row_table {
   int row_count, row_capacity;
   ambulo__row_term *terms;
   int term_count, term_capacity;
+  ambulo__arc *arcs;
+  int arc_count, arc_capacity;
   int *group_row; /* the first row of each group, in the order in which groups begin */
   int group_count, group_capacity;
   int before;           /* what rows begun from now on have of that name; 0 after init */
@@ -63,6 +67,14 @@ void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const ch
  * be those of the table: the row is of AMBULO__KIND_USER all the same. */
 void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int index, int node,
                       double time);
+/* Adds a row at a node, not negative, that is a function of an arc. */
+void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                     const char *detail, int node, double time, const ambulo__arc *arc);
+/* The arc of a row; NULL: it has none. */
+static inline const ambulo__arc *ambulo__row_arc_of(const ambulo__row_table *table,
+                                                    const ambulo__table_row *row) {
+  return row->user >= 0 && row->kind != AMBULO__KIND_USER ? &table->arcs[row->user] : NULL;
+}
 /* Adds a term to the row begun last. Zero coefficients are skipped. */
 void ambulo__row_term_add(ambulo__row_table *table, int node, int channel, double coefficient);
 

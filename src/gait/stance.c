@@ -13,7 +13,7 @@ static ambulo__span opened(const ambulo_problem_definition *d, ambulo__span span
   }
   double stride = (d->ends == AMBULO_ENDS_MIRRORED ? 2.0 : 1.0) * d->duration;
   if (span.to - span.from < stride - AMBULO__INSTANT) return span;
-  return (ambulo__span){-INFINITY, INFINITY};
+  return (ambulo__span){-INFINITY, INFINITY, -1, -1};
 }
 
 /* `other`, of another foot, may hold where the stance begins or ends */
@@ -62,14 +62,14 @@ static int mode_beside(const ambulo_problem_definition *d, int foot, ambulo__spa
 
 ambulo__span ambulo__stance_in(const ambulo_problem_definition *d, const ambulo_contact *contact,
                                int modes) {
-  ambulo__span own = {contact->from, contact->to};
+  ambulo__span own = {.from = contact->from, .to = contact->to};
   return opened(d, ambulo__uninterrupted(d, contact->foot, modes, own));
 }
 
 ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
                                  const ambulo_contact *contact) {
   int foot = contact->foot;
-  ambulo__span own = {contact->from, contact->to};
+  ambulo__span own = {.from = contact->from, .to = contact->to};
   ambulo__span whole = ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, own);
   ambulo__span open = opened(d, whole);
   ambulo__stance s = {.from = open.from, .to = open.to, .leaves = -INFINITY, .comes = INFINITY};

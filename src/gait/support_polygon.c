@@ -92,26 +92,31 @@ void ambulo__polygon_inset(const ambulo__polygon *polygon, double margin, ambulo
   }
 }
 
-/* Corners of the loaded feet; -1 when there are more than a polygon holds. */
+/* Adds the corners of a loaded foot to `count` points; -1 when there are more than a polygon holds.
+ */
+static int collect_foot(const ambulo_problem_definition *definition, const ambulo_contact *contact,
+                        const ambulo__foot_outline *outline, int count, double (*points)[2]) {
+  for (int c = 0; c < outline->count; c++) {
+    if (definition->support == AMBULO_SUPPORT_HULL &&
+        !ambulo__corner_in_contact(contact->mode, outline->is_heel[c])) {
+      continue;
+    }
+    /* a hull may hold one vertex more while it is being closed */
+    if (count + 1 >= AMBULO__POLYGON_CAPACITY) return -1;
+    const double *corner = outline->place[c];
+    points[count][0] = contact->place[0] + corner[0];
+    points[count++][1] = contact->place[1] + corner[1];
+  }
+  return count;
+}
+
 static int collect(const ambulo_problem_definition *definition, const int *active,
                    double (*points)[2]) {
-  const ambulo_model *model = definition->model;
   int count = 0;
-  for (int foot = 0; foot < model->foot_count; foot++) {
+  for (int foot = 0; foot < definition->model->foot_count && count >= 0; foot++) {
     if (active[foot] < 0) continue;
-    const ambulo_contact *contact = &definition->contacts[active[foot]];
-    ambulo__foot_outline outline = ambulo__foot_outline_of(model, foot);
-    for (int c = 0; c < outline.count; c++) {
-      if (definition->support == AMBULO_SUPPORT_HULL &&
-          !ambulo__corner_in_contact(contact->mode, outline.is_heel[c])) {
-        continue;
-      }
-      /* a hull may hold one vertex more while it is being closed */
-      if (count + 1 >= AMBULO__POLYGON_CAPACITY) return -1;
-      points[count][0] = contact->place[0] + outline.place[c][0];
-      points[count][1] = contact->place[1] + outline.place[c][1];
-      count++;
-    }
+    ambulo__foot_outline outline = ambulo__foot_outline_of(definition->model, foot);
+    count = collect_foot(definition, &definition->contacts[active[foot]], &outline, count, points);
   }
   return count;
 }

@@ -10,7 +10,8 @@
  * hold for from <= t < to, so a toe is free from its last loaded node until toe-off (on a grid on
  * events the last loaded node is toe-off). Movements
  * from node to node are not slip: rows hold those, exactly or within contact_tolerance. A corner
- * that has no node while it is loaded moves away from where it came down.
+ * that has no node while it is loaded moves away from where it came down. On its heel and on its
+ * toes a foot with arcs rolls: how far it slips there the rows of its contact say.
  */
 #include "gait/foot_outline.h"
 #include "base/instant.h"
@@ -23,7 +24,7 @@ enum { SEARCH = 2 }; /* nodes to either side: moved events lie up to one interva
 
 typedef struct corner {
   const ambulo__dense *dense;
-  int foot, point, is_heel;
+  int foot, point, is_heel, rolls;
   ambulo__dense_visitor visit;
   void *user;
 } corner;
@@ -31,6 +32,7 @@ typedef struct corner {
 static const ambulo_contact *loading(const ambulo_problem *p, const corner *c, int index) {
   if (index < 0) return NULL;
   const ambulo_contact *contact = &p->definition.contacts[index];
+  if (c->rolls && contact->mode != AMBULO_CONTACT_FLAT) return NULL;
   return ambulo__corner_in_contact(contact->mode, c->is_heel) ? contact : NULL;
 }
 
@@ -132,7 +134,7 @@ void ambulo__dense_slip(const ambulo__dense *dense, ambulo__dense_visitor visit,
   for (int foot = 0; fine->definition.contact_count && foot < fine->model->foot_count; foot++) {
     ambulo__foot_outline outline = ambulo__foot_outline_of(fine->model, foot);
     for (int i = 0; i < outline.count; i++) {
-      corner c = {dense, foot, outline.point[i], outline.is_heel[i], visit, user};
+      corner c = {dense, foot, outline.point[i], outline.is_heel[i], outline.has_arcs, visit, user};
       for (int j = 0; j < fine->nodes;) j = contact_at(fine, &c, j) ? visit_loading(&c, j) : j + 1;
     }
   }

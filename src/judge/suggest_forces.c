@@ -144,7 +144,8 @@ static int modes_of(const ambulo__advice *a, ambulo_contact_mode mode[2]) {
 }
 
 /* normal force that a row of pressure counts by, body weights. Where contacts share the load it is
- * that of the contact: both sides of the patch add up to it, times the way between them. */
+ * that of the contact: both sides of the patch add up to it, times the way between them, and what
+ * is allowed on either side. */
 static double counted_by(const ambulo__advice *a) {
   const ambulo_problem *p = a->problem;
   const ambulo__row_table *table = &p->table;
@@ -156,20 +157,23 @@ static double counted_by(const ambulo__advice *a) {
   if (p->definition.ground_reaction.kind != AMBULO_REACTION_SHARED) return 1.0;
   for (int i = 0; i < 2; i++) {
     const ambulo__table_row *row = &table->rows[pair[i]];
+    const ambulo__arc *arc = ambulo__row_arc_of(table, row);
+    if (arc) across[0] += arc->room;
     for (int t = row->first_term; t < row->first_term + row->term_count; t++) {
       int axis = (table->terms[t].channel - first) % rows;
       if (axis < 3) across[axis] += table->terms[t].coefficient * table->weight;
     }
-    sum += a->values[pair[i]];
+    sum += a->values[pair[i]] - (arc ? arc->slack : row->constant);
   }
   double way = sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
   return way > 0.0 ? sum / way : 0.0;
 }
 
-/* a side of a patch that ends at the joint of the toes, whatever its box */
-static int is_at_joint(const ambulo__advice *a) {
+/* a side of a patch that ends at the joint of the toes, or under an arc, whatever its box */
+static int is_fixed(const ambulo__advice *a) {
   const ambulo_model *m = a->problem->model;
   int foot = foot_of(a);
+  if (ambulo__row_arc_of(&a->problem->table, a->row)) return 1;
   if (foot < 0 || !strcmp(m->feet[foot].name, a->row->subject)) return 0;
   int heel = !strcmp(m->points[m->feet[foot].heel_center].name, a->row->subject);
   return !strcmp(a->row->detail, heel ? "front" : "back");
@@ -209,7 +213,7 @@ static void pressure(const ambulo__advice *a) {
   }
   ambulo__advice_say(a, "let the centre of pressure of %s go %.4g m further %s (t = %.4g s)",
                      a->row->subject, a->give / force, a->row->detail, a->row->time);
-  if (!is_at_joint(a)) set_boxes(a, a->room / force);
+  if (!is_fixed(a)) set_boxes(a, a->room / force);
 }
 
 int ambulo__advise_forces(const ambulo__advice *a) {

@@ -33,7 +33,7 @@ const char *ambulo_ending_name(ambulo_ending ending) {
       AMBULO_ENDING_LIST(NAME)
 #undef NAME
   };
-  if (ending < AMBULO_ENDING_NONE || ending > AMBULO_ENDING_CALLER) return "unknown";
+  if (ending < AMBULO_ENDING_NONE || ending > AMBULO_ENDING_SOLVES) return "unknown";
   return names[ending];
 }
 
@@ -43,7 +43,7 @@ const char *ambulo_ending_text(ambulo_ending ending) {
       AMBULO_ENDING_LIST(TEXT)
 #undef TEXT
   };
-  if (ending < AMBULO_ENDING_NONE || ending > AMBULO_ENDING_CALLER) return "unknown ending";
+  if (ending < AMBULO_ENDING_NONE || ending > AMBULO_ENDING_SOLVES) return "unknown ending";
   return texts[ending];
 }
 

@@ -50,8 +50,14 @@ int ambulo__plan_world_axis(const ambulo__joint *joint);
 void ambulo__plan_contact_factors(ambulo__plan *plan);
 int ambulo__plan_contact_parts(const ambulo__plan *plan, int row, ambulo__row_part *part);
 int ambulo__plan_contact_entries(const ambulo__plan *plan);
-/* Adds a product with all rows of the root wrench; returns how many parts that are. */
-int ambulo__plan_add_wrench(const ambulo__plan *plan, int times, ambulo__row_part *part);
+/* Parts of a product with all rows of the root wrench; returns how many that are. */
+static inline int ambulo__plan_add_wrench(const ambulo__plan *plan, int times,
+                                          ambulo__row_part *part) {
+  for (int k = 0; k < 6; k++) {
+    part[k] = (ambulo__row_part){plan->coordinates + k, 0, times + k, 1};
+  }
+  return 6;
+}
 /* Jacobian pattern. Errors: E_MEMORY. */
 ambulo_status ambulo__plan_pattern_build(ambulo__plan *plan);
 

@@ -207,13 +207,6 @@ static int add_normal(const ambulo__plan *plan, int by_acceleration, int times, 
   return count;
 }
 
-int ambulo__plan_add_wrench(const ambulo__plan *plan, int times, ambulo__row_part *part) {
-  for (int k = 0; k < 6; k++) {
-    part[k] = (ambulo__row_part){plan->coordinates + k, 0, times + k, 1};
-  }
-  return 6;
-}
-
 static int foot_force_parts(const ambulo__plan *plan, int foot, int k, ambulo__row_part *part) {
   int at = plan->foot_factors, sign = foot ? -1 : 1, count = 1;
   part[0] = (ambulo__row_part){plan->coordinates + 3 + k, 0, at + factor_share + foot, 1};

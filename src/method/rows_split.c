@@ -9,7 +9,7 @@ static const double least_gradient = 1e-6; /* of a row of the caller, where it v
 /* what an inequality is divided by: see rows_split.h */
 double ambulo__rows_size(const ambulo_problem *p, const ambulo__sparse_rows *s, int i) {
   const ambulo__table_row *row = &p->table.rows[s->row[i]];
-  if (row->user < 0) return row->size;
+  if (row->user < 0 || row->kind != AMBULO__KIND_USER) return row->size;
   double norm = ambulo__sparse_rows_norm(s, i);
   return norm >= least_gradient ? norm : least_gradient;
 }

@@ -45,6 +45,7 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
       .time_limit = o->time_limit,
       .seconds_left = -1.0,
       .stage = run->stage,
+      .best = NAN,
   };
   if (o->progress(o->user, &progress)) stop(run, AMBULO_ENDING_CALLER);
   return run->stopped;

@@ -119,7 +119,8 @@ static void check_foot(ambulo__checker *c, int index) {
   int good = is_point(d, foot->heel[0]) && is_point(d, foot->toe[0]) &&
              (foot->heel[1] == -1 || is_point(d, foot->heel[1])) &&
              (foot->toe[1] == -1 || is_point(d, foot->toe[1])) && is_point(d, foot->heel_center) &&
-             is_point(d, foot->toe_center) && (!foot->has_tip || is_point(d, foot->tip));
+             is_point(d, foot->toe_center) && (!foot->has_tip || is_point(d, foot->tip)) &&
+             (!foot->has_arcs || (is_point(d, foot->arc[0]) && is_point(d, foot->arc[1])));
   if (!good) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
                               "foot '%s' refers to points that do not exist; expected point "

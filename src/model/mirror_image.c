@@ -278,7 +278,9 @@ static void compare_feet(comparison *c, int i, int m) {
       compare_points(c, a->toe_center, b->toe_center) || compare_corners(c, a->heel, b->heel) ||
       compare_corners(c, a->toe, b->toe))
     return;
-  if (a->has_tip) (void)compare_points(c, a->tip, b->tip);
+  if (a->has_tip && compare_points(c, a->tip, b->tip)) return;
+  for (int end = 0; a->has_arcs && b->has_arcs && end < 2; end++)
+    if (compare_points(c, a->arc[end], b->arc[end])) return;
 }
 
 /* ------------------------------------------------------------------------- all */

@@ -40,11 +40,14 @@ typedef struct ambulo__problem_keys {
   double radians;   /* per unit of `angles`; 0: not stated */
 } ambulo__problem_keys;
 
+struct ambulo__free_section;
+
 struct ambulo_problem {
   ambulo_allocator allocator;
   ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
   ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
+  struct ambulo__free_section *free; /* one block (reader/problem_free.h); NULL: nothing is free */
   const ambulo_model *model;
   ambulo__plan *plan;
   const ambulo__kernels *kernels;

@@ -271,5 +271,6 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free_aligned(&a, p->ground);
   ambulo__definition_free(&a, &p->definition);
   ambulo_model_free(p->owned_model);
+  ambulo__free(&a, p->free);
   ambulo__free(&a, p);
 }

@@ -42,6 +42,17 @@ static int read_center(const ambulo__reader *reader, const ambulo__yaml_node *it
   return node ? point_at(reader, node) : corners[0];
 }
 
+/* {heel: point, toe: point} */
+static void read_arcs(const ambulo__reader *reader, const ambulo__yaml_node *node,
+                      ambulo_foot *foot) {
+  foot->has_arcs = node != NULL;
+  foot->arc[0] = foot->arc[1] = -1;
+  if (!node) return;
+  foot->arc[0] = point_at(reader, ambulo__yaml_require(node, "heel"));
+  foot->arc[1] = point_at(reader, ambulo__yaml_require(node, "toe"));
+  ambulo__yaml_close(node);
+}
+
 void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
   for (int i = 0; i < reader->definition.foot_count; i++) {
     const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
@@ -56,6 +67,7 @@ void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
     const ambulo__yaml_node *tip = ambulo__yaml_get(item, "tip");
     foot->has_tip = tip != NULL;
     foot->tip = tip ? point_at(reader, tip) : -1;
+    read_arcs(reader, ambulo__yaml_get(item, "arcs"), foot);
     ambulo__yaml_expect(item, "mirror");
     ambulo__yaml_close(item);
   }

@@ -6,11 +6,12 @@
  * its message begins with.
  *
  * Reading order: problem_reader.h, problem_file.c, problem_reader.c, problem_grid.c,
- * problem_schedule.c, problem_constraints.c, problem_objective.c, problem_solver.c; model_file.h,
- * model_reader.h, model_links.c; solution_load.c.
+ * problem_schedule.c, problem_constraints.c, problem_objective.c, problem_solver.c, problem_free.h;
+ * model_file.h, model_reader.h, model_links.c; solution_load.c.
  */
-#include "reader/problem_reader.h"
+#include "reader/problem_free.h"
 
+#include "base/read_file.h"
 #include "nlp/nlp.h"
 
 #include <string.h>
@@ -136,6 +137,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
     ambulo__read_ends(reader, ambulo__reader_section(root, "ends"));
     ambulo__read_objective(reader, ambulo__yaml_require(root, "objective"));
   }
+  ambulo__yaml_expect(root, "free"); /* once there is a problem */
   ambulo__yaml_close(root);
 }
 
@@ -223,15 +225,23 @@ static ambulo_status create(ambulo__problem_reader *reader, const ambulo__yaml_n
 /* ----------------------------------------------------------------- entry points */
 
 static ambulo_status read_document(ambulo__problem_reader *reader, ambulo__yaml *document,
-                                   const char *const *overrides, int override_count,
                                    ambulo_problem **problem) {
-  ambulo_status status = apply_overrides(reader, document, overrides, override_count);
+  ambulo_status status =
+      apply_overrides(reader, document, reader->override, reader->override_count);
   if (status) return status;
   const ambulo__yaml_node *root = ambulo__yaml_root(document);
   read_sections(reader, root);
   if (reader->failure) return reader->failure;
   status = ambulo__yaml_finish(document);
-  return status ? status : create(reader, root, problem);
+  ambulo_problem *created = NULL;
+  if (!status) status = create(reader, root, &created);
+  if (!status) status = ambulo__read_free(reader, root, created);
+  if (status) {
+    ambulo_problem_free(created);
+    return status;
+  }
+  *problem = created;
+  return AMBULO_OK;
 }
 
 static ambulo__problem_reader reader_make(const ambulo_allocator *allocator,
@@ -239,6 +249,7 @@ static ambulo__problem_reader reader_make(const ambulo_allocator *allocator,
   ambulo__problem_reader reader = {.allocator = ambulo__allocator_or_default(allocator),
                                    .diagnostics = diagnostics,
                                    .directory = "",
+                                   .load = ambulo_problem_load_text,
                                    .definition = ambulo_problem_definition_default(),
                                    .options = ambulo_options_default()};
   return reader;
@@ -254,6 +265,18 @@ static const char *directory_of(ambulo__problem_reader *reader, const char *path
   return directory;
 }
 
+/* from the reader's text to a problem; the reader is used up */
+static ambulo_status read_text(ambulo__problem_reader *reader, ambulo_problem **problem) {
+  ambulo__yaml *document = NULL;
+  ambulo_status status = ambulo__yaml_load_text(reader->text, reader->length, reader->name,
+                                                &reader->allocator, reader->diagnostics, &document);
+  reader->document = document;
+  if (!status) status = read_document(reader, document, problem);
+  ambulo__yaml_free(document);
+  ambulo__reader_clear(reader);
+  return status;
+}
+
 ambulo_status ambulo_problem_load(const char *path, const char *const *overrides,
                                   int override_count, const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
@@ -262,16 +285,16 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   }
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
-  ambulo__yaml *document = NULL;
-  ambulo_status status = ambulo__yaml_load(path, &reader.allocator, diagnostics, &document);
-  reader.document = document;
-  if (!status) {
-    reader.directory = directory_of(&reader, path);
-    status = reader.directory ? read_document(&reader, document, overrides, override_count, problem)
-                              : AMBULO_E_MEMORY;
-  }
-  ambulo__yaml_free(document);
-  ambulo__reader_clear(&reader);
+  char *text = NULL;
+  ambulo_status status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, &reader.allocator,
+                                           diagnostics, &text, &reader.length);
+  reader.text = text;
+  reader.name = path;
+  reader.override = overrides;
+  reader.override_count = override_count;
+  if (!status) reader.directory = directory_of(&reader, path);
+  if (!status) status = reader.directory ? read_text(&reader, problem) : AMBULO_E_MEMORY;
+  ambulo__free(&reader.allocator, text);
   return ambulo__conclude(diagnostics, errors, status, path);
 }
 
@@ -285,12 +308,17 @@ ambulo_status ambulo_problem_load_text(const char *text, size_t length, const ch
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
   if (directory) reader.directory = directory;
-  ambulo__yaml *document = NULL;
-  ambulo_status status = ambulo__yaml_load_text(text, length, name ? name : "problem",
-                                                &reader.allocator, diagnostics, &document);
-  reader.document = document;
-  if (!status) status = read_document(&reader, document, overrides, override_count, problem);
-  ambulo__yaml_free(document);
-  ambulo__reader_clear(&reader);
-  return ambulo__conclude(diagnostics, errors, status, name);
+  reader.text = text;
+  reader.length = length;
+  reader.name = name ? name : "problem";
+  reader.override = overrides;
+  reader.override_count = override_count;
+  return ambulo__conclude(diagnostics, errors, read_text(&reader, problem), name);
+}
+
+ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *values,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_problem **at) {
+  if (!problem || !values || !at || !problem->free) return AMBULO_E_ARGUMENT;
+  return ambulo__problem_at(ambulo_problem_load_text, problem, values, allocator, diagnostics, at);
 }

@@ -13,11 +13,23 @@
 
 typedef struct ambulo__reader_block ambulo__reader_block;
 
+/* ambulo_problem_load_text */
+typedef ambulo_status ambulo__text_loader(const char *text, size_t length, const char *name,
+                                          const char *directory, const char *const *overrides,
+                                          int override_count, const ambulo_allocator *allocator,
+                                          ambulo_diagnostics *diagnostics,
+                                          ambulo_problem **problem);
+
 typedef struct ambulo__problem_reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
-  ambulo__yaml *document;         /* NULL before it is loaded */
-  const char *directory;          /* where relative names start; "" for the current one */
+  ambulo__yaml *document;  /* NULL before it is loaded */
+  const char *directory;   /* where relative names start; "" for the current one */
+  const char *text, *name; /* of the document, and what it is called */
+  size_t length;
+  const char *const *override; /* [override_count], which it is read with */
+  int override_count;
+  ambulo__text_loader *load;      /* of the same text, with other overrides */
   ambulo__reader_block *blocks;   /* freed with the reader */
   ambulo_status failure;          /* E_MEMORY, or what a referenced file failed with */
   double radians;                 /* per unit of angle in the file; 0: not stated */

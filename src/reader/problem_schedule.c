@@ -2,7 +2,8 @@
  *
  * Duration, number of steps, step time and speed say the same thing twice:
  *     step_time = step_length / speed,   duration = steps * step_time
- * What is missing is computed; what is given must agree. Of a speed alone follow both: people keep
+ * What is missing is computed; what is given must agree. A speed and a time make the length: so a
+ * cadence is varied at a given speed. Of a speed alone follow both: people keep
  * the walk ratio of step length and cadence when they walk slower or faster (Sekiya et al. 1996;
  * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute:
  *     v = L C / 60,   L = W C      =>      L = sqrt(60 v W)
@@ -126,13 +127,41 @@ static void check_agreement(const ambulo__yaml_node *node, const char *what, dou
                            what, step_time, other);
 }
 
+/* speed and time of a walk as the file has them, each read once; NaN: not there, or no number */
+typedef struct walking_pace {
+  double speed;    /* m/s */
+  double times[2]; /* s: of odd and of even steps */
+} walking_pace;
+
+static int is_list(const ambulo__yaml_node *node) {
+  return ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE);
+}
+
+static walking_pace read_pace(const ambulo__yaml_node *section) {
+  const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
+  walking_pace p = {ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, NAN),
+                    {NAN, NAN}};
+  if (is_list(time)) {
+    (void)ambulo__yaml_numbers(time, 2, p.times);
+  } else {
+    p.times[0] = p.times[1] = ambulo__yaml_number_in(time, 1e-3, 1e3, NAN);
+  }
+  return p;
+}
+
+static double step_time_at(const ambulo_gait *gait, double speed) {
+  return ambulo__gait_place(gait, gait->steps) / (speed * (double)gait->steps);
+}
+
+static double mean_step_time(const ambulo_gait *gait) {
+  return ambulo__gait_strike(gait, gait->steps) / (double)gait->steps;
+}
+
 static double read_step_time(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                             const ambulo_gait *gait) {
+                             const walking_pace *pace, const ambulo_gait *gait) {
   const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
   const ambulo__yaml_node *speed = ambulo__yaml_get(section, "speed");
-  double by_time = ambulo__yaml_number_in(time, 1e-3, 1e3, NAN);
-  double velocity = ambulo__yaml_number_in(speed, 1e-3, 100.0, NAN);
-  double by_speed = ambulo__gait_place(gait, gait->steps) / (velocity * (double)gait->steps);
+  double by_time = pace->times[0], by_speed = step_time_at(gait, pace->speed);
   double by_duration = reader->definition.duration / (double)gait->steps;
   if (reader->has_duration) {
     check_agreement(time, "step_time", by_time, by_duration);
@@ -190,44 +219,55 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
   reader->definition.contact_count = count;
 }
 
-static int is_list(const ambulo__yaml_node *node) {
-  return ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE);
-}
-
 /* two step times: 1 if the file gives them */
 static int read_two_times(const ambulo__problem_reader *reader, const ambulo__yaml_node *section,
-                          ambulo_gait *gait) {
+                          const walking_pace *pace, ambulo_gait *gait) {
   const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_time");
-  double times[2] = {1.0, 1.0};
+  const double *times = pace->times;
   if (!is_list(node)) return 0;
-  (void)ambulo__yaml_numbers(node, 2, times);
-  if (!(times[0] >= 1e-3 && times[1] >= 1e-3 && times[0] <= 1e3 && times[1] <= 1e3)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
-                             "step times %g s and %g s; expected 0.001 to 1000 s", times[0],
-                             times[1]);
-    times[0] = times[1] = 1.0;
-  }
   gait->step_time = times[0];
   gait->other_step_time = times[1];
-  double mean = ambulo__gait_strike(gait, gait->steps) / (double)gait->steps;
+  if (!(times[0] >= 1e-3 && times[1] >= 1e-3 && times[0] <= 1e3 && times[1] <= 1e3)) {
+    if (!isnan(times[0]) && !isnan(times[1]))
+      (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                               "step times %g s and %g s; expected 0.001 to 1000 s", times[0],
+                               times[1]);
+    gait->step_time = gait->other_step_time = 1.0;
+    return 1;
+  }
+  double mean = mean_step_time(gait);
   if (reader->has_duration)
     check_agreement(node, "step_time", mean, reader->definition.duration / (double)gait->steps);
+  check_agreement(ambulo__yaml_get(section, "speed"), "speed", step_time_at(gait, pace->speed),
+                  mean);
   return 1;
 }
 
-/* one length, two, or that which people choose at the speed */
+/* mean time of a step where the keys of time say it, else NaN */
+static double given_step_time(const ambulo__problem_reader *reader, const walking_pace *pace,
+                              int steps) {
+  const ambulo_gait timed = {.step_time = pace->times[0], .other_step_time = pace->times[1]};
+  if (reader->has_duration) return reader->definition.duration / (double)steps;
+  return ambulo__gait_strike(&timed, steps) / (double)steps;
+}
+
+/* one length, two, that of the speed and a time, or that which people choose at the speed */
 static void read_step_lengths(const ambulo__problem_reader *reader,
-                              const ambulo__yaml_node *section, ambulo_gait *gait) {
+                              const ambulo__yaml_node *section, const walking_pace *pace,
+                              ambulo_gait *gait) {
   const double walk_ratio = 0.0035; /* statures per (step / min) */
   const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
   double stature = ambulo_model_stature(reader->model);
+  double by_time = pace->speed * given_step_time(reader, pace, gait->steps);
   if (is_list(node)) {
     double lengths[2] = {0.0, 0.0};
     (void)ambulo__yaml_numbers(node, 2, lengths);
     gait->step_length = lengths[0];
     gait->other_step_length = lengths[1];
+  } else if (!node && !isnan(by_time)) {
+    gait->step_length = by_time;
   } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
-    double speed = ambulo__yaml_number_in(ambulo__yaml_get(section, "speed"), 1e-3, 100.0, 1.0);
+    double speed = isnan(pace->speed) ? 1.0 : pace->speed;
     gait->step_length = sqrt(60.0 * speed * walk_ratio * stature);
   } else {
     gait->step_length =
@@ -244,13 +284,14 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   ambulo_gait gait = {.steps = 1};
   gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
-  read_step_lengths(reader, section, &gait);
+  const walking_pace pace = read_pace(section);
+  read_step_lengths(reader, section, &pace, &gait);
   gait.step_width = ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0,
                                            neutral_width(reader->model));
   gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
   read_phases(section, &gait);
-  if (!read_two_times(reader, section, &gait))
-    gait.step_time = read_step_time(reader, section, &gait);
+  if (!read_two_times(reader, section, &pace, &gait))
+    gait.step_time = read_step_time(reader, section, &pace, &gait);
   ambulo__yaml_close(section);
   if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
   reader->definition.travel = ambulo__gait_place(&gait, gait.steps);

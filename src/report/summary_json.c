@@ -4,8 +4,9 @@
  * family, subject and detail; violations are >= 0 in the unit given beside them. */
 #include "report/summary_json.h"
 
-#include "ambulo/sensitivity.h"
+#include "ambulo/parameters.h"
 #include "format/json_text.h"
+#include "gait/gait.h"
 #include "stride/impulse.h"
 #include "stride/stride.h"
 #include "stride/strikes.h"
@@ -152,6 +153,40 @@ static ambulo_status sensitivities(ambulo__json *json, const ambulo_problem *pro
   return AMBULO_OK;
 }
 
+/* what became of the numbers that were free; nothing where none was */
+static void free_parameters(ambulo__json *json, const ambulo_result *result) {
+  static const char *const bounds[] = {"lower", NULL, "upper"};
+  const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
+  if (!o) return;
+  ambulo__json_open(json, "free", '{');
+  ambulo__json_text(json, "per", o->per == AMBULO_PER_DISTANCE ? "distance" : "none");
+  ambulo__json_number(json, "distance", o->distance);
+  ambulo__json_number(json, "objective", o->objective);
+  ambulo__json_number(json, "first_objective", o->first);
+  ambulo__json_open(json, "parameters", '[');
+  for (int i = 0; i < o->count; i++) {
+    const ambulo_parameter_value *p = &o->items[i];
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_text(json, "name", p->name);
+    ambulo__json_text(json, "unit", p->unit);
+    ambulo__json_number(json, "value", p->value);
+    ambulo__json_number(json, "lower", p->lower);
+    ambulo__json_number(json, "upper", p->upper);
+    ambulo__json_number(json, "first", p->first);
+    ambulo__json_number(json, "derivative", p->derivative);
+    ambulo__json_text(json, "at_bound", bounds[p->bound + 1]);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_integer(json, "converged", o->converged);
+  ambulo__json_text(json, "ending", o->ending);
+  ambulo__json_integer(json, "solves", o->solves);
+  ambulo__json_integer(json, "failed", o->failed);
+  ambulo__json_integer(json, "evaluations", o->evaluations);
+  ambulo__json_number(json, "seconds", o->seconds);
+  ambulo__json_close(json, '}');
+}
+
 static void conflict(ambulo__json *json, const ambulo_conflict *c) {
   static const char *const answers[] = {"not tried", "no", "yes"};
   ambulo__json_open(json, NULL, '{');
@@ -254,6 +289,22 @@ static ambulo_status foot_strikes(ambulo__json *json, const ambulo_problem *prob
   return AMBULO_OK;
 }
 
+/* a regular walk as it came out; of unlike steps the mean */
+static void gait(ambulo__json *json, const ambulo_problem *problem) {
+  const ambulo_gait *walk = &problem->keys.walk;
+  if (!problem->keys.gait) return;
+  double steps = walk->steps, duration = ambulo_problem_duration(problem);
+  double travel = ambulo__gait_place(walk, walk->steps);
+  ambulo__json_open(json, "gait", '{');
+  ambulo__json_number(json, "steps", steps);
+  ambulo__json_number(json, "step_time", duration / steps);
+  ambulo__json_number(json, "step_length", travel / steps);
+  ambulo__json_number(json, "step_width", walk->step_width);
+  ambulo__json_number(json, "speed", travel / duration);
+  ambulo__json_number(json, "stride_frequency", steps / (2.0 * duration));
+  ambulo__json_close(json, '}');
+}
+
 static void nlopt(ambulo__json *json, const ambulo_result *result) {
   const ambulo_nlopt_work *work = ambulo_result_nlopt(result);
   ambulo__json_open(json, "nlopt", '{');
@@ -263,6 +314,25 @@ static void nlopt(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_number(json, "seconds", work->seconds);
   ambulo__json_integer(json, "result", work->result);
   ambulo__json_text(json, "result_name", work->result_name);
+  ambulo__json_close(json, '}');
+}
+
+static void starts(ambulo__json *json, const ambulo_starts *s) {
+  if (!s) return;
+  ambulo__json_open(json, "starts", '{');
+  ambulo__json_integer(json, "count", s->count);
+  ambulo__json_integer(json, "solved", s->solved);
+  ambulo__json_integer(json, "intervals", s->intervals);
+  ambulo__json_open(json, "basins", '[');
+  for (int b = 0; b < s->basin_count; b++) {
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_number(json, "objective", s->basins[b].objective);
+    ambulo__json_integer(json, "found", s->basins[b].found);
+    ambulo__json_integer(json, "first", s->basins[b].first);
+    ambulo__json_number(json, "distance", s->basins[b].distance);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
   ambulo__json_close(json, '}');
 }
 
@@ -310,13 +380,16 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json_number(json, "duration", ambulo_problem_duration(problem));
   body(json, ambulo_problem_model(problem));
   ambulo_status status = foot_strikes(json, problem);
+  gait(json, problem);
   objective(json, problem, result);
+  free_parameters(json, result);
   if (!status) status = ground_reaction(json, problem, result);
   audit(json, result);
   between_nodes(json, result);
   explanation(json, result);
   if (!status) status = sensitivities(json, problem, result);
   sizes(json, problem);
+  starts(json, ambulo_result_starts(result));
   effort(json, result);
   versions(json);
   ambulo__json_text(json, "input_hash", hash);

@@ -8,6 +8,8 @@
  *     channels                 dL/dT = -(L_qd . qd + 2 L_qdd . qdd) / T, torques among L_qd, L_qdd
  *     matching ends            their scale s_o of order o is proportional to T^o (gait/ends.c)
  *
+ * On a grid on events that is so because all events are at fixed fractions of T.
+ *
  * L_qd, L_qdd are the adjoints with the mechanics' reverse sweep in them (nlp/gradient.c). Unknowns
  * that are slopes (Hermite) would move with T; at a stationary point that is no matter.
  */

@@ -7,7 +7,8 @@
  *                     n.F z holds h F: dc/dh = (a f + b l) . F / W
  *     support side    k = n_s . v + margin: support_side.c;            dc/dmargin = -phi
  *     pressure        k = (a, b) . (place_j - s_j) + side of the box,  s_0 = a_1 D, s_1 = -a_0 D,
- *                     D = place_0 - place_1 + constant while both feet are loaded
+ *                     D = place_0 - place_1 + constant while both feet are loaded;
+ *                     dk/da_0 = (a, b) . D, a_0 with its times: event_times.c
  *     normal force    c = phi - least                                  dc/dleast = -1
  *     friction        c = mu n.F / W -+ e.F / W                        dc/dmu = n.F / W
  *     free moment     c = bound +- T / W                               dc/dbound = 1
@@ -80,6 +81,17 @@ static void add_zmp(const force_row *p, int planar, ambulo__partials *partials) 
   ambulo__support_side(p->s, p->outlines, &side, p->pull, partials);
 }
 
+/* part = (t - strike) / (flat - strike) when these move */
+static void add_rolling(const force_row *p, const ambulo_contact *contact, const ambulo__roll *roll,
+                        double by_part, ambulo__partials *partials) {
+  int own = (int)(contact - p->s->problem->definition.contacts);
+  if (!(roll->duration > 0.0)) return;
+  double pull = by_part / roll->duration;
+  partials->node_time[p->row->node] += pull;
+  partials->contact_time[2 * roll->begins] -= pull * (1.0 - roll->part);
+  partials->contact_time[2 * own + 1] -= pull * roll->part;
+}
+
 /* which foot's box, and the numbers of the side that faces the row's normal */
 static void add_box(const force_row *p, const ambulo__support_row *side,
                     const ambulo_contact *contact, double by_side, ambulo__partials *partials) {
@@ -96,12 +108,11 @@ static void add_box(const force_row *p, const ambulo__support_row *side,
     r->toe_pressure[front] += by_end;
   } else {
     const ambulo_problem_definition *d = &p->s->problem->definition;
-    ambulo__span span = {contact->from, contact->to};
-    (void)ambulo__loaded_span(d, contact->foot, p->row->time, &span);
-    double rolling = contact->to - span.from;
-    double progress = rolling > 0.0 ? (p->row->time - span.from) / rolling : 0.0;
+    ambulo__roll roll = ambulo__heel_roll_at(d, contact, p->row->time);
     r->heel_pressure[front] += by_end;
-    if (front) r->heel_roll += by_end * progress;
+    if (!front) return;
+    r->heel_roll += by_end * roll.part;
+    add_rolling(p, contact, &roll, by_end * d->ground_reaction.heel_roll, partials);
   }
 }
 
@@ -121,6 +132,8 @@ static void add_pressure(const force_row *p, ambulo__partials *partials) {
     partials->place[2 * active[0] + i] += by_apart * by_place;
     partials->place[2 * active[1] + i] -= by_apart * by_place;
   }
+  double by_share = by_side * (side.normal[0] * load.apart[0] + side.normal[1] * load.apart[1]);
+  ambulo__partials_of_share(p->s, side.node, by_share, partials);
   add_height(p, &side, partials);
   add_box(p, &side, &problem->definition.contacts[own], by_side, partials);
 }
@@ -146,7 +159,7 @@ static int is_of_contact(const force_row *p) {
   int of_force = kind == AMBULO__KIND_NORMAL_FORCE || kind == AMBULO__KIND_FRICTION ||
                  kind == AMBULO__KIND_PRESSURE || kind == AMBULO__KIND_FREE_MOMENT;
   return of_force && problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED &&
-         problem->table.terms[p->row->first_term].channel >= first;
+         ambulo__sharing_channel(problem, p->row) >= first;
 }
 
 /* (S.5) -phi, n.F / W, 1 */
@@ -155,7 +168,9 @@ static void add_row(const force_row *p, int planar, ambulo__partials *partials) 
   int of_forces = 1;
   if (is_of_contact(p)) {
     ambulo__partials_of_sharing(p->s, p->outlines, p->row, p->pull, p->weight, partials);
-    partials->log_mass -= p->pull * (p->s->workspace->row_value[r] - p->row->constant);
+    const ambulo__arc *arc = ambulo__row_arc_of(&p->s->problem->table, p->row);
+    double constant = arc ? arc->slack : p->row->constant;
+    partials->log_mass -= p->pull * (p->s->workspace->row_value[r] - constant);
     return;
   }
   switch ((ambulo__row_kind)p->row->kind) {

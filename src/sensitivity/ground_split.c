@@ -2,12 +2,14 @@
  *
  * The equations of mechanics/kernel_ground.h, in their letters, changed by p (a dot):
  *
- *     z. = n.c. - height.,    gain. = kappa. a_0 a_1 / z - gain z. / z
- *     V. = n x M. + height F. + height. F,     Y. = a_0 a_1 F. + gain. V + gain V.
+ *     z. = n.c. - height.,    p = a_0 a_1,    p. = a_0. (a_1 - a_0)
+ *     gain. = (kappa. p + kappa p.) / z - gain z. / z
+ *     V. = n x M. + height F. + height. F,     Y. = p F. + p. F + gain. V + gain V.
  *     X. = D. x Y + D x Y.,    h. = (gain. F_n + gain F_n.) D + gain F_n D.
  *     T. = (M. . F + M . F. - T F_n.) / F_n
- *     (M_0, F_0). = a_0 (M, F). + (X., -h.),   (M_1, F_1). = a_1 (M, F). - (X., -h.),  T_f. = a_f
- * T. tau_i. = S_i . (load of i). - sum over its feet of S_i . W_f.
+ *     (M_0, F_0). = a_0 (M, F). + a_0. (M, F) + (X., -h.),
+ *     (M_1, F_1). = a_1 (M, F). - a_0. (M, F) - (X., -h.),   T_f. = a_f T. +- a_0. T
+ *     tau_i. = S_i . (load of i). - sum over its feet of S_i . W_f.
  */
 #include "sensitivity/node_forces.h"
 
@@ -62,12 +64,14 @@ static void passed_tangent(const ambulo__node_forces *f, const ground *g, double
   const ambulo_problem *p = f->s->problem;
   const double *up = p->model->up, *force = f->wrench + 3;
   double rise = dot(up, f->center) - f->height;
-  double gain = f->shear * g->product / g->height - g->gain * rise / g->height;
+  double product = f->share * (g->share[1] - g->share[0]);
+  double gain = (f->shear * g->product + g->kappa * product - g->gain * rise) / g->height;
   double lever[3] = {0}, passing[3] = {0}, normal = dot(up, force);
   add_cross(up, f->wrench, 1.0, lever);
   add(force, p->definition.ground_height, lever);
   add(g->wrench + 3, f->height, lever);
   add(force, g->product, passing);
+  add(g->wrench + 3, product, passing);
   add(g->lever, gain, passing);
   add(lever, g->gain, passing);
   memset(out, 0, 6 * sizeof *out);
@@ -89,9 +93,10 @@ double ambulo__ground_split_pull(const ambulo__node_forces *f) {
                   g.twist * dot(p->model->up, f->wrench + 3)) /
                  g.normal;
   for (int foot = 0; foot < 2; foot++) {
-    double wrench[6];
+    double wrench[6], share = foot ? -f->share : f->share;
     for (int i = 0; i < 6; i++)
-      wrench[i] = g.share[foot] * f->wrench[i] + (foot ? -passed[i] : passed[i]);
+      wrench[i] =
+          g.share[foot] * f->wrench[i] + share * g.wrench[i] + (foot ? -passed[i] : passed[i]);
     int link = p->model->points[p->model->feet[foot].heel_center].link;
     for (; link >= 0; link = p->model->links[link].parent) {
       int i = p->model->links[link].coordinate;
@@ -102,7 +107,8 @@ double ambulo__ground_split_pull(const ambulo__node_forces *f) {
     int force = ambulo__channel_foot_force(c, foot, 0);
     for (int i = 0; i < 3; i++)
       sum += ambulo__stationary_adjoint(f->s, f->node, force + i) * wrench[3 + i];
-    sum += ambulo__stationary_adjoint(f->s, f->node, force + 3) * g.share[foot] * twist;
+    sum += ambulo__stationary_adjoint(f->s, f->node, force + 3) *
+           (g.share[foot] * twist + share * g.twist);
   }
   int center = ambulo__channel_center(c, 0);
   for (int i = 0; i < 3; i++)

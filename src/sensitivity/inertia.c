@@ -120,6 +120,9 @@ static void add_ground(ambulo__node_forces *f, ambulo__partials *partials) {
   ambulo__node_forces_clear(f);
   f->height = 1.0;
   partials->ground_height += ambulo__node_forces_pull(f);
+  ambulo__node_forces_clear(f);
+  f->share = 1.0;
+  ambulo__partials_of_share(f->s, f->node, ambulo__node_forces_pull(f), partials);
   add_footholds(f, partials);
 }
 

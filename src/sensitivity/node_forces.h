@@ -22,6 +22,7 @@ typedef struct ambulo__node_forces {
   double center[3];      /* tangent of the centre of mass, m */
   double apart[3];       /* tangent of D (mechanics/kernel_ground.h), m */
   double shear, height;  /* tangents of kappa and of the height of the ground, m */
+  double share;          /* tangent of a_0 */
   /* where contacts share the load: tangents of their centres, of moment_arm and of slant */
   double place[AMBULO__MOST_CONTACTS][3], moment_arm, slant;
 } ambulo__node_forces;

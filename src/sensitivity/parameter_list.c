@@ -1,8 +1,11 @@
 /* sensitivity/parameter_list.c - a growing list of numbers, and which of them move together. */
 #include "sensitivity/parameters.h"
 
+#include "model/model.h"
+
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 void ambulo__parameter_add(ambulo__parameters *p, ambulo__quantity quantity, double value,
                            double derivative, const char *label, const char *name, ...) {
@@ -33,6 +36,21 @@ void ambulo__parameter_with(ambulo__parameters *p, double sign, const char *name
   va_start(arguments, name);
   (void)vsnprintf(last->with, sizeof last->with, name, arguments);
   va_end(arguments);
+}
+
+double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *p) {
+  const ambulo__model_units *units = &problem->model->units;
+  int of_model = strncmp(p->name, "model.", 6) == 0;
+  int turns = p->quantity == AMBULO__ANGLE || p->quantity == AMBULO__TURNING_SPEED ||
+              p->quantity == AMBULO__TURNING_JOLT;
+  if (!of_model) return turns ? problem->keys.radians : 1.0;
+  if (turns) return units->angle;
+  if (p->quantity == AMBULO__TORQUE) return units->moment;
+  return p->quantity == AMBULO__FORCE ? units->force : units->length;
+}
+
+void ambulo__parameter_travels(ambulo__parameters *p, double travel) {
+  if (!p->failed) p->list[p->count - 1].travel = travel;
 }
 
 int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign) {

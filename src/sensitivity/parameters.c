@@ -173,6 +173,12 @@ static void add_body(ambulo__parameters *p) {
                           "ground.slope");
 }
 
+static int has_rows(const ambulo_problem *problem, int what) {
+  const ambulo_problem_definition *d = &problem->definition;
+  if (what == AMBULO_LIMITED_POSITION) return d->joint_limits != AMBULO_LIMIT_OFF;
+  return what == AMBULO_LIMITED_SPEED ? d->speed_limits : d->torque_limits;
+}
+
 /* one limit, or those of both sides, which hold in each other's half of the stride */
 static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   static const char *const keys[] = {"range", "speed", "torque"};
@@ -185,7 +191,9 @@ static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   double sign, by = limit[2 * i + side];
   int m = ambulo__parameter_partner(p->problem, i, &sign), other = sign < 0.0 ? !side : side;
   if (m >= 0) by += sign * limit[2 * m + other];
-  if (by == 0.0 || (m >= 0 && (m < i || (m == i && !side)))) return; /* no use, or said before */
+  if ((by == 0.0 && !(p->all && has_rows(p->problem, what))) ||
+      (m >= 0 && (m < i || (m == i && !side))))
+    return; /* no use, or said before */
   char label[AMBULO__PARAMETER_TEXT];
   (void)snprintf(label, sizeof label, "%s %s of %s%s", side ? "upper" : "lower", words[what],
                  c->name, m >= 0 ? AMBULO__BOTH_OF_A_PAIR : "");
@@ -217,8 +225,22 @@ static void add_ends(ambulo__parameters *p) {
   }
 }
 
+ambulo_status ambulo__parameters_name(ambulo__parameters *p) {
+  ambulo__partials partials;
+  ambulo__pool pool;
+  ambulo__pool_init(&pool, &p->allocator);
+  ambulo_status status = ambulo__partials_create(p->problem, &pool, &partials);
+  p->partials = &partials;
+  p->all = 1;
+  if (!status) status = ambulo__parameters_collect(p);
+  p->partials = NULL;
+  ambulo__pool_clear(&pool);
+  return status;
+}
+
 ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   ambulo__parameters_of_walk(p);
+  ambulo__parameters_of_events(p);
   add_body(p);
   ambulo__parameters_of_terms(p);
   add_contact_rows(p);

@@ -2,6 +2,7 @@
 #ifndef AMBULO_SENSITIVITY_PARAMETERS_H
 #define AMBULO_SENSITIVITY_PARAMETERS_H
 
+#include "ambulo/sensitivity.h"
 #include "sensitivity/partials.h"
 
 /* What a number is, which decides on its unit and on the change that a person can picture. */
@@ -20,6 +21,8 @@ typedef enum ambulo__quantity {
   AMBULO__TURNING_JOLT,  /* rad/s^2: 1 */
   AMBULO__JOLT,          /* m/s^2: 0.1 */
   AMBULO__LOADING_RATE,  /* body weights/s: 1 */
+  AMBULO__STRIDE_SHARE,  /* 1 % of the stride, of an event */
+  AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
   AMBULO__RATIO          /* any: 1 % of the value */
 } ambulo__quantity;
 
@@ -36,6 +39,7 @@ typedef struct ambulo__parameter {
   char words[3 * AMBULO__PARAMETER_TEXT];
   ambulo__quantity quantity;
   double value, derivative, step; /* SI, rad; step after ambulo__parameters_say */
+  double travel;                  /* d/dp of the definition's travel, m */
   double share;                   /* of f*, by one step; NaN where f* is not positive */
   int order;                      /* before sorting */
 } ambulo__parameter;
@@ -47,6 +51,7 @@ typedef struct ambulo__parameters {
   ambulo__parameter *list;
   int count, capacity;
   int failed; /* sticky: memory ran out */
+  int all;    /* 1: also limits that the motion does not touch */
 } ambulo__parameters;
 
 /* Adds one; `label` and the name's format are for people. */
@@ -55,15 +60,29 @@ void ambulo__parameter_add(ambulo__parameters *parameters, ambulo__quantity quan
 
 /* The one added last moves along with another, `sign` times. */
 void ambulo__parameter_with(ambulo__parameters *parameters, double sign, const char *name, ...);
+/* ... moves the travel by `travel` per unit. */
+void ambulo__parameter_travels(ambulo__parameters *parameters, double travel);
 /* With mirrored ends left and right have to stay alike: the coordinate whose numbers move together
  * with those of i (i itself, if it is its own image turned round), *sign times; -1: none has to. */
 int ambulo__parameter_partner(const ambulo_problem *problem, int i, double *sign);
 
 /* Every number of the problem, with df*_dp; E_MEMORY leaves what ambulo__free of the list frees. */
 ambulo_status ambulo__parameters_collect(ambulo__parameters *parameters);
-/* The pieces: footholds, times, speed, travel; terms of the objective. */
+/* The same without a solution: names, values and quantities, derivatives 0; limits that no motion
+ * has touched are among them. */
+ambulo_status ambulo__parameters_name(ambulo__parameters *parameters);
+/* SI and rad per unit that the problem's file has for it; 0: its unit of angle is not stated. */
+double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
+/* The pieces: footholds, times, speed, travel; events of contacts; terms of the objective. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
+void ambulo__parameters_of_events(ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);
+
+/* ambulo_sensitivities of a point that may not be optimal: as good as it is. */
+ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
+                                           const ambulo_result *result,
+                                           const ambulo_allocator *allocator,
+                                           ambulo_sensitivity_list **list);
 
 /* Steps, shares and words; the largest share comes first. */
 void ambulo__parameters_say(ambulo__parameters *parameters, double objective);

@@ -17,8 +17,9 @@
  *
  * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c,
  * sharing_rows.c, bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
- * contact_split.h, contact_forces.c; duration.c; parameters.h, parameter_list.c, parameters.c,
- * walk_parameters.c, term_parameters.c, words.c, sensitivities.c.
+ * contact_split.h, contact_forces.c; duration.c; event_rates.h, event_rates.c, event_times.c;
+ * parameters.h, parameter_list.c, parameters.c, walk_parameters.c, time_parameters.c,
+ * term_parameters.c, words.c, sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
 #define AMBULO_SENSITIVITY_PARTIALS_H
@@ -43,11 +44,17 @@ typedef struct ambulo__partials {
   double contact_tolerance, orientation_tolerance, strike_pitch[2];
   ambulo_clearance clearance;
   ambulo_ground_reaction reaction;
-  double slope;    /* rad: gravity turned against forward, its size kept */
-  double log_mass; /* of the mass m wherever it stands in rows and terms, torques left out:
-                      dL/d ln m */
-  double body;     /* dL/d ln of the mass of all bodies but the load, in every place */
-  double load;     /* kg: of the load (ambulo_model.load) */
+  double slope;         /* rad: gravity turned against forward, its size kept */
+  double *node_time;    /* [nodes], s: of a node alone */
+  double *contact_time; /* [contacts][2], s: of from and to alone, nodes where they are */
+  int events;           /* 0 where the grid is not on events */
+  double *event_time;   /* [events], s: where contacts begin and end, inside (0, T) */
+  double *event;        /* [events]: of an event, with all contacts, nodes and knots that go along;
+                           NaN where something else is there at the same time */
+  double log_mass;      /* of the mass m wherever it stands in rows and terms, torques left out:
+                           dL/d ln m */
+  double body;          /* dL/d ln of the mass of all bodies but the load, in every place */
+  double load;          /* kg: of the load (ambulo_model.load) */
 } ambulo__partials;
 
 /* A solution: x* is the point that the workspace holds. */
@@ -77,6 +84,14 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
 /* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);
 
+/* Last: nodes, knots and contacts with the events. E_MEMORY. */
+ambulo_status ambulo__partials_of_events(const ambulo__stationary *s, ambulo__pool *pool,
+                                         ambulo__partials *partials);
+
+/* Adds to those of times what dL/da_0 of a node, its share of foot 0, has of them. */
+void ambulo__partials_of_share(const ambulo__stationary *s, int node, double by_share,
+                               ambulo__partials *partials);
+
 /* A side of a support region displaced: adds dc/d(place) of a row on it to the contacts' places,
  * times pull. */
 typedef struct ambulo__support_row {
@@ -89,6 +104,9 @@ typedef struct ambulo__support_row {
 void ambulo__support_side(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
                           const ambulo__support_row *row, double pull, ambulo__partials *partials);
 
+/* A channel of the contact that a row of its force, pressure or free moment stands on; -1: an arc
+ * that rolls. */
+int ambulo__sharing_channel(const ambulo_problem *problem, const ambulo__table_row *row);
 /* A row of a contact that shares the load, times pull; `weight` m g, N. */
 void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
                                  const ambulo__table_row *row, double pull, double weight,

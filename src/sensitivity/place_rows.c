@@ -14,10 +14,13 @@
  *     orientation tolerance                               1, of yaw and roll on the toes 2
  *     strike pitch p_0, p_1                               -cos p_0, cos p_1
  *     clearance height H, of a point due at a low = a H   -low / H
+ *
+ * and a = part(s), half of it of the heel, has times: dc/ds = -H part'(s), s along the swing.
  */
 #include "sensitivity/partials.h"
 
 #include "gait/gait.h"
+#include "gait/loading.h"
 
 #include <math.h>
 
@@ -37,7 +40,19 @@ static double dot(const double a[3], const double b[3]) {
 static int has_point(const ambulo_foot *f, int point) {
   for (int side = 0; side < 2; side++)
     if (f->heel[side] == point || f->toe[side] == point) return 1;
+  for (int end = 0; f->has_arcs && end < 2; end++)
+    if (f->arc[end] == point) return 1;
   return f->heel_center == point || f->toe_center == point || (f->has_tip && f->tip == point);
+}
+
+/* of an arc that rolls: its centre against where the foothold has it */
+static int read_arc(place_row *p, const ambulo__arc *arc, int origin) {
+  const ambulo_model *model = p->s->problem->model;
+  p->point = (arc->center - origin) / 3;
+  for (int i = 0; i < 3; i++) p->total[i] = p->first[i] = arc->sign * arc->forward[i];
+  for (p->foot = 0; p->foot < model->foot_count; p->foot++)
+    if (has_point(&model->feet[p->foot], p->point)) return 1;
+  return 0;
 }
 
 /* 0 when the row stands on no point of a foot */
@@ -46,6 +61,8 @@ static int read_row(place_row *p) {
   const ambulo_model *model = problem->model;
   const ambulo__row_term *term = problem->table.terms + p->row->first_term;
   int origin = ambulo__channel_point(&problem->channels, 0, 0);
+  const ambulo__arc *arc = ambulo__row_arc_of(&problem->table, p->row);
+  if (arc) return read_arc(p, arc, origin);
   if (p->row->term_count == 0) return 0;
   p->point = (term[0].channel - origin) / 3;
   for (int t = 0; t < p->row->term_count; t++) {
@@ -93,6 +110,21 @@ static void add_contact(const place_row *p, const ambulo_contact *contact,
   }
 }
 
+/* low = H' part(s), s = (t - from) / (to - from) of the swing */
+static void add_swing(const place_row *p, ambulo__partials *partials) {
+  const ambulo_problem_definition *d = &p->s->problem->definition;
+  ambulo__span air = ambulo__air_span(d, p->foot, p->row->time);
+  double length = air.to - air.from, slope;
+  if (!(length > 0.0)) return;
+  double s = (p->row->time - air.from) / length;
+  (void)ambulo__clearance_part(s, &slope);
+  int is_heel = p->point == p->s->problem->model->feet[p->foot].heel_center;
+  double pull = -p->pull * (is_heel ? 0.5 : 1.0) * d->clearance.height * slope / length;
+  partials->node_time[p->row->node] += pull;
+  if (air.begins >= 0) partials->contact_time[2 * air.begins + 1] -= pull * (1.0 - s);
+  if (air.ends >= 0) partials->contact_time[2 * air.ends] -= pull * s;
+}
+
 static void add_clearance(const place_row *p, ambulo__partials *partials) {
   const ambulo_problem *problem = p->s->problem;
   const ambulo_problem_definition *d = &problem->definition;
@@ -105,6 +137,7 @@ static void add_clearance(const place_row *p, ambulo__partials *partials) {
   } else if (fabs(up) > fabs(left)) {
     double low = -p->row->constant - d->ground_height;
     if (d->clearance.height > 0.0) c->height -= p->pull * low / d->clearance.height;
+    add_swing(p, partials);
   } else {
     int is_left;
     int contact = ambulo__swing_track(d, p->foot, p->row->time, &is_left);

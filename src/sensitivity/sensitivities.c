@@ -33,6 +33,7 @@ static ambulo_status fill(const ambulo__parameters *p, sensitivity_block *block)
                                .unit = ambulo__quantity_unit(from->quantity),
                                .value = from->value,
                                .derivative = from->derivative,
+                               .travel = from->travel,
                                .step = from->step,
                                .share = from->share,
                                .words = from->words};
@@ -75,15 +76,14 @@ static const char *reason_against(const ambulo_problem *problem, const ambulo_re
   return "";
 }
 
-ambulo_status ambulo_sensitivities(const ambulo_problem *problem, const ambulo_result *result,
-                                   const ambulo_allocator *allocator,
-                                   ambulo_sensitivity_list **list) {
-  if (!problem || !result || !list) return AMBULO_E_ARGUMENT;
+static ambulo_status list_of(const ambulo_problem *problem, const ambulo_result *result,
+                             const char *reason, const ambulo_allocator *allocator,
+                             ambulo_sensitivity_list **list) {
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   sensitivity_block *block = ambulo__alloc(&own, 1, sizeof *block);
   if (!block) return AMBULO_E_MEMORY;
   block->allocator = own;
-  block->list.reason = reason_against(problem, result);
+  block->list.reason = reason;
   ambulo_status status = block->list.reason[0] ? AMBULO_OK : collect(problem, result, block);
   if (status) {
     ambulo_sensitivities_free(&block->list);
@@ -91,4 +91,18 @@ ambulo_status ambulo_sensitivities(const ambulo_problem *problem, const ambulo_r
   }
   *list = &block->list;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo_sensitivities(const ambulo_problem *problem, const ambulo_result *result,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_sensitivity_list **list) {
+  if (!problem || !result || !list) return AMBULO_E_ARGUMENT;
+  return list_of(problem, result, reason_against(problem, result), allocator, list);
+}
+
+ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
+                                           const ambulo_result *result,
+                                           const ambulo_allocator *allocator,
+                                           ambulo_sensitivity_list **list) {
+  return list_of(problem, result, "", allocator, list);
 }

@@ -8,6 +8,8 @@
  *     friction          c = mu phi -+ e.f / W    dc/dmu = phi
  *     pressure          c = -+ l.m / W -+ b phi  dc/db = -phi behind, phi ahead, 0 at a joint
  *                                                of the toes; dc/dside = phi
+ *     under an arc      c = a + (e0 phi -+ phi d), phi d = (-l.m + n.f (p - C)_f) / W:
+ *                                                dc/dplace_f = -+ phi
  *     free moment       c = bound -+ n.m / W     dc/dbound = 1
  */
 #include "sensitivity/partials.h"
@@ -49,6 +51,11 @@ static void add_pressure(const contact_row *c, const char *detail, ambulo__parti
   }
 }
 
+int ambulo__sharing_channel(const ambulo_problem *problem, const ambulo__table_row *row) {
+  const ambulo__arc *arc = ambulo__row_arc_of(&problem->table, row);
+  return arc ? arc->force : problem->table.terms[row->first_term].channel;
+}
+
 /* (S.5b) +-phi, most / rate, 1 */
 void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
                                  const ambulo__table_row *row, double pull, double weight,
@@ -57,12 +64,22 @@ void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot
   const ambulo__channels *channels = &p->channels;
   const ambulo__slots slots = ambulo__slots_of(p->model);
   int first = ambulo__channel_foot_force(channels, 0, 0);
-  int slot = (p->table.terms[row->first_term].channel - first) / channels->slot_rows;
+  int slot = (ambulo__sharing_channel(p, row) - first) / channels->slot_rows;
   int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.foot[slot]];
   contact_row c = {.contact = &p->definition.contacts[own], .pull = pull};
   c.load = ambulo__contact_load_at(&p->definition, outlines, &slots, slot, c.contact, row->time);
   int force = ambulo__channel_foot_force(channels, slot, 0);
   c.phi = ambulo__stationary_along(s, row->node, force, c.load.frame.up) / weight;
+  const ambulo__arc *arc = ambulo__row_arc_of(&p->table, row);
+  if (arc) {
+    for (int i = 0; i < 2; i++) {
+      const double *axis = i ? p->model->left : p->model->forward;
+      double along = 0.0;
+      for (int k = 0; k < 3; k++) along += arc->forward[k] * axis[k];
+      partials->place[2 * own + i] += pull * arc->sign * along * c.phi;
+    }
+    return;
+  }
   switch ((ambulo__row_kind)row->kind) {
   case AMBULO__KIND_NORMAL_FORCE:
     if (strcmp(row->detail, "pulls") != 0) add_normal(&c, s, partials);

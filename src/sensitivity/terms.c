@@ -11,8 +11,15 @@
  *     power tau qd / m                du/d ln m = -u
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
  *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
- *     clearance r (1 - (n.p - h)/H)   du/dh = r / H,            du/dH = (r - u) / H,    where u >
- * 0, r the root of the part of the node's time in the air
+ *     clearance, where u > 0,         du/dh = r / H,            du/dH = (r - u) / H
+ *       r (1 - (n.p - h) / H)         r the root of the part of the node's time in the air
+ *
+ * Times of nodes move quadrature weights and what is divided by them, h the interval ahead and r^2
+ * the part in the air:
+ *
+ *     w_k = (t_k+1 - t_k-1) / 2       dJ/dw_k = weight sum_j phi
+ *     torque rate, w = h, u ~ 1 / h   dJ/dh = weight sum_j (phi - phi' u)
+ *     clearance, u ~ r                dJ/dr^2 = weight w sum_j phi' u / (2 r^2)
  *
  * A slope s turns gravity, -|g| (cos s n + sin s f) in the ground's axes: with v = -g / |g| the
  * vertical and l left, dv/ds = l x v = e_0 and de_0/ds = l x e_0 = -v.
@@ -33,6 +40,27 @@ typedef struct term_sum {
   double up[3];       /* -g / |g| */
 } term_sum;
 
+/* weight w_k of a node grows with the time of the node ahead, and shrinks with that before */
+static void add_quadrature(const term_sum *t, int node, double by_weight) {
+  int last = t->s->problem->nodes - 1;
+  t->partials->node_time[node < last ? node + 1 : node] += 0.5 * by_weight;
+  t->partials->node_time[node > 0 ? node - 1 : node] -= 0.5 * by_weight;
+}
+
+/* part = (t_k+1 - t_k) / (t_k+1 - t_k-1), or what is left of 1 */
+static void add_air(const term_sum *t, const ambulo__term_context *context, int node, int foot,
+                    double by_part) {
+  double part = ambulo__air_part(context, node, foot), *by = t->partials->node_time;
+  if (part <= 0.0 || part >= 1.0) return; /* between two phases: neither the first nor the last */
+  int at = node * context->model->foot_count + foot, lands = context->active[at] >= 0;
+  double ahead = lands ? 1.0 - part : part;
+  double pull =
+      (lands ? -by_part : by_part) / (context->times[node + 1] - context->times[node - 1]);
+  by[node + 1] += pull * (1.0 - ahead);
+  by[node] -= pull;
+  by[node - 1] += pull * ahead;
+}
+
 static void simple_node(const term_sum *t, int node, int i) {
   const ambulo_problem *p = t->s->problem;
   double y = ambulo__stationary_channel(t->s, node, ambulo__term_channel(t->term, &p->channels, i));
@@ -41,6 +69,7 @@ static void simple_node(const term_sum *t, int node, int i) {
   ambulo__residual phi = ambulo__term_residual(t->term, scale * off);
   double slope = t->term->weight * w * phi.slope;
   t->partials->weight[t->index] += w * phi.value;
+  add_quadrature(t, node, t->term->weight * phi.value);
   t->partials->scale[t->coordinates + (size_t)i] += slope * off;
   t->partials->offset[t->coordinates + (size_t)i] -= slope * scale;
 }
@@ -81,7 +110,9 @@ static void strength_form(const term_sum *t, int i, const ambulo__form *form, do
 
 static void clearance_form(const term_sum *t, const ambulo__term_context *context, int node, int j,
                            const ambulo__form *form, double slope) {
-  double root = sqrt(ambulo__air_part(context, node, ambulo__clearance_foot(j)));
+  int foot = ambulo__clearance_foot(j);
+  double part = ambulo__air_part(context, node, foot), root = sqrt(part);
+  add_air(t, context, node, foot, 0.5 * slope * form->u / part);
   t->partials->ground_height += slope * root / t->term->height;
   t->partials->height[t->index] += slope * (root - form->u) / t->term->height;
 }
@@ -127,6 +158,13 @@ static void composite_node(const term_sum *t, const ambulo__term_context *contex
     if (!form.count) continue;
     ambulo__residual phi = ambulo__term_residual(t->term, form.u);
     t->partials->weight[t->index] += w * phi.value;
+    if (ambulo__term_is_rate(t->term->kind)) {
+      double by_step = t->term->weight * (phi.value - phi.slope * form.u);
+      t->partials->node_time[node + 1] += by_step;
+      t->partials->node_time[node] -= by_step;
+    } else {
+      add_quadrature(t, node, t->term->weight * phi.value);
+    }
     composite_form(t, context, node, j, &form, t->term->weight * w * phi.slope);
   }
 }

@@ -6,9 +6,10 @@
  *
  *     step length L    sum dL/dplace_f dx_s/dL + dL/dtravel dx_steps/dL + dL/dT dT/dL
  *                      dT/dL = dx_steps/dL / v where the time follows from a speed v
- *     speed v          dL/dT dT/dv, dT/dv = -T / v; where the length follows from it too, as
- * sqrt(v): dL/dv = L / (2 v), dT/dv = -T / (2 v) step width W     sum dL/dplace_l place_l / W step
- * time        steps dL/dT
+ *     step time S      steps dL/dT; at a speed v that the length follows from, L = v S, also v
+ * dL/dL speed v          dL/dT dT/dv, dT/dv = -T / v where the length follows from it too, as
+ * sqrt(v): dT/dv = -T / (2 v), and dL/dL L / (2 v); where it follows from it and a time, dL/dL S
+ * alone step width W     sum dL/dplace_l place_l / W
  *
  * T has no partial where other times stay in seconds: contacts that are listed, breakpoints, steps
  * of two times, references, functions of the caller.
@@ -61,24 +62,49 @@ static int moves_with_duration(const ambulo_problem *problem) {
   return !follows;
 }
 
+/* step length = speed * step time: neither key of time moves alone */
+static int length_follows(const ambulo__problem_keys *keys) {
+  return keys->speed && !keys->length && (keys->duration || keys->step_time || keys->times);
+}
+
+static void add_time(ambulo__parameters *p, double by_length) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  const ambulo_gait *gait = &keys->walk;
+  double duration = p->problem->definition.duration, steps = gait->steps;
+  double speed = length_follows(keys) ? ambulo__gait_place(gait, gait->steps) / duration : 0.0;
+  int in_steps = keys->gait && !keys->duration;
+  double by = p->partials->duration + (speed > 0.0 ? by_length * speed / steps : 0.0);
+  if (in_steps) {
+    ambulo__parameter_add(p, AMBULO__TIME, gait->step_time, steps * by, "step time",
+                          "gait.step_time");
+  } else {
+    ambulo__parameter_add(p, AMBULO__TIME, duration, by, "duration", "time.duration");
+  }
+  ambulo__parameter_travels(p, in_steps ? steps * speed : speed);
+}
+
+static void add_speed(ambulo__parameters *p, double by_length) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  const ambulo_gait *gait = &keys->walk;
+  double duration = p->problem->definition.duration, steps = gait->steps;
+  double speed = ambulo__gait_place(gait, gait->steps) / duration, by = 0.0, length = 0.0;
+  if (length_follows(keys)) {
+    length = duration / steps;
+  } else {
+    length = keys->length ? 0.0 : gait->step_length / (2.0 * speed);
+    by = -(keys->length ? 1.0 : 0.5) * p->partials->duration * duration / speed;
+  }
+  ambulo__parameter_add(p, AMBULO__SPEED, speed, by + length * by_length, "speed", "gait.speed");
+  ambulo__parameter_travels(p, length * steps);
+}
+
 /* the keys of time, one of which decides */
 static void add_times(ambulo__parameters *p, double by_length) {
   const ambulo__problem_keys *keys = &p->problem->keys;
-  const ambulo_gait *gait = &keys->walk;
-  double by = p->partials->duration, duration = p->problem->definition.duration;
-  if (!moves_with_duration(p->problem)) return;
-  if (!keys->gait || keys->duration) {
-    ambulo__parameter_add(p, AMBULO__TIME, duration, by, "duration", "time.duration");
-  } else if (keys->step_time) {
-    ambulo__parameter_add(p, AMBULO__TIME, gait->step_time, gait->steps * by, "step time",
-                          "gait.step_time");
-  } else {
-    double speed = ambulo__gait_place(gait, gait->steps) / duration;
-    double part = keys->length ? 1.0 : 0.5;
-    double through_length = keys->length ? 0.0 : by_length * gait->step_length / (2.0 * speed);
-    ambulo__parameter_add(p, AMBULO__SPEED, speed, through_length - part * by * duration / speed,
-                          "speed", "gait.speed");
-  }
+  int moves = moves_with_duration(p->problem);
+  int by_time = !keys->gait || keys->duration || keys->step_time;
+  if (moves && by_time) add_time(p, by_length);
+  if (length_follows(keys) || (moves && !by_time)) add_speed(p, by_length);
 }
 
 static void add_lengths(ambulo__parameters *p, const double by[2]) {
@@ -94,12 +120,15 @@ static void add_lengths(ambulo__parameters *p, const double by[2]) {
   if (!keys->lengths) {
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length,
                           by[0] + by[1] + slower * gait->steps, "step length", "gait.step_length");
+    ambulo__parameter_travels(p, gait->steps);
     return;
   }
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length, by[0] + slower * count[0],
                         "length of odd steps", "gait.step_length[0]");
+  ambulo__parameter_travels(p, count[0]);
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->other_step_length, by[1] + slower * count[1],
                         "length of even steps", "gait.step_length[1]");
+  ambulo__parameter_travels(p, count[1]);
 }
 
 static void add_width(ambulo__parameters *p) {
@@ -124,7 +153,8 @@ static void add_places(ambulo__parameters *p) {
   }
 }
 
-/* (S.11) sum dL/dplace dplace/dL + dL/dtravel dtravel/dL + dL/dT dx/dL / v */
+/* (S.11) sum dL/dplace dplace/dL + dL/dtravel dtravel/dL + dL/dT dx/dL / v; ends.travel takes the
+ * place of the gait's */
 void ambulo__parameters_of_walk(ambulo__parameters *p) {
   const ambulo_problem *problem = p->problem;
   double by[2] = {0.0, 0.0};
@@ -136,7 +166,10 @@ void ambulo__parameters_of_walk(ambulo__parameters *p) {
     add_places(p);
   }
   add_times(p, by[0] + by[1]);
-  if (problem->definition.ends != AMBULO_ENDS_FREE && (!problem->keys.gait || problem->keys.travel))
-    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
-                          "travel", "ends.travel");
+  if (problem->definition.ends == AMBULO_ENDS_FREE || (problem->keys.gait && !problem->keys.travel))
+    return;
+  for (int i = 0; i < p->count; i++) p->list[i].travel = 0.0;
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
+                        "travel", "ends.travel");
+  ambulo__parameter_travels(p, 1.0);
 }

@@ -32,4 +32,9 @@ ambulo_status ambulo__session_finish(ambulo__session *session);
 ambulo_status ambulo__session_end(ambulo__session *session, ambulo_status status,
                                   ambulo_result **result);
 
+/* ambulo_solve from one start without second looks, advice and explanation. */
+ambulo_status ambulo__solve_quietly(const ambulo_problem *problem, const ambulo_options *options,
+                                    const double *start, const ambulo_allocator *allocator,
+                                    ambulo_result **result);
+
 #endif

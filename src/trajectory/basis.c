@@ -167,18 +167,34 @@ static void trim(ambulo__basis_point *point, int low, int high, int *first, int 
   *span = kept;
 }
 
-void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point *point) {
+/* the interval of t, and the time in it that t stands for */
+static int place(const ambulo__basis *basis, double t, double *time_in) {
   double time = t > 0.0 ? (t < basis->duration ? t : basis->duration) : 0.0;
   /* k T / N and a breakpoint computed another way differ by rounding: treat as equal */
   double slack = 8.0 * DBL_EPSILON * basis->duration;
   int interval = find_interval(basis, time + slack);
   double start = basis->breakpoints[interval], end = basis->breakpoints[interval + 1];
   if (fabs(time - start) <= slack) time = start;
-  if (time > end) time = end;
+  *time_in = time > end ? end : time;
+  return interval;
+}
+
+void ambulo__basis_at(const ambulo__basis *basis, double t, ambulo__basis_point *point) {
+  double time;
+  int interval = place(basis, t, &time);
   memset(point, 0, sizeof *point);
   basis->methods->at(basis, interval, time, point);
   trim(point, 0, 2, &point->first, &point->span);
   trim(point, 3, 3, &point->jerk_first, &point->jerk_span);
+}
+
+void ambulo__basis_tangent(const ambulo__basis *basis, double t, double rate,
+                           const double *breakpoint_rates, ambulo__basis_point *tangent) {
+  double time;
+  int interval = place(basis, t, &time);
+  memset(tangent, 0, sizeof *tangent);
+  if (basis->methods->tangent)
+    basis->methods->tangent(basis, interval, time, rate, breakpoint_rates, tangent);
 }
 
 double ambulo__basis_abscissa(const ambulo__basis *basis, int c, int *is_value) {

@@ -11,6 +11,10 @@ typedef struct ambulo__basis_methods {
    * stands on one). *point is cleared; all weights from point->first on, untrimmed. */
   void (*at)(const ambulo__basis *basis, int interval, double t, ambulo__basis_point *point);
   double (*abscissa)(const ambulo__basis *basis, int c, int *is_value);
+  /* Orders 0..2 of the map's tangent; rates of the breakpoints may be NULL, for zero. NULL: of
+   * other discretizations. */
+  void (*tangent)(const ambulo__basis *basis, int interval, double t, double rate,
+                  const double *breakpoint_rates, ambulo__basis_point *tangent);
 } ambulo__basis_methods;
 
 extern const ambulo__basis_methods ambulo__bspline_methods;

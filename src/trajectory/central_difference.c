@@ -48,4 +48,4 @@ static double abscissa(const ambulo__basis *basis, int c, int *is_value) {
 }
 
 const ambulo__basis_methods ambulo__central_difference_methods = {control_points, span, at,
-                                                                  abscissa};
+                                                                  abscissa, NULL};

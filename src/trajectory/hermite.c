@@ -55,4 +55,4 @@ static double abscissa(const ambulo__basis *basis, int c, int *is_value) {
   return basis->breakpoints[c / 2];
 }
 
-const ambulo__basis_methods ambulo__hermite_methods = {control_points, span, at, abscissa};
+const ambulo__basis_methods ambulo__hermite_methods = {control_points, span, at, abscissa, NULL};

@@ -89,6 +89,9 @@ static void the_last_swing_ends_at_the_last_node(void **state) {
     row_event(&f, 4, WALKER_RIGHT, -1);
     ambulo__clearance_rows(&f.context, &f.table);
     assert_int_equal(row_count(&f, "clearance", "r_toe", "low", 1.0), strikes);
+    for (int r = 0; r < f.table.row_count; r++)
+      if (f.table.rows[r].node == 4) assert_int_equal(f.table.rows[r].before, 1);
+    assert_int_equal(f.table.before, 0);
     row_fixture_close(&f);
   }
 }

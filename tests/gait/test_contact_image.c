@@ -64,24 +64,28 @@ static void touching_contacts_of_chosen_modes_are_one_span(void **state) {
   (void)state;
   ambulo_model *model = walker_create(0);
   ambulo_problem_definition d = definition_of(model, AMBULO_ENDS_MIRRORED);
-  const ambulo__span heel = {0.35, 0.5};
+  const ambulo__span heel = {0.35, 0.5, 2, 2};
   static const struct {
     int modes;
     double to;
-  } cases[] = {{AMBULO__ANY_MODE, 0.9},
-               {1 << AMBULO_CONTACT_HEEL, 0.5},
-               {1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT, 0.8},
-               {1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_TOE, 0.5}};
+    int ends;
+  } cases[] = {{AMBULO__ANY_MODE, 0.9, 1},
+               {1 << AMBULO_CONTACT_HEEL, 0.5, 2},
+               {1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT, 0.8, 0},
+               {1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_TOE, 0.5, 2}};
   for (int i = 0; i < 4; i++) {
     ambulo__span s = ambulo__uninterrupted(&d, WALKER_LEFT, cases[i].modes, heel);
     assert_close(s.from, 0.35, 1e-15);
     assert_close(s.to, cases[i].to, 1e-12);
+    /* which contacts its ends are those of: the heel's, and the right foot's, one period on */
+    assert_int_equal(s.begins, 2);
+    assert_int_equal(s.ends, cases[i].ends);
   }
   d.ends = AMBULO_ENDS_FREE;
   ambulo__span cut = ambulo__uninterrupted(&d, WALKER_LEFT, AMBULO__ANY_MODE, heel);
   assert_close(cut.to, 0.5, 0.0);
   ambulo__span other =
-      ambulo__uninterrupted(&d, WALKER_RIGHT, AMBULO__ANY_MODE, (ambulo__span){0.3, 0.4});
+      ambulo__uninterrupted(&d, WALKER_RIGHT, AMBULO__ANY_MODE, (ambulo__span){0.3, 0.4, 1, 1});
   assert_close(other.from, 0.0, 0.0);
   ambulo_model_free(model);
 }

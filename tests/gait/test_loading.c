@@ -101,9 +101,87 @@ static void time_in_the_air(void **state) {
   ambulo_model_free(f.model);
 }
 
+/* whose times a span has */
+static void spans_know_their_contacts(void **state) {
+  (void)state;
+  fixture f;
+  ambulo__span span;
+  open_with(&f, -0.05);
+  const ambulo_contact *c = f.contacts;
+  assert_int_equal(ambulo__loaded_span(&f.definition, WALKER_LEFT, 0.0, &span), 1);
+  assert_int_equal(c[span.begins].foot, WALKER_RIGHT); /* the mirror image of what strikes at .45 */
+  assert_close(c[span.begins].from - 0.5, span.from, 1e-12);
+  assert_int_equal(c[span.ends].foot, WALKER_RIGHT);
+  assert_close(c[span.ends].to + 0.5, span.to, 1e-12);
+  span = ambulo__air_span(&f.definition, WALKER_RIGHT, 0.2);
+  assert_close(c[span.begins].to, span.from, 1e-12);
+  assert_close(c[span.ends].from, span.to, 1e-12);
+  f.definition.ends = AMBULO_ENDS_FREE;
+  span = ambulo__air_span(&f.definition, WALKER_LEFT, 0.02);
+  assert_int_equal(span.begins, -1);
+  ambulo_model_free(f.model);
+}
+
+/* the share of the right foot, with one time of a contact (side -1: none) and the time itself moved
+ */
+static double moved_share(fixture *f, int contact, int side, double by, double time) {
+  double *moved = side < 0 ? NULL : side ? &f->contacts[contact].to : &f->contacts[contact].from;
+  if (moved) *moved += by;
+  double share = ambulo__load_at(&f->definition, f->outlines, time).share[0];
+  if (moved) *moved -= by;
+  return share;
+}
+
+static void expect_slope(fixture *f, int contact, int side, double time, double slope) {
+  double step = 1e-6, moves = side < 0 ? step : 0.0;
+  double difference = (moved_share(f, contact, side, step, time + moves) -
+                       moved_share(f, contact, side, -step, time - moves)) /
+                      (2.0 * step);
+  assert_true(fabs(difference) > 1e-3);
+  assert_close(slope, difference, 1e-6 * fabs(difference));
+}
+
+static void shares_have_slopes(void **state) {
+  (void)state;
+  static const ambulo_transfer transfers[] = {AMBULO_TRANSFER_EARLY, AMBULO_TRANSFER_SMOOTH,
+                                              AMBULO_TRANSFER_LINEAR};
+  static const double times[] = {0.01, 0.04, 0.46, 0.48}; /* the left foot in front, the right */
+  fixture f;
+  open_with(&f, -0.05);
+  for (int k = 0; k < 12; k++) {
+    double time = times[k % 4];
+    f.definition.ground_reaction.transfer = transfers[k / 4];
+    ambulo__share_slopes s = ambulo__load_slopes_at(&f.definition, time);
+    expect_slope(&f, 0, -1, time, s.by_time);
+    expect_slope(&f, s.begins, 0, time, s.by_begin);
+    expect_slope(&f, s.ends, 1, time, s.by_end);
+  }
+  ambulo__share_slopes alone = ambulo__load_slopes_at(&f.definition, 0.2);
+  assert_close(alone.by_time, 0.0, 0.0);
+  assert_int_equal(alone.begins, -1);
+  ambulo_model_free(f.model);
+}
+
+static void a_heel_rolls_until_it_is_flat(void **state) {
+  (void)state;
+  fixture f;
+  open_with(&f, -0.05); /* the left foot from -.05 to .05 */
+  const ambulo_contact *heel = ambulo__contact_of(&f.definition, WALKER_LEFT, 0.02);
+  assert_int_equal(heel->mode, AMBULO_CONTACT_HEEL);
+  ambulo__roll roll = ambulo__heel_roll_at(&f.definition, heel, 0.02);
+  assert_close(roll.part, 0.7, 1e-12);
+  assert_close(roll.duration, 0.1, 1e-12);
+  assert_close(f.contacts[roll.begins].from, 0.45, 1e-12);
+  ambulo_model_free(f.model);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(transfers_by_hand), cmocka_unit_test(centres_of_pressure_are_apart),
-      cmocka_unit_test(double_support_goes_on_beyond_the_ends), cmocka_unit_test(time_in_the_air)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(transfers_by_hand),
+                                     cmocka_unit_test(centres_of_pressure_are_apart),
+                                     cmocka_unit_test(double_support_goes_on_beyond_the_ends),
+                                     cmocka_unit_test(time_in_the_air),
+                                     cmocka_unit_test(spans_know_their_contacts),
+                                     cmocka_unit_test(shares_have_slopes),
+                                     cmocka_unit_test(a_heel_rolls_until_it_is_flat)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

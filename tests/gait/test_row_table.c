@@ -31,6 +31,19 @@ static void rows_and_terms_grow(void **state) {
   ambulo__row_table_clear(&table);
 }
 
+static void rows_know_which_phase_they_are_of(void **state) {
+  (void)state;
+  ambulo__row_table table;
+  ambulo__row_table_init(&table, NULL);
+  for (int r = 0; r < 4; r++) {
+    table.before = r / 2;
+    ambulo__row_begin(&table, AMBULO__KIND_ZMP, "s", "d", AMBULO__METRES, AMBULO_EQUAL, r, 0.0,
+                      0.0);
+  }
+  for (int r = 0; r < 4; r++) assert_int_equal(table.rows[r].before, r / 2);
+  ambulo__row_table_clear(&table);
+}
+
 static void no_memory_is_remembered(void **state) {
   (void)state;
   for (long k = 0; k < 3; k++) { /* the rows, their families, the terms */
@@ -94,7 +107,8 @@ static void families_are_numbered_as_they_begin(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_and_terms_grow), cmocka_unit_test(no_memory_is_remembered),
-      cmocka_unit_test(what_is_missed), cmocka_unit_test(families_are_numbered_as_they_begin)};
+      cmocka_unit_test(rows_and_terms_grow), cmocka_unit_test(rows_know_which_phase_they_are_of),
+      cmocka_unit_test(no_memory_is_remembered), cmocka_unit_test(what_is_missed),
+      cmocka_unit_test(families_are_numbered_as_they_begin)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,6 +13,7 @@ static const ambulo_contact level[] = {
     {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 1.0, .place = {0.5, 0.1}}};
 
 static const double mg = 72.0 * 9.81;
+static const double allowed = 1e-4; /* m: beyond the patch, whatever the force */
 
 static void prepare(row_fixture *f, int planar, const ambulo_contact *contacts, int count) {
   row_fixture_open(f, planar);
@@ -90,10 +91,10 @@ static void pressure_stays_in_the_patch(void **state) {
   /* (ahead, 0, -aside) x (0, up, 0) */
   const double force[3] = {0, up, 0}, moment[3] = {aside * up, 0, ahead * up};
   load(&f, 1, WALKER_RIGHT, force, moment);
-  expect(&f, "pressure", "right", "front", 0.25, up * (0.055 - 0.02 - ahead));
-  expect(&f, "pressure", "right", "back", 0.25, up * (ahead + 0.02 + 0.02));
-  expect(&f, "pressure", "right", "left", 0.25, up * (0.035 - aside));
-  expect(&f, "pressure", "right", "right", 0.25, up * (0.035 + aside));
+  expect(&f, "pressure", "right", "front", 0.25, allowed + up * (0.055 - 0.02 - ahead));
+  expect(&f, "pressure", "right", "back", 0.25, allowed + up * (ahead + 0.02 + 0.02));
+  expect(&f, "pressure", "right", "left", 0.25, allowed + up * (0.035 - aside));
+  expect(&f, "pressure", "right", "right", 0.25, allowed + up * (0.035 + aside));
   f.table.row_count = 0;
   f.definition.ground_reaction.pressure = 0;
   ambulo__sharing_rows(&f.context, &f.table);
@@ -133,8 +134,8 @@ static void rows_are_about_the_axes_of_the_surface(void **state) {
   expect(&f, "normal_force", "left", "pulls", 0.25, 0.5);
   expect(&f, "friction", "left", "forward", 0.25, 0.25 - 0.1);
   expect(&f, "friction", "left", "to the right", 0.25, 0.25 - 0.05);
-  expect(&f, "pressure", "left", "front", 0.25, 0.5 * (0.12 + 0.0) - 0.01);
-  expect(&f, "pressure", "left", "left", 0.25, 0.5 * 0.035 - 0.006);
+  expect(&f, "pressure", "left", "front", 0.25, allowed + 0.5 * (0.12 + 0.0) - 0.01);
+  expect(&f, "pressure", "left", "left", 0.25, allowed + 0.5 * 0.035 - 0.006);
   expect(&f, "free_moment", "left", "to the left", 0.25, 0.02 - 0.004);
   row_fixture_close(&f);
 }
@@ -182,7 +183,7 @@ static void events_have_both_boxes(void **state) {
   }
   assert_int_equal(before, 1);
   /* did not strike: no roll; flat the centre is still at the heel */
-  assert_close(nearest, 0.03, 1e-12);
+  assert_close(nearest, allowed + 0.03, 1e-12);
   row_fixture_close(&f);
 }
 

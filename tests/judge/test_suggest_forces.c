@@ -184,7 +184,8 @@ static void pressure_is_missed_by_what_its_force_makes_of_it(void **state) {
     double *values = calloc((size_t)p->rows, sizeof *values);
     ambulo__explanation *out = calloc(1, sizeof *out);
     values[row] = -0.01;
-    values[other] = 0.5 * way + 0.01;
+    /* but for what is allowed on either side */
+    values[other] = 0.5 * way + 0.01 + 2.0 * p->table.rows[row].constant;
     ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
     ambulo__suggest(p, &remedy, out);
     if (!strstr(out->suggestion, cases[i].phrase) || !strstr(out->setting[0], cases[i].setting))

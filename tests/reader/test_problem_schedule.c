@@ -60,6 +60,23 @@ static void phases_and_places_are_read(void **state) {
   ambulo_problem_free(p);
 }
 
+/* a speed and a time make the length: at 1.2 m/s 0.5 s make 0.6 m, also of unlike steps */
+static void a_speed_and_a_time_make_the_length(void **state) {
+  (void)state;
+  static const char *const texts[] = {
+      HEAD "time: {intervals: 4}\ngait: {steps: 2, first_foot: left, speed: 1.2, step_time: 0.5}\n",
+      HEAD "time: {intervals: 4, duration: 1}\ngait: {steps: 2, first_foot: left, speed: 1.2}\n",
+      HEAD "time: {intervals: 4}\ngait: {steps: 2, first_foot: left, speed: 1.2, step_time: [0.4, "
+           "0.6]}\n"};
+  for (int i = 0; i < 3; i++) {
+    ambulo_problem *p = problem_of(texts[i]);
+    assert_close(ambulo_problem_duration(p), 1.0, 1e-14);
+    assert_close(p->definition.travel, 1.2, 1e-14);
+    assert_close(p->keys.walk.step_length, 0.6, 1e-14);
+    ambulo_problem_free(p);
+  }
+}
+
 /* L = sqrt(60 v W) with W = 0.0035 * 1.75 m; lists are two unlike steps */
 static void a_speed_alone_and_unlike_steps(void **state) {
   (void)state;
@@ -113,6 +130,13 @@ static void faults_are_placed(void **state) {
               "expected a number from 0.001 to 100");
   expect_only(HEAD "time: {duration: 1, intervals: 4}\n" GAIT "step_time: -1}\n",
               "expected a number from 0.001 to 1000");
+  expect_only(HEAD "time: {duration: 1, intervals: 4}\ngait: {steps: 2, first_foot: left, "
+                   "speed: -1}\n",
+              "expected a number from 0.001 to 100");
+  expect_only(HEAD "time: {intervals: 4}\n" GAIT "speed: 1.3, step_time: [0.5, 0.6]}\n",
+              "'speed' makes a step last 0.461538462 s; expected 0.55 s");
+  expect_only(HEAD "time: {intervals: 4}\n" GAIT "step_time: [0.5, long]}\n",
+              "got 'long'; expected a number");
   expect_refusal(HEAD "time: {intervals: 4}\n" GAIT "step_time: 0.5, phases: {heel_off: 0.7}}\n",
                  AMBULO_E_PROBLEM, "phases 0, 0.08, 0.7, 0.62 of a stride");
   expect_refusal(HEAD "time: {intervals: 4}\n"
@@ -147,6 +171,7 @@ int main(void) {
                                      cmocka_unit_test(phases_and_places_are_read),
                                      cmocka_unit_test(the_width_defaults_to_the_hips),
                                      cmocka_unit_test(a_speed_alone_and_unlike_steps),
+                                     cmocka_unit_test(a_speed_and_a_time_make_the_length),
                                      cmocka_unit_test(faults_are_placed),
                                      cmocka_unit_test(expanded_contradictions_point_at_the_gait)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,89 +1,6 @@
-/* Every number that a file has a name for: the derivative of the Lagrangian by hand against central
- * differences over problems that are read anew with the number moved, at the same point and with
- * the same multipliers. The identity holds at any point and with any multipliers, so that those are
- * chosen such that every row counts: the best point a little off, random multipliers. */
-#include "ambulo/ambulo.h"
-#include "judge/result.h"
+/* Every number that a file has a name for, by hand against central differences. */
 #include "sensitivity/partials.h"
-#include "support/moved_problem.h"
-
-enum { MOST_OVERRIDES = 8 };
-
-typedef struct setting {
-  const char *file;
-  const char *overrides[MOST_OVERRIDES];
-  const char *wanted[12]; /* names that have to be among those compared */
-} setting;
-
-static double noise(unsigned *state) {
-  *state = *state * 1664525u + 1013904223u;
-  return (double)(*state >> 8) / 8388608.0 - 1.0;
-}
-
-/* a result that says so of itself, at a point that is none */
-static ambulo_result *scattered(const ambulo_problem *problem) {
-  ambulo_result *result = NULL;
-  ambulo_options options = ambulo_problem_options(problem);
-  unsigned state = 7;
-  options.maximum_iterations = 3;
-  options.continuation = 0;
-  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
-  for (int i = 0; i < result->variables; i++) result->x[i] += 1e-3 * noise(&state);
-  for (int r = 0; r < result->rows; r++) result->multiplier[r] = 0.1 * noise(&state);
-  result->verdict = AMBULO_OPTIMAL;
-  return result;
-}
-
-static double step_of(const ambulo_sensitivity *s) {
-  return s->value == 0.0 ? 1e-3 * s->step : 1e-5 * fmax(fabs(s->value), 0.1 * s->step);
-}
-
-/* 0: the file refuses the number moved */
-static int compare(const setting *c, int count, const ambulo_problem *problem,
-                   const ambulo_result *r, const ambulo_sensitivity *s) {
-  double value[2] = {NAN, NAN}, by = step_of(s);
-  for (int k = 0; k < 2; k++) {
-    ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, k ? by : -by);
-    if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
-    ambulo_problem_free(moved);
-  }
-  double difference = (value[1] - value[0]) / (2.0 * by);
-  if (isnan(difference)) return 0;
-  /* what rounding leaves of a difference of two values of this size */
-  double slack = 1e-7 * fabs(s->derivative) + 4e-15 * (fabs(value[0]) + 1.0) / by;
-  if (fabs(difference - s->derivative) <= slack) return 1;
-  fail_msg("%s: %s is %.12g by hand, %.12g by differences (+- %.1g)", c->file, s->name,
-           s->derivative, difference, slack);
-  return 1;
-}
-
-/* `unwanted`: a name that has no derivative; NULL */
-static void check(const setting *c, const char *unwanted) {
-  int count = 0, compared = 0;
-  ambulo_problem *problem = NULL;
-  ambulo_sensitivity_list *list = NULL;
-  while (count < MOST_OVERRIDES && c->overrides[count]) count++;
-  assert_int_equal(ambulo_problem_load(c->file, c->overrides, count, NULL, NULL, &problem),
-                   AMBULO_OK);
-  ambulo_result *result = scattered(problem);
-  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
-  int found[12] = {0};
-  for (int i = 0; i < list->count; i++) {
-    int did = compare(c, count, problem, result, &list->items[i]);
-    compared += did;
-    for (int k = 0; k < 12 && c->wanted[k]; k++)
-      found[k] |=
-          did && list->items[i].derivative != 0.0 && strcmp(c->wanted[k], list->items[i].name) == 0;
-  }
-  for (int k = 0; k < 12 && c->wanted[k]; k++)
-    if (!found[k]) fail_msg("%s: %s was not compared", c->file, c->wanted[k]);
-  for (int i = 0; unwanted && i < list->count; i++)
-    assert_string_not_equal(unwanted, list->items[i].name);
-  assert_true(compared > 6);
-  ambulo_sensitivities_free(list);
-  ambulo_result_free(result);
-  ambulo_problem_free(problem);
-}
+#include "support/sensitivity_check.h"
 
 static void an_arm(void **state) {
   (void)state;
@@ -180,75 +97,7 @@ static void a_walk_with_other_terms(void **state) {
   check(&c, NULL);
 }
 
-/* ------------------------------------------------------------ grids on events */
-
 #define ON_EVENTS "time.grid=events", "trajectory.knots=events"
-
-/* a node on an event has rows of both contacts, and half an interval of either length */
-static void a_planar_step_on_events(void **state) {
-  (void)state;
-  static const setting c = {
-      "models/walker_2d_step.yaml",
-      {"angles=degrees", "constraints.zmp_margin=0.005", "constraints.speed_limits=true",
-       "constraints.minimum_force=0.1", "trajectory.degree=4", ON_EVENTS},
-      {"gait.step_length", "gait.speed", "subject.mass", "ground.slope", "constraints.zmp_margin",
-       "constraints.minimum_force", "constraints.ground_height"}};
-  check(&c, NULL);
-}
-
-static void four_steps_on_hulls_on_events(void **state) {
-  (void)state;
-  static const setting c = {
-      "models/yardstick_12.yaml",
-      {"angles=degrees", "constraints.zmp=hull", "constraints.zmp_margin=0.002",
-       "time.duration=null", "gait.step_time=0.6105", "time.intervals=40", ON_EVENTS},
-      {"gait.step_length", "gait.step_width", "gait.step_time", "ground.slope",
-       "constraints.zmp_margin", "constraints.ground_height"}};
-  check(&c, NULL);
-}
-
-static void contacts_one_by_one_on_events(void **state) {
-  (void)state;
-  static const setting c = {
-      "models/walker_2d_step.yaml",
-      {"gait=null", "ends=null", "time.duration=0.5", "angles=degrees",
-       "contacts=[{foot: right, mode: flat, from: 0, to: 0.3, place: [0, 0]}, "
-       "{foot: right, mode: toe, from: 0.3, to: 0.4, place: [0.01, 0]}, "
-       "{foot: left, mode: heel, from: 0.3, to: 0.5, place: [0.4, 0]}]",
-       ON_EVENTS},
-      {"contacts[0].place[0]", "contacts[1].place[0]", "contacts[2].place[0]", "subject.mass",
-       "ground.slope"}};
-  check(&c, "time.duration");
-}
-
-static void a_walk_under_load_on_events(void **state) {
-  (void)state;
-  static const setting c = {
-      "models/walk_loaded.yaml",
-      {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
-       "roll: 0.04, width: 0.035}",
-       "ground={slope: 3}", "ground_reaction.shear=0.8", ON_EVENTS},
-      {"load.mass", "subject.mass", "ground.slope", "gait.step_width", "gait.step_length",
-       "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
-       "constraints.contact_tolerance", "constraints.orientation_tolerance",
-       "constraints.clearance.inward", "constraints.strike_pitch[0]", "time.duration"}};
-  check(&c, NULL);
-}
-
-static void a_walk_with_other_terms_on_events(void **state) {
-  (void)state;
-  static const setting c = {
-      "models/walk_loaded.yaml",
-      {"objective=[{term: clearance, height: 0.06, weight: 3}, "
-       "{term: torque_rate, weight: 0.0001}, {term: mechanical_power, weight: 0.01}, "
-       "{term: upright, weight: 10, points: [pelvis, head_top]}, "
-       "{term: ground_force, weight: 0.3}]",
-       "time.duration=null", "gait.speed=1.26", "trajectory.degree=5", ON_EVENTS},
-      {"objective[clearance].height", "gait.speed", "gait.step_length",
-       "constraints.clearance.turn", "constraints.clearance.ceiling", "load.mass",
-       "constraints.ground_height", "objective[torque_rate].weight"}};
-  check(&c, NULL);
-}
 
 /* contacts share the load: what they are told, their rows, a term on their forces */
 #define SHARED                                                                                     \
@@ -289,6 +138,30 @@ static void a_walk_at_a_speed(void **state) {
                             {"gait.step_length=null", "time.duration=null", "gait.speed=1.26"},
                             {"gait.speed", "gait.step_width", "subject.mass"}};
   check(&c, NULL);
+}
+
+/* the length is that of the speed and the time: neither moves without it */
+static void a_cadence_at_a_speed(void **state) {
+  (void)state;
+  static const setting by_step = {
+      "models/walk_normal.yaml",
+      {"gait.step_length=null", "time.duration=null", "gait.speed=1.26", "gait.step_time=0.54"},
+      {"gait.step_time", "gait.speed", "gait.step_width"}};
+  static const setting by_duration = {"models/walk_normal.yaml",
+                                      {"gait.step_length=null", "gait.speed=1.26"},
+                                      {"time.duration", "gait.speed"}};
+  static const setting unlike = {
+      "models/walk_asymmetric.yaml",
+      {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=[0.5, 0.6]"},
+      {"gait.speed"}};
+  static const setting two_steps = {
+      "models/walk_asymmetric.yaml",
+      {"gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.55"},
+      {"gait.step_time", "gait.speed"}};
+  check(&by_step, "time.duration");
+  check(&two_steps, "time.duration");
+  check(&by_duration, "gait.step_time");
+  check(&unlike, "gait.step_time");
 }
 
 static void a_walk_in_tubes(void **state) {
@@ -368,13 +241,9 @@ int main(void) {
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_walk_at_a_speed),
-      cmocka_unit_test(a_planar_step_on_events),
-      cmocka_unit_test(four_steps_on_hulls_on_events),
-      cmocka_unit_test(contacts_one_by_one_on_events),
-      cmocka_unit_test(a_walk_under_load_on_events),
-      cmocka_unit_test(a_walk_with_other_terms_on_events),
       cmocka_unit_test(a_walk_on_shared_contacts),
       cmocka_unit_test(a_walk_on_shared_contacts_on_events),
+      cmocka_unit_test(a_cadence_at_a_speed),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),
       cmocka_unit_test(two_arms),

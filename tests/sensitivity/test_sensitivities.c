@@ -99,6 +99,21 @@ static void four_steps_solved_anew(void **state) {
   compare("models/yardstick_12.yaml", base, 2, names, 3e-3, 1e-4);
 }
 
+/* where nodes and knots are moves along */
+static void phases_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {"angles=degrees",          "constraints.zmp_margin=0.005",
+                                     "time.grid=events",        "trajectory.knots=events",
+                                     "trajectory.intervals=14", "trajectory.degree=5"};
+  static const char *const names[] = {"gait.phases.heel_strike",
+                                      "gait.phases.foot_flat",
+                                      "gait.phases.heel_off",
+                                      "gait.phases.toe_off",
+                                      "gait.speed",
+                                      NULL};
+  compare("models/walker_2d_step.yaml", base, 6, names, 3e-3, 1e-4);
+}
+
 /* --------------------------------------------------------------- what is said */
 
 static const char step[] = "models/walker_2d_step.yaml";
@@ -195,10 +210,9 @@ static void arguments_are_checked(void **state) {
   close_solved(&s);
 }
 
-static void every_allocation_may_fail(void **state) {
-  (void)state;
+static void expect_no_leak(const char *file, const char *override) {
   solved s;
-  open_solved(&s, "models/yardstick_12.yaml", NULL);
+  open_solved(&s, file, override);
   for (long k = 0; k < 10000; k++) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
@@ -216,12 +230,19 @@ static void every_allocation_may_fail(void **state) {
   close_solved(&s);
 }
 
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  expect_no_leak("models/yardstick_12.yaml", NULL);
+  expect_no_leak(step, "time.grid=events");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),     cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew), cmocka_unit_test(the_dearest_stands_first),
-      cmocka_unit_test(no_optimum_has_none),    cmocka_unit_test(uneven_ground_has_none),
-      cmocka_unit_test(arguments_are_checked),  cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(phases_solved_anew),
+      cmocka_unit_test(the_dearest_stands_first),  cmocka_unit_test(no_optimum_has_none),
+      cmocka_unit_test(uneven_ground_has_none),    cmocka_unit_test(arguments_are_checked),
+      cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ambulo_result *solve_walk(const char *const *settings, int count, double tolerance) {
+static double slope_of_toe_off(const ambulo_problem *problem, const ambulo_result *result) {
+  ambulo_sensitivity_list *list = NULL;
+  double slope = NAN;
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  for (int i = 0; i < list->count; i++)
+    if (!strcmp(list->items[i].name, "gait.phases.toe_off")) slope = list->items[i].derivative;
+  ambulo_sensitivities_free(list);
+  return slope;
+}
+
+/* *slope, if not NULL: of toe-off, from the sensitivities */
+static ambulo_result *solve_with_slope(const char *const *settings, int count, double tolerance,
+                                       double *slope) {
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(
@@ -18,8 +30,13 @@ static ambulo_result *solve_walk(const char *const *settings, int count, double 
   ambulo_options options = ambulo_problem_options(problem);
   if (tolerance > 0.0) options.optimality_tolerance = options.feasibility_tolerance = tolerance;
   assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  if (slope) *slope = slope_of_toe_off(problem, result);
   ambulo_problem_free(problem);
   return result;
+}
+
+static ambulo_result *solve_walk(const char *const *settings, int count, double tolerance) {
+  return solve_with_slope(settings, count, tolerance, NULL);
 }
 
 /* f* with the rear foot's toe-off at that part of the stride; 12 intervals of degree 4 */
@@ -33,6 +50,15 @@ static double best_at(double toe_off, const char *grid, const char *knots) {
   assert_true(ambulo_result_audit(result)->kkt <= 2e-4);
   ambulo_result_free(result);
   return value;
+}
+
+/* df* / dtoe_off at .62 without another solve */
+static double slope_by_hand(void) {
+  static const char *const settings[] = {"time.grid=events", "trajectory.knots=events",
+                                         "trajectory.degree=4", "trajectory.intervals=12"};
+  double slope;
+  ambulo_result_free(solve_with_slope(settings, 4, 1e-5, &slope));
+  return slope;
 }
 
 /* toe-off at .62 of the stride is node 6 of 25 equally spaced ones. There the uniform grid's f*
@@ -52,6 +78,10 @@ static void the_best_is_smooth_in_an_event_time(void **state) {
     print_error("slopes %.8f %.8f %.8f, ratio %g\n", slope[0], slope[1], slope[2], ratio);
   assert_true(ratio > 3.0 && ratio < 5.0);
   assert_true(fabs(slope[1] - slope[2]) < 1e-3 * fabs(slope[2]));
+  double limit = (4.0 * slope[2] - slope[1]) / 3.0, by_hand = slope_by_hand();
+  if (!(fabs(by_hand - limit) < 1e-4 * fabs(limit)))
+    print_error("slope %.8f by hand, %.8f by solves\n", by_hand, limit);
+  assert_true(fabs(by_hand - limit) < 1e-4 * fabs(limit));
   double jump = best_at(0.62 + 1e-4, "time.grid=uniform", "trajectory.knots=uniform") -
                 best_at(0.62 - 1e-4, "time.grid=uniform", "trajectory.knots=uniform");
   assert_true(fabs(jump) >

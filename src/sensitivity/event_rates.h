@@ -1,0 +1,30 @@
+/* sensitivity/event_rates.h - what goes along when one event of the contacts moves.
+ *
+ * An event is a time inside (0, T) at which contacts begin or end (gait/phases.h). With it move the
+ * times of these contacts, the times in swings that depend on them, and nodes and knots in between:
+ * rates, s per s. */
+#ifndef AMBULO_SENSITIVITY_EVENT_RATES_H
+#define AMBULO_SENSITIVITY_EVENT_RATES_H
+
+#include "gait/phases.h"
+#include "linear/pool.h"
+#include "nlp/nlp.h"
+
+typedef struct ambulo__event_map {
+  const ambulo_problem *problem;
+  ambulo__events contacts, rows; /* of each kind */
+  int *of_contact;               /* [contacts][2]: the event of from and to; -1: 0, T or beyond */
+  /* of each of rows: its time is a sum of up to two events', times these factors */
+  int *source;    /* [rows][2]; -1: none */
+  double *factor; /* [rows][2] */
+  int *unclear;   /* [contacts.count]: 1: another time is there too, which does not go along */
+} ambulo__event_map;
+
+/* Memory from `pool`. E_MEMORY. */
+ambulo_status ambulo__event_map_create(const ambulo_problem *problem, ambulo__pool *pool,
+                                       ambulo__event_map *map);
+/* Rates of nodes [nodes], of breakpoints [intervals + 1] when `event` moves. */
+void ambulo__event_node_rates(const ambulo__event_map *map, int event, double *rates);
+void ambulo__event_knot_rates(const ambulo__event_map *map, int event, double *rates);
+
+#endif

@@ -1,0 +1,110 @@
+/* sensitivity/time_parameters.c - phases of a gait and times of listed contacts, on a grid on
+ * events.
+ *
+ * Phase f of the stride S moves an event of each step (gait/expand.c), t = t_s + f S:
+ *
+ *     dL/df = S sum dL/de over the events that are there
+ *
+ * There is none on other grids, where rows come and go as an event passes a node; where an event
+ * of another phase, or 0 or T, is at the same time, so that nodes come or go; nor for what stays in
+ * seconds while nodes move: references, tubes, functions of the caller.
+ */
+#include "sensitivity/parameters.h"
+
+#include "base/instant.h"
+#include "gait/gait.h"
+#include "gait/phases.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { PHASES = 4, FIRST_STEP = -3 }; /* steps that reach into the motion: gait/expand.c */
+
+typedef struct stride {
+  const ambulo__parameters *p;
+  const ambulo_gait *gait;
+  double phase[PHASES], duration;
+} stride;
+
+static double time_of(const stride *s, int step, int phase) {
+  return ambulo__gait_strike(s->gait, step) + s->phase[phase] * s->duration;
+}
+
+static int same_time(double a, double b) {
+  return fabs(a - b) <= AMBULO__INSTANT;
+}
+
+/* 1 if another phase has an event at `time` */
+static int is_shared(const stride *s, int phase, double time) {
+  for (int step = FIRST_STEP; step <= s->gait->steps + 1; step++) {
+    for (int other = 0; other < PHASES; other++)
+      if (other != phase && same_time(time_of(s, step, other), time)) return 1;
+  }
+  return 0;
+}
+
+/* dL/de at `time`, which nothing but `phase` moves; NaN */
+static double pull_at(const stride *s, int phase, double time) {
+  const ambulo__partials *by = s->p->partials;
+  const ambulo__events events = {by->events, by->event_time};
+  int event = ambulo__event_at(&events, time);
+  return event < 0 || is_shared(s, phase, time) ? (double)NAN : by->event[event];
+}
+
+static double pull_of(const stride *s, int phase) {
+  double end = s->p->problem->definition.duration, sum = 0.0;
+  for (int step = FIRST_STEP; step <= s->gait->steps + 1; step++) {
+    double time = time_of(s, step, phase);
+    if (time >= -AMBULO__INSTANT && time <= end + AMBULO__INSTANT)
+      sum += s->duration * pull_at(s, phase, time);
+  }
+  return sum;
+}
+
+/* (S.14) S sum dL/de */
+static void add_phases(ambulo__parameters *p) {
+  static const char *const keys[PHASES] = {"heel_strike", "foot_flat", "heel_off", "toe_off"};
+  static const char *const words[PHASES] = {"heel strike", "foot flat", "heel off", "toe-off"};
+  const ambulo_gait *gait = &p->problem->keys.walk;
+  const stride s = {p,
+                    gait,
+                    {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off},
+                    ambulo__gait_strike(gait, 2)};
+  for (int phase = 0; phase < PHASES; phase++) {
+    double pull = pull_of(&s, phase);
+    if (isfinite(pull))
+      ambulo__parameter_add(p, AMBULO__STRIDE_SHARE, s.phase[phase], pull, words[phase],
+                            "gait.phases.%s", keys[phase]);
+  }
+}
+
+/* one end of a contact, if no other contact begins or ends there */
+static void add_contact_time(ambulo__parameters *p, int contact, int side) {
+  static const char *const keys[2] = {"from", "to"}, *const words[2] = {"start", "end"};
+  const ambulo_problem_definition *d = &p->problem->definition;
+  const ambulo__events events = {p->partials->events, p->partials->event_time};
+  double time = side ? d->contacts[contact].to : d->contacts[contact].from;
+  int event = ambulo__event_at(&events, time), there = 0;
+  for (int c = 0; c < d->contact_count; c++)
+    there += same_time(d->contacts[c].from, time) + same_time(d->contacts[c].to, time);
+  if (event < 0 || there > 1 || !isfinite(p->partials->event[event])) return;
+  char label[64];
+  (void)snprintf(label, sizeof label, "%s of contact %d", words[side], contact);
+  ambulo__parameter_add(p, AMBULO__EVENT_TIME, time, p->partials->event[event], label,
+                        "contacts[%d].%s", contact, keys[side]);
+}
+
+void ambulo__parameters_of_events(ambulo__parameters *p) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  int stays = d->user_row_count > 0 || d->tube_count > 0 || p->partials->events == 0;
+  for (int t = 0; t < d->term_count; t++) stays |= d->terms[t].function || d->terms[t].reference;
+  if (stays) return;
+  if (p->problem->keys.gait) {
+    add_phases(p);
+    return;
+  }
+  for (int c = 0; c < d->contact_count; c++) {
+    add_contact_time(p, c, 0);
+    add_contact_time(p, c, 1);
+  }
+}

@@ -1,0 +1,155 @@
+/* `free:` of a problem file: what it says, and what it may not say, with its place. */
+#include "reader/problem_free.h"
+#include "reader/problem_text.h"
+#include "support/fail_alloc.h"
+#include "support/test.h"
+
+#include <string.h>
+
+#define WALK                                                                                       \
+  WALKER "angles: degrees\nobjective: [{term: torque_squared}]\nends: {kind: mirrored}\n"          \
+         "time: {intervals: 6}\nground: {slope: 3}\n"                                              \
+         "gait: {steps: 1, first_foot: left, speed: 1.2, step_time: 0.5}\n"
+#define REST PENDULUM "time: {duration: 1, intervals: 6}\nobjective: [{term: torque_squared}]\n"
+
+static void bounds_are_read_in_units_of_the_file(void **state) {
+  (void)state;
+  ambulo_problem *p =
+      problem_of(WALK "free: {gait.step_time: [0.4, 0.8], ground.slope: [-5, 5], per: none, "
+                      "maximum_solves: 7}\n");
+  ambulo_parameters free = ambulo_problem_parameters(p);
+  assert_int_equal(free.count, 2);
+  assert_string_equal(free.items[0].name, "gait.step_time");
+  assert_close(free.items[0].lower, 0.4, 0.0);
+  assert_close(free.items[0].upper, 0.8, 0.0);
+  assert_string_equal(free.items[1].name, "ground.slope");
+  assert_close(free.items[1].upper, 5.0 * 3.14159265358979324 / 180.0, 1e-15);
+  assert_int_equal(free.per, AMBULO_PER_NONE);
+  assert_int_equal(free.maximum_solves, 7);
+  assert_null(free.problem_at);
+  ambulo_problem_free(p);
+  p = problem_of(WALK "free: {gait.speed: [1, 2]}\n");
+  free = ambulo_problem_parameters(p);
+  assert_int_equal(free.per, AMBULO_PER_DEFAULT);
+  assert_int_equal(free.maximum_solves, ambulo_parameters_default().maximum_solves);
+  ambulo_problem_free(p);
+  p = problem_of(WALK);
+  assert_int_equal(ambulo_problem_parameters(p).count, 0);
+  ambulo_problem_free(p);
+}
+
+/* what is free, and between which bounds, is another problem to a batch */
+static void the_hash_sees_what_is_free(void **state) {
+  (void)state;
+  static const char *const texts[] = {WALK, WALK "free: {gait.step_time: [0.4, 0.8]}\n",
+                                      WALK "free: {gait.step_time: [0.4, 0.9]}\n",
+                                      WALK "free: {gait.step_time: [0.4, 0.8], per: none}\n",
+                                      WALK "free: {gait.speed: [0.4, 2]}\n"};
+  unsigned long long hash[5];
+  for (int i = 0; i < 5; i++) {
+    ambulo_problem *p = problem_of(texts[i]);
+    hash[i] = ambulo_problem_hash(p);
+    for (int k = 0; k < i; k++) assert_true(hash[k] != hash[i]);
+    ambulo_problem_free(p);
+  }
+}
+
+/* the text as it was, the overrides as they were, and the values */
+static void the_file_is_read_again(void **state) {
+  (void)state;
+  char text[] = WALK "free: {gait.step_time: [0.4, 0.8], ground.slope: [-5, 5]}\n";
+  char override[] = "subject.mass=60";
+  const char *const overrides[] = {override};
+  const double values[2] = {0.7, -0.05};
+  ambulo_problem *p = NULL, *at = NULL;
+  assert_int_equal(ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", overrides, 1,
+                                            NULL, NULL, &p),
+                   AMBULO_OK);
+  memset(text, '#', strlen(text));
+  memset(override, '#', strlen(override));
+  assert_int_equal(ambulo_problem_at(p, values, NULL, NULL, &at), AMBULO_OK);
+  assert_close(ambulo_problem_duration(at), 0.7, 1e-15);
+  assert_close(at->definition.travel, 0.84, 1e-14);
+  assert_close(ambulo_model_mass(ambulo_problem_model(at)), 60.0, 1e-9);
+  const double *g = ambulo_model_gravity(ambulo_problem_model(at));
+  assert_close(atan2(-g[0], -g[1]), -0.05, 1e-12);
+  assert_int_equal(ambulo_problem_parameters(at).count, 0);
+  assert_int_equal(ambulo_problem_at(NULL, values, NULL, NULL, &at), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_at(p, NULL, NULL, NULL, &at), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_problem_at(p, values, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  ambulo_problem_free(at);
+  ambulo_problem_free(p);
+}
+
+static void faults_are_placed(void **state) {
+  (void)state;
+  expect_refusal(WALK "free: {gait.step_tim: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
+                 "p.yaml:10:23: error[E_SCHEMA]: 'gait.step_tim' cannot be free");
+  expect_refusal(WALK "free: {gait.step_tim: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
+                 "did you mean 'gait.step_time'?");
+  expect_refusal(WALK "free: {gait.phases.toe_off: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
+                 "those are gait.step_time, gait.speed, subject.mass, ground.slope");
+  expect_refusal(WALK "free: {time.intervals: [4, 8]}\n", AMBULO_E_SCHEMA, "cannot be free");
+  /* a limit that is no row */
+  expect_refusal(WALK "free: {\"model.links[shank_r].coordinate.range[1]\": [90, 170]}\n",
+                 AMBULO_E_SCHEMA, "cannot be free");
+  expect_refusal(WALK "free: {gait.step_time: [0.8, 0.4]}\n", AMBULO_E_SCHEMA,
+                 "p.yaml:10:24: error[E_SCHEMA]: bounds of gait.step_time from 0.8 to 0.4; "
+                 "expected [lower, upper]");
+  expect_refusal(WALK "free: {gait.step_time: [0.5, 0.5]}\n", AMBULO_E_SCHEMA, "[lower, upper]");
+  expect_refusal(WALK "free: {gait.step_time: [400, 800]}\n", AMBULO_E_PROBLEM,
+                 "gait.step_time is 0.5, outside of 400 to 800; expected bounds around it, in s");
+  expect_refusal(WALK "free: {ground.slope: [-0.05, 0.05]}\n", AMBULO_E_PROBLEM,
+                 "ground.slope is 3, outside of -0.05 to 0.05; expected bounds around it");
+  expect_refusal(WALK "free: {gait.step_time: 0.5}\n", AMBULO_E_SCHEMA, "a sequence of 2 numbers");
+  expect_refusal(WALK "free: {gait.step_time: [0.4, long]}\n", AMBULO_E_SCHEMA, "'long'");
+  expect_refusal(WALK "free: {gait.step_time: [-0.1, 0.8]}\n", AMBULO_E_SCHEMA,
+                 "p.yaml:10:25: error[E_SCHEMA]: got '-0.1");
+  expect_refusal(WALK "free: {gait.speed: [1, 200]}\n", AMBULO_E_SCHEMA,
+                 "p.yaml:10:24: error[E_SCHEMA]: got '200'; expected a number from 0.001 to 100");
+  expect_refusal(WALK "free: {}\n", AMBULO_E_SCHEMA, "0 free parameters; expected 1 to 64");
+  expect_refusal(WALK "free: {per: none}\n", AMBULO_E_SCHEMA, "0 free parameters");
+  expect_refusal(WALK "free: 3\n", AMBULO_E_SCHEMA, "'free' is not a mapping");
+  expect_refusal(WALK "free: {gait.speed: [1, 2], per: step}\n", AMBULO_E_SCHEMA,
+                 "got 'step'; expected one of: distance, none");
+  expect_refusal(WALK "free: {gait.speed: [1, 2], maximum_solves: 0}\n", AMBULO_E_SCHEMA,
+                 "got '0'; expected a whole number");
+  expect_refusal(REST "free: {time.duration: [0.5, 2], per: distance}\n", AMBULO_E_PROBLEM,
+                 "the body travels 0 m; expected 'per: none'");
+  expect_refusal(REST "ends: {initial: {swing: 0}}\nfree: {ends.initial.swing: [-1, 1]}\n",
+                 AMBULO_E_SCHEMA, "does not state its unit");
+}
+
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  static const char text[] = WALK "free: {gait.step_time: [0.4, 0.8], ground.slope: [-5, 5]}\n";
+  long last = 0;
+  for (long k = 0; k < 100000; k += k < 100 ? 7 : 97) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_problem *p = NULL;
+    ambulo_status status = ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0,
+                                                    &allocator, NULL, &p);
+    if (status == AMBULO_OK) {
+      ambulo_problem_free(p);
+    } else {
+      assert_int_equal(status, AMBULO_E_MEMORY);
+      assert_null(p);
+    }
+    assert_int_equal(memory.live, 0);
+    last = k;
+    if (!memory.failed) break;
+  }
+  assert_true(last > 300);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(bounds_are_read_in_units_of_the_file),
+      cmocka_unit_test(the_hash_sees_what_is_free),
+      cmocka_unit_test(the_file_is_read_again),
+      cmocka_unit_test(faults_are_placed),
+      cmocka_unit_test(every_allocation_may_fail),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

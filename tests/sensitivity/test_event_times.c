@@ -1,0 +1,182 @@
+/* Every number that a file has a name for, phases and times of contacts among them, on grids on
+ * events: by hand against central differences. */
+#include "support/sensitivity_check.h"
+
+static void expect_absent(const setting *c, const char *name) {
+  int count = 0;
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  while (count < MOST_OVERRIDES && c->overrides[count]) count++;
+  assert_int_equal(ambulo_problem_load(c->file, c->overrides, count, NULL, NULL, &problem),
+                   AMBULO_OK);
+  ambulo_result *result = scattered(problem);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  assert_true(list->count > 6);
+  for (int i = 0; i < list->count; i++) assert_string_not_equal(name, list->items[i].name);
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+#define ON_EVENTS "time.grid=events", "trajectory.knots=events"
+
+/* a node on an event has rows of both contacts, and half an interval of either length */
+static void a_planar_step_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walker_2d_step.yaml",
+      {"angles=degrees", "constraints.zmp_margin=0.005", "constraints.speed_limits=true",
+       "constraints.minimum_force=0.1", "trajectory.degree=4", ON_EVENTS},
+      {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
+       "gait.phases.toe_off", "gait.step_length", "gait.speed", "subject.mass", "ground.slope",
+       "constraints.zmp_margin", "constraints.minimum_force", "constraints.ground_height"}};
+  check(&c, NULL);
+}
+
+static void four_steps_on_hulls_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/yardstick_12.yaml",
+      {"angles=degrees", "constraints.zmp=hull", "constraints.zmp_margin=0.002",
+       "time.duration=null", "gait.step_time=0.6105", "time.intervals=40", ON_EVENTS},
+      {"gait.step_length", "gait.step_width", "gait.step_time", "ground.slope",
+       "constraints.zmp_margin", "constraints.ground_height"}};
+  check(&c, NULL);
+}
+
+static void contacts_one_by_one_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walker_2d_step.yaml",
+      {"gait=null", "ends=null", "time.duration=0.5", "angles=degrees",
+       "contacts=[{foot: right, mode: flat, from: 0, to: 0.3, place: [0, 0]}, "
+       "{foot: right, mode: toe, from: 0.3, to: 0.4, place: [0.01, 0]}, "
+       "{foot: left, mode: heel, from: 0.3, to: 0.5, place: [0.4, 0]}]",
+       ON_EVENTS},
+      {"contacts[0].place[0]", "contacts[1].place[0]", "contacts[2].place[0]", "subject.mass",
+       "ground.slope", "contacts[1].to"}};
+  check(&c, "time.duration");
+  expect_absent(&c, "contacts[0].to"); /* where the next one begins */
+}
+
+static void a_walk_under_load_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
+       "roll: 0.04, width: 0.035}",
+       "ground={slope: 3}", "ground_reaction.shear=0.8", ON_EVENTS},
+      {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "load.mass",
+       "ground.slope", "gait.step_width", "gait.step_length", "ground_reaction.pressure.roll",
+       "ground_reaction.pressure.flat[1]", "constraints.contact_tolerance",
+       "constraints.orientation_tolerance", "constraints.clearance.inward",
+       "constraints.strike_pitch[0]", "time.duration"}};
+  check(&c, NULL);
+}
+
+static void a_walk_with_other_terms_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {"objective=[{term: clearance, height: 0.06, weight: 3}, "
+       "{term: torque_rate, weight: 0.0001}, {term: mechanical_power, weight: 0.01}, "
+       "{term: upright, weight: 10, points: [pelvis, head_top]}, "
+       "{term: ground_force, weight: 0.3}]",
+       "time.duration=null", "gait.speed=1.26", "trajectory.degree=5", ON_EVENTS},
+      {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off",
+       "objective[clearance].height", "gait.speed", "gait.step_length",
+       "constraints.clearance.turn", "constraints.clearance.ceiling", "load.mass",
+       "constraints.ground_height", "objective[torque_rate].weight"}};
+  check(&c, NULL);
+}
+
+/* strikes before 0 and T, a smooth transfer; nodes move along fixed knots */
+static void a_walk_early_on_its_heel(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {"gait.phases={heel_strike: -0.03, foot_flat: 0.05, heel_off: 0.36, toe_off: 0.6}",
+       "ground_reaction.transfer=smooth", "constraints.clearance.height=0.03", "time.grid=events",
+       "objective=[{term: clearance, height: 0.06, weight: 3}, {term: ground_force, weight: 0.3}, "
+       "{term: torque_rate, weight: 0.0001}]"},
+      {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
+       "gait.phases.toe_off", "ground_reaction.shear"}};
+  check(&c, NULL);
+}
+
+/* two steps, periodic, of other lengths and times */
+static void a_limp_on_events(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_asymmetric.yaml",
+      {"gait.phases={heel_strike: 0.01, foot_flat: 0.08, heel_off: 0.38, toe_off: 0.62}",
+       "ground_reaction.transfer=linear", "objective[0].weight=2", ON_EVENTS},
+      {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
+       "gait.phases.toe_off"}};
+  check(&c, NULL);
+}
+
+/* what another event, an end or a knot coincides with has no derivative */
+static void times_that_coincide(void **state) {
+  (void)state;
+  static const setting strike_at_0 = {"models/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
+                       heel_with_strike = {"models/walk_without_reaction.yaml",
+                                           {"gait.phases.heel_off=0.44", ON_EVENTS},
+                                           {"gait.phases.toe_off", "gait.phases.foot_flat"}},
+                       uniform = {"models/walker_2d_step.yaml", {NULL}, {NULL}},
+                       on_a_knot = {"models/walk_loaded.yaml",
+                                    {"time.grid=events", "trajectory.intervals=25"},
+                                    {"gait.step_length"}},
+                       above_cubic = {
+                           "models/walk_loaded.yaml",
+                           {"time.grid=events", "trajectory.intervals=25", "trajectory.degree=5"},
+                           {"gait.phases.toe_off"}};
+  expect_absent(&strike_at_0, "gait.phases.heel_strike");
+  expect_absent(&heel_with_strike, "gait.phases.heel_off");
+  expect_absent(&uniform, "gait.phases.toe_off");
+  expect_absent(&on_a_knot, "gait.phases.toe_off");
+  check(&above_cubic, NULL);
+}
+
+static int has_duration(const ambulo_problem_definition *definition) {
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  int found = 0;
+  assert_int_equal(ambulo_problem_create(definition, NULL, NULL, &problem), AMBULO_OK);
+  ambulo_result *result = scattered(problem);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  for (int i = 0; i < list->count; i++) found |= !strcmp(list->items[i].name, "time.duration");
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+  return found;
+}
+
+/* from C: nodes that stay in seconds */
+static void node_times_have_no_duration(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_load("models/two_link_reach.yaml", NULL, 0, NULL, NULL, &problem),
+                   AMBULO_OK);
+  ambulo_problem_definition d = problem->definition;
+  d.grid = AMBULO_GRID_EVENTS;
+  assert_int_equal(has_duration(&d), 1);
+  d.node_times = problem->times;
+  assert_int_equal(has_duration(&d), 0);
+  ambulo_problem_free(problem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_planar_step_on_events),
+      cmocka_unit_test(four_steps_on_hulls_on_events),
+      cmocka_unit_test(contacts_one_by_one_on_events),
+      cmocka_unit_test(a_walk_under_load_on_events),
+      cmocka_unit_test(a_walk_early_on_its_heel),
+      cmocka_unit_test(a_limp_on_events),
+      cmocka_unit_test(times_that_coincide),
+      cmocka_unit_test(node_times_have_no_duration),
+      cmocka_unit_test(a_walk_with_other_terms_on_events),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

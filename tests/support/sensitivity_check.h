@@ -1,0 +1,103 @@
+/* tests/support/sensitivity_check.h - every number that a file has a name for: the derivative of
+ * the Lagrangian by hand against central differences over problems that are read anew with the
+ * number moved, at the same point and with the same multipliers. The identity holds at any point
+ * and with any multipliers, so that those are chosen such that every row counts: the best point a
+ * little off, random multipliers. */
+#ifndef AMBULO_TESTS_SENSITIVITY_CHECK_H
+#define AMBULO_TESTS_SENSITIVITY_CHECK_H
+
+#include "ambulo/ambulo.h"
+#include "judge/result.h"
+#include "support/moved_problem.h"
+
+enum { MOST_OVERRIDES = 8, MOST_WANTED = 16 };
+
+typedef struct setting {
+  const char *file;
+  const char *overrides[MOST_OVERRIDES];
+  const char *wanted[MOST_WANTED]; /* names that have to be among those compared */
+} setting;
+
+static inline double noise(unsigned *state) {
+  *state = *state * 1664525u + 1013904223u;
+  return (double)(*state >> 8) / 8388608.0 - 1.0;
+}
+
+/* a result that says so of itself, at a point that is none */
+static inline ambulo_result *scattered(const ambulo_problem *problem) {
+  ambulo_result *result = NULL;
+  ambulo_options options = ambulo_problem_options(problem);
+  unsigned state = 7;
+  options.maximum_iterations = 3;
+  options.continuation = 0;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  for (int i = 0; i < result->variables; i++) result->x[i] += 1e-3 * noise(&state);
+  for (int r = 0; r < result->rows; r++) result->multiplier[r] = 0.1 * noise(&state);
+  result->verdict = AMBULO_OPTIMAL;
+  return result;
+}
+
+static inline int is_phase(const ambulo_sensitivity *s) {
+  return strncmp(s->name, "gait.phases.", 12) == 0;
+}
+
+static inline double step_of(const ambulo_sensitivity *s) {
+  if (is_phase(s)) return 2e-6; /* of nodes that are 1e-3 of a stride apart */
+  return s->value == 0.0 ? 1e-3 * s->step : 1e-5 * fmax(fabs(s->value), 0.1 * s->step);
+}
+
+/* 0: the file refuses the number moved. Differences of fourth order for phases, whose third
+ * derivatives go with the third power of a node's rate */
+static inline int compare(const setting *c, int count, const ambulo_problem *problem,
+                          const ambulo_result *r, const ambulo_sensitivity *s) {
+  static const double at[4] = {-1.0, 1.0, -2.0, 2.0};
+  double value[4] = {NAN, NAN, NAN, NAN}, travel[4] = {0.0}, by = step_of(s);
+  for (int k = 0; k < (is_phase(s) ? 4 : 2); k++) {
+    ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, at[k] * by);
+    if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
+    if (moved) travel[k] = moved->definition.travel;
+    ambulo_problem_free(moved);
+  }
+  double difference = (value[1] - value[0]) / (2.0 * by);
+  if (is_phase(s)) difference = (4.0 * difference - (value[3] - value[2]) / (4.0 * by)) / 3.0;
+  if (isnan(difference)) return 0;
+  double further = (travel[1] - travel[0]) / (2.0 * by);
+  if (!(fabs(further - s->travel) <= 1e-8 * (1.0 + fabs(s->travel))))
+    fail_msg("%s: %s carries by %.12g, %.12g by differences", c->file, s->name, s->travel, further);
+  /* what rounding leaves of a difference of two values of this size */
+  double slack = 1e-7 * fabs(s->derivative) + 4e-15 * (fabs(value[0]) + 1.0) / by;
+  if (fabs(difference - s->derivative) <= slack) return 1;
+  fail_msg("%s: %s is %.12g by hand, %.12g by differences (+- %.1g)", c->file, s->name,
+           s->derivative, difference, slack);
+  return 1;
+}
+
+/* `unwanted`: a name that has no derivative; NULL */
+static inline void check(const setting *c, const char *unwanted) {
+  int count = 0, compared = 0;
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  while (count < MOST_OVERRIDES && c->overrides[count]) count++;
+  assert_int_equal(ambulo_problem_load(c->file, c->overrides, count, NULL, NULL, &problem),
+                   AMBULO_OK);
+  ambulo_result *result = scattered(problem);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  int found[MOST_WANTED] = {0};
+  for (int i = 0; i < list->count; i++) {
+    int did = compare(c, count, problem, result, &list->items[i]);
+    compared += did;
+    for (int k = 0; k < MOST_WANTED && c->wanted[k]; k++)
+      found[k] |=
+          did && list->items[i].derivative != 0.0 && strcmp(c->wanted[k], list->items[i].name) == 0;
+  }
+  for (int k = 0; k < MOST_WANTED && c->wanted[k]; k++)
+    if (!found[k]) fail_msg("%s: %s was not compared", c->file, c->wanted[k]);
+  for (int i = 0; unwanted && i < list->count; i++)
+    assert_string_not_equal(unwanted, list->items[i].name);
+  assert_true(compared > 6);
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+#endif
