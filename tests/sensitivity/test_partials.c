@@ -131,6 +131,18 @@ static void a_walk_on_shared_contacts_on_events(void **state) {
   check(&c, NULL);
 }
 
+/* on heels and forefeet that roll: where a force may be follows the foothold it stands on */
+static void a_walk_on_shared_arcs(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_loaded.yaml",
+      {SHARED, "model.feet[right].arcs={heel: ankle_r, toe: ankle_r}",
+       "model.feet[left].arcs={heel: ankle_l, toe: ankle_l}", "ground={slope: 3}"},
+      {"ground_reaction.moment_arm", "ground_reaction.loading_rate", "gait.step_length",
+       "gait.step_width", "subject.mass", "load.mass", "ground.slope"}};
+  check(&c, NULL);
+}
+
 /* no step length: it follows from the speed, and the time from both */
 static void a_walk_at_a_speed(void **state) {
   (void)state;
@@ -243,6 +255,7 @@ int main(void) {
       cmocka_unit_test(a_walk_at_a_speed),
       cmocka_unit_test(a_walk_on_shared_contacts),
       cmocka_unit_test(a_walk_on_shared_contacts_on_events),
+      cmocka_unit_test(a_walk_on_shared_arcs),
       cmocka_unit_test(a_cadence_at_a_speed),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),
