@@ -115,7 +115,8 @@ void ambulo__node_forces_clear(ambulo__node_forces *f) {
   memset(f->wrench, 0, sizeof f->wrench);
   memset(f->center, 0, sizeof f->center);
   memset(f->apart, 0, sizeof f->apart);
-  f->shear = f->height = f->share = 0.0;
+  memset(f->place, 0, sizeof f->place);
+  f->shear = f->height = f->share = f->moment_arm = f->slant = 0.0;
 }
 
 double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const double wrench[6]) {
@@ -138,4 +139,19 @@ void ambulo__node_forces_add(ambulo__node_forces *f, int link, const double plac
     int i = f->s->problem->model->links[link].coordinate;
     if (i >= 0) f->torque[i] += ambulo__node_forces_joint(f, i, wrench);
   }
+}
+
+/* (S.8) sum w dy/dp of a node */
+double ambulo__node_forces_pull(const ambulo__node_forces *f) {
+  const ambulo_problem *p = f->s->problem;
+  const ambulo__channels *c = &p->channels;
+  double sum = 0.0;
+  if (c->feet)
+    sum = ambulo__plan_contacts(p->plan) ? ambulo__contact_forces_pull(f)
+                                         : ambulo__ground_split_pull(f);
+  for (int i = 0; i < p->coordinates; i++)
+    sum += ambulo__stationary_adjoint(f->s, f->node, ambulo__channel_tau(c, i)) * f->torque[i];
+  for (int i = 0; i < 6; i++)
+    sum += ambulo__stationary_adjoint(f->s, f->node, ambulo__channel_moment(c, i)) * f->wrench[i];
+  return sum;
 }

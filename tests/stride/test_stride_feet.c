@@ -50,6 +50,35 @@ static void feet_change_sides(void **state) {
   fixture_close(&f);
 }
 
+/* up a stair the second step is as high as the ends rise: its places, no force */
+static void places_rise_with_the_ends(void **state) {
+  (void)state;
+  fixture level, stairs;
+  fixture_open(&level);
+  fixture_open(&stairs);
+  ambulo__stride_free(&stairs.stride);
+  stairs.problem->definition.rise = 0.25;
+  assert_int_equal(ambulo__stride_create(stairs.problem, stairs.x, 0, NULL, &stairs.stride),
+                   AMBULO_OK);
+  const ambulo__stride *a = &level.stride, *b = &stairs.stride;
+  int compared = 0;
+  for (int k = 1; k < a->samples; k++) {
+    double rise = k > 25 ? 0.25 : 0.0;
+    for (int i = 0; i < 6; i++) {
+      double up = i % 3 == 1 ? rise : 0.0;
+      assert_close(b->grf[6 * k + i], a->grf[6 * k + i], 0.0);
+      if (i < 3 && isfinite(a->zmp[3 * k + i]))
+        assert_close(b->zmp[3 * k + i], a->zmp[3 * k + i] + up, 1e-12);
+      if (!isfinite(a->cop[6 * k + i])) continue;
+      assert_close(b->cop[6 * k + i], a->cop[6 * k + i] + up, 1e-12);
+      compared += rise > 0.0;
+    }
+  }
+  assert_true(compared > 20);
+  fixture_close(&level);
+  fixture_close(&stairs);
+}
+
 static void forces_and_peaks(void **state) {
   (void)state;
   fixture f;
@@ -105,8 +134,8 @@ static void the_table_has_their_columns(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(feet_change_sides),
-                                     cmocka_unit_test(forces_and_peaks),
-                                     cmocka_unit_test(the_table_has_their_columns)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(feet_change_sides), cmocka_unit_test(forces_and_peaks),
+      cmocka_unit_test(places_rise_with_the_ends), cmocka_unit_test(the_table_has_their_columns)};
   return cmocka_run_group_tests_name("stride/stride_feet", tests, NULL, NULL);
 }
