@@ -11,7 +11,8 @@
  *     b' = earliest end of the stances of other feet that hold at b (none: no such factor)
  *     e' = latest beginning of those that hold at e
  *
- * A neighbour that outlasts the stance on that side gives half the stance.
+ * A neighbour that outlasts the stance on that side gives half the stance, and a stance of no
+ * length (a strike where the motion ends) carries nothing.
  *
  * Centre, ahead of the heel's foothold by x, with L from heel to toe centre (ball):
  *
@@ -76,9 +77,11 @@ static double ramp(double time, double from, double to) {
   return to - from > AMBULO__INSTANT ? smooth((time - from) / (to - from)) : 1.0;
 }
 
+/* a foot that strikes where the motion ends has not begun to carry */
 static double weight_of(const ambulo__stance *s, double time) {
   double weight = 1.0;
-  if (isfinite(s->leaves)) weight *= ramp(time, s->from, s->leaves);
+  if (isfinite(s->leaves))
+    weight *= s->leaves - s->from > AMBULO__INSTANT ? ramp(time, s->from, s->leaves) : 0.0;
   if (isfinite(s->comes)) weight *= 1.0 - ramp(time, s->comes, s->to);
   return weight;
 }
