@@ -7,6 +7,8 @@
 #include "gait/phases.h"
 #include "base/instant.h"
 #include "gait/loading.h"
+#include "gait/step_edge.h"
+#include "gait/swing.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,15 +28,29 @@ static void insert(ambulo__events *events, double time, double duration) {
   events->time[at] = time;
 }
 
-/* where in the swing beside `time` the foot's tip begins to have to clear the ground */
-static void insert_tip(const ambulo_problem_definition *d, int foot, double time,
-                       ambulo__events *events) {
-  if (!d->model->feet[foot].has_tip) return;
-  ambulo__span air = ambulo__air_span(d, foot, time);
-  insert(events, air.from + d->clearance.tip_from * (air.to - air.from), d->duration);
+/* where in a swing the foot has come to the first edge of a step, and where past the last one */
+static void insert_edges(const ambulo_problem_definition *d, int foot, ambulo__span air,
+                         ambulo__events *events) {
+  ambulo_contact from = {.foot = foot}, to = from;
+  double middle = 0.5 * (air.from + air.to);
+  if (!(air.to - air.from > AMBULO__INSTANT) ||
+      !ambulo__swing_contacts(d, foot, middle, &from, &to) ||
+      ambulo__step_edges_between(d, foot, middle, &from, &to).count == 0)
+    return;
+  for (int last = 0; last < 2; last++)
+    insert(events, ambulo__step_edge_time(air, &from, &to, last), d->duration);
 }
 
-static int has_tip_rows(const ambulo_problem_definition *d, ambulo__event_kind kind) {
+/* where in the swing beside `time` the foot's tip begins to have to clear the ground, and edges */
+static void insert_swing(const ambulo_problem_definition *d, int foot, double time,
+                         ambulo__events *events) {
+  ambulo__span air = ambulo__air_span(d, foot, time);
+  if (d->model->feet[foot].has_tip)
+    insert(events, air.from + d->clearance.tip_from * (air.to - air.from), d->duration);
+  insert_edges(d, foot, air, events);
+}
+
+static int has_swing_rows(const ambulo_problem_definition *d, ambulo__event_kind kind) {
   int known = kind == AMBULO__EVENTS_OF_ROWS && d->clearance.height >= 0.0;
   for (int i = 0; known && i < d->contact_count; i++)
     known = d->contacts[i].foot >= 0 && d->contacts[i].foot < d->model->foot_count;
@@ -44,16 +60,16 @@ static int has_tip_rows(const ambulo_problem_definition *d, ambulo__event_kind k
 ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__event_kind kind,
                                     const ambulo_allocator *allocator, ambulo__events *events) {
   events->count = 0;
-  events->time = ambulo__alloc(allocator, 4 * (size_t)d->contact_count, sizeof *events->time);
+  events->time = ambulo__alloc(allocator, 8 * (size_t)d->contact_count, sizeof *events->time);
   if (!events->time) return AMBULO_E_MEMORY;
-  int tips = has_tip_rows(d, kind);
+  int swings = has_swing_rows(d, kind);
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *c = &d->contacts[i];
     insert(events, c->from, d->duration);
     insert(events, c->to, d->duration);
-    if (!tips) continue;
-    insert_tip(d, c->foot, c->from, events);
-    insert_tip(d, c->foot, c->to, events);
+    if (!swings) continue;
+    insert_swing(d, c->foot, c->from, events);
+    insert_swing(d, c->foot, c->to, events);
   }
   return AMBULO_OK;
 }
