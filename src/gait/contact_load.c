@@ -18,10 +18,10 @@
  *
  *     heel   0          toe   L + a, a = 0.02 m          flat   (L + a) / 2
  *
- * It glides to the flat foot's from the heel's, once the foot is flat, until the neighbour has left
- * (b'), and on to the toes' from when the next one is there (e') until the heel rises: each by S,
- * half of the flat time where there is no such event in it. What a single contact carries does not
- * depend on its centre.
+ * It glides to the flat foot's from the heel's (going down stairs from the toes'), once the foot is
+ * flat, until the neighbour has left (b'), and on to the toes' from when the next one is there (e')
+ * until the heel rises: each by S, half of the flat time where there is no such event in it. What a
+ * single contact carries does not depend on its centre.
  *
  * Greatest normal force, body weights:
  *
@@ -88,15 +88,21 @@ static double weight_of(const ambulo__stance *s, double time) {
 
 /* -------------------------------------------------------------------- centre */
 
+/* of a part that comes before or after the flat foot: `mode`, or -1 for none */
+static double center_beside(int mode, double toe) {
+  if (mode == (int)AMBULO_CONTACT_HEEL) return 0.0;
+  return mode == (int)AMBULO_CONTACT_TOE ? toe : 0.5 * toe;
+}
+
 static double flat_center(const ambulo__stance *stance, double toe, double time) {
   ambulo__span flat = stance->phase;
   double middle = 0.5 * (flat.from + flat.to), center = 0.5 * toe;
+  double before = center_beside(stance->before, toe), after = center_beside(stance->after, toe);
   double settled = stance->leaves > flat.from && stance->leaves < flat.to ? stance->leaves : middle;
   double leaving = stance->comes > flat.from && stance->comes < flat.to ? stance->comes : middle;
   if (leaving < settled) settled = leaving = middle;
-  if (stance->before == (int)AMBULO_CONTACT_HEEL) center *= ramp(time, flat.from, settled);
-  if (stance->after == (int)AMBULO_CONTACT_TOE) center += 0.5 * toe * ramp(time, leaving, flat.to);
-  return center;
+  return before + (center - before) * ramp(time, flat.from, settled) +
+         (after - center) * ramp(time, leaving, flat.to);
 }
 
 static double center_of(const ambulo_contact *contact, const ambulo__stance *stance, double length,
