@@ -10,7 +10,6 @@
  *                                 u . r = max over the edges of (n - s e) . r / |n - s e|   m
  */
 #include "gait/step_edge.h"
-#include "model/neutral_pose.h"
 
 #include <math.h>
 
@@ -31,16 +30,6 @@ typedef struct way {
 
 static int is_horizontal(const ambulo_contact *c) {
   return c->normal[0] == 0.0 && c->normal[1] == 0.0;
-}
-
-/* heel to the most forward point of the flat foot, m */
-static double foot_length(const ambulo_model *m, int foot) {
-  const ambulo_foot *f = &m->feet[foot];
-  double heel[3], end[3], length = 0.0;
-  ambulo__neutral_point(m, f->heel_center, heel);
-  ambulo__neutral_point(m, f->has_tip ? f->tip : f->toe_center, end);
-  for (int i = 0; i < 3; i++) length += m->forward[i] * (end[i] - heel[i]);
-  return length;
 }
 
 /* of two along forward and left */
@@ -70,7 +59,7 @@ static double edge_between(const way *w, double low, double high, double length)
     if (climbs ? is_low : is_high) behind = fmax(behind, w->x[i]);
     if (climbs ? is_high : is_low) ahead = fmin(ahead, w->x[i]);
   }
-  return 0.5 * (behind + length + ahead);
+  return ambulo__riser_between(behind, length, ahead);
 }
 
 static void set_plane(const ambulo_model *m, double slope, ambulo__step_edges *edges) {
@@ -99,7 +88,7 @@ ambulo__step_edges ambulo__step_edges_between(const ambulo_problem_definition *d
   if (run < shortest_way || fabs(rise) <= same_height || !is_horizontal(from) || !is_horizontal(to))
     return edges;
   double direction[2] = {step[0] / run, step[1] / run}, slope = rise / run;
-  double length = foot_length(d->model, foot);
+  double length = ambulo__foot_reach(d->model, foot);
   way w = {.count = 2,
            .x = {along(direction, from->place), along(direction, to->place)},
            .z = {from->place[2], to->place[2]}};

@@ -16,6 +16,11 @@ typedef struct ambulo__step_edges {
   double height;   /* above . r of it, m */
 } ambulo__step_edges;
 
+/* Where the riser is between the footholds of a foot of this length and of one ahead of it. */
+static inline double ambulo__riser_between(double behind, double length, double ahead) {
+  return 0.5 * (behind + length + ahead);
+}
+
 /* A foot goes up beside the riser, over the edges, and on above the upper step; down the same way
  * back. When it comes to the first edge (`last` 0), and when it is past the last one (1), s. */
 double ambulo__step_edge_time(ambulo__span air, const ambulo_contact *from,
