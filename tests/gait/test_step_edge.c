@@ -77,6 +77,35 @@ static void the_edge_is_beside_the_nearest_feet(void **state) {
   ambulo_model_free(f.model);
 }
 
+/* steps of unlike height: the plane is on one edge, and above the other */
+static void the_plane_is_over_all_edges(void **state) {
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    fixture f;
+    open_stairs(&f, 2, 1, 1);
+    f.contacts[1].place[2] += i ? 0.03 : -0.03;
+    double first = 0.5 * (foot + run), second = first + run;
+    ambulo__step_edges e = edges_of(&f);
+    double one = over(&e, first, f.contacts[1].place[2]), other = over(&e, second, 2 * rise);
+    assert_close(fmax(one, other), 0.0, 1e-12);
+    assert_true(fmin(one, other) < -1e-3);
+    ambulo_model_free(f.model);
+  }
+}
+
+/* a foot on something higher than both footholds is no step of this way */
+static void what_is_out_of_the_way_does_not_count(void **state) {
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    fixture f;
+    open_stairs(&f, 1, 0, i ? 1 : -1);
+    f.contacts[1].place[0] = 0.15;
+    f.contacts[1].place[2] = i ? 3 * rise : 2 * rise;
+    assert_close(edges_of(&f).riser, 0.5 * (foot + run), 1e-12);
+    ambulo_model_free(f.model);
+  }
+}
+
 static void level_ramps_and_the_spot_have_none(void **state) {
   (void)state;
   for (int i = 0; i < 3; i++) {
@@ -109,6 +138,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_plane_lies_on_both_edges),
                                      cmocka_unit_test(one_step_has_one_edge),
                                      cmocka_unit_test(the_edge_is_beside_the_nearest_feet),
+                                     cmocka_unit_test(the_plane_is_over_all_edges),
+                                     cmocka_unit_test(what_is_out_of_the_way_does_not_count),
                                      cmocka_unit_test(level_ramps_and_the_spot_have_none),
                                      cmocka_unit_test(edges_have_their_times)};
   return cmocka_run_group_tests(tests, NULL, NULL);
