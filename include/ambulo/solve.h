@@ -101,6 +101,8 @@ typedef struct ambulo_progress {
   double best;                 /* ... their least F so far; NAN before there is one */
 } ambulo_progress;
 
+#define AMBULO_MOST_STARTS 100
+
 typedef struct ambulo_options {
   int cookie; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
@@ -119,6 +121,11 @@ typedef struct ambulo_options {
   ambulo_finisher finisher;     /* with presolve */
   ambulo_equalities equalities; /* with presolve; _NLOPT not with AMBULO_SLSQP, which gets them all
                                    anyway */
+  int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:
+                 auto`; without effect in ambulo_solve */
+  int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as
+                 fine, the same in every run, of which the best is gone on from
+                 (ambulo_result_starts); without effect where the caller gives a start */
   /* Non-zero return: stop and keep the best point. NULL: none. */
   int (*progress)(void *user, const ambulo_progress *progress);
   void *user;
@@ -311,6 +318,20 @@ AMBULO_API int ambulo_result_iterations(const ambulo_result *result);
 AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
 AMBULO_API const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *result);
+/* Valleys of the objective that several starts (ambulo_options.starts) ended in. */
+typedef struct ambulo_basin {
+  double objective; /* on the coarse grid */
+  int found, first; /* how many starts ended there; number of the first, 0 is the solver's own */
+  double distance;  /* from the cheapest: root mean square over the control points, rad and m */
+} ambulo_basin;
+typedef struct ambulo_starts {
+  int count, solved;          /* starts tried; that ended at a motion which holds every row */
+  int intervals;              /* of the coarse grid */
+  const ambulo_basin *basins; /* [basin_count], the cheapest, which is gone on from, first */
+  int basin_count;
+} ambulo_starts;
+/* NULL for one start. */
+AMBULO_API const ambulo_starts *ambulo_result_starts(const ambulo_result *result);
 /* Why the solver ended, in words, with the method and what it took. */
 AMBULO_API const char *ambulo_result_ending(const ambulo_result *result);
 /* The same as a code. */

@@ -21,6 +21,11 @@ static void cross(const double a[3], const double b[3], double out[3]) {
   }
 }
 
+int ambulo__contact_normal_is_legal(const double normal[3]) {
+  double size = sqrt(dot(normal, normal));
+  return size == 0.0 || (isfinite(size) && normal[2] >= 0.5 * size);
+}
+
 int ambulo__contact_is_level(const ambulo_contact *c) {
   return c->heading == 0.0 && c->place[2] == 0.0 && c->normal[0] == 0.0 && c->normal[1] == 0.0;
 }

@@ -28,6 +28,8 @@ ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definit
 /* direction . (point - origin) */
 double ambulo__contact_frame_along(const ambulo__contact_frame *frame, const double direction[3],
                                    const double point[3]);
+/* 1 for a normal of zeros, and up to 60 degrees from up. */
+int ambulo__contact_normal_is_legal(const double normal[3]);
 /* 1 where the contact's surface is the level ground plane and its heading straight ahead. */
 int ambulo__contact_is_level(const ambulo_contact *contact);
 /* 1 if both hold the foot to the same foothold. */

@@ -11,27 +11,33 @@
  *     b' = earliest end of the stances of other feet that hold at b (none: no such factor)
  *     e' = latest beginning of those that hold at e
  *
- * A neighbour that outlasts the stance on that side gives half the stance.
+ * A neighbour that outlasts the stance on that side gives half the stance, and a stance of no
+ * length (a strike where the motion ends) carries nothing.
  *
- * Centre, ahead of the heel's foothold by x, with L from heel to toe centre (ball):
+ * Roll r, from 0 on the heel to 1 on the toes. A flat foot is at 1/2; it comes there from where it
+ * was, by S, once it is flat and until the neighbour has left (b'), and goes on to where it will be
+ * from when the next one is there (e') until it is not flat any more. Half of the flat time each
+ * where there is no such event in it; a roll from heel to toes without a flat foot is a jump.
  *
- *     heel   0          toe   L + a, a = 0.02 m          flat   (L + a) / 2
+ * Centre, ahead of the heel's foothold, with L from heel to toe centre (ball): r (L + a),
+ * a = 0.02 m. What a single contact carries does not depend on its centre.
  *
- * It glides to the flat foot's from the heel's, once the foot is flat, until the neighbour has left
- * (b'), and on to the toes' from when the next one is there (e') until the heel rises: each by S,
- * half of the flat time where there is no such event in it. What a single contact carries does not
- * depend on its centre.
+ * A foot with a joint between heel and ball has two contacts, which share its weight w: the rear
+ * one has w until the foot rolls on from flat to the toes, and passes it away by that S; its centre
+ * is at min(r, 1/2) L. The fore one gets w as the foot rolls from the heel to flat; its centre is
+ * at L + a. Likewise backwards.
  *
  * Greatest normal force, body weights:
  *
- *     min(g(t - b), g(e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
+ *     g(min(t - b, e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
  *
- * with the loading rate rho and tau = 0.01 s over which it sets in: a force that began with its
- * full rate would have a corner, which nodes do not follow and which rings.
+ * [b, e] now the time that the contact is down, with the loading rate rho and tau = 0.01 s over
+ * which it sets in: a force that began with its full rate would have a corner, which nodes do not
+ * follow and which rings.
  */
 #include "gait/contact_load.h"
 #include "base/instant.h"
-#include "gait/gait.h"
+#include "gait/loading.h"
 #include "gait/stance.h"
 #include "model/model.h"
 
@@ -65,6 +71,13 @@ ambulo__slots ambulo__slots_of(const ambulo_model *m) {
   return s;
 }
 
+const char *ambulo__slot_name(const ambulo_model *m, const ambulo__slots *slots, int slot) {
+  const ambulo_foot *foot = &m->feet[slots->foot[slot]];
+  if (slots->part[slot] == (int)AMBULO__WHOLE_FOOT) return foot->name;
+  int point = slots->part[slot] == (int)AMBULO__REAR_FOOT ? foot->heel_center : foot->toe_center;
+  return m->points[point].name;
+}
+
 /* -------------------------------------------------------------------- weight */
 
 static double smooth(double u) {
@@ -76,40 +89,58 @@ static double ramp(double time, double from, double to) {
   return to - from > AMBULO__INSTANT ? smooth((time - from) / (to - from)) : 1.0;
 }
 
+/* a foot that strikes where the motion ends has not begun to carry */
 static double weight_of(const ambulo__stance *s, double time) {
   double weight = 1.0;
-  if (isfinite(s->leaves)) weight *= ramp(time, s->from, s->leaves);
+  if (isfinite(s->leaves))
+    weight *= s->leaves - s->from > AMBULO__INSTANT ? ramp(time, s->from, s->leaves) : 0.0;
   if (isfinite(s->comes)) weight *= 1.0 - ramp(time, s->comes, s->to);
   return weight;
 }
 
-/* -------------------------------------------------------------------- centre */
+/* ---------------------------------------------------------------------- roll */
 
-static double flat_center(const ambulo__stance *stance, double toe, double time) {
+/* Where between heel (0) and toes (1) a foot is, and what of its weight either part of it has. */
+typedef struct roll {
+  double along, rear, fore;
+} roll;
+
+static double place_of(int mode) {
+  return mode == (int)AMBULO_CONTACT_HEEL ? 0.0 : mode == (int)AMBULO_CONTACT_TOE ? 1.0 : 0.5;
+}
+
+static roll roll_of_flat(const ambulo__stance *stance, double time) {
   ambulo__span flat = stance->phase;
-  double middle = 0.5 * (flat.from + flat.to), center = 0.5 * toe;
+  double middle = 0.5 * (flat.from + flat.to);
   double settled = stance->leaves > flat.from && stance->leaves < flat.to ? stance->leaves : middle;
   double leaving = stance->comes > flat.from && stance->comes < flat.to ? stance->comes : middle;
   if (leaving < settled) settled = leaving = middle;
-  if (stance->before == (int)AMBULO_CONTACT_HEEL) center *= ramp(time, flat.from, settled);
-  if (stance->after == (int)AMBULO_CONTACT_TOE) center += 0.5 * toe * ramp(time, leaving, flat.to);
-  return center;
+  double on = ramp(time, flat.from, settled), off = ramp(time, leaving, flat.to);
+  double from = place_of(stance->before), to = place_of(stance->after);
+  roll r = {.along = 0.5 - (0.5 - from) * (1.0 - on) + (to - 0.5) * off};
+  r.rear = (from > 0.5 ? on : 1.0) * (to > 0.5 ? 1.0 - off : 1.0);
+  r.fore = (from < 0.5 ? on : 1.0) * (to < 0.5 ? 1.0 - off : 1.0);
+  return r;
 }
 
-static double center_of(const ambulo_contact *contact, const ambulo__stance *stance, double length,
-                        double time) {
-  double toe = length + beyond_ball;
-  if (contact->mode == AMBULO_CONTACT_HEEL) return 0.0;
-  if (contact->mode == AMBULO_CONTACT_TOE) return toe;
-  return flat_center(stance, toe, time);
+static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
+  if (contact->mode == AMBULO_CONTACT_FLAT) return roll_of_flat(stance, time);
+  double along = place_of((int)contact->mode);
+  return (roll){along, 1.0 - along, along};
 }
 
 /* --------------------------------------------------------------------- patch */
 
+/* on the heel, of the time from strike to foot-flat; else 0 */
+static double rolled(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
+  double rolling = contact->to - stance->from;
+  if (contact->mode != AMBULO_CONTACT_HEEL || !(rolling > 0.0) || isinf(rolling)) return 0.0;
+  return (time - stance->from) / rolling;
+}
+
 /* ends along forward, from the heel's foothold */
-static void patch_of(const ambulo_problem_definition *d, const ambulo_contact *contact,
-                     const ambulo__stance *stance, double length, double time, double box[2]) {
-  const ambulo_ground_reaction *r = &d->ground_reaction;
+static void patch_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
+                     double part_rolled, double box[2]) {
   if (contact->mode == AMBULO_CONTACT_FLAT) {
     box[0] = r->flat_pressure[0];
     box[1] = length + r->flat_pressure[1];
@@ -117,33 +148,39 @@ static void patch_of(const ambulo_problem_definition *d, const ambulo_contact *c
     box[0] = length + r->toe_pressure[0];
     box[1] = length + r->toe_pressure[1];
   } else {
-    double rolling = contact->to - stance->from;
-    double progress = rolling > 0.0 && isfinite(rolling) ? (time - stance->from) / rolling : 0.0;
     box[0] = r->heel_pressure[0];
-    box[1] = r->heel_pressure[1] + r->heel_roll * progress;
+    box[1] = r->heel_pressure[1] + r->heel_roll * part_rolled;
   }
 }
 
-/* what of a foot with a joint lies on one side of it; 0: that part is in the air */
-static int part_of(ambulo__foot_part part, const ambulo_contact *contact, double length,
-                   double box[2], double *center) {
-  if (part == AMBULO__WHOLE_FOOT) return 1;
-  if (part == AMBULO__REAR_FOOT) {
-    if (contact->mode == AMBULO_CONTACT_TOE) return 0;
-    box[1] = fmin(box[1], length);
-    *center = contact->mode == AMBULO_CONTACT_HEEL ? 0.0 : 0.5 * length;
-  } else {
-    if (contact->mode == AMBULO_CONTACT_HEEL) return 0;
-    box[0] = fmax(box[0], length);
-    *center = length + beyond_ball;
-  }
-  return 1;
+/* ---------------------------------------------------------------------- load */
+
+/* modes in which a part is down */
+static int modes_of(ambulo__foot_part part) {
+  if (part == AMBULO__REAR_FOOT) return 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT;
+  if (part == AMBULO__FORE_FOOT) return 1 << AMBULO_CONTACT_FLAT | 1 << AMBULO_CONTACT_TOE;
+  return AMBULO__ANY_MODE;
 }
 
-static double most_after(double rate, double time) {
+/* weight, centre and box of the foot become those of the part; returns the centre */
+static double narrow(ambulo__foot_part part, roll at, double length, ambulo__contact_load *load) {
+  double ahead = length + beyond_ball, *box = load->box;
+  if (part == AMBULO__WHOLE_FOOT) return at.along * ahead;
+  load->weight *= part == AMBULO__REAR_FOOT ? at.rear : at.fore;
+  int end = part == AMBULO__REAR_FOOT; /* the one beside the joint */
+  load->cut[end] = end ? box[1] > length : box[0] < length;
+  if (load->cut[end]) box[end] = length;
+  return end ? fmin(at.along, 0.5) * length : ahead;
+}
+
+/* g, and s dg/ds */
+static double most_after(double rate, double time, double *by_time) {
+  *by_time = 0.0;
   if (rate < 0.0 || isinf(time)) return INFINITY;
   time = fmax(0.0, time);
-  return rate * (time + loading_onset * expm1(-time / loading_onset));
+  double onset = expm1(-time / loading_onset);
+  *by_time = -rate * onset * time;
+  return rate * (time + loading_onset * onset);
 }
 
 /* (W.8) the contact of a slot */
@@ -153,25 +190,28 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
                                              const ambulo_contact *contact, double time) {
   ambulo__contact_load load = {.loaded = 0, .arc = -1};
   int foot = slots->foot[slot];
+  ambulo__foot_part part = (ambulo__foot_part)slots->part[slot];
   const ambulo_ground_reaction *r = &d->ground_reaction;
   if (!contact) contact = ambulo__contact_of(d, foot, time);
-  if (!contact) return load;
+  if (!contact || !(modes_of(part) & 1 << contact->mode)) return load;
   ambulo__stance stance = ambulo__stance_of(d, contact);
-  double length = outlines[foot].length, box[2];
-  double center = center_of(contact, &stance, length, time);
-  patch_of(d, contact, &stance, length, time, box);
-  if (!part_of((ambulo__foot_part)slots->part[slot], contact, length, box, &center)) return load;
+  ambulo__span down = ambulo__stance_in(d, contact, modes_of(part));
+  double length = outlines[foot].length;
   load.loaded = 1;
   load.weight = weight_of(&stance, time);
+  load.rolled = rolled(contact, &stance, time);
+  patch_of(r, contact, length, load.rolled, load.box);
+  double center = narrow(part, roll_of(contact, &stance, time), length, &load);
   load.frame = ambulo__contact_frame_of(d, contact);
   for (int i = 0; i < 3; i++)
     load.center[i] = load.frame.origin[i] + center * load.frame.forward[i];
-  load.box[0] = box[0] - center;
-  load.box[1] = box[1] - center;
+  load.box[0] -= center;
+  load.box[1] -= center;
   load.side = r->pressure_width;
   if (outlines[foot].has_arcs && contact->mode != AMBULO_CONTACT_FLAT)
     load.arc = outlines[foot].arc[contact->mode == AMBULO_CONTACT_TOE];
-  load.most = fmin(most_after(r->loading_rate, time - stance.from),
-                   most_after(r->loading_rate, stance.to - time));
+  load.since = time - down.from;
+  load.until = down.to - time;
+  load.most = most_after(r->loading_rate, fmin(load.since, load.until), &load.most_by_time);
   return load;
 }

@@ -26,14 +26,21 @@ typedef enum ambulo__foot_part {
 /* count = 0 for a model whose feet need more than AMBULO__MOST_SLOTS. */
 ambulo__slots ambulo__slots_of(const ambulo_model *model);
 
+/* What messages call it: the foot, of two parts the points of its heel and toe centre. */
+const char *ambulo__slot_name(const ambulo_model *model, const ambulo__slots *slots, int slot);
+
 /* A slot at a time. */
 typedef struct ambulo__contact_load {
   int loaded;          /* 0: all else is zero */
   double weight;       /* w, 0 to 1 */
   double center[3];    /* p: world, m */
   double box[2], side; /* the patch: from behind to ahead of the centre, to either side, m */
+  int cut[2];          /* 1: that end of it is at the joint of the toes */
+  double rolled;       /* how much of heel_roll is in it */
+  double since, until; /* it came down, it leaves: s from now on either side; may be infinite */
   int arc;             /* point of the arc on which the foot rolls, or -1 */
   double most;         /* normal force, body weights; may be infinite */
+  double most_by_time; /* its derivative by ln T, all times being shares of the duration T */
   ambulo__contact_frame frame; /* of the contact */
 } ambulo__contact_load;
 

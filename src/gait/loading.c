@@ -21,24 +21,6 @@
 
 static const double rear_ahead = 0.02; /* m */
 
-enum { PERIODS = 2 };
-
-static int last_period(const ambulo_problem_definition *d) {
-  return d->ends == AMBULO_ENDS_FREE ? 0 : PERIODS;
-}
-
-/* the span of contact i, `period` periods later, if it belongs to `foot` then */
-static int image_of(const ambulo_problem_definition *d, int i, int period, int foot,
-                    ambulo__span *span) {
-  const ambulo_contact *c = &d->contacts[i];
-  int mirrored = d->ends == AMBULO_ENDS_MIRRORED && period % 2 != 0;
-  if ((mirrored ? d->model->feet[c->foot].mirror : c->foot) != foot) return 0;
-  span->from = c->from + period * d->duration;
-  span->to = c->to + period * d->duration;
-  span->begins = span->ends = i;
-  return 1;
-}
-
 const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *d, int foot,
                                          double time) {
   for (int i = 0; i < d->contact_count; i++) {
@@ -48,51 +30,23 @@ const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *d, int
   return NULL;
 }
 
-/* joins one more contact to the span; 0 if none touches it from outside */
-static int grow(const ambulo_problem_definition *d, int foot, ambulo__span *span) {
-  int last = last_period(d);
-  for (int i = 0; i < d->contact_count; i++) {
-    for (int period = -last; period <= last; period++) {
-      ambulo__span image;
-      if (!image_of(d, i, period, foot, &image)) continue;
-      int touches =
-          image.from <= span->to + AMBULO__INSTANT && image.to >= span->from - AMBULO__INSTANT;
-      int reaches =
-          image.from < span->from - AMBULO__INSTANT || image.to > span->to + AMBULO__INSTANT;
-      if (!touches || !reaches) continue;
-      if (image.from < span->from) {
-        span->from = image.from;
-        span->begins = i;
-      }
-      if (image.to > span->to) {
-        span->to = image.to;
-        span->ends = i;
-      }
-      return 1;
-    }
-  }
-  return 0;
-}
-
 int ambulo__loaded_span(const ambulo_problem_definition *d, int foot, double time,
                         ambulo__span *span) {
   const ambulo_contact *contact = ambulo__contact_of(d, foot, time);
   if (!contact) return 0;
-  span->from = contact->from;
-  span->to = contact->to;
-  span->begins = span->ends = (int)(contact - d->contacts);
-  while (grow(d, foot, span)) continue;
+  int own = (int)(contact - d->contacts);
+  *span = ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, ambulo__image_span(d, own, 0));
   return 1;
 }
 
 ambulo__span ambulo__air_span(const ambulo_problem_definition *d, int foot, double time) {
-  int last = last_period(d);
+  int last = ambulo__image_periods(d);
   ambulo__span air = {-(last + 1) * d->duration, (last + 2) * d->duration, -1, -1};
   if (last == 0) air = (ambulo__span){0.0, d->duration, -1, -1};
   for (int i = 0; i < d->contact_count; i++) {
     for (int period = -last; period <= last; period++) {
-      ambulo__span image;
-      if (!image_of(d, i, period, foot, &image)) continue;
+      ambulo__span image = ambulo__image_span(d, i, period);
+      if (ambulo__image_foot(d, i, period) != foot) continue;
       if (image.to <= time + AMBULO__INSTANT && image.to > air.from) {
         air.from = image.to;
         air.begins = i;

@@ -2,13 +2,8 @@
 #ifndef AMBULO_GAIT_LOADING_H
 #define AMBULO_GAIT_LOADING_H
 
+#include "gait/contact_image.h"
 #include "gait/foot_outline.h"
-
-typedef struct ambulo__span {
-  double from, to;  /* s; may lie outside [0, T] when the motion is periodic or mirrored */
-  int begins, ends; /* the contact with whose start or end the span begins, and ends; -1: none.
-                       Loaded: its `from`, `to`; in the air: its `to`, `from` */
-} ambulo__span;
 
 /* The uninterrupted contact of `foot` around `time`; 0 if the foot is in the air. */
 int ambulo__loaded_span(const ambulo_problem_definition *definition, int foot, double time,

@@ -20,12 +20,6 @@ int ambulo__contact_holds(const ambulo_contact *contact, double duration, double
   return contact->to >= duration - AMBULO__INSTANT && time <= duration + AMBULO__INSTANT;
 }
 
-/* zero, or within 60 degrees of up */
-static int normal_is_legal(const double normal[3]) {
-  double size = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-  return size == 0.0 || (isfinite(size) && normal[2] >= 0.5 * size);
-}
-
 static ambulo_status check_contact(const ambulo_problem_definition *definition, int index,
                                    ambulo_diagnostics *list) {
   const ambulo_contact *c = &definition->contacts[index];
@@ -47,7 +41,7 @@ static ambulo_status check_contact(const ambulo_problem_definition *definition, 
                   "lengths",
                   index, foot, c->place[0], c->place[1], c->place[2]);
   }
-  if (!normal_is_legal(c->normal) || !isfinite(c->heading)) {
+  if (!ambulo__contact_normal_is_legal(c->normal) || !isfinite(c->heading)) {
     return REFUSE(list, NULL,
                   "contacts[%d]: foot '%s' stands on the normal (%g, %g, %g), turned by %g rad; "
                   "expected a finite normal, up to 60 degrees from up, and a finite angle",

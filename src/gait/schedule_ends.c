@@ -5,19 +5,20 @@
  * at 0, moved on by the travel:
  *
  *     place(T) = (place_f(0) + travel, +-place_l(0), place_n(0) + rise),   m;   - when mirrored
- *     heading(T) = +-heading(0)
+ *     heading(T) = +-heading(0),   normal(T) = (normal_f(0), +-normal_l(0), normal_n(0))
  *
  * It need not be down at both: at T it may strike, or leave the ground. Rows at the last node are
  * left out where they repeat those of the first (gait/bounded.h), so a disagreement would be a foot
  * that slides in the last interval. It is what the wrong number of steps comes to, too: after two
  * steps the same foot strikes again, after one the other one does.
  */
-#include "gait/gait.h"
 #include "base/instant.h"
+#include "gait/contact_frame.h"
+#include "gait/gait.h"
 
 #include <math.h>
 
-static const double tolerance = 1e-6; /* m */
+static const double tolerance = 1e-6; /* m, rad */
 
 /* do places enter the rows at all? */
 static int uses_places(const ambulo_problem_definition *d) {
@@ -25,10 +26,23 @@ static int uses_places(const ambulo_problem_definition *d) {
          d->ground_reaction.kind != AMBULO_REACTION_NONE;
 }
 
-/* at the same place of the plane: height and heading */
+/* the next contact's surface is that of the first one, moved on */
+static int leans_alike(const ambulo_problem_definition *d, const ambulo_contact *first,
+                       const ambulo_contact *last) {
+  ambulo_contact image = *first;
+  double apart = 0.0;
+  if (d->ends == AMBULO_ENDS_MIRRORED) image.normal[1] = -image.normal[1];
+  image.heading = last->heading;
+  ambulo__contact_frame one = ambulo__contact_frame_of(d, &image);
+  ambulo__contact_frame other = ambulo__contact_frame_of(d, last);
+  for (int i = 0; i < 3; i++) apart = fmax(apart, fabs(one.up[i] - other.up[i]));
+  return apart <= tolerance;
+}
+
+/* at the same place of the plane: height, heading and slope */
 static ambulo_status check_turned(const ambulo_problem_definition *d, const ambulo_contact *first,
                                   const ambulo_contact *last, double up, ambulo_diagnostics *list) {
-  double heading = d->ends == AMBULO_ENDS_MIRRORED ? -first->heading : first->heading;
+  double side = d->ends == AMBULO_ENDS_MIRRORED ? -1.0 : 1.0, heading = side * first->heading;
   const char *foot = d->model->feet[last->foot].name;
   if (fabs(last->place[2] - up) > tolerance)
     return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, "change ends.rise",
@@ -37,10 +51,17 @@ static ambulo_status check_turned(const ambulo_problem_definition *d, const ambu
                          foot, last->place[2], d->duration, d->rise, up);
   if (fabs(last->heading - heading) > tolerance)
     return ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere,
-                         "a motion that repeats itself does not turn; 'ends' without a kind does",
+                         "a motion that turns does not repeat itself: leave 'ends.kind' out",
                          "contacts: foot '%s' is turned by %.6g rad at t = %.6g s, and by %.6g rad "
                          "where the motion begins again; expected the same",
                          foot, last->heading, d->duration, heading);
+  if (!leans_alike(d, first, last))
+    return ambulo__error(
+        list, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,
+        "contacts: foot '%s' stands on the normal (%.6g, %.6g, %.6g) at t = %.6g s, and on (%.6g, "
+        "%.6g, %.6g) where the motion begins again; expected the same direction",
+        foot, last->normal[0], last->normal[1], last->normal[2], d->duration, first->normal[0],
+        side * first->normal[1] + 0.0, first->normal[2]); /* no -0 */
   return AMBULO_OK;
 }
 

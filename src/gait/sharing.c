@@ -131,7 +131,7 @@ static void slot_rows(one *c, const ambulo__foot_outline *outlines, const ambulo
   int foot = slots->foot[slot];
   double time = context->times[c->node];
   ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_FORCES, c->node, foot);
-  c->subject = context->model->feet[foot].name;
+  c->subject = ambulo__slot_name(context->model, slots, slot);
   c->force = ambulo__channel_foot_force(&context->channels, slot, 0);
   c->moment = ambulo__channel_contact_moment(&context->channels, slot, 0);
   for (int i = 0; i < phases.count; i++) {

@@ -1,63 +1,19 @@
 /* gait/stance.c - see stance.h. */
 #include "gait/stance.h"
 #include "base/instant.h"
-#include "model/model.h"
 
 #include <math.h>
 
-enum { PERIODS = 2 };
-
-typedef struct image {
-  int foot;
-  ambulo_contact_mode mode;
-  ambulo__span span;
-} image;
-
-static int last_period(const ambulo_problem_definition *d) {
-  return d->ends == AMBULO_ENDS_FREE ? 0 : PERIODS;
-}
-
-/* contact i, `period` periods later */
-static image image_of(const ambulo_problem_definition *d, int i, int period) {
-  const ambulo_contact *c = &d->contacts[i];
-  int mirrored = d->ends == AMBULO_ENDS_MIRRORED && period % 2 != 0;
-  double later = period * d->duration;
-  return (image){mirrored ? d->model->feet[c->foot].mirror : c->foot,
-                 c->mode,
-                 {.from = c->from + later, .to = c->to + later}};
-}
-
-/* Joins one more image of the foot, of `mode` unless -1, to the span; 0: none touches it from
- * outside. */
-static int grow(const ambulo_problem_definition *d, int foot, int mode, ambulo__span *span) {
-  for (int i = 0; i < d->contact_count; i++) {
-    for (int period = -last_period(d); period <= last_period(d); period++) {
-      image c = image_of(d, i, period);
-      if (c.foot != foot || (mode >= 0 && (int)c.mode != mode)) continue;
-      if (c.span.from > span->to + AMBULO__INSTANT || c.span.to < span->from - AMBULO__INSTANT)
-        continue;
-      if (c.span.from >= span->from - AMBULO__INSTANT && c.span.to <= span->to + AMBULO__INSTANT)
-        continue;
-      span->from = fmin(span->from, c.span.from);
-      span->to = fmax(span->to, c.span.to);
-      return 1;
-    }
-  }
-  return 0;
-}
-
-static ambulo__span grown(const ambulo_problem_definition *d, int foot, int mode,
-                          ambulo__span span) {
-  while (grow(d, foot, mode, &span)) continue;
-  return span;
-}
-
-/* without beginning or end where the motion is cut */
+/* without beginning or end where the motion is cut, or the foot is down all the time */
 static ambulo__span opened(const ambulo_problem_definition *d, ambulo__span span) {
-  if (d->ends != AMBULO_ENDS_FREE) return span;
-  if (span.from <= AMBULO__INSTANT) span.from = -INFINITY;
-  if (span.to >= d->duration - AMBULO__INSTANT) span.to = INFINITY;
-  return span;
+  if (d->ends == AMBULO_ENDS_FREE) {
+    if (span.from <= AMBULO__INSTANT) span.from = -INFINITY;
+    if (span.to >= d->duration - AMBULO__INSTANT) span.to = INFINITY;
+    return span;
+  }
+  double stride = (d->ends == AMBULO_ENDS_MIRRORED ? 2.0 : 1.0) * d->duration;
+  if (span.to - span.from < stride - AMBULO__INSTANT) return span;
+  return (ambulo__span){-INFINITY, INFINITY, -1, -1};
 }
 
 /* `other`, of another foot, may hold where the stance begins or ends */
@@ -70,33 +26,56 @@ static void meet(ambulo__stance *s, double middle, ambulo__span other) {
   if (at_end && (s->comes == INFINITY || comes > s->comes)) s->comes = comes;
 }
 
-/* mode of the part that ends or begins at `time`; -1 */
-static int mode_at(const ambulo_problem_definition *d, int foot, double time, int begins) {
+static int touches(ambulo__span span, double time) {
+  return span.from <= time + AMBULO__INSTANT && span.to >= time - AMBULO__INSTANT;
+}
+
+static void meet_others(const ambulo_problem_definition *d, int foot, double middle,
+                        ambulo__stance *s) {
+  int last = ambulo__image_periods(d);
   for (int i = 0; i < d->contact_count; i++) {
-    for (int period = -last_period(d); period <= last_period(d); period++) {
-      image c = image_of(d, i, period);
-      double end = begins ? c.span.from : c.span.to;
-      if (c.foot == foot && fabs(end - time) <= AMBULO__INSTANT) return (int)c.mode;
+    for (int period = -last; period <= last; period++) {
+      ambulo__span span = ambulo__image_span(d, i, period);
+      int other = ambulo__image_foot(d, i, period);
+      if (other == foot || (!touches(span, s->from) && !touches(span, s->to))) continue;
+      meet(s, middle, opened(d, ambulo__uninterrupted(d, other, AMBULO__ANY_MODE, span)));
+    }
+  }
+}
+
+/* mode of the foot's part that ends where the phase begins, or begins where it ends; -1. A contact
+ * that begins with the next period has no length at T. */
+static int mode_beside(const ambulo_problem_definition *d, int foot, ambulo__span phase,
+                       int after) {
+  int last = ambulo__image_periods(d);
+  for (int i = 0; i < d->contact_count; i++) {
+    for (int period = -last; period <= last; period++) {
+      ambulo__span s = ambulo__image_span(d, i, period);
+      double apart = after ? s.from - phase.to : s.to - phase.from;
+      if (ambulo__image_foot(d, i, period) == foot && fabs(apart) <= AMBULO__INSTANT &&
+          s.to - s.from > AMBULO__INSTANT)
+        return (int)d->contacts[i].mode;
     }
   }
   return -1;
 }
 
+ambulo__span ambulo__stance_in(const ambulo_problem_definition *d, const ambulo_contact *contact,
+                               int modes) {
+  ambulo__span own = {.from = contact->from, .to = contact->to};
+  return opened(d, ambulo__uninterrupted(d, contact->foot, modes, own));
+}
+
 ambulo__stance ambulo__stance_of(const ambulo_problem_definition *d,
                                  const ambulo_contact *contact) {
-  ambulo__span own = {.from = contact->from, .to = contact->to},
-               whole = grown(d, contact->foot, -1, own);
+  int foot = contact->foot;
+  ambulo__span own = {.from = contact->from, .to = contact->to};
+  ambulo__span whole = ambulo__uninterrupted(d, foot, AMBULO__ANY_MODE, own);
   ambulo__span open = opened(d, whole);
   ambulo__stance s = {.from = open.from, .to = open.to, .leaves = -INFINITY, .comes = INFINITY};
-  double middle = 0.5 * (whole.from + whole.to);
-  s.phase = grown(d, contact->foot, (int)contact->mode, own);
-  s.before = mode_at(d, contact->foot, s.phase.from, 0);
-  s.after = mode_at(d, contact->foot, s.phase.to, 1);
-  for (int i = 0; i < d->contact_count; i++) {
-    for (int period = -last_period(d); period <= last_period(d); period++) {
-      image c = image_of(d, i, period);
-      if (c.foot != contact->foot) meet(&s, middle, opened(d, grown(d, c.foot, -1, c.span)));
-    }
-  }
+  s.phase = ambulo__uninterrupted(d, foot, 1 << contact->mode, own);
+  s.before = mode_beside(d, foot, s.phase, 0);
+  s.after = mode_beside(d, foot, s.phase, 1);
+  meet_others(d, foot, 0.5 * (whole.from + whole.to), &s);
   return s;
 }

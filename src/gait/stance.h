@@ -2,12 +2,12 @@
 #ifndef AMBULO_GAIT_STANCE_H
 #define AMBULO_GAIT_STANCE_H
 
-#include "ambulo/problem.h"
-#include "gait/loading.h"
+#include "gait/contact_image.h"
 
 /* Times, s, may lie outside [0, T] in a motion that repeats. */
 typedef struct ambulo__stance {
-  double from, to;    /* infinite where a motion that does not repeat begins or ends with it */
+  double from, to;    /* infinite where the foot never came down or leaves: in a motion that repeats
+                         if it is down all the time, in another where that begins or ends with it */
   double leaves;      /* those of other feet that hold as it begins: when the first of them ends, at
                          the latest half-way; -infinity: none, or it has no beginning */
   double comes;       /* those that hold as it ends: when the last of them began, at the earliest
@@ -19,5 +19,9 @@ typedef struct ambulo__stance {
 /* Of the foot of one of the definition's contacts, at that contact. */
 ambulo__stance ambulo__stance_of(const ambulo_problem_definition *definition,
                                  const ambulo_contact *contact);
+/* How long one of `modes` holds the foot without interruption, around a contact in one of them;
+ * infinite as above. */
+ambulo__span ambulo__stance_in(const ambulo_problem_definition *definition,
+                               const ambulo_contact *contact, int modes);
 
 #endif

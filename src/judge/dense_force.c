@@ -8,6 +8,7 @@
  * --samples, has the true force; the accelerations behind it are just as free between the nodes.)
  * Of all contacts together, from the root wrench, and with ground reaction of each foot.
  */
+#include "gait/contact_load.h"
 #include "judge/dense.h"
 
 #include <math.h>
@@ -15,16 +16,28 @@
 typedef struct force {
   const ambulo__dense *dense;
   const char *subject;
-  int channel; /* first of three */
+  int foot; /* -1: all of it */
   double weight;
+  ambulo__slots slots;
 } force;
 
-static double normal_at(const force *f, int node) {
+static double upward_at(const force *f, int node, int channel) {
   const double *up = f->dense->problem->model->up;
   double sum = 0.0;
   for (int axis = 0; axis < 3; axis++)
-    sum += up[axis] * ambulo__dense_channel(f->dense, node, f->channel + axis);
+    sum += up[axis] * ambulo__dense_channel(f->dense, node, channel + axis);
   return sum / f->weight;
+}
+
+/* of a foot, the sum of its contacts */
+static double normal_at(const force *f, int node) {
+  const ambulo__channels *channels = &f->dense->problem->channels;
+  if (f->foot < 0) return upward_at(f, node, ambulo__channel_force(channels, 0));
+  double sum = 0.0;
+  for (int slot = 0; slot < channels->slots; slot++)
+    if (f->slots.foot[slot] == f->foot)
+      sum += upward_at(f, node, ambulo__channel_foot_force(channels, slot, 0));
+  return sum;
 }
 
 static void visit_force(const force *f, ambulo__dense_visitor visit, void *user) {
@@ -52,14 +65,15 @@ static void visit_force(const force *f, ambulo__dense_visitor visit, void *user)
 /* (A.2b) normal force beside what is linear between its nodes */
 void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo_problem *p = dense->problem;
-  force f = {.dense = dense, .weight = ambulo__model_weight(p->model)};
+  force f = {.dense = dense,
+             .subject = "total",
+             .foot = -1,
+             .weight = ambulo__model_weight(p->model),
+             .slots = ambulo__slots_of(p->model)};
   if (p->definition.contact_count == 0 || !(f.weight > 0.0)) return;
-  f.subject = "total";
-  f.channel = ambulo__channel_force(&p->channels, 0);
   visit_force(&f, visit, user);
-  for (int foot = 0; foot < p->channels.feet; foot++) {
-    f.subject = p->model->feet[foot].name;
-    f.channel = ambulo__channel_foot_force(&p->channels, foot, 0);
+  for (f.foot = 0; f.foot < p->channels.feet; f.foot++) {
+    f.subject = p->model->feet[f.foot].name;
     visit_force(&f, visit, user);
   }
 }

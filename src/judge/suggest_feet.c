@@ -1,6 +1,7 @@
 /* judge/suggest_feet.c - what helps rows on feet: footholds, contacts, penetration, clearance. */
 #include "judge/suggest.h"
 
+#include "gait/contact_frame.h"
 #include "gait/foot_outline.h"
 
 #include <math.h>
@@ -10,14 +11,20 @@ static const double widest_contact =
     0.1;                               /* m: the most that constraints.contact_tolerance may be */
 static const double widest_turn = 0.5; /* sine: ... and constraints.orientation_tolerance */
 
+/* on the link of its heel or of its toes */
+static int is_on_foot(const ambulo_model *model, const ambulo_foot *foot, int point) {
+  int link = model->points[point].link;
+  return link == model->points[foot->heel_center].link ||
+         link == model->points[foot->toe_center].link;
+}
+
 /* the foot whose points are those of the row's subject, or that has its name; -1: none */
 static int foot_of(const ambulo__advice *a) {
   const ambulo_model *model = a->problem->model;
   int point = ambulo_model_find_point(model, a->row->subject);
   for (int f = 0; f < model->foot_count; f++) {
     if (!strcmp(model->feet[f].name, a->row->subject)) return f;
-    if (point >= 0 && model->points[point].link == model->points[model->feet[f].heel_center].link)
-      return f;
+    if (point >= 0 && is_on_foot(model, &model->feet[f], point)) return f;
   }
   return -1;
 }
@@ -43,13 +50,12 @@ static int offset_of(const ambulo__advice *a, int node, int index, double *offse
   const ambulo_problem *p = a->problem;
   const ambulo_model *model = p->model;
   const ambulo_foot *foot = &model->feet[p->definition.contacts[index].foot];
-  int link = model->points[foot->heel_center].link;
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
     int is_strike = row->kind == AMBULO__KIND_FOOT_STRIKE && !strcmp(row->detail, "forward");
     if (row->node != node || !is_strike) continue;
     int point = ambulo_model_find_point(model, row->subject);
-    if (point < 0 || model->points[point].link != link) continue;
+    if (point < 0 || !is_on_foot(model, foot, point)) continue;
     *offset = a->values[r];
     return 1;
   }
@@ -171,8 +177,8 @@ static void penetration(const ambulo__advice *a) {
 
 static void lower_clearance(const ambulo__advice *a) {
   const ambulo_problem_definition *d = &a->problem->definition;
-  double low =
-      -a->row->constant - d->ground_height; /* what the row asks for, a share of `height` */
+  /* what the row asks for, a share of `height`; over footholds of any height it is not told */
+  double low = ambulo__contacts_are_level(d) ? -a->row->constant - d->ground_height : 0.0;
   double height = d->clearance.height;
   if (!(low > 0.0) || a->room >= low) {
     ambulo__advice_say(a,

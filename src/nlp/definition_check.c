@@ -196,6 +196,11 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
     return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points of one link", t,
                   info->name, point_name(d->model, term->point[0]),
                   point_name(d->model, term->point[1]));
+  if (term->kind == AMBULO_FORCE_RATE && d->ground_reaction.kind == AMBULO_REACTION_NONE)
+    return REFUSE(list,
+                  "objective[%d] (%s): no forces on feet without ground_reaction; expected kind "
+                  "shared or two_step",
+                  t, info->name);
   if (term->kind == AMBULO_TRACKING && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
   if (ambulo__is_user_term(term) && !term->function)

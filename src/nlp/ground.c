@@ -94,46 +94,61 @@ void ambulo__pressure_centers(const double *ground, int node, const double *zmp,
   }
 }
 
-/* (W.10) adds the contact of one slot to what its foot carries; cop: times the normal force */
-static double add_slot(const ambulo_problem *p, const ambulo__contact_load *load, int slot,
-                       const double *channel, double grf[3], double cop[3], double *free_moment) {
-  double force[3], moment[3], normal = 0.0, along = 0.0, across = 0.0, twist = 0.0;
+static void add_cross(const double a[3], const double b[3], double out[3]) {
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    out[i] += a[j] * b[k] - a[k] * b[j];
+  }
+}
+
+/* adds what the contact of a slot does about the origin of its surface, the same for both of a foot
+ */
+static void add_slot(const ambulo_problem *p, const ambulo__contact_load *load, int slot,
+                     const double *channel, double force[3], double moment[3]) {
+  double own[3], arm[3];
   for (int i = 0; i < 3; i++) {
     int f = ambulo__channel_foot_force(&p->channels, slot, i);
     int m = ambulo__channel_contact_moment(&p->channels, slot, i);
-    force[i] = channel[(size_t)f * AMBULO__LANES];
-    moment[i] = channel[(size_t)m * AMBULO__LANES];
-    normal += force[i] * load->frame.up[i];
-    along -= moment[i] * load->frame.left[i];
-    across += moment[i] * load->frame.forward[i];
-    twist += moment[i] * force[i];
+    own[i] = channel[(size_t)f * AMBULO__LANES];
+    arm[i] = load->center[i] - load->frame.origin[i];
+    force[i] += own[i];
+    moment[i] += channel[(size_t)m * AMBULO__LANES];
   }
+  add_cross(arm, own, moment);
+}
+
+/* (W.10) origin + n x M / (n.f), M.f / (n.f) */
+static void pressure_of(const ambulo__contact_frame *frame, const double force[3],
+                        const double moment[3], double cop[3], double *free_moment) {
+  double normal = 0.0, twist = 0.0, shift[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < 3; i++) {
-    grf[i] += force[i];
-    cop[i] +=
-        normal * load->center[i] + along * load->frame.forward[i] + across * load->frame.left[i];
+    normal += force[i] * frame->up[i];
+    twist += force[i] * moment[i];
   }
-  if (normal > 0.0) *free_moment += twist / normal;
-  return normal;
+  add_cross(frame->up, moment, shift);
+  for (int i = 0; i < 3; i++)
+    cop[i] = normal > 0.0 ? frame->origin[i] + shift[i] / normal : (double)NAN;
+  *free_moment = normal > 0.0 ? twist / normal : 0.0;
 }
 
 void ambulo__contact_pressures(const ambulo_problem *p, const ambulo__foot_outline *outlines,
                                double time, const double *channel, double grf[6], double cop[6],
                                double free_moment[2]) {
   ambulo__slots slots = ambulo__slots_of(p->model);
-  double normal[2] = {0.0, 0.0};
+  ambulo__contact_frame frame[2] = {{{0.0}, {0.0}, {0.0}, {0.0}}, {{0.0}, {0.0}, {0.0}, {0.0}}};
+  double moment[6] = {0.0};
   memset(grf, 0, 6 * sizeof *grf);
-  memset(cop, 0, 6 * sizeof *cop);
-  memset(free_moment, 0, 2 * sizeof *free_moment);
   for (int slot = 0; slot < slots.count; slot++) {
-    int foot = slots.foot[slot];
+    int at = 3 * slots.foot[slot];
     ambulo__contact_load load =
         ambulo__contact_load_at(&p->definition, outlines, &slots, slot, NULL, time);
-    if (load.loaded && load.weight > 0.0)
-      normal[foot] +=
-          add_slot(p, &load, slot, channel, grf + 3 * foot, cop + 3 * foot, &free_moment[foot]);
+    if (!load.loaded) continue;
+    frame[slots.foot[slot]] = load.frame;
+    add_slot(p, &load, slot, channel, grf + at, moment + at);
   }
-  for (int i = 0; i < 6; i++) cop[i] = normal[i / 3] > 0.0 ? cop[i] / normal[i / 3] : (double)NAN;
+  for (int foot = 0; foot < 2; foot++)
+    pressure_of(&frame[foot], grf + 3 * foot, moment + 3 * foot, cop + 3 * foot,
+                &free_moment[foot]);
 }
 
 const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_problem *p) {

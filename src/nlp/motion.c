@@ -72,35 +72,30 @@ static void fill_zmp(const ambulo_problem *p, const dense *d, int channels, int 
   for (int k = 0; k < count; k++) zmp_at(p, d, channels, k, zmp + 3 * k);
 }
 
-/* forces, centres of pressure and free moments of the feet */
-static void fill_feet(const ambulo_problem *p, const dense *d, int channels, int count,
-                      const ambulo_motion *motion) {
-  int feet = ambulo_model_foot_count(p->model);
-  for (int at = 0; at < count * feet; at++) {
-    int k = at / feet, foot = at % feet;
+/* forces, centres of pressure and free moments of the feet: of the two-step split */
+static void fill_split(const ambulo_problem *p, const dense *d, int channels, int count,
+                       const ambulo_motion *motion) {
+  for (int at = 0; at < 2 * count; at++) {
+    int k = at / 2, foot = at % 2;
     for (int axis = 0; axis < 4; axis++) {
-      double value = NAN;
       int channel = ambulo__channel_foot_force(&p->channels, foot, axis);
-      if (d->ground) value = d->channel[ambulo__lane_index(k, channels, channel)];
+      double value = d->channel[ambulo__lane_index(k, channels, channel)];
       if (axis < 3 && motion->grf) motion->grf[3 * at + axis] = value;
-      if (axis < 3 && motion->cop) motion->cop[3 * at + axis] = NAN;
       if (axis == 3 && motion->free_moment) motion->free_moment[at] = value;
     }
   }
-  int shared = p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED;
-  for (int k = 0; d->ground && !shared && motion->cop && k < count; k++) {
+  for (int k = 0; motion->cop && k < count; k++) {
     double zmp[3];
     zmp_at(p, d, channels, k, zmp);
     ambulo__pressure_centers(d->ground, k, zmp, motion->cop + 6 * k);
   }
 }
 
-/* the same of contacts that share the load */
+/* of contacts that share the load */
 static ambulo_status fill_contacts(const ambulo_problem *p, const dense *d,
                                    const ambulo_allocator *a, const double *times, int count,
                                    const ambulo_motion *motion) {
   int channels = ambulo__channel_count(&p->channels);
-  if (p->definition.ground_reaction.kind != AMBULO_REACTION_SHARED) return AMBULO_OK;
   ambulo__foot_outline *outlines = ambulo__foot_outlines(p->model, a);
   if (!outlines) return AMBULO_E_MEMORY;
   for (int k = 0; k < count; k++) {
@@ -113,6 +108,28 @@ static ambulo_status fill_contacts(const ambulo_problem *p, const dense *d,
     if (motion->free_moment) memcpy(motion->free_moment + 2 * k, free_moment, sizeof free_moment);
   }
   ambulo__free(a, outlines);
+  return AMBULO_OK;
+}
+
+static void fill_none(int numbers, double *out) {
+  for (int i = 0; out && i < numbers; i++) out[i] = NAN;
+}
+
+static ambulo_status fill_feet(const ambulo_problem *p, const dense *d, const ambulo_allocator *a,
+                               const double *times, int count, const ambulo_motion *motion) {
+  int feet = ambulo_model_foot_count(p->model);
+  switch (p->definition.ground_reaction.kind) {
+  case AMBULO_REACTION_TWO_STEP:
+    fill_split(p, d, ambulo__channel_count(&p->channels), count, motion);
+    return AMBULO_OK;
+  case AMBULO_REACTION_SHARED:
+    return fill_contacts(p, d, a, times, count, motion);
+  case AMBULO_REACTION_NONE:
+    break;
+  }
+  fill_none(3 * count * feet, motion->grf);
+  fill_none(3 * count * feet, motion->cop);
+  fill_none(count * feet, motion->free_moment);
   return AMBULO_OK;
 }
 
@@ -149,8 +166,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c, 6, count, motion->wrench);
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
-    fill_feet(p, &d, channels, count, motion);
-    status = fill_contacts(p, &d, a, times, count, motion);
+    status = fill_feet(p, &d, a, times, count, motion);
     if (!status && !finite) status = AMBULO_E_NUMERIC;
   }
   dense_free(a, &d);

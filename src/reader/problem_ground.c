@@ -96,6 +96,23 @@ static void read_pressure(const ambulo__yaml_node *node, ambulo_ground_reaction 
   ambulo__yaml_close(node);
 }
 
+/* a law has numbers of its own; those of the other one may stay in the file */
+static void warn_of_others(const ambulo__yaml_node *section, int kind) {
+  static const char *const kinds[] = {"none", "two_step", "shared"};
+  static const struct {
+    const char *key;
+    int kind;
+  } own[] = {{"transfer", AMBULO_REACTION_TWO_STEP}, {"exponent", AMBULO_REACTION_TWO_STEP},
+             {"shear", AMBULO_REACTION_TWO_STEP},    {"moment_arm", AMBULO_REACTION_SHARED},
+             {"slant", AMBULO_REACTION_SHARED},      {"loading_rate", AMBULO_REACTION_SHARED}};
+  for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_get(section, own[i].key);
+    if (!node || kind == AMBULO_REACTION_NONE || kind == own[i].kind) continue;
+    ambulo__yaml_warning(node, NULL, "'%s' has no effect with kind %s; it belongs to kind %s",
+                         own[i].key, kinds[kind], kinds[own[i].kind]);
+  }
+}
+
 static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const kinds[] = {"none", "two_step", "shared"};
   static const char *const transfers[] = {"early", "linear", "smooth"};
@@ -105,6 +122,7 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
   int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 1);
   int transfer = ambulo__yaml_choice(ambulo__yaml_get(section, "transfer"), transfers, 3, 0);
   r->kind = (ambulo_reaction_kind)kind;
+  warn_of_others(section, kind);
   r->transfer = (ambulo_transfer)transfer;
   r->exponent =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "exponent"), 1.0, 10.0, r->exponent);
@@ -115,7 +133,8 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
   r->loading_rate = read_bound(ambulo__yaml_get(section, "loading_rate"), 1e4, r->loading_rate);
   r->friction = read_bound(ambulo__yaml_get(section, "friction"), 10.0, r->friction);
   r->free_moment = read_bound(ambulo__yaml_get(section, "free_moment"), 10.0, r->free_moment);
-  double force = d->minimum_force >= 0.0 || kind != 1 ? d->minimum_force : 0.2;
+  int is_split = kind == AMBULO_REACTION_TWO_STEP;
+  double force = d->minimum_force >= 0.0 || !is_split ? d->minimum_force : 0.2;
   d->minimum_force = read_bound(ambulo__yaml_get(section, "minimum_force"), 100.0, force);
   read_pressure(ambulo__yaml_get(section, "pressure"), r);
   ambulo__yaml_close(section);

@@ -156,7 +156,12 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_TORQUE_RATE:
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:
+    break;
   case AMBULO_FORCE_RATE:
+    if (reader->definition.ground_reaction.kind == AMBULO_REACTION_NONE)
+      (void)ambulo__yaml_error(ambulo__yaml_get(node, "term"), AMBULO_E_PROBLEM, NULL,
+                               "force_rate without ground_reaction: no forces on feet; expected "
+                               "ground_reaction: {kind: shared} or {kind: two_step}");
     break;
   case AMBULO_CLEARANCE:
     term->height = ambulo__yaml_number_in(ambulo__yaml_get(node, "height"), 1e-6, 10.0, 0.02);

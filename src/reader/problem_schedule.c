@@ -11,11 +11,13 @@
  */
 #include "reader/problem_reader.h"
 
+#include "gait/contact_frame.h"
 #include "gait/gait.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { MOST_CONTACTS = 5000 };
 
@@ -35,6 +37,27 @@ static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_no
 
 /* ------------------------------------------------------------------- contacts */
 
+/* two numbers on the level ground, or three */
+static void read_place(const ambulo__yaml_node *node, double place[3]) {
+  int given = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(node) : 0;
+  if (!node || given == 2 || given == 3) {
+    (void)ambulo__yaml_numbers(node, given, place);
+    return;
+  }
+  (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                           "'place' is not a list of 2 or 3 lengths: forward, left, up");
+}
+
+static void read_normal(const ambulo__yaml_node *node, double normal[3]) {
+  static const double none[3] = {0.0, 0.0, 0.0};
+  if (!ambulo__yaml_numbers(node, 3, normal)) return;
+  if (memcmp(normal, none, sizeof none) != 0 && ambulo__contact_normal_is_legal(normal)) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                           "a normal of (%g, %g, %g) along forward, left and up; expected one that "
+                           "is up to 60 degrees from up",
+                           normal[0], normal[1], normal[2]);
+}
+
 static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo_contact *contact) {
   static const char *const modes[] = {"heel", "flat", "toe"};
@@ -43,10 +66,8 @@ static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node
   contact->mode = (ambulo_contact_mode)mode;
   contact->from = ambulo__yaml_number(ambulo__yaml_require(node, "from"), 0.0);
   contact->to = ambulo__yaml_number(ambulo__yaml_require(node, "to"), 0.0);
-  const ambulo__yaml_node *place = ambulo__yaml_require(node, "place");
-  int given = ambulo__yaml_is(place, AMBULO__YAML_SEQUENCE) ? ambulo__yaml_items(place) : 0;
-  (void)ambulo__yaml_numbers(place, given == 3 ? 3 : 2, contact->place);
-  (void)ambulo__yaml_numbers(ambulo__yaml_get(node, "normal"), 3, contact->normal);
+  read_place(ambulo__yaml_require(node, "place"), contact->place);
+  read_normal(ambulo__yaml_get(node, "normal"), contact->normal);
   contact->heading = ambulo__read_plain_angle(reader, ambulo__yaml_get(node, "heading"), 0.0);
   ambulo__yaml_close(node);
 }

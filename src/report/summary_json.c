@@ -317,6 +317,25 @@ static void nlopt(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_close(json, '}');
 }
 
+static void starts(ambulo__json *json, const ambulo_starts *s) {
+  if (!s) return;
+  ambulo__json_open(json, "starts", '{');
+  ambulo__json_integer(json, "count", s->count);
+  ambulo__json_integer(json, "solved", s->solved);
+  ambulo__json_integer(json, "intervals", s->intervals);
+  ambulo__json_open(json, "basins", '[');
+  for (int b = 0; b < s->basin_count; b++) {
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_number(json, "objective", s->basins[b].objective);
+    ambulo__json_integer(json, "found", s->basins[b].found);
+    ambulo__json_integer(json, "first", s->basins[b].first);
+    ambulo__json_number(json, "distance", s->basins[b].distance);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+  ambulo__json_close(json, '}');
+}
+
 static void effort(ambulo__json *json, const ambulo_result *result) {
   const ambulo_timing *timing = ambulo_result_timing(result);
   ambulo__json_integer(json, "iterations", ambulo_result_iterations(result));
@@ -370,6 +389,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   explanation(json, result);
   if (!status) status = sensitivities(json, problem, result);
   sizes(json, problem);
+  starts(json, ambulo_result_starts(result));
   effort(json, result);
   versions(json);
   ambulo__json_text(json, "input_hash", hash);

@@ -55,5 +55,5 @@ void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials 
   }
   for (int block = 0; block < p->blocks; block++) ambulo__adjoint_block(s->workspace, block);
   sum += pull_of_ends(s) + pull_of_rates(s);
-  partials->duration = sum / p->definition.duration;
+  partials->duration += sum / p->definition.duration;
 }

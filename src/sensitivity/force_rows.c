@@ -13,7 +13,8 @@
  *     friction        c = mu n.F / W -+ e.F / W                        dc/dmu = n.F / W
  *     free moment     c = bound +- T / W                               dc/dbound = 1
  *
- * All but their constants are measured in W: dc/d ln m = -(c - constant).
+ * and where contacts share the load sharing_rows.c. All but their constants are measured in W: dc/d
+ * ln m = -(c - constant).
  */
 #include "sensitivity/partials.h"
 
@@ -150,10 +151,28 @@ static void add_friction(const force_row *p, ambulo__partials *partials) {
   partials->reaction.friction += p->pull * normal / p->weight;
 }
 
+/* a row of gait/sharing.c */
+static int is_of_contact(const force_row *p) {
+  const ambulo_problem *problem = p->s->problem;
+  int first = ambulo__channel_foot_force(&problem->channels, 0, 0);
+  int kind = p->row->kind;
+  int of_force = kind == AMBULO__KIND_NORMAL_FORCE || kind == AMBULO__KIND_FRICTION ||
+                 kind == AMBULO__KIND_PRESSURE || kind == AMBULO__KIND_FREE_MOMENT;
+  return of_force && problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED &&
+         ambulo__sharing_channel(problem, p->row) >= first;
+}
+
 /* (S.5) -phi, n.F / W, 1 */
 static void add_row(const force_row *p, int planar, ambulo__partials *partials) {
   int r = (int)(p->row - p->s->problem->table.rows);
   int of_forces = 1;
+  if (is_of_contact(p)) {
+    ambulo__partials_of_sharing(p->s, p->outlines, p->row, p->pull, p->weight, partials);
+    const ambulo__arc *arc = ambulo__row_arc_of(&p->s->problem->table, p->row);
+    double constant = arc ? arc->slack : p->row->constant;
+    partials->log_mass -= p->pull * (p->s->workspace->row_value[r] - constant);
+    return;
+  }
   switch ((ambulo__row_kind)p->row->kind) {
   case AMBULO__KIND_ZMP:
     add_zmp(p, planar, partials);

@@ -81,8 +81,9 @@ static void passed_tangent(const ambulo__node_forces *f, const ground *g, double
   add(f->apart, -g->gain * g->normal, out + 3);
 }
 
-/* the weights of what only a plan with ground reaction has, and the feet's part of the torques */
-static double pull_of_ground(const ambulo__node_forces *f) {
+/* (S.8a) the weights of what only a plan with ground reaction has, and the feet's part of the
+ * torques */
+double ambulo__ground_split_pull(const ambulo__node_forces *f) {
   const ambulo_problem *p = f->s->problem;
   const ambulo__channels *c = &p->channels;
   const ground g = ground_at(f);
@@ -112,17 +113,5 @@ static double pull_of_ground(const ambulo__node_forces *f) {
   int center = ambulo__channel_center(c, 0);
   for (int i = 0; i < 3; i++)
     sum += ambulo__stationary_adjoint(f->s, f->node, center + i) * f->center[i];
-  return sum;
-}
-
-/* (S.8) sum w dy/dp of a node */
-double ambulo__node_forces_pull(const ambulo__node_forces *f) {
-  const ambulo_problem *p = f->s->problem;
-  const ambulo__channels *c = &p->channels;
-  double sum = p->channels.feet ? pull_of_ground(f) : 0.0;
-  for (int i = 0; i < p->coordinates; i++)
-    sum += ambulo__stationary_adjoint(f->s, f->node, ambulo__channel_tau(c, i)) * f->torque[i];
-  for (int i = 0; i < 6; i++)
-    sum += ambulo__stationary_adjoint(f->s, f->node, ambulo__channel_moment(c, i)) * f->wrench[i];
   return sum;
 }

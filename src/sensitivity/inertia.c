@@ -15,6 +15,8 @@
  */
 #include "sensitivity/node_forces.h"
 
+#include "gait/contact_load.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -64,6 +66,35 @@ static double pull_of_all(const ambulo__node_forces *f) {
   return sum;
 }
 
+/* every contact of a foot along an axis; foot -1: of both */
+static double pull_of_places(ambulo__node_forces *f, const ambulo__slots *slots, int foot,
+                             const double axis[3]) {
+  ambulo__node_forces_clear(f);
+  for (int slot = 0; slot < slots->count && slot < AMBULO__MOST_SLOTS; slot++)
+    if (foot < 0 || slots->foot[slot] == foot) memcpy(f->place[slot], axis, sizeof f->place[slot]);
+  return ambulo__node_forces_pull(f);
+}
+
+/* contacts that share the load */
+static void add_contacts(ambulo__node_forces *f, ambulo__partials *partials) {
+  const ambulo_problem *p = f->s->problem;
+  const int *active = p->active + 2 * (size_t)f->node;
+  const ambulo__slots slots = ambulo__slots_of(p->model);
+  ambulo__node_forces_clear(f);
+  f->moment_arm = 1.0;
+  partials->reaction.moment_arm += ambulo__node_forces_pull(f);
+  ambulo__node_forces_clear(f);
+  f->slant = 1.0;
+  partials->reaction.slant += ambulo__node_forces_pull(f);
+  partials->ground_height += pull_of_places(f, &slots, -1, p->model->up);
+  for (int foot = 0; foot < 2; foot++) {
+    if (active[foot] < 0) continue;
+    double *by = partials->place + 2 * (size_t)active[foot];
+    by[0] += pull_of_places(f, &slots, foot, p->model->forward);
+    by[1] += pull_of_places(f, &slots, foot, p->model->left);
+  }
+}
+
 static void add_footholds(ambulo__node_forces *f, ambulo__partials *partials) {
   const ambulo_problem *p = f->s->problem;
   const int *active = p->active + 2 * (size_t)f->node;
@@ -79,6 +110,10 @@ static void add_footholds(ambulo__node_forces *f, ambulo__partials *partials) {
 }
 
 static void add_ground(ambulo__node_forces *f, ambulo__partials *partials) {
+  if (ambulo__plan_contacts(f->s->problem->plan) > 0) {
+    add_contacts(f, partials);
+    return;
+  }
   ambulo__node_forces_clear(f);
   f->shear = 1.0;
   partials->reaction.shear += ambulo__node_forces_pull(f);

@@ -115,7 +115,8 @@ void ambulo__node_forces_clear(ambulo__node_forces *f) {
   memset(f->wrench, 0, sizeof f->wrench);
   memset(f->center, 0, sizeof f->center);
   memset(f->apart, 0, sizeof f->apart);
-  f->shear = f->height = f->share = 0.0;
+  memset(f->place, 0, sizeof f->place);
+  f->shear = f->height = f->share = f->moment_arm = f->slant = 0.0;
 }
 
 double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const double wrench[6]) {

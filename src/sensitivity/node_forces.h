@@ -23,6 +23,8 @@ typedef struct ambulo__node_forces {
   double apart[3];       /* tangent of D (mechanics/kernel_ground.h), m */
   double shear, height;  /* tangents of kappa and of the height of the ground, m */
   double share;          /* tangent of a_0 */
+  /* where contacts share the load: tangents of their centres, of moment_arm and of slant */
+  double place[AMBULO__MOST_CONTACTS][3], moment_arm, slant;
 } ambulo__node_forces;
 
 /* Memory from `pool` but for the pose, which ambulo__node_forces_free frees. E_MEMORY. */
@@ -43,8 +45,12 @@ void ambulo__node_forces_clear(ambulo__node_forces *forces);
 void ambulo__node_forces_add(ambulo__node_forces *forces, int link, const double place[3],
                              const double force[3]);
 /* sum w dy/dp over the node's torques, root wrench, feet and centre of mass, with the ground's
- * part: ground_split.c. */
+ * part: ground_split.c or contact_forces.c. */
 double ambulo__node_forces_pull(const ambulo__node_forces *forces);
+
+/* The ground's part. */
+double ambulo__ground_split_pull(const ambulo__node_forces *forces);
+double ambulo__contact_forces_pull(const ambulo__node_forces *forces);
 
 /* The generalized force of joint i by a wrench that acts through it: S_i . w. */
 double ambulo__node_forces_joint(const ambulo__node_forces *forces, int i, const double wrench[6]);

@@ -102,6 +102,18 @@ static void add_pressure(ambulo__parameters *p) {
                         "width of the pressure", "ground_reaction.pressure.width");
 }
 
+static void add_sharing(ambulo__parameters *p) {
+  const ambulo_ground_reaction *r = &p->problem->definition.ground_reaction;
+  const ambulo_ground_reaction *by = &p->partials->reaction;
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, r->moment_arm, by->moment_arm,
+                        "moment arm of contacts", "ground_reaction.moment_arm");
+  ambulo__parameter_add(p, AMBULO__RATIO, r->slant, by->slant, "slant of forces on contacts",
+                        "ground_reaction.slant");
+  if (r->loading_rate >= 0.0)
+    ambulo__parameter_add(p, AMBULO__LOADING_RATE, r->loading_rate, by->loading_rate,
+                          "loading rate of contacts", "ground_reaction.loading_rate");
+}
+
 static void add_ground(ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
   const ambulo_ground_reaction *r = &d->ground_reaction, *by = &p->partials->reaction;
@@ -111,8 +123,10 @@ static void add_ground(ambulo__parameters *p) {
                           "least vertical force", "%s.minimum_force",
                           reacts ? "ground_reaction" : "constraints");
   if (!reacts) return;
-  ambulo__parameter_add(p, AMBULO__RATIO, r->shear, by->shear, "shear between the feet",
-                        "ground_reaction.shear");
+  if (r->kind == AMBULO_REACTION_TWO_STEP)
+    ambulo__parameter_add(p, AMBULO__RATIO, r->shear, by->shear, "shear between the feet",
+                          "ground_reaction.shear");
+  if (r->kind == AMBULO_REACTION_SHARED) add_sharing(p);
   if (r->friction >= 0.0)
     ambulo__parameter_add(p, AMBULO__RATIO, r->friction, by->friction, "friction",
                           "ground_reaction.friction");
@@ -216,6 +230,7 @@ ambulo_status ambulo__parameters_name(ambulo__parameters *p) {
   ambulo__pool pool;
   ambulo__pool_init(&pool, &p->allocator);
   ambulo_status status = ambulo__partials_create(p->problem, &pool, &partials);
+  if (!status) status = ambulo__partials_name_events(p->problem, &pool, &partials);
   p->partials = &partials;
   p->all = 1;
   if (!status) status = ambulo__parameters_collect(p);

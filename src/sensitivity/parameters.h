@@ -20,6 +20,7 @@ typedef enum ambulo__quantity {
   AMBULO__BODY_WEIGHT,   /* body weights: 0.01 */
   AMBULO__TURNING_JOLT,  /* rad/s^2: 1 */
   AMBULO__JOLT,          /* m/s^2: 0.1 */
+  AMBULO__LOADING_RATE,  /* body weights/s: 1 */
   AMBULO__STRIDE_SHARE,  /* 1 % of the stride, of an event */
   AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
   AMBULO__RATIO          /* any: 1 % of the value */

@@ -15,10 +15,11 @@
  * Each file of this folder adds one of these parts to the partials of the members of the
  * problem's definition; parameters.c makes of them what a file's keys say. All by hand.
  *
- * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c, bound_rows.c;
- * terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c; duration.c; event_rates.h,
- * event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
- * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
+ * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c,
+ * sharing_rows.c, bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
+ * contact_split.h, contact_forces.c; duration.c; event_rates.h, event_rates.c, event_times.c;
+ * parameters.h, parameter_list.c, parameters.c, walk_parameters.c, time_parameters.c,
+ * term_parameters.c, words.c, sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
 #define AMBULO_SENSITIVITY_PARTIALS_H
@@ -83,6 +84,9 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
 /* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);
 
+/* The events alone, without a solution: 0 where there is a derivative. E_MEMORY. */
+ambulo_status ambulo__partials_name_events(const ambulo_problem *problem, ambulo__pool *pool,
+                                           ambulo__partials *partials);
 /* Last: nodes, knots and contacts with the events. E_MEMORY. */
 ambulo_status ambulo__partials_of_events(const ambulo__stationary *s, ambulo__pool *pool,
                                          ambulo__partials *partials);
@@ -102,6 +106,14 @@ typedef struct ambulo__support_row {
 } ambulo__support_row;
 void ambulo__support_side(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
                           const ambulo__support_row *row, double pull, ambulo__partials *partials);
+
+/* A channel of the contact that a row of its force, pressure or free moment stands on; -1: an arc
+ * that rolls. */
+int ambulo__sharing_channel(const ambulo_problem *problem, const ambulo__table_row *row);
+/* A row of a contact that shares the load, times pull; `weight` m g, N. */
+void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot_outline *outlines,
+                                 const ambulo__table_row *row, double pull, double weight,
+                                 ambulo__partials *partials);
 
 /* What the feet do that a row at a node speaks of: [feet], contacts or -1. */
 static inline const int *ambulo__stationary_contacts(const ambulo__stationary *s, int node,

@@ -28,6 +28,7 @@ static const quantity_entry quantities[] = {
     {"body weights", 0.01, "0.01 body weights more"},
     {"rad/s^2", 1.0, "1 rad/s^2 more"},
     {"m/s^2", 0.1, "0.1 m/s^2 more"},
+    {"body weights/s", 1.0, "1 body weight/s more"},
     {"", 0.01, "1 % of the stride later"},
     {"s", 0.01, "10 ms later"},
     {"", 0.01, "1 % more"},

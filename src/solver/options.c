@@ -19,6 +19,7 @@ ambulo_options ambulo_options_default(void) {
       .feasibility_tolerance = 1e-6,
       .optimality_tolerance = 1e-3,
       .continuation = 1,
+      .starts = 1,
       .dense_samples = 10,
   };
   return options;
@@ -73,6 +74,10 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
   if (!status)
     status = check_tolerance("optimality_tolerance", options->optimality_tolerance, diagnostics);
   if (status) return status;
+  if (options->starts < 1 || options->starts > AMBULO_MOST_STARTS)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "solver.starts is %d; expected 1 to %d", options->starts,
+                         AMBULO_MOST_STARTS);
   if (options->dense_samples < 1 || options->dense_samples > 1000)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.dense_samples is %d; expected 1 to 1000", options->dense_samples);

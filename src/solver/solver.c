@@ -1,4 +1,5 @@
-/* solver/solver.c - ambulo_solve: which method, from which start, and which point is the best.
+/* solver/solver.c - a solve from one start: which method, from which start, and which point is the
+ * best.
  *
  *   presolve off     NLopt's SLSQP or AUGLAG on the rows as they are     (nlopt_plain.c)
  *   small problems   SLSQP in whitened coordinates                       (nlopt_whitened.c)
@@ -9,8 +10,8 @@
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (candidates.c).
  *
- * Reading order: solver.c, session.h, session.c, options.h, memory.h, better.h, audit_point.c;
- * what they call: method/pipeline.c, method/refine.c, judge/audit.c.
+ * Reading order: solve.c, starts.h, solver.c, session.h, session.c, options.h, memory.h, better.h,
+ * audit_point.c; what they call: method/pipeline.c, method/refine.c, judge/audit.c.
  */
 #include "solver/better.h"
 #include "solver/session.h"
@@ -164,15 +165,14 @@ static ambulo_status search(ambulo__session *s) {
   return AMBULO_OK;
 }
 
-ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *options,
-                           const double *start, const ambulo_allocator *allocator,
-                           ambulo_diagnostics *diagnostics, ambulo_result **result) {
-  if (!problem || !result) return AMBULO_E_ARGUMENT;
-  ambulo_options own = options ? *options : ambulo_problem_options(problem);
+ambulo_status ambulo__solve_once(const ambulo_problem *problem, const ambulo_options *options,
+                                 const double *start, int explains,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo_result **result) {
   ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.errors = ambulo_diagnostics_error_count(diagnostics);
-  s.explains = 1;
-  ambulo_status status = ambulo__session_begin(&s, &own, start);
+  s.explains = explains;
+  ambulo_status status = ambulo__session_begin(&s, options, start);
   if (!status && s.engine) status = search(&s);
   if (!status) status = ambulo__session_finish(&s);
   return ambulo__session_end(&s, status, result);

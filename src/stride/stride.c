@@ -43,12 +43,6 @@ static void mirror_row(const ambulo_model *model, double *row, const double *shi
   memcpy(row, scratch, (size_t)model->coordinate_count * sizeof *row);
 }
 
-static void mirror_point(const ambulo_model *model, double travel, double *point) {
-  double aside = 0.0;
-  for (int i = 0; i < 3; i++) aside += point[i] * model->left[i];
-  for (int i = 0; i < 3; i++) point[i] += travel * model->forward[i] - 2.0 * aside * model->left[i];
-}
-
 /* scratch: [2][coordinates] */
 static void mirror_second_step(ambulo__stride *s, const sampling *sample, double *scratch) {
   double *shift = scratch + s->coordinates;
@@ -60,7 +54,7 @@ static void mirror_second_step(ambulo__stride *s, const sampling *sample, double
     mirror_row(s->model, s->qd + at, NULL, scratch);
     mirror_row(s->model, s->qdd + at, NULL, scratch);
     mirror_row(s->model, s->tau + at, NULL, scratch);
-    mirror_point(s->model, s->problem->definition.travel, s->zmp + 3 * (size_t)k);
+    ambulo__stride_mirror_place(s, s->zmp + 3 * (size_t)k);
     ambulo__stride_feet_mirror(s, k);
   }
 }

@@ -1,10 +1,11 @@
 /* stride/stride_feet.c - forces on the feet in a mirrored stride.
  *
  * In the mirror image foot m takes the place of foot i. Across the sagittal plane forces keep
- * their forward and upward parts and turn the one along left, places also move on by the travel,
- * and a moment about the normal changes its sign:
+ * their forward and upward parts and turn the one along left, places also move on by the travel
+ * and the rise, and a moment about the normal changes its sign:
  *
- *     grf_m = grf_i - 2 (grf_i . l) l,   cop_m = cop_i - 2 (cop_i . l) l + travel f,   T_m = -T_i
+ *     grf_m = grf_i - 2 (grf_i . l) l,   cop_m = cop_i - 2 (cop_i . l) l + travel f + rise n,
+ *     T_m = -T_i
  */
 #include <math.h>
 
@@ -19,10 +20,17 @@ ambulo_status ambulo__stride_feet_allocate(ambulo__stride *s) {
   return s->grf && s->cop && s->free_moment ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
-static void mirror_vector(const ambulo_model *model, double travel, double *v) {
+static void mirror_vector(const ambulo_model *model, double *v) {
   double aside = 0.0;
   for (int i = 0; i < 3; i++) aside += v[i] * model->left[i];
-  for (int i = 0; i < 3; i++) v[i] += travel * model->forward[i] - 2.0 * aside * model->left[i];
+  for (int i = 0; i < 3; i++) v[i] -= 2.0 * aside * model->left[i];
+}
+
+void ambulo__stride_mirror_place(const ambulo__stride *s, double *place) {
+  const ambulo_problem_definition *d = &s->problem->definition;
+  mirror_vector(s->model, place);
+  for (int i = 0; i < 3; i++)
+    place[i] += d->travel * s->model->forward[i] + d->rise * s->model->up[i];
 }
 
 static void exchange(double *a, double *b, int count) {
@@ -35,11 +43,10 @@ static void exchange(double *a, double *b, int count) {
 
 void ambulo__stride_feet_mirror(ambulo__stride *s, int k) {
   size_t first = (size_t)k * (size_t)s->feet;
-  double travel = s->problem->definition.travel;
   for (int i = 0; i < s->feet; i++) {
     size_t at = first + (size_t)i;
-    mirror_vector(s->model, 0.0, s->grf + 3 * at);
-    mirror_vector(s->model, travel, s->cop + 3 * at);
+    mirror_vector(s->model, s->grf + 3 * at);
+    ambulo__stride_mirror_place(s, s->cop + 3 * at);
     s->free_moment[at] = -s->free_moment[at];
   }
   for (int i = 0; i < s->feet; i++) {

@@ -128,11 +128,47 @@ static void only_where_places_are_rows(void **state) {
   }
 }
 
+/* a step up whose foot is turned or leans begins the next one as it began */
+static void footholds_of_any_kind_go_on_as_they_began(void **state) {
+  (void)state;
+  static const struct {
+    int number; /* which is changed: 0 height, 1 heading, 2 to 4 the normal */
+    double first, last;
+    const char *phrase;
+  } cases[] = {
+      {0, 0.0, 0.2, NULL},   {0, 0.1, 0.2, "ends.rise: foot 'right' stands 0.2 m high"},
+      {1, 0.1, -0.1, NULL},  {1, 0.1, 0.1, "is turned by 0.1 rad at t = 0.5 s, and by -0.1 rad"},
+      {2, -0.1, -0.1, NULL}, {2, -0.1, 0.0, "expected the same direction"},
+      {3, 0.1, -0.1, NULL},  {3, 0.1, 0.1, "expected the same direction"},
+      {4, 1.0, 2.0, NULL}}; /* of any length */
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    fixture f;
+    ambulo_gait gait = walk(1);
+    open_fixture(&f, &gait);
+    f.definition.ends = AMBULO_ENDS_MIRRORED;
+    f.definition.rise = 0.2;
+    for (int i = 0; i < f.definition.contact_count; i++) {
+      ambulo_contact *c = &f.contacts[i];
+      /* the foot ahead is down at 0 as the left one, at T as the right one; the one behind it */
+      int last = c->to >= 0.5 && c->place[0] > 0.5, before = c->place[0] < -0.3;
+      double rise = last ? 0.2 : before ? -0.2 : 0.0;
+      double *number[5] = {&c->place[2], &c->heading, &c->normal[0], &c->normal[1], &c->normal[2]};
+      c->place[2] = rise;
+      c->normal[2] = 1.0;
+      if (c->from <= 0.0 && !before && !last)
+        *number[cases[k].number] = cases[k].number ? cases[k].first : rise + cases[k].first;
+      if (last) *number[cases[k].number] = cases[k].last;
+    }
+    expect(&f, cases[k].phrase);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(odd_steps_mirrored_even_steps_periodic),
                                      cmocka_unit_test(the_message_has_both_places),
                                      cmocka_unit_test(the_walk_straddles_the_mirror_plane),
                                      cmocka_unit_test(unlike_steps_repeat_after_two),
-                                     cmocka_unit_test(only_where_places_are_rows)};
+                                     cmocka_unit_test(only_where_places_are_rows),
+                                     cmocka_unit_test(footholds_of_any_kind_go_on_as_they_began)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

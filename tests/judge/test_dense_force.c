@@ -4,6 +4,7 @@
 #include "judge/dense.h"
 #include "support/dense_fixture.h"
 #include "support/engine_fixture.h"
+#include "support/toed_body.h"
 
 static dense_largest largest_of(const ambulo__dense *dense, const char *subject) {
   dense_largest largest = {.subject = subject, .after = -1.0, .before = 100.0};
@@ -58,10 +59,8 @@ static void a_bent_force_is_off_by_what_the_basis_says(void **state) {
 }
 
 /* of each foot: the same differences of what motion.csv would hold */
-static void each_foot_has_its_own(void **state) {
-  (void)state;
+static void compare_feet(const ambulo_problem *p) {
   enum { SAMPLES = 10, FEET = 2 };
-  ambulo_problem *p = load_problem("two_step/walk_normal");
   ambulo_workspace *w = NULL;
   ambulo__dense dense;
   int nodes = (p->nodes - 1) * SAMPLES + 1;
@@ -70,7 +69,7 @@ static void each_foot_has_its_own(void **state) {
   double *times = calloc((size_t)nodes, sizeof *times);
   double *grf = calloc((size_t)nodes * FEET * 3, sizeof *grf);
   for (int i = 0; i < p->variables; i++) x[i] = 0.02 * random_number(&seed);
-  for (int j = 0; j < nodes; j++) times[j] = 0.54 * j / (nodes - 1);
+  for (int j = 0; j < nodes; j++) times[j] = p->definition.duration * j / (nodes - 1);
   ambulo_motion motion = {.grf = grf};
   assert_int_equal(ambulo_workspace_create(p, NULL, &w), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(p, w, x, nodes, times, &motion), AMBULO_OK);
@@ -97,7 +96,34 @@ static void each_foot_has_its_own(void **state) {
   free(x);
   free(times);
   free(grf);
+}
+
+static void each_foot_has_its_own(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("two_step/walk_normal");
+  compare_feet(p);
   ambulo_problem_free(p);
+}
+
+/* standing and stepping on feet in two parts, which share their load */
+static void both_parts_of_a_foot_are_summed(void **state) {
+  (void)state;
+  static const ambulo_contact contacts[] = {
+      {TOED_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.6, .place = {0.0, -0.1}},
+      {TOED_RIGHT, AMBULO_CONTACT_TOE, 0.6, 1.0, .place = {0.0, -0.1}},
+      {TOED_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.0, 0.1}}};
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  ambulo_model *model = toed_body();
+  ambulo_problem *p = NULL;
+  d.model = model;
+  d.contacts = contacts;
+  d.contact_count = 3;
+  d.ground_reaction.kind = AMBULO_REACTION_SHARED;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &p), AMBULO_OK);
+  assert_int_equal(p->channels.slots, 4);
+  compare_feet(p);
+  ambulo_problem_free(p);
+  ambulo_model_free(model);
 }
 
 static void a_body_that_nothing_carries_has_none(void **state) {
@@ -129,6 +155,7 @@ int main(void) {
       cmocka_unit_test(a_straight_force_has_no_error),
       cmocka_unit_test(a_bent_force_is_off_by_what_the_basis_says),
       cmocka_unit_test(each_foot_has_its_own),
+      cmocka_unit_test(both_parts_of_a_foot_are_summed),
       cmocka_unit_test(a_body_that_nothing_carries_has_none),
       cmocka_unit_test(without_weight_there_is_no_share_of_it),
   };

@@ -1,5 +1,6 @@
 /* What is suggested where feet miss their places, their angles or their height in the air. */
 #include "support/suggest_cases.h"
+#include "support/toed_body.h"
 
 static const miss misses[] = {
     {WALK,
@@ -234,6 +235,43 @@ static void on_an_event_the_tighter_contact_counts(void **state) {
   ambulo_problem_free(p);
 }
 
+/* the rear foot is held by its ball, which is on the link of the toes */
+static void a_step_between_toes_and_a_heel_is_shortened(void **state) {
+  (void)state;
+  ambulo_problem_definition d = ambulo_problem_definition_default();
+  ambulo_contact contacts[12];
+  ambulo_model *model = toed_body();
+  ambulo_problem *p = NULL;
+  const ambulo_gait gait = {.steps = 1,
+                            .step_length = 0.68,
+                            .step_time = 0.54,
+                            .step_width = 0.1,
+                            .foot_flat = 0.08,
+                            .heel_off = 0.38,
+                            .toe_off = 0.62};
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 12, &d.contact_count), AMBULO_OK);
+  d.model = model;
+  d.duration = 0.54;
+  d.contacts = contacts;
+  d.foot_strike = 1;
+  assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &p), AMBULO_OK);
+  const miss front = {NULL, {0}, "foot_strike", "heel_r", "forward", 0.0, NULL, {0}, 1};
+  const miss rear = {NULL, {0}, "foot_strike", "ball_l", "forward", 0.0, NULL, {0}, 1};
+  int ahead = find_row(p, &front, 0), behind = find_row(p, &rear, 0);
+  assert_true(ahead >= 0 && behind >= 0);
+  double *values = calloc((size_t)p->rows, sizeof *values);
+  ambulo__explanation *out = calloc(1, sizeof *out);
+  values[ahead] = -0.05;
+  values[behind] = 0.05;
+  ambulo__remedy remedy = {.conflict = 0, .row = ahead, .value = values, .single = 1};
+  ambulo__suggest(p, &remedy, out);
+  assert_non_null(strstr(out->suggestion, "shorten the step from 0.68 m to 0.58 m or less"));
+  free(out);
+  free(values);
+  ambulo_problem_free(p);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_row_misses_can_be_set),
                                      cmocka_unit_test(without_a_file_there_are_no_settings),
@@ -241,6 +279,7 @@ int main(void) {
                                      cmocka_unit_test(on_an_event_the_tighter_contact_counts),
                                      cmocka_unit_test(the_track_is_on_its_side),
                                      cmocka_unit_test(spacing_counts_where_it_is_most_of_the_miss),
+                                     cmocka_unit_test(a_step_between_toes_and_a_heel_is_shortened),
                                      cmocka_unit_test(step_settings_fit_together)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

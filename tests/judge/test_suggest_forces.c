@@ -1,4 +1,5 @@
 /* What is suggested where a force on the ground, its centre or its moment misses its bounds. */
+#include "gait/foot_outline.h"
 #include "support/suggest_cases.h"
 
 static const char NARROW[] = "tests/infeasible/support_too_narrow.yaml";
@@ -101,6 +102,102 @@ static const miss misses[] = {
 };
 enum { MISSES = sizeof misses / sizeof *misses };
 
+/* contacts that share the load */
+#define SHARED "ground_reaction={kind: shared}"
+static const miss shared[] = {
+    {WALK,
+     {SHARED},
+     "normal_force",
+     "left",
+     "loaded too fast",
+     -0.1,
+     "than its loading rate of 15 body weights/s lets it",
+     {"ground_reaction.loading_rate="},
+     0},
+    {WALK,
+     {SHARED},
+     "normal_force",
+     "left",
+     "pulls",
+     -0.1,
+     "would have to pull on left with 0.1 body weights",
+     {0},
+     1},
+    {WALK,
+     {SHARED},
+     "free_moment",
+     "left",
+     "to the left",
+     -0.01,
+     "be up to 0.0302 body weights m",
+     {"ground_reaction.free_moment=0.0302"},
+     0},
+    /* both sides of the patch say that nothing presses there */
+    {WALK,
+     {SHARED},
+     "pressure",
+     "left",
+     "front",
+     -0.01,
+     "a moment of 0.01 body weights m (front) with hardly a force",
+     {0},
+     1},
+    /* all feet together, where that is a row */
+    {WALK,
+     {"ground_reaction={kind: shared, minimum_force: 0.2}"},
+     "normal_force",
+     "ground",
+     "vertical",
+     -0.1,
+     "fall to 0.099 body weights instead of 0.2",
+     {"ground_reaction.minimum_force=0.099"},
+     0},
+};
+
+static void contacts_that_share_have_words_of_their_own(void **state) {
+  (void)state;
+  try_misses(shared, sizeof shared / sizeof *shared);
+}
+
+/* 1 cm of half the body weight are 2 cm of the centre of pressure: of either end, and of the width
+ */
+static void pressure_is_missed_by_what_its_force_makes_of_it(void **state) {
+  (void)state;
+  static const char *const settings[] = {SHARED};
+  static const struct {
+    const char *detail, *other;
+    const char *phrase, *setting;
+  } cases[] = {{"front", "back", "of left go 0.02 m further front", "flat: [-0.005, 0.0404]"},
+               {"back", "front", "of left go 0.02 m further back", "flat: [-0.0254, 0.02]"},
+               {"left", "right", "of left go 0.02 m further left", "width: 0.0554"},
+               {"right", "left", "of left go 0.02 m further right", "width: 0.0554"}};
+  ambulo_problem *p = load(WALK, settings, 1);
+  for (int i = 0; i < 4; i++) {
+    const miss m = {WALK, {SHARED}, "pressure", "left", cases[i].detail, -0.01, NULL, {0}, 1};
+    miss opposite = m;
+    opposite.detail = cases[i].other;
+    int node = 16, row = find_row(p, &m, node), other = find_row(p, &opposite, node);
+    assert_true(row >= 0 && other >= 0);
+    /* heel to ball is 0.19 m of a stature of 1.75 m; the box is that and 0.025 m long */
+    double length = ambulo__foot_outline_of(p->model, 1).length;
+    double way = i < 2 ? length + 0.025 : 0.07;
+    double *values = calloc((size_t)p->rows, sizeof *values);
+    ambulo__explanation *out = calloc(1, sizeof *out);
+    values[row] = -0.01;
+    /* but for what is allowed on either side */
+    values[other] = 0.5 * way + 0.01 + 2.0 * p->table.rows[row].constant;
+    ambulo__remedy remedy = {.conflict = 0, .row = row, .value = values, .single = 1};
+    ambulo__suggest(p, &remedy, out);
+    if (!strstr(out->suggestion, cases[i].phrase) || !strstr(out->setting[0], cases[i].setting))
+      print_error("got '%s', '%s'\n", out->suggestion, out->setting[0]);
+    assert_non_null(strstr(out->suggestion, cases[i].phrase));
+    assert_non_null(strstr(out->setting[0], cases[i].setting));
+    free(out);
+    free(values);
+  }
+  ambulo_problem_free(p);
+}
+
 static void what_a_row_misses_can_be_set(void **state) {
   (void)state;
   try_misses(misses, MISSES);
@@ -145,6 +242,8 @@ static void friction_is_what_the_pair_of_rows_asks_for(void **state) {
   assert_string_equal(p->table.rows[other].detail, "backward");
   values[row] = mu * normal - along;
   values[other] = mu * normal + along;
+  assert_string_equal(p->table.rows[row + 1].detail, "to the right"); /* no partner of `row` */
+  values[row + 1] = 0.3;
   values[find_row(p, &m, 6)] = -1e-9; /* unloaded: no friction follows from it */
   values[find_row(p, &m, 6) + other - row] = 1e-9;
   ambulo__explanation *out = calloc(1, sizeof *out);
@@ -186,7 +285,11 @@ static void friction_that_does_not_help_is_not_asked_for(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_a_row_misses_can_be_set), cmocka_unit_test(on_an_event_both_boxes_move),
+      cmocka_unit_test(contacts_that_share_have_words_of_their_own),
+      cmocka_unit_test(pressure_is_missed_by_what_its_force_makes_of_it),
+
+      cmocka_unit_test(what_a_row_misses_can_be_set),
+      cmocka_unit_test(on_an_event_both_boxes_move),
       cmocka_unit_test(without_a_file_there_are_no_settings),
       cmocka_unit_test(friction_is_what_the_pair_of_rows_asks_for),
       cmocka_unit_test(friction_that_does_not_help_is_not_asked_for)};

@@ -174,6 +174,8 @@ static void what_is_missing_is_named(void **state) {
   b.d.breakpoints = NULL;
   b.terms[0] = ambulo_term_default(AMBULO_USER_SQUARE);
   expect_message(&b, "objective[0] (user_square): no function");
+  b.terms[0] = ambulo_term_default(AMBULO_FORCE_RATE);
+  expect_message(&b, "objective[0] (force_rate): no forces on feet without ground_reaction");
   ambulo_model_free(b.model);
 }
 

@@ -97,6 +97,52 @@ static void a_walk_with_other_terms(void **state) {
   check(&c, NULL);
 }
 
+#define ON_EVENTS "time.grid=events", "trajectory.knots=events"
+
+/* contacts share the load: what they are told, their rows, a term on their forces */
+#define SHARED                                                                                     \
+  "ground_reaction={kind: shared, moment_arm: 0.15, slant: 0.3, loading_rate: 14, pressure: "      \
+  "{heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], roll: 0.04, width: 0.035}}",   \
+      "objective=[{term: torque_squared, scale: {default: 0.001}}, {term: force_rate, weight: "    \
+      "0.02}]"
+
+static void a_walk_on_shared_contacts(void **state) {
+  (void)state;
+  static const setting c = {
+      "tests/two_step/walk_loaded.yaml",
+      {SHARED, "ground={slope: 3}", "constraints.torque_limits=true"},
+      {"ground_reaction.moment_arm", "ground_reaction.slant", "ground_reaction.loading_rate",
+       "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
+       "ground_reaction.pressure.width", "ground_reaction.friction", "ground_reaction.free_moment",
+       "gait.step_width", "gait.step_length", "time.duration", "constraints.ground_height"}};
+  check(&c, NULL);
+}
+
+static void a_walk_on_shared_contacts_on_events(void **state) {
+  (void)state;
+  static const setting c = {"tests/two_step/walk_loaded.yaml",
+                            {SHARED, "time.intervals=40", "time.duration=null", "gait.speed=1.26",
+                             "ground_reaction.minimum_force=0.1", ON_EVENTS},
+                            {"ground_reaction.moment_arm", "ground_reaction.slant",
+                             "ground_reaction.loading_rate", "ground_reaction.pressure.heel[0]",
+                             "ground_reaction.pressure.toe[0]", "load.mass", "subject.mass",
+                             "gait.step_width", "gait.step_length", "gait.speed",
+                             "ground_reaction.minimum_force", "ground.slope"}};
+  check(&c, NULL);
+}
+
+/* on heels and forefeet that roll: where a force may be follows the foothold it stands on */
+static void a_walk_on_shared_arcs(void **state) {
+  (void)state;
+  static const setting c = {
+      "tests/two_step/walk_loaded.yaml",
+      {SHARED, "model.feet[right].arcs={heel: ankle_r, toe: ankle_r}",
+       "model.feet[left].arcs={heel: ankle_l, toe: ankle_l}", "ground={slope: 3}"},
+      {"ground_reaction.moment_arm", "ground_reaction.loading_rate", "gait.step_length",
+       "gait.step_width", "subject.mass", "load.mass", "ground.slope"}};
+  check(&c, NULL);
+}
+
 /* no step length: it follows from the speed, and the time from both */
 static void a_walk_at_a_speed(void **state) {
   (void)state;
@@ -207,6 +253,9 @@ int main(void) {
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
       cmocka_unit_test(a_walk_at_a_speed),
+      cmocka_unit_test(a_walk_on_shared_contacts),
+      cmocka_unit_test(a_walk_on_shared_contacts_on_events),
+      cmocka_unit_test(a_walk_on_shared_arcs),
       cmocka_unit_test(a_cadence_at_a_speed),
       cmocka_unit_test(a_walk_in_tubes),
       cmocka_unit_test(a_step_in_a_tube_on_both_sides),

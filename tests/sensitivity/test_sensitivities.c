@@ -182,6 +182,18 @@ static void no_optimum_has_none(void **state) {
   close_solved(&s);
 }
 
+/* rows on surfaces of their own are no part of it yet: no number is better than a wrong one */
+static void uneven_ground_has_none(void **state) {
+  (void)state;
+  solved s;
+  open_solved(&s, step, NULL);
+  ambulo_contact *contact = (ambulo_contact *)s.problem->definition.contacts;
+  contact->normal[0] = 0.1;
+  contact->normal[2] = 1.0;
+  expect_reason(&s, "there are none yet for contacts of different height, slope or heading");
+  close_solved(&s);
+}
+
 static void arguments_are_checked(void **state) {
   (void)state;
   solved s;
@@ -226,10 +238,11 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),       cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew),   cmocka_unit_test(phases_solved_anew),
-      cmocka_unit_test(the_dearest_stands_first), cmocka_unit_test(no_optimum_has_none),
-      cmocka_unit_test(arguments_are_checked),    cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(phases_solved_anew),
+      cmocka_unit_test(the_dearest_stands_first),  cmocka_unit_test(no_optimum_has_none),
+      cmocka_unit_test(uneven_ground_has_none),    cmocka_unit_test(arguments_are_checked),
+      cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

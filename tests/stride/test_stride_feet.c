@@ -19,6 +19,7 @@ static void fixture_open(fixture *f) {
   f->x = calloc((size_t)n, sizeof *f->x);
   for (int i = 0; i < n; i++)
     f->x[i] = (i % d < 3 ? 0.01 : 0.1) * sin(0.3 * (i / d) + 1.7 * (i % d));
+  f->problem->definition.rise = 0.17; /* as on stairs */
   assert_int_equal(ambulo__stride_create(f->problem, f->x, 0, NULL, &f->stride), AMBULO_OK);
   assert_int_equal(f->stride.feet, 2);
 }
@@ -40,7 +41,7 @@ static void feet_change_sides(void **state) {
     for (int foot = 0; foot < 2; foot++) {
       int here = 2 * (25 + k) + 1 - foot, there = 2 * k + foot;
       for (int i = 0; i < 3; i++) {
-        double sign = i == 2 ? -1.0 : 1.0, shift = i == 0 ? 0.68 : 0.0;
+        double sign = i == 2 ? -1.0 : 1.0, shift = i == 0 ? 0.68 : i == 1 ? 0.17 : 0.0;
         assert_close(s->grf[3 * here + i], sign * s->grf[3 * there + i], 1e-9);
         if (isfinite(s->cop[3 * there + i]))
           assert_close(s->cop[3 * here + i], sign * s->cop[3 * there + i] + shift, 1e-12);
@@ -49,6 +50,35 @@ static void feet_change_sides(void **state) {
     }
   }
   fixture_close(&f);
+}
+
+/* up a stair the second step is as high as the ends rise: its places, no force */
+static void places_rise_with_the_ends(void **state) {
+  (void)state;
+  fixture level, stairs;
+  fixture_open(&level);
+  fixture_open(&stairs);
+  ambulo__stride_free(&stairs.stride);
+  stairs.problem->definition.rise = 0.25;
+  assert_int_equal(ambulo__stride_create(stairs.problem, stairs.x, 0, NULL, &stairs.stride),
+                   AMBULO_OK);
+  const ambulo__stride *a = &level.stride, *b = &stairs.stride;
+  int compared = 0;
+  for (int k = 1; k < a->samples; k++) {
+    double rise = k > 25 ? 0.25 : 0.0;
+    for (int i = 0; i < 6; i++) {
+      double up = i % 3 == 1 ? rise : 0.0;
+      assert_close(b->grf[6 * k + i], a->grf[6 * k + i], 0.0);
+      if (i < 3 && isfinite(a->zmp[3 * k + i]))
+        assert_close(b->zmp[3 * k + i], a->zmp[3 * k + i] + up, 1e-12);
+      if (!isfinite(a->cop[6 * k + i])) continue;
+      assert_close(b->cop[6 * k + i], a->cop[6 * k + i] + up, 1e-12);
+      compared += rise > 0.0;
+    }
+  }
+  assert_true(compared > 20);
+  fixture_close(&level);
+  fixture_close(&stairs);
 }
 
 static void forces_and_peaks(void **state) {
@@ -106,8 +136,8 @@ static void the_table_has_their_columns(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(feet_change_sides),
-                                     cmocka_unit_test(forces_and_peaks),
-                                     cmocka_unit_test(the_table_has_their_columns)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(feet_change_sides), cmocka_unit_test(forces_and_peaks),
+      cmocka_unit_test(places_rise_with_the_ends), cmocka_unit_test(the_table_has_their_columns)};
   return cmocka_run_group_tests_name("stride/stride_feet", tests, NULL, NULL);
 }

@@ -1,0 +1,147 @@
+/* Several starts: the same in every run, counted by valley, the best gone on from. */
+#include "solver/starts.h"
+#include "judge/result.h"
+#include "support/engine_fixture.h"
+#include "support/fail_alloc.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static ambulo_result *solve(const ambulo_problem *problem, int starts, const double *start) {
+  ambulo_options options = ambulo_options_default();
+  ambulo_result *result = NULL;
+  options.starts = starts;
+  assert_int_equal(ambulo_solve(problem, &options, start, NULL, NULL, &result), AMBULO_OK);
+  return result;
+}
+
+static void a_cheaper_valley_is_gone_on_from(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_result *one = solve(problem, 1, NULL), *eight = solve(problem, 8, NULL);
+  const ambulo_starts *s = ambulo_result_starts(eight);
+  int found = 0;
+  assert_null(ambulo_result_starts(one));
+  assert_int_equal(s->count, 8);
+  assert_true(s->basin_count >= 2);
+  for (int b = 0; b < s->basin_count; b++) {
+    found += s->basins[b].found;
+    assert_true(b == 0 || s->basins[b].objective >= s->basins[b - 1].objective);
+    assert_true(b == 0 ? s->basins[b].distance == 0.0 : s->basins[b].distance > 0.0);
+  }
+  assert_int_equal(found, s->solved);
+  assert_int_equal(eight->verdict, AMBULO_OPTIMAL);
+  assert_true(eight->objective < 0.99 * one->objective);
+  ambulo_result_free(one);
+  ambulo_result_free(eight);
+  ambulo_problem_free(problem);
+}
+
+static void every_run_is_the_same(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("walker_2d_step");
+  ambulo_result *first = solve(problem, 6, NULL), *second = solve(problem, 6, NULL);
+  const ambulo_starts *a = ambulo_result_starts(first), *b = ambulo_result_starts(second);
+  assert_int_equal(a->basin_count, b->basin_count);
+  assert_memory_equal(a->basins, b->basins, (size_t)a->basin_count * sizeof *a->basins);
+  assert_memory_equal(first->x, second->x, (size_t)first->variables * sizeof *first->x);
+  ambulo_result_free(first);
+  ambulo_result_free(second);
+  ambulo_problem_free(problem);
+}
+
+/* where the solver's own start is the best, the result is that of one start, to the last bit */
+static void the_own_start_stays_what_it_is(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_result *one = solve(problem, 1, NULL), *several = solve(problem, 4, NULL);
+  assert_int_equal(ambulo_result_starts(several)->basins[0].first, 0);
+  assert_memory_equal(one->x, several->x, (size_t)one->variables * sizeof *one->x);
+  ambulo_result *given = solve(problem, 4, one->x);
+  assert_null(ambulo_result_starts(given)); /* the caller has one */
+  ambulo_result_free(given);
+  ambulo_result_free(one);
+  ambulo_result_free(several);
+  ambulo_problem_free(problem);
+}
+
+static void no_start_may_lead_anywhere(void **state) {
+  (void)state;
+  ambulo_problem *problem = NULL;
+  assert_int_equal(ambulo_problem_load("tests/infeasible/equalities_contradict.yaml", NULL, 0, NULL,
+                                       NULL, &problem),
+                   AMBULO_OK);
+  ambulo_result *result = solve(problem, 3, NULL);
+  const ambulo_starts *s = ambulo_result_starts(result);
+  assert_int_equal(s->count, 3);
+  assert_int_equal(s->solved + s->basin_count, 0);
+  assert_int_equal(result->verdict, AMBULO_INFEASIBLE);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static int stop_after(void *user, const ambulo_progress *progress) {
+  (void)progress;
+  return --*(int *)user < 0;
+}
+
+/* the caller ends it among the starts: what is known by then is returned, and says so */
+static void a_stop_keeps_what_is_there(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_12");
+  ambulo_options options = ambulo_options_default();
+  ambulo_result *result = NULL;
+  int calls = 40;
+  options.starts = 20;
+  options.progress = stop_after;
+  options.user = &calls;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo_result_ending_code(result), AMBULO_ENDING_CALLER);
+  assert_true(ambulo_result_starts(result)->count < 20);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static void nonsense_is_refused(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_options options = ambulo_options_default();
+  ambulo_result *result = NULL;
+  static const int wrong[] = {0, -3, AMBULO_MOST_STARTS + 1};
+  for (int i = 0; i < 3; i++) {
+    options.starts = wrong[i];
+    assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_E_ARGUMENT);
+  }
+  assert_null(result);
+  assert_null(ambulo_result_starts(NULL));
+  ambulo_problem_free(problem);
+}
+
+static void memory_runs_out(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("two_link_reach");
+  ambulo_options options = ambulo_options_default();
+  options.starts = 2;
+  for (long at = 0;; at += at < 60 ? 1 : 37) {
+    fail_alloc memory = fail_alloc_at(at);
+    ambulo_allocator hook = fail_alloc_hook(&memory);
+    ambulo_result *result = NULL;
+    ambulo_status status = ambulo_solve(problem, &options, NULL, &hook, NULL, &result);
+    ambulo_result_free(result);
+    assert_int_equal(memory.live, 0);
+    if (!status) break;
+    assert_int_equal(status, AMBULO_E_MEMORY);
+  }
+  ambulo_problem_free(problem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
+                                     cmocka_unit_test(every_run_is_the_same),
+                                     cmocka_unit_test(the_own_start_stays_what_it_is),
+                                     cmocka_unit_test(a_stop_keeps_what_is_there),
+                                     cmocka_unit_test(no_start_may_lead_anywhere),
+                                     cmocka_unit_test(nonsense_is_refused),
+                                     cmocka_unit_test(memory_runs_out)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
