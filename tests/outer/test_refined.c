@@ -1,8 +1,8 @@
 /* Finer grids until a motion holds between its nodes. */
 #include "ambulo/parameters.h"
 #include "judge/result.h"
-include "support/problem_path.h"
-#include "support//engine_fixture.h"
+#include "support/problem_path.h"
+#include "support/engine_fixture.h"
 #include "support/fail_alloc.h"
 
 static ambulo_problem *load(const char *name, const char *const *overrides, int count) {

@@ -10,9 +10,9 @@ static void files_with_a_prescribed_split_still_solve(void **state) {
   static const struct {
     const char *name;
     double objective;
-  } walks[] = {{"two_step/walk_normal", 0.06399}, {"two_step/walk_normal_21", 0.05942},
-               {"two_step/walk_slow", 0.05692},   {"two_step/walk_fast", 0.07987},
-               {"two_step/walk_loaded", 0.11389}, {"two_step/walk_uphill", 0.05793},
+  } walks[] = {{"two_step/walk_normal", 0.06399},    {"two_step/walk_normal_21", 0.05942},
+               {"two_step/walk_slow", 0.05692},      {"two_step/walk_fast", 0.07987},
+               {"two_step/walk_loaded", 0.11389},    {"two_step/walk_uphill", 0.05793},
                {"two_step/walk_asymmetric", 0.11515}};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
     char path[96];
