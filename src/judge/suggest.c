@@ -99,8 +99,7 @@ static void end_value(const ambulo__advice *a) {
                                                       : "_acceleration";
   double unit = model->coordinates[i].type == AMBULO_REVOLUTE ? a->problem->keys.radians : 1.0;
   if (unit > 0.0)
-    ambulo__advice_set(a, "ends.%s%s.%s=%.7g", end, key, a->row->subject,
-                       reached / unit);
+    ambulo__advice_set(a, "ends.%s%s.%s=%.7g", end, key, a->row->subject, reached / unit);
 }
 
 static void free_ends(const ambulo__advice *a) {
