@@ -96,7 +96,7 @@ static void every_row_is_of_a_kind(void **state) {
       {"two_step/walk_uphill", {NULL}},
       {"two_step/walk_tracking", {NULL}},
       {"two_step/walk_asymmetric", {NULL}},
-      {"two_step/walk_without_reaction", {NULL}},
+      {"walk_without_reaction", {NULL}},
       {"yardstick_12", {NULL}},
       {"yardstick_36", {NULL}},
       {"yardstick_72", {NULL}},

@@ -88,7 +88,7 @@ static void joint_limits_of_an_arm_too(void **state) {
 static void contacts_that_are_equations_have_three_cures(void **state) {
   (void)state;
   assert_int_equal(check_all("walker_2d_step"), 5);
-  assert_int_equal(check_all("two_step/walk_without_reaction"), 5);
+  assert_int_equal(check_all("walk_without_reaction"), 5);
 }
 
 /* families that fail have settings or say that more intervals do not help, or too far off */
@@ -360,7 +360,7 @@ static void given_breakpoints_are_left_alone(void **state) {
 
 static void grids_keep_their_proportion_where_contacts_are_equations(void **state) {
   (void)state;
-  ambulo_problem *exact = load_problem("two_step/walk_without_reaction"),
+  ambulo_problem *exact = load_problem("walk_without_reaction"),
                  *tube = load_problem("two_step/walk_slow");
   assert_true(ambulo__dense_is_strict(exact) && !ambulo__dense_is_strict(tube));
   assert_int_equal(ambulo__dense_spline_intervals(exact, 48), 36);

@@ -15,7 +15,7 @@ static const char *const names[] = {"two_step/walk_normal",
                                     "two_step/walk_asymmetric",
                                     "fig5b_torque",
                                     "walker_2d_step",
-                                    "two_step/walk_without_reaction",
+                                    "walk_without_reaction",
                                     "two_link_reach",
                                     "fig5a_feasible",
                                     "pendulum_swing"};

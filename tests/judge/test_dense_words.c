@@ -66,10 +66,8 @@ static void settings_that_stay_are_not_named(void **state) {
   } cases[] = {
       {"two_step/walk_slow", NULL, "--set time.intervals=50", 17},
       {"two_step/walk_slow", NULL, "--set time.intervals=50 --set trajectory.intervals=34", 34},
-      {"two_step/walk_without_reaction", NULL,
-       "--set time.intervals=50 --set trajectory.intervals=38", 38},
-      {"two_step/walk_without_reaction", "trajectory={basis: bspline}", "--set time.intervals=50",
-       50},
+      {"walk_without_reaction", NULL, "--set time.intervals=50 --set trajectory.intervals=38", 38},
+      {"walk_without_reaction", "trajectory={basis: bspline}", "--set time.intervals=50", 50},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     told *t = open_told(cases[i].name, cases[i].override);
@@ -104,14 +102,14 @@ static void joint_limits_on_control_points_take_a_spline(void **state) {
  * three times the larger of its two grids; contacts within a tolerance have no such cure */
 static void forces_between_exact_contacts_take_a_tolerance(void **state) {
   (void)state;
-  told *t = open_told("two_step/walk_without_reaction", NULL);
+  told *t = open_told("walk_without_reaction", NULL);
   add(t, AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 2.0);
   tell(t, &t->cure);
   assert_string_equal(t->report.family[0].settings,
                       "--set constraints.contact_tolerance=0.002 --set time.intervals=72");
   has(t->report.family[0].advice, "more intervals do not help while contacts are exact");
   close_told(t);
-  t = open_told("two_step/walk_without_reaction", "trajectory.intervals=40");
+  t = open_told("walk_without_reaction", "trajectory.intervals=40");
   add(t, AMBULO__KIND_GROUND_FORCE, AMBULO__BODY_WEIGHTS, 2.0);
   tell(t, &t->cure);
   assert_string_equal(t->report.family[0].settings,
@@ -128,7 +126,7 @@ static void forces_between_exact_contacts_take_a_tolerance(void **state) {
 /* what takes more intervals than are tried is told apart from what none help */
 static void too_far_off_is_no_cannot(void **state) {
   (void)state;
-  told *t = open_told("two_step/walk_without_reaction", NULL);
+  told *t = open_told("walk_without_reaction", NULL);
   t->cure.out_of_reach[add(t, AMBULO__KIND_SLIP, AMBULO__METRES, 90.0)] = 1;
   add(t, AMBULO__KIND_CLEARANCE, AMBULO__METRES, 2.0);
   tell(t, &t->cure);

@@ -34,7 +34,7 @@ static void close_all(poison *f) {
 /* one row of each family in turn, in the middle of the motion */
 static void a_row_that_is_not_finite_is_named(void **state) {
   (void)state;
-  static const char *const names[] = {"two_step/walk_normal", "two_step/walk_without_reaction"};
+  static const char *const names[] = {"two_step/walk_normal", "walk_without_reaction"};
   static const double bad[] = {NAN, INFINITY, -INFINITY};
   int tried = 0;
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {

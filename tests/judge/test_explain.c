@@ -294,7 +294,7 @@ static void a_missed_solution_is_named(void **state) {
 /* rows that hold to 1e-8 of their size are not "in conflict", whatever tolerance was asked for */
 static void what_all_but_holds_is_no_conflict(void **state) {
   (void)state;
-  ambulo_problem *problem = load_problem("two_step/walk_without_reaction");
+  ambulo_problem *problem = load_problem("walk_without_reaction");
   ambulo_options options = ambulo_problem_options(problem);
   options.feasibility_tolerance = 1e-14;
   options.maximum_iterations = 60;

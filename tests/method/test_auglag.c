@@ -48,17 +48,11 @@ nlopt_result nlopt_add_inequality_mconstraint(nlopt_opt opt, unsigned m, nlopt_m
                        tolerance);
 }
 
-static const char *const walks[] = {"yardstick_12",
-                                    "yardstick_36",
-                                    "two_step/walk_normal",
-                                    "two_step/walk_fast",
-                                    "two_step/walk_loaded",
-                                    "two_step/walk_slow",
-                                    "two_step/walk_tracking",
-                                    "two_step/walk_uphill",
-                                    "walker_2d_step",
-                                    "two_step/walk_without_reaction",
-                                    "fig5b_torque"};
+static const char *const walks[] = {
+    "yardstick_12",           "yardstick_36",         "two_step/walk_normal",
+    "two_step/walk_fast",     "two_step/walk_loaded", "two_step/walk_slow",
+    "two_step/walk_tracking", "two_step/walk_uphill", "walker_2d_step",
+    "walk_without_reaction",  "fig5b_torque"};
 /* their known optima; walk_tracking has another, 0.12 % lower */
 static const double optima[] = {0.356402,  1.020010,  0.0639944, 0.0798675, 0.113891, 0.0569162,
                                 0.0126245, 0.0579266, 0.953141,  1.13688,   0.135367};

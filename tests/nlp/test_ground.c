@@ -131,7 +131,7 @@ static void gradients_agree_with_differences(void **state) {
 static void other_problems_have_no_forces_on_feet(void **state) {
   (void)state;
   fixture f;
-  fixture_open(&f, "tests/two_step/walk_without_reaction.yaml");
+  fixture_open(&f, "models/walk_without_reaction.yaml");
   double grf[6], cop[6], twist[2], time = 0.1;
   ambulo_motion motion = {.grf = grf, .cop = cop, .free_moment = twist};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 1, &time, &motion),

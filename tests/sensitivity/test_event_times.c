@@ -120,7 +120,7 @@ static void a_limp_on_events(void **state) {
 static void times_that_coincide(void **state) {
   (void)state;
   static const setting strike_at_0 = {"tests/two_step/walk_loaded.yaml", {ON_EVENTS}, {NULL}},
-                       heel_with_strike = {"tests/two_step/walk_without_reaction.yaml",
+                       heel_with_strike = {"models/walk_without_reaction.yaml",
                                            {"gait.phases.heel_off=0.44", ON_EVENTS},
                                            {"gait.phases.toe_off", "gait.phases.foot_flat"}},
                        uniform = {"models/walker_2d_step.yaml", {NULL}, {NULL}},

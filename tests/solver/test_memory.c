@@ -52,7 +52,7 @@ static double peak_of(const char *path, const char *override, double *problem_by
 static void predictions_hold(void **state) {
   (void)state;
   static const char *const cases[][2] = {{"tests/two_step/walk_normal.yaml", NULL},
-                                         {"tests/two_step/walk_without_reaction.yaml", NULL},
+                                         {"models/walk_without_reaction.yaml", NULL},
                                          {"models/yardstick_12.yaml", NULL},
                                          {"models/yardstick_72.yaml", NULL},
                                          {"models/walker_2d_step.yaml", "time.intervals=96"},

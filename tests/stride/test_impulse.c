@@ -80,9 +80,8 @@ static void nothing_without_ground_reaction(void **state) {
   (void)state;
   ambulo_problem *problem = NULL;
   double untouched = 7.0;
-  assert_int_equal(ambulo_problem_load("tests/two_step/walk_without_reaction.yaml", NULL, 0, NULL,
-                                       NULL, &problem),
-                   0);
+  assert_int_equal(
+      ambulo_problem_load("models/walk_without_reaction.yaml", NULL, 0, NULL, NULL, &problem), 0);
   double *x = calloc((size_t)problem->variables, sizeof *x);
   assert_int_equal(ambulo__impulses(problem, x, NULL, &untouched), AMBULO_OK);
   assert_close(untouched, 7.0, 0.0);
