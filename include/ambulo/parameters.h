@@ -1,4 +1,5 @@
-/* ambulo/parameters.h - free parameters: numbers of a problem that the solver chooses.
+/* ambulo/parameters.h - free parameters: numbers of a problem that the solver chooses; and the
+ * grid, which it may refine.
  *
  * What a problem prescribes - a step time, lengths, a slope, a limit - may be left to the solver
  * within bounds. With f*(p) the least objective of the problem at p, the best p is found by an
@@ -81,6 +82,16 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_parameters(
     const ambulo_problem *problem, const ambulo_parameters *parameters,
     const ambulo_options *options, const double *start, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **best, ambulo_result **result);
+
+/* ambulo_solve, and again on finer grids, each started from the last motion, until it holds between
+ * the nodes too (ambulo_dense_audit), or nothing better is foretold. *finer is the problem on the
+ * last grid, to be freed by the caller after *result and before `problem`, whose model it shares;
+ * NULL where the problem's own grid was enough. options.time_limit is that of all of it. Errors:
+ * those of ambulo_solve. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_refined(
+    const ambulo_problem *problem, const ambulo_options *options, const double *start,
+    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **finer,
+    ambulo_result **result);
 
 typedef enum ambulo_bound { AMBULO_AT_LOWER = -1, AMBULO_BETWEEN, AMBULO_AT_UPPER } ambulo_bound;
 

@@ -121,6 +121,8 @@ typedef struct ambulo_options {
   ambulo_finisher finisher;     /* with presolve */
   ambulo_equalities equalities; /* with presolve; _NLOPT not with AMBULO_SLSQP, which gets them all
                                    anyway */
+  int refine; /* 1: what a problem file asks of ambulo_solve_refined (parameters.h), by `grid:
+                 auto`; without effect in ambulo_solve */
   int starts; /* 1: the solver's own; more, up to AMBULO_MOST_STARTS: so many on a grid half as
                  fine, the same in every run, of which the best is gone on from
                  (ambulo_result_starts); without effect where the caller gives a start */

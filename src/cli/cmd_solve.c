@@ -56,6 +56,7 @@ typedef struct job {
   char *directory; /* where the result goes */
   ambulo_report_options report;
   ambulo_problem *problem; /* of the file; with free parameters, then that of their best values */
+  ambulo_problem *coarser; /* of the file, when `problem` is that on a finer grid */
   ambulo_result *result;
   double *start;      /* NULL: zero */
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
@@ -169,6 +170,16 @@ static ambulo_status solve_parameters(job *j, const ambulo_options *options) {
   return AMBULO_OK;
 }
 
+static ambulo_status solve_refined(job *j, const ambulo_options *options) {
+  ambulo_problem *finer = NULL;
+  ambulo_status status =
+      ambulo_solve_refined(j->problem, options, j->start, NULL, j->diagnostics, &finer, &j->result);
+  if (status || !finer) return status;
+  j->coarser = j->problem;
+  j->problem = finer;
+  return AMBULO_OK;
+}
+
 static ambulo_status solve(job *j) {
   ambulo_options options = ambulo_problem_options(j->problem);
   if (j->time_limit >= 0.0) options.time_limit = j->time_limit;
@@ -178,6 +189,8 @@ static ambulo_status solve(job *j) {
   ambulo_status status;
   if (ambulo_problem_parameters(j->problem).count > 0) {
     status = solve_parameters(j, &options);
+  } else if (options.refine) {
+    status = solve_refined(j, &options);
   } else {
     status = ambulo_solve(j->problem, &options, j->start, NULL, j->diagnostics, &j->result);
   }
@@ -245,6 +258,7 @@ static int run(const ambulo__cli_input *input) {
   int code = run_job(&j);
   ambulo_result_free(j.result);
   ambulo_problem_free(j.problem);
+  ambulo_problem_free(j.coarser);
   ambulo_diagnostics_free(j.diagnostics);
   free(j.start);
   free(j.directory);

@@ -38,6 +38,8 @@ void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node
   o->optimality_tolerance = ambulo__yaml_number_in(
       ambulo__yaml_get(section, "optimality_tolerance"), 1e-14, 1.0, o->optimality_tolerance);
   o->continuation = read_switch(ambulo__yaml_get(section, "continuation"), o->continuation);
+  static const char *const grids[] = {"given", "auto"};
+  o->refine = ambulo__yaml_choice(ambulo__yaml_get(section, "grid"), grids, 2, o->refine);
   o->starts =
       ambulo__yaml_integer(ambulo__yaml_get(section, "starts"), 1, AMBULO_MOST_STARTS, o->starts);
   o->dense_samples =

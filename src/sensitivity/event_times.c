@@ -112,8 +112,9 @@ static double pull_of_event(const moving_event *m, int event, const ambulo__part
   return sum;
 }
 
-ambulo_status ambulo__partials_of_events(const ambulo__stationary *s, ambulo__pool *pool,
-                                         ambulo__partials *partials) {
+/* `s` without a solution, only its problem: derivatives that there are become 0 */
+static ambulo_status fill_events(const ambulo__stationary *s, int solved, ambulo__pool *pool,
+                                 ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   ambulo__event_map map;
   if (!p->before || p->definition.node_times || ambulo__plan_contacts(p->plan)) return AMBULO_OK;
@@ -129,7 +130,21 @@ ambulo_status ambulo__partials_of_events(const ambulo__stationary *s, ambulo__po
   for (int event = 0; event < partials->events; event++) {
     ambulo__event_node_rates(&map, event, m.node_rate);
     ambulo__event_knot_rates(&map, event, m.knot_rate);
-    partials->event[event] = pull_of_event(&m, event, partials);
+    if (solved)
+      partials->event[event] = pull_of_event(&m, event, partials);
+    else if (map.unclear[event] || passes_a_knot(&m))
+      partials->event[event] = (double)NAN;
   }
   return AMBULO_OK;
+}
+
+ambulo_status ambulo__partials_of_events(const ambulo__stationary *s, ambulo__pool *pool,
+                                         ambulo__partials *partials) {
+  return fill_events(s, 1, pool, partials);
+}
+
+ambulo_status ambulo__partials_name_events(const ambulo_problem *problem, ambulo__pool *pool,
+                                           ambulo__partials *partials) {
+  const ambulo__stationary s = {.problem = problem};
+  return fill_events(&s, 0, pool, partials);
 }

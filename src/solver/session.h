@@ -32,9 +32,10 @@ ambulo_status ambulo__session_finish(ambulo__session *session);
 ambulo_status ambulo__session_end(ambulo__session *session, ambulo_status status,
                                   ambulo_result **result);
 
-/* ambulo_solve from one start without second looks, advice and explanation. */
-ambulo_status ambulo__solve_quietly(const ambulo_problem *problem, const ambulo_options *options,
-                                    const double *start, const ambulo_allocator *allocator,
-                                    ambulo_result **result);
+/* ambulo_solve from one start; explains = 0: without second looks and explanation. */
+ambulo_status ambulo__solve_once(const ambulo_problem *problem, const ambulo_options *options,
+                                 const double *start, int explains,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo_result **result);
 
 #endif

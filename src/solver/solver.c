@@ -1,4 +1,5 @@
-/* solver/solver.c - ambulo_solve: which method, from which start, and which point is the best.
+/* solver/solver.c - a solve from one start: which method, from which start, and which point is the
+ * best.
  *
  *   presolve off     NLopt's SLSQP or AUGLAG on the rows as they are     (nlopt_plain.c)
  *   small problems   SLSQP in whitened coordinates                       (nlopt_whitened.c)
@@ -9,16 +10,11 @@
  * solution the solver tries its own, zero, before it explains anything; and a result is never worse
  * than a start that was valid: of all points the best is kept (candidates.c).
  *
- * With several starts, all of that on a coarse grid from each, and from the best on (starts.c).
- *
- * Reading order: solver.c, session.h, session.c, options.h, memory.h, better.h, starts.h,
- * audit_point.c;
- * what they call: method/pipeline.c, method/refine.c, judge/audit.c.
+ * Reading order: solve.c, starts.h, solver.c, session.h, session.c, options.h, memory.h, better.h,
+ * audit_point.c; what they call: method/pipeline.c, method/refine.c, judge/audit.c.
  */
 #include "solver/better.h"
-#include "solver/options.h"
 #include "solver/session.h"
-#include "solver/starts.h"
 #include "method/finisher.h"
 #include "method/nlopt_direct.h"
 #include "method/pipeline.h"
@@ -169,9 +165,10 @@ static ambulo_status search(ambulo__session *s) {
   return AMBULO_OK;
 }
 
-static ambulo_status solve(const ambulo_problem *problem, const ambulo_options *options,
-                           const double *start, int explains, const ambulo_allocator *allocator,
-                           ambulo_diagnostics *diagnostics, ambulo_result **result) {
+ambulo_status ambulo__solve_once(const ambulo_problem *problem, const ambulo_options *options,
+                                 const double *start, int explains,
+                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                 ambulo_result **result) {
   ambulo__session s = {.problem = problem, .allocator = allocator, .diagnostics = diagnostics};
   s.errors = ambulo_diagnostics_error_count(diagnostics);
   s.explains = explains;
@@ -179,47 +176,4 @@ static ambulo_status solve(const ambulo_problem *problem, const ambulo_options *
   if (!status && s.engine) status = search(&s);
   if (!status) status = ambulo__session_finish(&s);
   return ambulo__session_end(&s, status, result);
-}
-
-ambulo_status ambulo__solve_quietly(const ambulo_problem *problem, const ambulo_options *options,
-                                    const double *start, const ambulo_allocator *allocator,
-                                    ambulo_result **result) {
-  return solve(problem, options, start, 0, allocator, NULL, result);
-}
-
-/* from several starts; what is left of the time limit is the last solve's */
-static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambulo_options *options,
-                                       const ambulo_allocator *allocator,
-                                       ambulo_diagnostics *diagnostics, ambulo_result **result) {
-  ambulo_allocator a = ambulo__allocator_or_default(allocator);
-  ambulo_options last = *options;
-  ambulo__valleys *valleys = NULL;
-  double *start = NULL, begin = ambulo__seconds_now();
-  ambulo_status status = ambulo__options_check(options, diagnostics);
-  if (!status) status = ambulo__starts(problem, options, allocator, &start, &valleys);
-  if (last.time_limit > 0.0)
-    last.time_limit = fmax(1e-3, last.time_limit - (ambulo__seconds_now() - begin));
-  if (!status) status = solve(problem, &last, start, 1, allocator, diagnostics, result);
-  if (!status) {
-    (*result)->valleys = valleys;
-    (*result)->timing.total = ambulo__seconds_now() - begin;
-    valleys = NULL;
-  }
-  ambulo__free(&a, start);
-  ambulo__free(&a, valleys);
-  return status;
-}
-
-ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *options,
-                           const double *start, const ambulo_allocator *allocator,
-                           ambulo_diagnostics *diagnostics, ambulo_result **result) {
-  if (!problem || !result) return AMBULO_E_ARGUMENT;
-  ambulo_options own = options ? *options : ambulo_problem_options(problem);
-  if (!start && own.starts > 1)
-    return solve_from_starts(problem, &own, allocator, diagnostics, result);
-  return solve(problem, &own, start, 1, allocator, diagnostics, result);
-}
-
-const ambulo_starts *ambulo_result_starts(const ambulo_result *result) {
-  return result && result->valleys ? &result->valleys->shown : NULL;
 }

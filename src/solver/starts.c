@@ -134,7 +134,8 @@ static ambulo_status run(search *s) {
     options.starts = options.dense_samples = 1;
     options.time_limit = time_left(s);
     fill_start(s->problem, k, x);
-    status = ambulo__solve_quietly(s->problem, &options, k ? x : NULL, &s->allocator, &result);
+    status =
+        ambulo__solve_once(s->problem, &options, k ? x : NULL, 0, &s->allocator, NULL, &result);
     if (!status) status = book(s, k, result);
     stopped = !status && (result->ending_code == AMBULO_ENDING_CALLER ||
                           result->ending_code == AMBULO_ENDING_TIME);

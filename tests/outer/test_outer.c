@@ -1,47 +1,5 @@
-/* Free parameters: the run finds what a search over problems solved one by one finds, and keeps the
- * best when it is cut short. */
-#include "ambulo/ambulo.h"
-#include "support/fail_alloc.h"
-#include "support/messages.h"
-#include "support/test.h"
-
-#include <stdio.h>
-#include <string.h>
-
-static const char planar[] = "models/walker_2d_step.yaml";
-static const char reach[] = "models/two_link_reach.yaml";
-
-#define AT_A_SPEED                                                                                 \
-  "time.duration=null", "gait.step_length=null", "gait.speed=1.26", "gait.step_time=0.54"
-
-typedef struct solved {
-  ambulo_problem *problem, *best;
-  ambulo_result *result;
-  const ambulo_parameters_outcome *outcome;
-} solved;
-
-static ambulo_problem *load(const char *file, const char *const *overrides, int count) {
-  ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load(file, overrides, count, NULL, NULL, &problem), AMBULO_OK);
-  return problem;
-}
-
-static solved solve(const char *file, const char *const *overrides, int count,
-                    const ambulo_options *options) {
-  solved s = {.problem = load(file, overrides, count)};
-  assert_int_equal(
-      ambulo_solve_parameters(s.problem, NULL, options, NULL, NULL, NULL, &s.best, &s.result),
-      AMBULO_OK);
-  s.outcome = ambulo_result_parameters(s.result);
-  assert_non_null(s.outcome);
-  return s;
-}
-
-static void release(solved *s) {
-  ambulo_result_free(s->result);
-  ambulo_problem_free(s->best);
-  ambulo_problem_free(s->problem);
-}
+/* Free parameters: the run finds what a search over problems solved one by one finds. */
+#include "support/outer_fixture.h"
 
 /* --------------------------------------------------------------- what is found */
 
@@ -122,14 +80,14 @@ static void a_cadence_at_a_speed(void **state) {
 
 static void a_step_at_a_speed(void **state) {
   (void)state;
-  static const search c = {planar, "gait.step_length", {NULL}, 0};
+  static const search c = {PLANAR, "gait.step_length", {NULL}, 0};
   compare(&c, "free={gait.step_length: [0.4, 1.1]}", 0.6, 1.0, 1.1);
 }
 
 /* nothing travels: the objective itself */
 static void a_duration(void **state) {
   (void)state;
-  static const search c = {reach, "time.duration", {"time.duration=1.1"}, 1};
+  static const search c = {REACH, "time.duration", {"time.duration=1.1"}, 1};
   compare(&c, "free={time.duration: [0.9, 1.35]}", 1.15, 1.3, 1.0);
 }
 
@@ -160,7 +118,7 @@ static void several_at_once(void **state) {
 static void a_bound_ends_the_run(void **state) {
   (void)state;
   static const char *const overrides[] = {"free={gait.step_length: [0.55, 0.62]}"};
-  solved s = solve(planar, overrides, 1, NULL);
+  solved s = solve(PLANAR, overrides, 1, NULL);
   assert_int_equal(s.outcome->items[0].bound, AMBULO_AT_UPPER);
   assert_true(s.outcome->solves <= 3);
   assert_int_equal(s.outcome->converged, 1);
@@ -174,7 +132,7 @@ static void the_best_problem_is_the_file_with_its_values(void **state) {
   static const char *const overrides[] = {"free={\"objective[torque_squared].scale.hip_flexion_r\":"
                                           " [0.5, 2], gait.step_length: [0.5, 1]}"};
   char scale[2][80], length[80];
-  solved s = solve(planar, overrides, 1, NULL);
+  solved s = solve(PLANAR, overrides, 1, NULL);
   const ambulo_parameter_value *p = s.outcome->items;
   static const char *const sides[] = {"r", "l"};
   for (int i = 0; i < 2; i++)
@@ -183,7 +141,7 @@ static void the_best_problem_is_the_file_with_its_values(void **state) {
   (void)snprintf(length, sizeof length, "gait.step_length=%.17g", p[1].value);
   assert_int_equal(p[0].bound, AMBULO_AT_LOWER); /* the other side's moved along */
   const char *const again[] = {scale[0], scale[1], length};
-  ambulo_problem *problem = load(planar, again, 3);
+  ambulo_problem *problem = load(PLANAR, again, 3);
   assert_true(ambulo_problem_hash(problem) == ambulo_problem_hash(s.best));
   assert_int_equal(ambulo_problem_parameters(s.best).count, 0);
   assert_int_equal(ambulo_problem_parameters(s.problem).count, 2);
@@ -196,7 +154,7 @@ static void values_without_a_solution_are_given_up(void **state) {
   (void)state;
   static const char *const wide[] = {"free={gait.step_length: [0.1, 3]}"};
   static const char *const narrow[] = {"free={gait.step_length: [0.4, 1.1]}"};
-  solved a = solve(planar, wide, 1, NULL), b = solve(planar, narrow, 1, NULL);
+  solved a = solve(PLANAR, wide, 1, NULL), b = solve(PLANAR, narrow, 1, NULL);
   assert_true(a.outcome->failed > 0);
   assert_close(a.outcome->items[0].value, b.outcome->items[0].value, 1e-3);
   release(&a);
@@ -207,7 +165,7 @@ static void where_the_first_has_none_nothing_is_varied(void **state) {
   (void)state;
   static const char *const overrides[] = {"gait.step_length=1.9",
                                           "free={gait.step_length: [0.4, 3]}"};
-  solved s = solve(planar, overrides, 2, NULL);
+  solved s = solve(PLANAR, overrides, 2, NULL);
   assert_false(ambulo_verdict_is_solution(ambulo_result_verdict(s.result)));
   assert_non_null(ambulo_result_explanation(s.result));
   assert_int_equal(s.outcome->solves, 1);
@@ -234,16 +192,16 @@ static ambulo_status reach_at(void *user, const double *values, const ambulo_all
   const char *const overrides[] = {text};
   if (++r->asked == r->fail_at) return AMBULO_E_PROBLEM;
   (void)snprintf(text, sizeof text, "%s=%.17g", r->name, values[0]);
-  return ambulo_problem_load(planar, overrides, 1, allocator, diagnostics, problem);
+  return ambulo_problem_load(PLANAR, overrides, 1, allocator, diagnostics, problem);
 }
 
 static void a_function_says_what_the_problem_is(void **state) {
   (void)state;
   static const char *const overrides[] = {"free={gait.step_length: [0.4, 1.1]}"};
   const ambulo_parameter item = {"gait.step_length", 0.4, 1.1};
-  solved of_file = solve(planar, overrides, 1, NULL);
+  solved of_file = solve(PLANAR, overrides, 1, NULL);
   for (int fail_at = 0; fail_at < 4; fail_at += 3) {
-    solved s = {.problem = load(planar, NULL, 0)};
+    solved s = {.problem = load(PLANAR, NULL, 0)};
     rebuilt r = {item.name, 0, fail_at};
     ambulo_parameters parameters = ambulo_parameters_default();
     parameters.items = &item;
@@ -282,154 +240,47 @@ static void arguments_are_checked(void **state) {
   ambulo_parameter items[2] = {{"gait.step_length", 0.4, 1.1}, {"gait.step_length", 0.4, 1.1}};
   rebuilt r = {"gait.step_length", 0, 0};
   ambulo_parameters p = ambulo_parameters_default();
-  expect_refused(planar, NULL, "0 free parameters");
+  expect_refused(PLANAR, NULL, "0 free parameters");
   p.items = items;
   p.count = 2;
-  expect_refused(planar, &p, "without problem_at");
+  expect_refused(PLANAR, &p, "without problem_at");
   p.problem_at = reach_at;
   p.user = &r;
-  expect_refused(planar, &p, "'gait.step_length': it is there twice");
+  expect_refused(PLANAR, &p, "'gait.step_length': it is there twice");
   p.count = 1;
   items[0].lower = 1.2;
-  expect_refused(planar, &p, "its bounds do not rise");
+  expect_refused(PLANAR, &p, "its bounds do not rise");
   items[0].upper = 1.3;
-  expect_refused(planar, &p, "outside of its bounds");
+  expect_refused(PLANAR, &p, "outside of its bounds");
   items[0].name = "gait.phases.toe_off";
-  expect_refused(planar, &p, "it has no sensitivity in this problem");
+  expect_refused(PLANAR, &p, "it has no sensitivity in this problem");
   items[0].name = NULL;
-  expect_refused(planar, &p, "no name");
+  expect_refused(PLANAR, &p, "no name");
   items[0] = (ambulo_parameter){"time.duration", 0.5, 1.5};
   p.per = AMBULO_PER_DISTANCE;
-  expect_refused(reach, &p, "the body travels 0 m");
+  expect_refused(REACH, &p, "the body travels 0 m");
   p.per = (ambulo_per)7;
-  expect_refused(planar, &p, "expected an ambulo_per");
+  expect_refused(PLANAR, &p, "expected an ambulo_per");
   p.per = AMBULO_PER_NONE;
   p.maximum_solves = 0;
-  expect_refused(planar, &p, "at most 0 solves");
+  expect_refused(PLANAR, &p, "at most 0 solves");
   p.cookie = 0;
-  expect_refused(planar, &p, "ambulo_parameters_default()");
+  expect_refused(PLANAR, &p, "ambulo_parameters_default()");
   assert_int_equal(r.asked, 0);
 }
 
 /* ----------------------------------------------------------------- cut short */
 
-typedef struct watcher {
-  int stop_at, last, calls; /* stop_at: solve in which the callback says stop; 0: never */
-  double least;
-} watcher;
-
-static int watch(void *user, const ambulo_progress *progress) {
-  watcher *w = user;
-  w->calls++;
-  assert_true(progress->solve == w->last || progress->solve == w->last + 1);
-  assert_true(isnan(progress->best) == (progress->solve == 1));
-  if (!isnan(progress->best)) {
-    assert_true(progress->best <= w->least);
-    w->least = progress->best;
-  }
-  w->last = progress->solve;
-  return w->stop_at && progress->solve >= w->stop_at;
-}
-
-static void the_caller_may_stop(void **state) {
-  (void)state;
-  static const char *const overrides[] = {"free={gait.step_length: [0.4, 1.1]}"};
-  ambulo_options options = ambulo_options_default();
-  for (int stop = 0; stop <= 3; stop++) {
-    watcher w = {stop, 0, 0, INFINITY};
-    options.progress = watch;
-    options.user = &w;
-    solved s = solve(planar, overrides, 1, &options);
-    ambulo_verdict verdict = ambulo_result_verdict(s.result);
-    assert_int_equal(verdict, stop == 1 ? AMBULO_INTERRUPTED : AMBULO_OPTIMAL);
-    if (stop) {
-      assert_int_equal(s.outcome->solves, stop);
-      assert_int_equal(s.outcome->converged, 0);
-      assert_true(stop == 1 || strstr(s.outcome->ending, "stopped by the caller"));
-      assert_int_equal(s.outcome->failed, 0);
-    }
-    if (stop > 1) assert_true(s.outcome->objective <= s.outcome->first);
-    if (stop == 2) assert_close(s.outcome->items[0].value, 0.6, 1e-12);
-    assert_true(w.calls > 0);
-    release(&s);
-  }
-}
-
-static void limits_hold(void **state) {
-  (void)state;
-  static const char *const overrides[] = {"free={gait.step_length: [0.4, 1.1], maximum_solves: 3}"};
-  solved s = solve(planar, overrides, 1, NULL);
-  assert_int_equal(s.outcome->solves, 3);
-  assert_int_equal(s.outcome->converged, 0);
-  assert_non_null(strstr(s.outcome->ending, "limit of inner solves"));
-  assert_int_equal(ambulo_result_verdict(s.result), AMBULO_OPTIMAL);
-  release(&s);
-  ambulo_options options = ambulo_options_default();
-  options.time_limit = 1e-6;
-  s = solve(planar, overrides, 1, &options);
-  assert_int_equal(s.outcome->solves, 1);
-  assert_int_equal(ambulo_result_ending_code(s.result), AMBULO_ENDING_TIME);
-  release(&s);
-}
-
-static void every_allocation_may_fail(void **state) {
-  (void)state;
-  static const char *const overrides[] = {"free={time.duration: [0.5, 1.5], maximum_solves: 2}",
-                                          "time.intervals=6"};
-  ambulo_problem *problem = load(reach, overrides, 2);
-  long last = 0;
-  for (long k = 0; k < 100000; k = k < 40 ? k + 1 : k + 13) {
-    fail_alloc memory = fail_alloc_at(k);
-    ambulo_allocator allocator = fail_alloc_hook(&memory);
-    ambulo_problem *best = NULL;
-    ambulo_result *result = NULL;
-    ambulo_status status =
-        ambulo_solve_parameters(problem, NULL, NULL, NULL, &allocator, NULL, &best, &result);
-    if (status == AMBULO_OK) {
-      ambulo_result_free(result);
-      ambulo_problem_free(best);
-    } else {
-      assert_int_equal(status, AMBULO_E_MEMORY);
-      assert_null(best);
-      assert_null(result);
-    }
-    assert_int_equal(memory.live, 0);
-    last = k;
-    if (!memory.failed) break;
-  }
-  assert_true(last > 100);
-  ambulo_problem_free(problem);
-}
-
-static void other_results_have_no_outcome(void **state) {
-  (void)state;
-  ambulo_problem *problem = load(reach, NULL, 0), *at = NULL;
-  ambulo_result *result = NULL;
-  double value = 1.0;
-  assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
-  assert_null(ambulo_result_parameters(result));
-  assert_int_equal(ambulo_problem_at(problem, &value, NULL, NULL, &at), AMBULO_E_ARGUMENT);
-  assert_null(at);
-  ambulo_result_free(result);
-  ambulo_problem_free(problem);
-}
-
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_cadence_at_a_speed),
-      cmocka_unit_test(a_step_at_a_speed),
-      cmocka_unit_test(a_duration),
-      cmocka_unit_test(several_at_once),
-      cmocka_unit_test(a_bound_ends_the_run),
-      cmocka_unit_test(the_best_problem_is_the_file_with_its_values),
-      cmocka_unit_test(values_without_a_solution_are_given_up),
-      cmocka_unit_test(where_the_first_has_none_nothing_is_varied),
-      cmocka_unit_test(a_function_says_what_the_problem_is),
-      cmocka_unit_test(arguments_are_checked),
-      cmocka_unit_test(the_caller_may_stop),
-      cmocka_unit_test(limits_hold),
-      cmocka_unit_test(every_allocation_may_fail),
-      cmocka_unit_test(other_results_have_no_outcome),
-  };
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_cadence_at_a_speed),
+                                     cmocka_unit_test(a_step_at_a_speed),
+                                     cmocka_unit_test(a_duration),
+                                     cmocka_unit_test(several_at_once),
+                                     cmocka_unit_test(a_bound_ends_the_run),
+                                     cmocka_unit_test(the_best_problem_is_the_file_with_its_values),
+                                     cmocka_unit_test(values_without_a_solution_are_given_up),
+                                     cmocka_unit_test(where_the_first_has_none_nothing_is_varied),
+                                     cmocka_unit_test(a_function_says_what_the_problem_is),
+                                     cmocka_unit_test(arguments_are_checked)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
