@@ -167,8 +167,9 @@ static inline void symmetric_feet(random_source *source, symmetric_body *b, int 
     for (int k = 0; k < 3; k++) r->position[k] = random_between(source, -0.3, 0.3);
     symmetric_vector(b->across[left], r->position, l->position);
   }
-  b->feet[0] = (ambulo_foot){"right", {0, 1}, {2, 3}, 0, 2, 1, 1, 4};
-  b->feet[1] = (ambulo_foot){"left", {6, 5}, {7, 8}, 5, 7, 0, 1, 9}; /* corners in another order */
+  b->feet[0] = (ambulo_foot){"right", {0, 1}, {2, 3}, 0, 2, 1, 1, 4, 0, {-1, -1}};
+  /* corners in another order */
+  b->feet[1] = (ambulo_foot){"left", {6, 5}, {7, 8}, 5, 7, 0, 1, 9, 0, {-1, -1}};
   b->definition.points = b->points;
   b->definition.point_count = symmetric_points;
   b->definition.feet = b->feet;
