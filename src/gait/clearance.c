@@ -7,8 +7,16 @@
  *     |yaw|, |roll| <= turn                                                             rad
  *     heel at most `outward` beside its next foothold, `inward` towards the other foot  m
  *
- * heights above the surface under the swing (gait/contact_frame.h), which on stairs rises early and
- * sinks late; yaw, roll and track against its axes.
+ * heights above the surface under the swing (gait/contact_frame.h); yaw, roll and track against its
+ * axes. On the way to a higher or lower step (gait/step_edge.h) instead, up
+ *
+ *     to the first edge      above the foothold it leaves; tip and ball behind the riser    m
+ *     over the edges         above the plane over them
+ *     past the last one      above its next foothold
+ *
+ * and down the same way back, the heel beyond the riser; all <= the upper foothold + ceiling. What
+ * comes before and after an edge both hold where the foot comes to it, which is an event: no point
+ * of it is on the other side of an edge without having passed over.
  *
  * A rigid foot turns about its ball at push-off, and its tip dips where people's toes bend:
  * asking the tip to clear at once forces a jump. The ball is the toe centre, or the corner ahead.
@@ -16,6 +24,7 @@
 #include "gait/contact_frame.h"
 #include "gait/foot_frame.h"
 #include "gait/loading.h"
+#include "gait/step_edge.h"
 #include "gait/swing.h"
 #include "base/instant.h"
 
@@ -26,20 +35,51 @@ typedef struct swing {
   int node, foot;
   double phase; /* s */
   int tip;      /* 1: it has to clear */
+  ambulo__step_edges edges;
+  int climbs;          /* to a higher foothold */
+  int part[3];         /* of its way past edges: before the first, over them, past the last */
+  double origin, next; /* heights of the foothold that it leaves and of its next one, m */
   ambulo__contact_frame surface;
   ambulo__row_table *table;
 } swing;
 
-static void height_bounds(const swing *w, int point, double low) {
+/* low <= direction . r - origin <= high */
+static void point_bounds(const swing *w, int point, const double direction[3], double origin,
+                         const char *lower, const char *upper, double low, double high) {
   const ambulo__gait_context *context = w->context;
+  ambulo__linear form = {.constant = -origin};
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), direction, 1.0);
+  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, context->model->points[point].name, lower,
+                               upper, AMBULO__METRES};
+  ambulo__bounded_rows(context, w->node, &name, &form, low, high, w->table);
+}
+
+/* of a foot that passes the edges of steps */
+static void step_bounds(const swing *w, int point, int clears, double low) {
+  const ambulo_model *m = w->context->model;
+  const ambulo__step_edges *e = &w->edges;
+  int is_heel = point == m->feet[w->foot].heel_center, beside = w->climbs ? 0 : 2;
+  if (w->part[beside] && is_heel != w->climbs)
+    point_bounds(w, point, e->ahead, e->riser, "behind the edge", "beyond the edge",
+                 w->climbs ? -INFINITY : 0.0, w->climbs ? 0.0 : INFINITY);
+  if (w->part[0] && clears) point_bounds(w, point, m->up, w->origin, "low", "high", low, INFINITY);
+  if (w->part[1])
+    point_bounds(w, point, e->above, e->height, "low over the edge", "high", low, INFINITY);
+  if (w->part[2] && clears) point_bounds(w, point, m->up, w->next, "low", "high", low, INFINITY);
+  point_bounds(w, point, m->up, fmax(w->origin, w->next), "low", "high", -INFINITY,
+               w->context->definition->clearance.ceiling);
+}
+
+static void height_bounds(const swing *w, int point, int clears, double low) {
   const ambulo__contact_frame *s = &w->surface;
-  ambulo__linear form = {.constant = 0.0};
-  for (int i = 0; i < 3; i++) form.constant -= s->up[i] * s->origin[i];
-  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, point, 0), s->up, 1.0);
-  ambulo__bounded_name name = {AMBULO__KIND_CLEARANCE, context->model->points[point].name, "low",
-                               "high", AMBULO__METRES};
-  double ceiling = context->definition->clearance.ceiling;
-  ambulo__bounded_rows(context, w->node, &name, &form, low, ceiling, w->table);
+  if (w->edges.count > 0) {
+    step_bounds(w, point, clears, low);
+  } else if (clears) {
+    double origin = 0.0;
+    for (int i = 0; i < 3; i++) origin += s->up[i] * s->origin[i];
+    point_bounds(w, point, s->up, origin, "low", "high", low,
+                 w->context->definition->clearance.ceiling);
+  }
 }
 
 static void turn_bounds(const swing *w, const ambulo__linear *form, const char *lower,
@@ -102,9 +142,9 @@ static void swing_rows(const swing *w) {
   const ambulo_clearance *c = &w->context->definition->clearance;
   const ambulo_foot *foot = &w->context->model->feet[w->foot];
   double low = c->height * ambulo__clearance_part(w->phase, NULL);
-  height_bounds(w, foot->heel_center, 0.5 * low);
-  height_bounds(w, foot->toe_center, low);
-  if (foot->has_tip && w->tip) height_bounds(w, foot->tip, low);
+  height_bounds(w, foot->heel_center, 1, 0.5 * low);
+  height_bounds(w, foot->toe_center, 1, low);
+  if (foot->has_tip) height_bounds(w, foot->tip, w->tip, low);
   if (!ambulo__foot_outline_of(w->context->model, w->foot).moves_sideways) return;
   ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot, w->surface.left);
   ambulo__linear roll = ambulo__foot_roll(w->context, w->foot, w->surface.up);
@@ -114,16 +154,26 @@ static void swing_rows(const swing *w) {
 }
 
 /* over level ground along the track of the next foothold; else between the contacts */
-static ambulo__contact_frame surface_at(const swing *w, double time) {
+static void set_surface(swing *w, ambulo__span air, double time) {
   const ambulo_problem_definition *d = w->context->definition;
   ambulo_contact from = {.foot = w->foot}, to = from;
   if (!ambulo__contacts_are_level(d)) {
     (void)ambulo__swing_contacts(d, w->foot, time, &from, &to);
-    return ambulo__contact_frame_between(d, &from, &to, w->phase);
+    w->surface = ambulo__contact_frame_between(d, &from, &to, w->phase);
+    w->edges = ambulo__step_edges_between(d, w->foot, time, &from, &to);
+    w->climbs = to.place[2] > from.place[2];
+    w->origin = d->ground_height + from.place[2];
+    w->next = d->ground_height + to.place[2];
+    double first = ambulo__step_edge_time(air, &from, &to, 0);
+    double last = ambulo__step_edge_time(air, &from, &to, 1);
+    w->part[0] = time <= first + AMBULO__INSTANT;
+    w->part[1] = time >= first - AMBULO__INSTANT && time <= last + AMBULO__INSTANT;
+    w->part[2] = time >= last - AMBULO__INSTANT;
+    return;
   }
   int is_left, contact = ambulo__swing_track(d, w->foot, time, &is_left);
   if (contact >= 0) to.place[1] = d->contacts[contact].place[1];
-  return ambulo__contact_frame_of(d, &to);
+  w->surface = ambulo__contact_frame_of(d, &to);
 }
 
 /* at a node, up to both ends of the swing */
@@ -134,7 +184,7 @@ static swing swing_at(const ambulo__gait_context *context, int node, int foot,
   double length = air.to - air.from, tip_from = context->definition->clearance.tip_from;
   swing w = {.context = context, .node = node, .foot = foot, .table = table};
   w.phase = length > 0.0 ? (time - air.from) / length : 0.0;
-  w.surface = surface_at(&w, time);
+  set_surface(&w, air, time);
   w.tip = time >= air.from + tip_from * length - AMBULO__INSTANT;
   return w;
 }

@@ -11,7 +11,8 @@
  *     b' = earliest end of the stances of other feet that hold at b (none: no such factor)
  *     e' = latest beginning of those that hold at e
  *
- * A neighbour that outlasts the stance on that side gives half the stance.
+ * A neighbour that outlasts the stance on that side gives half the stance, and a stance of no
+ * length (a strike where the motion ends) carries nothing.
  *
  * Roll r, from 0 on the heel to 1 on the toes. A flat foot is at 1/2; it comes there from where it
  * was, by S, once it is flat and until the neighbour has left (b'), and goes on to where it will be
@@ -88,9 +89,11 @@ static double ramp(double time, double from, double to) {
   return to - from > AMBULO__INSTANT ? smooth((time - from) / (to - from)) : 1.0;
 }
 
+/* a foot that strikes where the motion ends has not begun to carry */
 static double weight_of(const ambulo__stance *s, double time) {
   double weight = 1.0;
-  if (isfinite(s->leaves)) weight *= ramp(time, s->from, s->leaves);
+  if (isfinite(s->leaves))
+    weight *= s->leaves - s->from > AMBULO__INSTANT ? ramp(time, s->from, s->leaves) : 0.0;
   if (isfinite(s->comes)) weight *= 1.0 - ramp(time, s->comes, s->to);
   return weight;
 }

@@ -23,6 +23,7 @@
 static const double tolerance = 1e-6; /* rad, m and their rates */
 static const char *const end_words[] = {"initial", "final"};
 static const char *const order_words[] = {"value", "rate", "acceleration"};
+static const char *const order_keys[] = {"", "_speed", "_acceleration"};
 
 #define REFUSE(list, hint, ...)                                                                    \
   ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, hint, __VA_ARGS__)
@@ -90,7 +91,7 @@ static ambulo_status check_matching(const ambulo_problem_definition *d, int i, i
   char hint[200];
   (void)snprintf(hint, sizeof hint,
                  "leave one of the two out, the other follows (--set ends.final%s.%s=null)",
-                 order == 1 ? "_speed" : "", final);
+                 order_keys[order], final);
   return REFUSE(
       list, hint,
       "the final %s of %s is %.6g %s, but %s ends with a travel of %.6g m make it %.6g %s "

@@ -70,6 +70,14 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
   return outline;
 }
 
+double ambulo__foot_reach(const ambulo_model *model, int foot) {
+  const ambulo_foot *f = &model->feet[foot];
+  double heel[3], reach[2];
+  ambulo__neutral_point(model, f->heel_center, heel);
+  project(model, f->has_tip ? f->tip : f->toe_center, heel, reach);
+  return hypot(reach[0], reach[1]);
+}
+
 ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
                                             const ambulo_allocator *allocator) {
   ambulo__foot_outline *outlines =

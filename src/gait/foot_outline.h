@@ -29,6 +29,9 @@ ambulo__foot_outline ambulo__foot_outline_of(const ambulo_model *model, int foot
 ambulo__foot_outline *ambulo__foot_outlines(const ambulo_model *model,
                                             const ambulo_allocator *allocator);
 
+/* Heel centre to the most forward point of the flat foot, its tip if it has one, m. */
+double ambulo__foot_reach(const ambulo_model *model, int foot);
+
 /* Whether a corner touches the ground in a mode. */
 int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel);
 

@@ -6,6 +6,9 @@
  */
 #include "gait/phases.h"
 #include "base/instant.h"
+#include "gait/loading.h"
+#include "gait/step_edge.h"
+#include "gait/swing.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,12 +47,26 @@ int ambulo__event_at(const ambulo__events *events, double time) {
   return low < events->count && events->time[low] <= time + AMBULO__INSTANT ? low : -1;
 }
 
-/* where in the swing beside `time` the foot's tip begins to have to clear the ground */
-static void insert_tip(const ambulo_problem_definition *d, int foot, double time,
-                       ambulo__events *events) {
+/* where in a swing the foot has come to the first edge of a step, and where past the last one */
+static void insert_edges(const ambulo_problem_definition *d, int foot, ambulo__span air,
+                         ambulo__events *events) {
+  ambulo_contact from = {.foot = foot}, to = from;
+  double middle = 0.5 * (air.from + air.to);
+  if (!(air.to - air.from > AMBULO__INSTANT) ||
+      !ambulo__swing_contacts(d, foot, middle, &from, &to) ||
+      ambulo__step_edges_between(d, foot, middle, &from, &to).count == 0)
+    return;
+  for (int last = 0; last < 2; last++)
+    insert(events, ambulo__step_edge_time(air, &from, &to, last), d->duration);
+}
+
+/* where in the swing beside `time` the foot's tip begins to have to clear the ground, and edges */
+static void insert_swing(const ambulo_problem_definition *d, int foot, double time,
+                         ambulo__events *events) {
   ambulo__span air;
-  if (!d->model->feet[foot].has_tip) return;
-  insert(events, ambulo__tip_time(d, foot, time, &air), d->duration);
+  double tip = ambulo__tip_time(d, foot, time, &air);
+  if (d->model->feet[foot].has_tip) insert(events, tip, d->duration);
+  insert_edges(d, foot, air, events);
 }
 
 int ambulo__has_tip_rows(const ambulo_problem_definition *d) {
@@ -62,16 +79,16 @@ int ambulo__has_tip_rows(const ambulo_problem_definition *d) {
 ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__event_kind kind,
                                     const ambulo_allocator *allocator, ambulo__events *events) {
   events->count = 0;
-  events->time = ambulo__alloc(allocator, 4 * (size_t)d->contact_count, sizeof *events->time);
+  events->time = ambulo__alloc(allocator, 8 * (size_t)d->contact_count, sizeof *events->time);
   if (!events->time) return AMBULO_E_MEMORY;
-  int tips = kind == AMBULO__EVENTS_OF_ROWS && ambulo__has_tip_rows(d);
+  int swings = kind == AMBULO__EVENTS_OF_ROWS && ambulo__has_tip_rows(d);
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *c = &d->contacts[i];
     insert(events, c->from, d->duration);
     insert(events, c->to, d->duration);
-    if (!tips) continue;
-    insert_tip(d, c->foot, c->from, events);
-    insert_tip(d, c->foot, c->to, events);
+    if (!swings) continue;
+    insert_swing(d, c->foot, c->from, events);
+    insert_swing(d, c->foot, c->to, events);
   }
   return AMBULO_OK;
 }

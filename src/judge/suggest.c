@@ -93,12 +93,13 @@ static void end_value(const ambulo__advice *a) {
                      in_degrees(a, reached, from), asked, a->row->unit, in_degrees(a, asked, to));
   const ambulo_model *model = a->problem->model;
   int i = ambulo_model_find_coordinate(model, a->row->subject);
-  int value = !strcmp(a->row->detail, "value"), rate = !strcmp(a->row->detail, "rate");
-  if (i < 0 || (!value && !rate)) return; /* accelerations have no key */
+  if (i < 0) return;
+  const char *key = !strcmp(a->row->detail, "value")  ? ""
+                    : !strcmp(a->row->detail, "rate") ? "_speed"
+                                                      : "_acceleration";
   double unit = model->coordinates[i].type == AMBULO_REVOLUTE ? a->problem->keys.radians : 1.0;
   if (unit > 0.0)
-    ambulo__advice_set(a, "ends.%s%s.%s=%.7g", end, rate ? "_speed" : "", a->row->subject,
-                       reached / unit);
+    ambulo__advice_set(a, "ends.%s%s.%s=%.7g", end, key, a->row->subject, reached / unit);
 }
 
 static void free_ends(const ambulo__advice *a) {

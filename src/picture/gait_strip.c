@@ -6,22 +6,28 @@
  *
  * with s the scale (px per metre), r_ref a point that moves with the whole body, v its mean
  * speed along f: the true place, with the walking direction stretched by the constant factor
- * that spreads the figures over the time axis.
+ * that spreads the figures over the time axis. Where the ground is not level each figure stands on
+ * the piece of it that is below it.
  */
 #include <math.h>
 
+#include "picture/gait_ground.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
 #include "picture/svg.h"
 
 enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, EXTENT_SAMPLES = 61 };
 
-static const double head_room = 14.0; /* px above the figures */
+static const double head_room = 14.0;                  /* px above the figures */
+static const double soil_depth = 15.0, slot_gap = 3.0; /* px */
+static const double around = 0.3; /* m: ground before and behind a figure that is always shown */
+static const double most_stretch = 5.0; /* beyond, figures are just one beside the other */
 
 typedef struct strip {
   const ambulo__panel *panel;
   const ambulo_model *model;
   ambulo__skeleton skeleton;
+  ambulo__gait_ground soil;
   int reference;       /* link whose parent's origin moves with the body */
   double speed, start; /* of the reference along forward, m/s, m */
   double ground;       /* m */
@@ -74,11 +80,24 @@ static void widen(strip *s, const double at[2], double radius) {
   s->high = fmax(s->high, at[1] + radius);
 }
 
+/* the ground from `left` to `right` of the reference line at time t */
+static double lowest_ground(const strip *s, double t, double left, double right) {
+  double origin = s->start + s->speed * t, lowest = INFINITY;
+  for (int i = 0; i < s->soil.count; i++) {
+    const ambulo__surface *p = &s->soil.surface[i];
+    double from = fmax(p->from, origin + left), to = fmin(p->to, origin + right);
+    if (from > to) continue;
+    lowest = fmin(lowest, fmin(ambulo__surface_height(p, from), ambulo__surface_height(p, to)));
+  }
+  return lowest;
+}
+
 static void find_extent(strip *s, const ambulo__stride *stride) {
   s->left = s->right = 0.0;
   s->low = s->high = 0.0;
   for (int k = 0; k < stride->samples; k++) {
     ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
+    s->low = fmin(s->low, lowest_ground(s, stride->times[k], -around, around));
     for (int b = 0; b < s->skeleton.bone_count; b++) {
       const ambulo__bone *bone = &s->skeleton.bones[b];
       double at[2];
@@ -95,7 +114,7 @@ static void choose_scale(strip *s) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
   const double side_room = s->model->foot_count ? 108.0 : 78.0;
   /* part of a figure's width that its neighbour leaves it: legs may cross, an arm stands free */
-  const double overlap = s->model->foot_count ? 0.56 : 1.08;
+  const double overlap = s->soil.count ? 1.0 : s->model->foot_count ? 0.56 : 1.08;
   s->scale = (s->panel->height - head_room) / height;
   /* the first and the last figure stay on the page */
   if (s->right * s->scale > side_room) s->scale = side_room / s->right;
@@ -178,19 +197,62 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
       to_page(s, t, at, page[e]);
     }
     if (!isfinite(page[0][0] + page[1][0])) continue;
-    double y = s->base + 5.5 + (s->skeleton.side[heel->link] == AMBULO__RIGHT ? 5.0 : 0.0);
+    double below = 5.5 + (s->skeleton.side[heel->link] == AMBULO__RIGHT ? 5.0 : 0.0);
+    double y[2];
+    for (int e = 0; e < 2; e++) y[e] = below + (s->soil.count ? page[e][1] : s->base);
     /* a zero-length line with round ends would not be drawn everywhere */
-    ambulo__svg_line(text, styles[s->skeleton.side[heel->link]], page[0][0] - 0.5, y,
-                     page[1][0] + 0.5, y);
+    ambulo__svg_line(text, styles[s->skeleton.side[heel->link]], page[0][0] - 0.5, y[0],
+                     page[1][0] + 0.5, y[1]);
   }
 }
 
-static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_buffer *text) {
-  if (s->model->foot_count) {
-    double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
-    ambulo__svg_rectangle(text, "soil", left, s->base, width, 15.0);
-    ambulo__svg_line(text, "ground", left, s->base, left + width, s->base);
+/* the top of the ground under a figure, from left to right */
+static void trace_ground(const strip *s, double t, const double ends[2],
+                         ambulo__text_buffer *text) {
+  double origin = s->start + s->speed * t;
+  int begun = 0;
+  for (int i = 0; i < s->soil.count; i++) {
+    const ambulo__surface *p = &s->soil.surface[i];
+    double x[2] = {fmax(p->from, origin + ends[0]), fmin(p->to, origin + ends[1])}, page[2];
+    for (int e = 0; e < 2 && x[0] <= x[1]; e++) {
+      double at[2] = {x[e] - origin, ambulo__surface_height(p, x[e])};
+      to_page(s, t, at, page);
+      /* what is far below the picture has no place in it */
+      page[1] = fmin(page[1], s->panel->y + s->panel->height + soil_depth - slot_gap);
+      if (begun++)
+        ambulo__svg_path_line(text, page[0], page[1]);
+      else
+        ambulo__svg_path_move(text, page[0], page[1]);
+    }
   }
+}
+
+static void draw_ground_below(const strip *s, double t, ambulo__text_buffer *text) {
+  double half = 0.5 * s->panel->width / (double)(s->figures - 1) - slot_gap;
+  double ends[2] = {-half / s->scale, half / s->scale};
+  double middle = ambulo__panel_time(s->panel, t);
+  double bottom = s->panel->y + s->panel->height + soil_depth;
+  if (!isfinite(middle + s->start + s->speed)) return;
+  ambulo__svg_path_begin(text, "soil");
+  trace_ground(s, t, ends, text);
+  ambulo__svg_path_line(text, middle + half, bottom);
+  ambulo__svg_path_line(text, middle - half, bottom);
+  ambulo__svg_path_end(text);
+  ambulo__svg_path_begin(text, "edge");
+  trace_ground(s, t, ends, text);
+  ambulo__svg_path_end(text);
+}
+
+static void draw_level_ground(const strip *s, ambulo__text_buffer *text) {
+  double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
+  ambulo__svg_rectangle(text, "soil", left, s->base, width, soil_depth);
+  ambulo__svg_line(text, "ground", left, s->base, left + width, s->base);
+}
+
+static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_buffer *text) {
+  if (s->model->foot_count && !s->soil.count) draw_level_ground(s, text);
+  for (int k = 0; k < stride->samples && s->soil.count; k++)
+    draw_ground_below(s, stride->times[k], text);
   for (int k = 0; k < stride->samples; k++) {
     double t = stride->times[k];
     ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
@@ -215,7 +277,7 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
   double true_width = s->scale * fabs(s->speed) * s->panel->duration;
   ambulo__text_buffer label;
   ambulo__text_init_part(&label, text);
-  if (true_width > 0.05 * s->panel->width) {
+  if (true_width > s->panel->width / most_stretch) {
     ambulo__text_append(&label, "side view, walking direction stretched ");
     ambulo__label_number(&label, s->panel->width / true_width, 1);
     ambulo__text_append(&label, "\xc3\x97");
@@ -241,6 +303,7 @@ static ambulo_status measure(const ambulo_problem *problem, const double *x,
   s->model = ambulo_problem_model(problem);
   s->ground = problem->definition.ground_height;
   ambulo_status status = ambulo__skeleton_create(s->model, allocator, &s->skeleton);
+  if (!status) status = ambulo__gait_ground_create(problem, allocator, &s->soil);
   if (!status) status = ambulo__stride_create(problem, x, EXTENT_SAMPLES, allocator, &dense);
   if (status) return status;
   find_reference(s, &dense);
@@ -255,6 +318,7 @@ ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const dou
   strip s = {.panel = NULL};
   ambulo_status status = measure(problem, x, panel, allocator, &s);
   if (!status) panel->height = s.scale * fmax(s.high - s.low, 0.1) + head_room;
+  ambulo__gait_ground_free(&s.soil);
   ambulo__skeleton_free(&s.skeleton);
   return status;
 }
@@ -270,6 +334,7 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
     caption(&s, text);
   }
   ambulo__stride_free(&shown);
+  ambulo__gait_ground_free(&s.soil);
   ambulo__skeleton_free(&s.skeleton);
   return status;
 }

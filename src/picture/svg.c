@@ -20,6 +20,7 @@ static const char style_sheet[] =
     ".zero{stroke:#b9c2cc;stroke-width:1}\n"
     ".axis{stroke:#8b96a2;stroke-width:1}\n"
     ".ground{stroke:#8b96a2;stroke-width:1.5}\n"
+    ".edge{fill:none;stroke:#8b96a2;stroke-width:1.5;stroke-linejoin:round}\n"
     ".soil{fill:#f3f5f7}\n"
     ".trunk,.left,.right{fill:none;stroke-linecap:round;stroke-linejoin:round;stroke-width:3.4}\n"
     ".trunk{stroke:#1d2733}\n"

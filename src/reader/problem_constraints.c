@@ -69,14 +69,17 @@ typedef struct end_list {
   int count;
 } end_list;
 
-/* one mapping of coordinate names to values; all names of the model are known keys */
+/* one mapping of coordinate names to values, `default` for those not named; all names of the model
+ * are known keys */
 static void read_values(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
                         const char *key, int final, int order, end_list *list) {
   const ambulo__yaml_node *mapping = ambulo__reader_section(section, key);
   if (!mapping) return;
+  const ambulo__yaml_node *others = ambulo__yaml_get(mapping, "default");
   for (int i = 0; i < ambulo_model_coordinate_count(reader->model); i++) {
     const ambulo__yaml_node *node =
         ambulo__yaml_get(mapping, ambulo_model_coordinate(reader->model, i)->name);
+    if (!node) node = others;
     if (!node) continue;
     ambulo_end_value value = {.coordinate = i, .order = order, .final = final};
     value.value = ambulo__read_coordinate_value(reader, node, i);
@@ -118,12 +121,14 @@ void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *
   d->rise = ambulo__yaml_number_in(ambulo__yaml_get(section, "rise"), -1e6, 1e6, 0.0);
   d->travel = ambulo__yaml_number_in(ambulo__yaml_get(section, "travel"), -1e6, 1e6, d->travel);
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);
-  end_list list = {ambulo__reader_alloc(reader, 4 * coordinates, sizeof(ambulo_end_value)), 0};
+  end_list list = {ambulo__reader_alloc(reader, 6 * coordinates, sizeof(ambulo_end_value)), 0};
   if (!list.values) return;
   read_values(reader, section, "initial", 0, 0, &list);
   read_values(reader, section, "initial_speed", 0, 1, &list);
+  read_values(reader, section, "initial_acceleration", 0, 2, &list);
   read_values(reader, section, "final", 1, 0, &list);
   read_values(reader, section, "final_speed", 1, 1, &list);
+  read_values(reader, section, "final_acceleration", 1, 2, &list);
   d->end_values = list.values;
   d->end_value_count = list.count;
   ambulo__yaml_close(section);

@@ -1,5 +1,6 @@
-/* sensitivity/node_pull.c - what a change of loads, gravity or ground makes of a node's part of the
- * Lagrangian: that of torques and root wrench, and of the ground by its law. */
+/* sensitivity/node_pull.c - how far the adjoints of a node pull at a tangent: of its torques and
+ * its root wrench, and of what is on the ground, by the split (ground_split.c) or by the law that
+ * contacts share the load with (contact_forces.c). */
 #include "sensitivity/node_forces.h"
 
 /* (S.8) sum w dy/dp of a node */

@@ -1,10 +1,10 @@
 /* stride/stride.h - the motion as it is shown: whole strides at chosen times.
  *
  * A problem with mirrored ends predicts one step; its mirror image, moved on by the
- * travel, is the next one. With m the coordinate that takes the place of i:
+ * travel and the rise, is the next one. With m the coordinate that takes the place of i:
  *
  *     q_m(T + t) = sign_i q_i(t) + shift_m,   qd_m, qdd_m, tau_m = sign_i (...)_i
- *     zmp(T + t) = zmp - 2 (zmp . l) l + travel f          (l: left, f: forward)
+ *     zmp(T + t) = zmp - 2 (zmp . l) l + travel f + rise n     (l: left, f: forward, n: up)
  *
  * so that the stride lasts 2 T. Other problems are shown as they are.
  */
@@ -39,6 +39,8 @@ void ambulo__stride_free(ambulo__stride *stride); /* accepts a zero-filled one *
 int ambulo__stride_contact(const ambulo__stride *stride, int foot, double t,
                            ambulo_contact_mode *mode);
 
+/* The mirror image of a place, one step on; in place. */
+void ambulo__stride_mirror_place(const ambulo__stride *stride, double *place);
 /* Its parts for the feet (stride_feet.c): arrays, and the mirror image of sample k in place. */
 ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
 void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);

@@ -37,6 +37,29 @@ static void events_are_found_by_their_times(void **state) {
   assert_int_equal(ambulo__event_at(&none, 0.1), -1);
 }
 
+/* on stairs also where a foot in the air comes to the first edge and has passed the last one: up at
+ * 38 and 56 % of its swing from 0.156 to 0.65 s, down at 44 and 62 % */
+static void edges_of_steps_are_events(void **state) {
+  (void)state;
+  static const char *const names[] = {"stairs_up", "stairs_down"};
+  static const double first[] = {0.38, 0.44}, last[] = {0.56, 0.62};
+  for (int i = 0; i < 2; i++) {
+    ambulo_problem *p = load_problem(names[i]);
+    ambulo__events events;
+    ambulo_allocator a = ambulo__allocator_or_default(NULL);
+    assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &a, &events),
+                     AMBULO_OK);
+    int found = 0;
+    for (int k = 0; k < events.count; k++) {
+      double s = (events.time[k] - 0.156) / (0.65 - 0.156);
+      found += fabs(s - first[i]) < 1e-9 || fabs(s - last[i]) < 1e-9;
+    }
+    assert_int_equal(found, 2);
+    ambulo__free(&a, events.time);
+    ambulo_problem_free(p);
+  }
+}
+
 /* contacts alone: no tip */
 static void knots_know_contacts_only(void **state) {
   (void)state;
@@ -255,6 +278,7 @@ int main(void) {
       cmocka_unit_test(events_are_those_of_the_gait),
       cmocka_unit_test(knots_know_contacts_only),
       cmocka_unit_test(events_are_found_by_their_times),
+      cmocka_unit_test(edges_of_steps_are_events),
       cmocka_unit_test(tips_that_need_not_clear_make_no_event),
       cmocka_unit_test(a_problem_without_contacts_has_none),
       cmocka_unit_test(intervals_go_by_duration),

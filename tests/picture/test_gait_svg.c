@@ -92,8 +92,30 @@ static void test_slope(void **state) {
   walk_close(&w);
 }
 
+/* each figure stands on its own piece of stairs, instead of all on one line */
+static void test_stairs(void **state) {
+  (void)state;
+  for (int rises = 0; rises < 2; rises++) {
+    walk w;
+    walk_open(&w, 12);
+    w.problem->definition.rise = rises ? 0.17 : 0.0;
+    ambulo__text_buffer text;
+    ambulo__text_init(&text, NULL);
+    assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+    const char *svg = ambulo__text_data(&text);
+    int figures = occurrences(svg, "<g class=\"figure\">");
+    assert_true(is_xml(svg));
+    assert_int_equal(occurrences(svg, "<line class=\"ground\""), rises ? 0 : 1);
+    assert_int_equal(occurrences(svg, "<path class=\"edge\""), rises ? figures : 0);
+    assert_int_equal(occurrences(svg, "<path class=\"soil\""), rises ? figures : 0);
+    ambulo__text_free(&text);
+    walk_close(&w);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_walk), cmocka_unit_test(test_slope),
+                                     cmocka_unit_test(test_stairs),
                                      cmocka_unit_test(test_not_finite), cmocka_unit_test(test_arm)};
   return cmocka_run_group_tests_name("picture/gait_svg", tests, NULL, NULL);
 }

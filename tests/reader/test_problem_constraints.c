@@ -44,7 +44,8 @@ static void end_values_are_in_radians(void **state) {
       "angles: degrees\n"
       "ends: {kind: mirrored, order: 2, travel: 0.7,\n"
       "  initial: {pelvis_tx: 0.5, knee_angle_r: 90}, final_speed: {knee_angle_l: -180},\n"
-      "  initial_speed: {pelvis_tx: 1.5}, final: {hip_flexion_l: 45}}\n");
+      "  initial_speed: {pelvis_tx: 1.5}, final: {hip_flexion_l: 45},\n"
+      "  initial_acceleration: {pelvis_ty: -2}, final_acceleration: {knee_angle_l: 90}}\n");
   const ambulo_problem_definition *d = &p->definition;
   assert_int_equal(d->ends, AMBULO_ENDS_MIRRORED);
   assert_int_equal(d->ends_order, 2);
@@ -56,16 +57,37 @@ static void end_values_are_in_radians(void **state) {
   } expected[] = {{"pelvis_tx", 0, 0, 0.5},
                   {"knee_angle_r", 0, 0, 1.5707963267948966},
                   {"pelvis_tx", 1, 0, 1.5},
+                  {"pelvis_ty", 2, 0, -2.0},
                   {"hip_flexion_l", 0, 1, 0.7853981633974483},
-                  {"knee_angle_l", 1, 1, -3.141592653589793}};
-  assert_int_equal(d->end_value_count, 5);
-  for (int i = 0; i < 5; i++) {
+                  {"knee_angle_l", 1, 1, -3.141592653589793},
+                  {"knee_angle_l", 2, 1, 1.5707963267948966}};
+  assert_int_equal(d->end_value_count, 7);
+  for (int i = 0; i < 7; i++) {
     const ambulo_end_value *end = &d->end_values[i];
     assert_int_equal(end->coordinate,
                      ambulo_model_find_coordinate(p->model, expected[i].coordinate));
     assert_int_equal(end->order, expected[i].order);
     assert_int_equal(end->final, expected[i].final);
     assert_close(end->value, expected[i].value, 1e-15);
+  }
+  ambulo_problem_free(p);
+}
+
+/* `default` is for whom no name was given */
+static void a_body_at_rest_is_said_in_one_word(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of(WALKER TIME "angles: degrees\n"
+                                             "ends: {final_speed: {default: 0, pelvis_tx: 1.5},\n"
+                                             "  final_acceleration: {default: 0}}\n");
+  const ambulo_problem_definition *d = &p->definition;
+  int coordinates = ambulo_model_coordinate_count(p->model);
+  assert_int_equal(d->end_value_count, 2 * coordinates);
+  for (int i = 0; i < d->end_value_count; i++) {
+    const ambulo_end_value *end = &d->end_values[i];
+    int first = end->coordinate == ambulo_model_find_coordinate(p->model, "pelvis_tx");
+    assert_int_equal(end->order, i < coordinates ? 1 : 2);
+    assert_int_equal(end->final, 1);
+    assert_close(end->value, first && end->order == 1 ? 1.5 : 0.0, 0.0);
   }
   ambulo_problem_free(p);
 }
@@ -166,6 +188,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_key_arrives),
                                      cmocka_unit_test(absent_means_off),
                                      cmocka_unit_test(end_values_are_in_radians),
+                                     cmocka_unit_test(a_body_at_rest_is_said_in_one_word),
                                      cmocka_unit_test(units_of_angles_are_asked_for),
                                      cmocka_unit_test(faults_are_placed),
                                      cmocka_unit_test(ends_go_with_the_number_of_steps),

@@ -39,17 +39,18 @@ static void test_nodes_on_events(void **state) {
   walk_close(&w);
 }
 
-/* node 12 + k is node k with left and right exchanged, one step further on */
+/* node 12 + k is node k with left and right exchanged, one step further on and up */
 static void test_mirror(void **state) {
   (void)state;
   static const int image[D] = {0, 1, 2, 6, 7, 8, 3, 4, 5};
   walk w;
   walk_open(&w, 12);
+  w.problem->definition.rise = 0.17;
   ambulo__stride s;
   assert_int_equal(ambulo__stride_create(w.problem, w.result->x, 0, NULL, &s), AMBULO_OK);
   for (int k = 1; k <= 12; k++) {
     for (int i = 0; i < D; i++) {
-      double shift = i == 0 ? walker_step_length : 0.0;
+      double shift = i == 0 ? walker_step_length : i == 1 ? 0.17 : 0.0;
       int here = (12 + k) * D + image[i], there = k * D + i;
       assert_close(s.q[here], s.q[there] + shift, 1e-13);
       assert_close(s.qd[here], s.qd[there], 1e-13);
@@ -58,6 +59,7 @@ static void test_mirror(void **state) {
     }
     if (isfinite(s.zmp[3 * k])) {
       assert_close(s.zmp[3 * (12 + k)], s.zmp[3 * k] + walker_step_length, 1e-13);
+      assert_close(s.zmp[3 * (12 + k) + 1], s.zmp[3 * k + 1] + 0.17, 1e-13);
       assert_close(s.zmp[3 * (12 + k) + 2], -s.zmp[3 * k + 2], 1e-13);
     }
   }

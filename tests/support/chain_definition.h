@@ -32,8 +32,8 @@ static inline void chain_make(chain *c) {
   }
   c->points[0] = (ambulo_point){"heel", 2, {-0.1, 0, 0}};
   c->points[1] = (ambulo_point){"toe", 2, {0.2, 0, 0}};
-  c->feet[0] = (ambulo_foot){"foot", {0, -1}, {1, -1}, 0, 1, -1, 0, -1, 0, {-1, -1}};
-  c->feet[1] = (ambulo_foot){"other", {0, -1}, {1, -1}, 0, 1, -1, 0, -1, 0, {-1, -1}};
+  c->feet[0] = (ambulo_foot){"foot", {0, -1}, {1, -1}, 0, 1, -1, .tip = -1};
+  c->feet[1] = (ambulo_foot){"other", {0, -1}, {1, -1}, 0, 1, -1, .tip = -1};
   c->definition = ambulo_model_definition_default();
   c->definition.links = c->links;
   c->definition.link_count = 3;

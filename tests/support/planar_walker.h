@@ -63,8 +63,8 @@ static inline ambulo_model *walker_create(void) {
                                               {"right_toe", 6, {0.16, -0.06, 0.0}},
                                               {"left_heel", 9, {-0.05, -0.06, 0.0}},
                                               {"left_toe", 9, {0.16, -0.06, 0.0}}};
-  const ambulo_foot feet[2] = {{"right", {1, -1}, {2, -1}, 1, 2, 1, 0, -1, 0, {-1, -1}},
-                               {"left", {3, -1}, {4, -1}, 3, 4, 0, 0, -1, 0, {-1, -1}}};
+  const ambulo_foot feet[2] = {{"right", {1, -1}, {2, -1}, 1, 2, 1, .tip = -1},
+                               {"left", {3, -1}, {4, -1}, 3, 4, 0, .tip = -1}};
   ambulo_model_definition definition = ambulo_model_definition_default();
   definition.name = "planar_walker";
   definition.links = links;

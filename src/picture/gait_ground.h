@@ -1,0 +1,29 @@
+/* picture/gait_ground.h - the ground under a motion, seen from the side: the surfaces of its
+ * contacts one behind the other. */
+#ifndef AMBULO_PICTURE_GAIT_GROUND_H
+#define AMBULO_PICTURE_GAIT_GROUND_H
+
+#include "nlp/nlp.h"
+
+typedef struct ambulo__surface {
+  double from, to;          /* along forward, m; the first and the last one are endless */
+  double at, height, slope; /* height above the ground's at `at`, m, and its rise per m forward */
+} ambulo__surface;
+
+typedef struct ambulo__gait_ground {
+  ambulo_allocator allocator;
+  int count; /* 0: level at the ground's height */
+  ambulo__surface *surface;
+} ambulo__gait_ground;
+
+/* Of the contacts and, where the motion repeats, of those before and after it. Risers stand where
+ * gait/step_edge.h has them. Errors: E_MEMORY. */
+ambulo_status ambulo__gait_ground_create(const ambulo_problem *problem,
+                                         const ambulo_allocator *allocator,
+                                         ambulo__gait_ground *ground);
+void ambulo__gait_ground_free(ambulo__gait_ground *ground); /* accepts a zero-filled one */
+
+/* Height of a surface at x along forward, m above the ground's height. */
+double ambulo__surface_height(const ambulo__surface *surface, double x);
+
+#endif
