@@ -123,7 +123,7 @@ static void level_ramps_and_the_spot_have_none(void **state) {
 /* down is the way up, backward */
 static void edges_have_their_times(void **state) {
   (void)state;
-  const ambulo__span air = {1.0, 3.0};
+  const ambulo__span air = {.from = 1.0, .to = 3.0, .begins = -1, .ends = -1};
   fixture f;
   open_stairs(&f, 2, 1, 1);
   double first = ambulo__step_edge_time(air, &f.contacts[0], &f.contacts[2], 0);
