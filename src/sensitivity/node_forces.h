@@ -45,7 +45,7 @@ void ambulo__node_forces_clear(ambulo__node_forces *forces);
 void ambulo__node_forces_add(ambulo__node_forces *forces, int link, const double place[3],
                              const double force[3]);
 /* sum w dy/dp over the node's torques, root wrench, feet and centre of mass, with the ground's
- * part: ground_split.c or contact_forces.c. */
+ * part: node_pull.c. */
 double ambulo__node_forces_pull(const ambulo__node_forces *forces);
 
 /* The ground's part. */

@@ -17,9 +17,9 @@
  *
  * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c,
  * sharing_rows.c, bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
- * contact_split.h, contact_forces.c; duration.c; event_rates.h, event_rates.c, event_times.c;
- * parameters.h, parameter_list.c, parameters.c, walk_parameters.c, time_parameters.c,
- * term_parameters.c, words.c, sensitivities.c.
+ * contact_split.h, contact_forces.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
+ * event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
+ * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
 #define AMBULO_SENSITIVITY_PARTIALS_H

@@ -66,13 +66,12 @@ static void touching_contacts_of_chosen_modes_are_one_span(void **state) {
   ambulo_problem_definition d = definition_of(model, AMBULO_ENDS_MIRRORED);
   const ambulo__span heel = {0.35, 0.5, 2, 2};
   static const struct {
-    int modes;
     double to;
-    int ends;
-  } cases[] = {{AMBULO__ANY_MODE, 0.9, 1},
-               {1 << AMBULO_CONTACT_HEEL, 0.5, 2},
-               {1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT, 0.8, 0},
-               {1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_TOE, 0.5, 2}};
+    int modes, ends;
+  } cases[] = {{0.9, AMBULO__ANY_MODE, 1},
+               {0.5, 1 << AMBULO_CONTACT_HEEL, 2},
+               {0.8, 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT, 0},
+               {0.5, 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_TOE, 2}};
   for (int i = 0; i < 4; i++) {
     ambulo__span s = ambulo__uninterrupted(&d, WALKER_LEFT, cases[i].modes, heel);
     assert_close(s.from, 0.35, 1e-15);

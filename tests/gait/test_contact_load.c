@@ -118,8 +118,8 @@ static void the_centre_glides_from_heel_to_toes(void **state) {
     if (fabs(c->from - 0.5) < 1e-9 && c->to > c->from) c->from = 0.34;
   }
   assert_close(load_at(&f, WALKER_LEFT, 0.13).center[0], 0.12 * smooth(0.5), 1e-12);
-  for (double t = 0.16; t <= 0.34; t += 0.03)
-    assert_close(load_at(&f, WALKER_LEFT, t).center[0], 0.12, 1e-12);
+  for (int i = 0; i <= 6; i++)
+    assert_close(load_at(&f, WALKER_LEFT, 0.16 + 0.03 * i).center[0], 0.12, 1e-12);
   assert_close(load_at(&f, WALKER_LEFT, 0.37).center[0], 0.12 + 0.12 * smooth(0.5), 1e-12);
   close_it(&f);
 }
@@ -200,8 +200,8 @@ static void nothing_jumps(void **state) {
     for (int slot = 0; slot < f.slots.count; slot++) {
       ambulo__contact_load before = load_at(&f, slot, 0.0);
       double travelled = 0.0;
-      for (double t = step; t < 1.0 - step; t += step) {
-        ambulo__contact_load now = load_at(&f, slot, t);
+      for (int k = 1; k < 99999; k++) {
+        ambulo__contact_load now = load_at(&f, slot, step * k);
         assert_true(fabs(now.weight - before.weight) < 50.0 * step);
         if (now.loaded && before.loaded) {
           double moved = fabs(now.center[0] - before.center[0]);
@@ -258,7 +258,8 @@ static void a_mirrored_step_is_told_the_same(void **state) {
   fixture one, two;
   open_with(&one, walker_create(0), 1);
   open_with(&two, walker_create(0), 2);
-  for (double t = 0.0; t < 0.4995; t += 0.007) {
+  for (int k = 0; k < 72; k++) {
+    double t = 0.0069 * k;
     for (int foot = 0; foot < 2; foot++) {
       ambulo__contact_load a = load_at(&one, foot, t), b = load_at(&two, foot, t);
       assert_int_equal(a.loaded, b.loaded);

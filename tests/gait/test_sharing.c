@@ -176,7 +176,8 @@ static void events_have_both_boxes(void **state) {
   double nearest = INFINITY;
   for (int r = 0; r < f.table.row_count; r++) {
     const ambulo__table_row *row = &f.table.rows[r];
-    if (strcmp(row->family, "pressure") || strcmp(row->detail, "front") || row->time != 0.75)
+    if (strcmp(row->family, "pressure") != 0 || strcmp(row->detail, "front") != 0 ||
+        row->time != 0.75)
       continue;
     before += row->before;
     if (row->before) nearest = row_value(&f, r);
