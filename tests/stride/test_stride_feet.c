@@ -58,6 +58,10 @@ static void places_rise_with_the_ends(void **state) {
   fixture level, stairs;
   fixture_open(&level);
   fixture_open(&stairs);
+  ambulo__stride_free(&level.stride);
+  level.problem->definition.rise = 0.0;
+  assert_int_equal(ambulo__stride_create(level.problem, level.x, 0, NULL, &level.stride),
+                   AMBULO_OK);
   ambulo__stride_free(&stairs.stride);
   stairs.problem->definition.rise = 0.25;
   assert_int_equal(ambulo__stride_create(stairs.problem, stairs.x, 0, NULL, &stairs.stride),
