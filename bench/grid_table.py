@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """What a time grid and a trajectory cost and give: the table of docs/performance.md.
 
-    python3 bench/grid_table.py build/ambulo models --shipped walk_normal walk_fast walk_slow
+    python3 bench/grid_table.py build/ambulo models shipped walk_normal walk_fast walk_slow
     python3 bench/grid_table.py build/ambulo tests/two_step walk_normal walk_fast walk_slow
 
---shipped: each walk as its file says, and how far its objective is from that of four times the
+shipped: each walk as its file says, and how far its objective is from that of four times the
 nodes. Without it, for each walk and setting of a list (walks with the prescribed split), solved from
 zero:
   f           objective, and how far it is from that of a grid four times as fine (K 48 of degree
@@ -153,7 +153,7 @@ def shipped(program, models, names):
 
 def main():
     program, models, names = sys.argv[1], sys.argv[2], sys.argv[3:]
-    if names[:1] == ["--shipped"]:
+    if names[:1] == ["shipped"]:
         shipped(program, models, names[1:])
         return
     print("| walk | grid, trajectory | f | off 4x % | off 16x % | slip mm | contact mm | contact rad | clearance mm"

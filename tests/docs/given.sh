@@ -4,7 +4,7 @@
 # serve to run the commands, not to judge anything. Needs ambulo on the PATH.
 set -e
 models=$(ambulo --models)
-ambulo solve "$models/walk_normal.yaml" -o of_walk --quiet
+ambulo solve "$models/walk_normal.yaml" -o of_walk --samples 65 --quiet
 ambulo inverse "$models/walk_normal.yaml" of_walk/motion.csv -o of_walk.csv 2>/dev/null
 
 # curves of a layout that docs/compare.md names
