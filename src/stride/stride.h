@@ -44,8 +44,6 @@ void ambulo__stride_mirror_place(const ambulo__stride *stride, double *place);
 /* Its parts for the feet (stride_feet.c): arrays, and the mirror image of sample k in place. */
 ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
 void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);
-/* A place of the first step becomes that of the second. */
-void ambulo__stride_mirror_place(const ambulo__stride *stride, double *place);
 
 /* Force on a foot along `direction` at sample k, in body weights; its largest along the normal. */
 double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
