@@ -6,23 +6,13 @@
  *     p_n                the same with s' = min(1, 2 s) up, max(0, 2 s - 1) down
  */
 #include "gait/contact_frame.h"
+#include "base/vector.h"
 #include "model/model.h"
 
 #include <math.h>
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-  for (int i = 0; i < 3; i++) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    out[i] = a[j] * b[k] - a[k] * b[j];
-  }
-}
-
 int ambulo__contact_normal_is_legal(const double normal[3]) {
-  double size = sqrt(dot(normal, normal));
+  double size = sqrt(ambulo__dot(normal, normal));
   return size == 0.0 || (isfinite(size) && normal[2] >= 0.5 * size);
 }
 
@@ -54,7 +44,7 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
     frame.up[i] = m->up[i];
   }
   if (c->heading == 0.0 && c->normal[0] == 0.0 && c->normal[1] == 0.0) return frame;
-  double size = sqrt(dot(c->normal, c->normal));
+  double size = sqrt(ambulo__dot(c->normal, c->normal));
   for (int i = 0; i < 3; i++) {
     ahead[i] = cos(c->heading) * m->forward[i] + sin(c->heading) * m->left[i];
     if (size > 0.0)
@@ -62,24 +52,19 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
           (c->normal[0] * m->forward[i] + c->normal[1] * m->left[i] + c->normal[2] * m->up[i]) /
           size;
   }
-  cross(frame.up, ahead, frame.left);
-  length = sqrt(dot(frame.left, frame.left));
+  ambulo__cross(frame.up, ahead, frame.left);
+  length = sqrt(ambulo__dot(frame.left, frame.left));
   for (int i = 0; i < 3; i++) frame.left[i] /= length;
-  cross(frame.left, frame.up, frame.forward);
+  ambulo__cross(frame.left, frame.up, frame.forward);
   return frame;
-}
-
-static double smooth(double s) {
-  s = fmin(1.0, fmax(0.0, s));
-  return s * s * (3.0 - 2.0 * s);
 }
 
 ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definition *d,
                                                     const ambulo_contact *from,
                                                     const ambulo_contact *to, double share) {
   ambulo_contact there = *to;
-  double along = smooth(share), rise = to->place[2] - from->place[2];
-  double climb = smooth(rise > 0.0 ? 2.0 * share : 2.0 * share - 1.0);
+  double along = ambulo__smooth_step(share), rise = to->place[2] - from->place[2];
+  double climb = ambulo__smooth_step(rise > 0.0 ? 2.0 * share : 2.0 * share - 1.0);
   for (int i = 0; i < 2; i++)
     there.place[i] = from->place[i] + along * (to->place[i] - from->place[i]);
   there.place[2] = from->place[2] + climb * rise;

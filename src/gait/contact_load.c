@@ -36,6 +36,7 @@
  * follow and which rings.
  */
 #include "gait/contact_load.h"
+#include "base/vector.h"
 #include "base/instant.h"
 #include "gait/loading.h"
 #include "gait/stance.h"
@@ -80,13 +81,8 @@ const char *ambulo__slot_name(const ambulo_model *m, const ambulo__slots *slots,
 
 /* -------------------------------------------------------------------- weight */
 
-static double smooth(double u) {
-  u = fmin(1.0, fmax(0.0, u));
-  return u * u * (3.0 - 2.0 * u);
-}
-
 static double ramp(double time, double from, double to) {
-  return to - from > AMBULO__INSTANT ? smooth((time - from) / (to - from)) : 1.0;
+  return to - from > AMBULO__INSTANT ? ambulo__smooth_step((time - from) / (to - from)) : 1.0;
 }
 
 /* a foot that strikes where the motion ends has not begun to carry */

@@ -12,6 +12,7 @@
  * own as well.
  */
 #include "ambulo/mechanics.h"
+#include "base/vector.h"
 #include "gait/gait.h"
 
 #include <math.h>
@@ -24,10 +25,6 @@ typedef struct standing {
   void *scratch;
 } standing;
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static ambulo_status evaluate(const standing *s) {
   return ambulo_lagrangian_inverse_dynamics(s->model, s->q, s->zero, s->zero, s->tau, s->wrench,
                                             s->points, s->scratch);
@@ -38,14 +35,15 @@ static double pressure_at(const standing *s, const ambulo_foot *foot) {
   const ambulo_model *m = s->model;
   const double *heel = s->points + 3 * foot->heel_center, *toe = s->points + 3 * foot->toe_center;
   /* l . (r x F) = r . (F x l) = |F| r . (n x l) = -|F| r . f */
-  double center = -dot(m->left, s->wrench) / dot(m->up, s->wrench + 3);
-  return (center - dot(m->forward, heel)) / (dot(m->forward, toe) - dot(m->forward, heel));
+  double center = -ambulo__dot(m->left, s->wrench) / ambulo__dot(m->up, s->wrench + 3);
+  return (center - ambulo__dot(m->forward, heel)) /
+         (ambulo__dot(m->forward, toe) - ambulo__dot(m->forward, heel));
 }
 
 static double height(const standing *s, const ambulo_foot *foot, double share) {
   const double *heel = s->points + 3 * foot->heel_center, *toe = s->points + 3 * foot->toe_center;
   const double *up = s->model->up;
-  return (1.0 - share) * dot(up, heel) + share * dot(up, toe);
+  return (1.0 - share) * ambulo__dot(up, heel) + share * ambulo__dot(up, toe);
 }
 
 /* torque = tau - the feet's part; 1 when the centre of mass stands over both feet */
@@ -53,7 +51,7 @@ static ambulo_status stand(standing *s, int *over) {
   const ambulo_model *m = s->model;
   ambulo_status status = evaluate(s);
   if (status) return status;
-  double half = 0.5 * dot(m->up, s->wrench + 3), share[2] = {0.0, 0.0};
+  double half = 0.5 * ambulo__dot(m->up, s->wrench + 3), share[2] = {0.0, 0.0};
   *over = 1;
   for (int f = 0; f < 2; f++) {
     share[f] = pressure_at(s, &m->feet[f]);

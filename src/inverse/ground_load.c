@@ -1,5 +1,6 @@
 /* inverse/ground_load.c - reading forces on the feet (ground_load.h). */
 #include "inverse/ground_load.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,12 +24,6 @@ typedef struct group_load {
   double *loose;  /* [table rows][3]: force without points; of the whole foot */
   int *from;      /* [table rows]: nearest row in time that has a point, often itself */
 } group_load;
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 static double size_of(const double v[3]) {
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -183,7 +178,7 @@ static ambulo_status add_group(const group_load *g, int placed) {
     if (!placed || is_zero(force)) continue;
     take(g->table, g->from[k], g->group->point, g->source->options->force_length_unit, point);
     put_on_ground(g, point);
-    cross(point, force, moment);
+    ambulo__cross(point, force, moment);
     for (int i = 0; i < 3; i++) wrench[3 + i] += moment[i];
   }
   return AMBULO_OK;

@@ -3,18 +3,9 @@
 #include <string.h>
 
 #include "inverse/ground_load.h"
+#include "base/vector.h"
 #include "mechanics/pose.h"
 #include "model/model.h"
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-  c[0] = a[1] * b[2] - a[2] * b[1];
-  c[1] = a[2] * b[0] - a[0] * b[2];
-  c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* -------------------------------------------------------------------- poses */
 
@@ -68,7 +59,7 @@ void ambulo__ground_load_place(ambulo__ground_load *load, const ambulo__load_pos
       double moment[3];
       if (!load->is_loose[foot]) continue;
       if (!isfinite(point[0])) point = poses->foot + at;
-      cross(point, load->loose + at, moment);
+      ambulo__cross(point, load->loose + at, moment);
       for (int i = 0; i < 3; i++) load->moment[at + (size_t)i] += moment[i];
     }
   }
@@ -85,10 +76,10 @@ static double share(const ambulo_model *model, const double *frames, int link, c
     axis[i] = frame[4 * i + 2];
     origin[i] = frame[4 * i + 3];
   }
-  if (l->type == AMBULO_PRISMATIC) return dot(axis, force);
-  cross(origin, force, turn);
+  if (l->type == AMBULO_PRISMATIC) return ambulo__dot(axis, force);
+  ambulo__cross(origin, force, turn);
   for (int i = 0; i < 3; i++) about[i] = moment[i] - turn[i];
-  return dot(axis, about);
+  return ambulo__dot(axis, about);
 }
 
 ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const ambulo_model *model,
@@ -121,14 +112,14 @@ void ambulo__ground_load_pressure(const ambulo__ground_load *load, const ambulo_
   const double *n = model->up;
   for (size_t j = 0; j < (size_t)load->rows * (size_t)load->feet; j++) {
     const double *f = load->force + 3 * j, *m = load->moment + 3 * j;
-    double normal = dot(n, f), lever[3], turn[3], vertical[3];
+    double normal = ambulo__dot(n, f), lever[3], turn[3], vertical[3];
     int pressed = normal > 0.0;
-    cross(n, m, lever);
+    ambulo__cross(n, m, lever);
     for (int i = 0; i < 3; i++)
       cop[3 * j + (size_t)i] = pressed ? (lever[i] + height * f[i]) / normal : (double)NAN;
-    if (pressed) cross(cop + 3 * j, f, turn);
+    if (pressed) ambulo__cross(cop + 3 * j, f, turn);
     for (int i = 0; i < 3; i++) vertical[i] = pressed ? m[i] - turn[i] : 0.0;
-    free_moment[j] = dot(n, vertical);
+    free_moment[j] = ambulo__dot(n, vertical);
   }
 }
 
@@ -156,7 +147,7 @@ static void row_residual(const ambulo__ground_load *load, int k, const double *w
 static void move_to(const double point[3], const double force[3], const double moment[3],
                     double moved[3]) {
   double turn[3];
-  cross(point, force, turn);
+  ambulo__cross(point, force, turn);
   for (int i = 0; i < 3; i++) moved[i] = moment[i] - turn[i];
 }
 
@@ -165,7 +156,7 @@ void ambulo__ground_load_residual(const ambulo__ground_load *load, const ambulo_
                                   const double *center, double *rows_residual,
                                   ambulo_ground_residual *residual) {
   const double *axes[3] = {model->forward, model->up, model->left}, *up = model->up;
-  double weight = -model->mass * dot(model->gravity, up);
+  double weight = -model->mass * ambulo__dot(model->gravity, up);
   double forces[3] = {0.0, 0.0, 0.0}, moments = 0.0;
   int supported = 0, loose = 0;
   ambulo_ground_residual r = {.vertical_impulse = 0.0};
@@ -176,16 +167,17 @@ void ambulo__ground_load_residual(const ambulo__ground_load *load, const ambulo_
     row_residual(load, k, w, force, moment, given);
     memcpy(row, force, sizeof force);
     move_to(center + 3 * (size_t)k, force, moment, row + 3);
-    for (int i = 0; i < 3; i++) forces[i] += dot(force, axes[i]) * dot(force, axes[i]);
+    for (int i = 0; i < 3; i++)
+      forces[i] += ambulo__dot(force, axes[i]) * ambulo__dot(force, axes[i]);
     if (isfinite(p[0])) {
       move_to(p, force, moment, there);
-      moments += dot(there, there) - dot(there, up) * dot(there, up);
+      moments += ambulo__dot(there, there) - ambulo__dot(there, up) * ambulo__dot(there, up);
       supported++;
     }
     double before = k > 0 ? times[k] - times[k - 1] : 0.0;
     double after = k + 1 < load->rows ? times[k + 1] - times[k] : 0.0;
-    r.vertical_impulse += 0.5 * (before + after) * dot(w + 3, up);
-    r.given_vertical_impulse += 0.5 * (before + after) * dot(given, up);
+    r.vertical_impulse += 0.5 * (before + after) * ambulo__dot(w + 3, up);
+    r.given_vertical_impulse += 0.5 * (before + after) * ambulo__dot(given, up);
   }
   for (int i = 0; i < 3; i++) r.force_rms[i] = sqrt(forces[i] / (double)load->rows) / weight;
   r.moment_rms = !loose && supported ? sqrt(moments / (double)supported) / weight : (double)NAN;

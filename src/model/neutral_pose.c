@@ -9,6 +9,7 @@
  * The joint of a link turns about, or slides along, the z axis of its parent frame.
  */
 #include "model/neutral_pose.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,10 +30,6 @@ static void to_parent(const ambulo_link *link, int is_point, double v[3]) {
 
 static void to_world(const ambulo_model *model, int link, int is_point, double v[3]) {
   for (int i = link; i >= 0; i = model->links[i].parent) to_parent(&model->links[i], is_point, v);
-}
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 void ambulo__neutral_points(ambulo_model *model) {
@@ -62,7 +59,7 @@ static int joint_moves_sideways(const ambulo_model *model, int link) {
   if (model->links[link].coordinate < 0) return 0;
   double axis[3];
   link_axis(model, link, axis);
-  double along = fabs(dot(axis, model->left));
+  double along = fabs(ambulo__dot(axis, model->left));
   if (model->links[link].type == AMBULO_PRISMATIC) return along > parallel_tolerance;
   return along < 1.0 - parallel_tolerance;
 }

@@ -11,6 +11,7 @@
  * centres that are loaded.
  */
 #include "nlp/nlp.h"
+#include "base/vector.h"
 
 #include "gait/contact_load.h"
 #include "gait/loading.h"
@@ -94,13 +95,6 @@ void ambulo__pressure_centers(const double *ground, int node, const double *zmp,
   }
 }
 
-static void add_cross(const double a[3], const double b[3], double out[3]) {
-  for (int i = 0; i < 3; i++) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    out[i] += a[j] * b[k] - a[k] * b[j];
-  }
-}
-
 /* adds what the contact of a slot does about the origin of its surface, the same for both of a foot
  */
 static void add_slot(const ambulo_problem *p, const ambulo__contact_load *load, int slot,
@@ -114,7 +108,7 @@ static void add_slot(const ambulo_problem *p, const ambulo__contact_load *load, 
     force[i] += own[i];
     moment[i] += channel[(size_t)m * AMBULO__LANES];
   }
-  add_cross(arm, own, moment);
+  ambulo__add_cross(arm, own, 1.0, moment);
 }
 
 /* (W.10) origin + n x M / (n.f), M.f / (n.f) */
@@ -125,7 +119,7 @@ static void pressure_of(const ambulo__contact_frame *frame, const double force[3
     normal += force[i] * frame->up[i];
     twist += force[i] * moment[i];
   }
-  add_cross(frame->up, moment, shift);
+  ambulo__add_cross(frame->up, moment, 1.0, shift);
   for (int i = 0; i < 3; i++)
     cop[i] = normal > 0.0 ? frame->origin[i] + shift[i] / normal : (double)NAN;
   *free_moment = normal > 0.0 ? twist / normal : 0.0;

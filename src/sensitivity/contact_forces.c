@@ -6,18 +6,12 @@
  *     W. = (m. + p x f. + p. x f, f.),    T. tau_i. = S_i . (load of i). - sum S_i . W.
  */
 #include "sensitivity/contact_split.h"
+#include "base/vector.h"
 #include "sensitivity/node_forces.h"
 
 #include "gait/contact_load.h"
 
 #include <string.h>
-
-static void add_cross(const double a[3], const double b[3], double out[3]) {
-  for (int i = 0; i < 3; i++) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    out[i] += a[j] * b[k] - a[k] * b[j];
-  }
-}
 
 /* what the kernels are told of the node, and what follows from the motion */
 static ambulo__contact_state state_at(const ambulo__node_forces *f) {
@@ -68,8 +62,8 @@ double ambulo__contact_forces_pull(const ambulo__node_forces *f) {
     double wrench[6];
     memcpy(wrench, tangent[slot] + 3, 3 * sizeof *wrench);
     memcpy(wrench + 3, tangent[slot], 3 * sizeof *wrench);
-    add_cross(state.place[slot], tangent[slot], wrench);
-    add_cross(change.place[slot], share[slot], wrench);
+    ambulo__add_cross(state.place[slot], tangent[slot], 1.0, wrench);
+    ambulo__add_cross(change.place[slot], share[slot], 1.0, wrench);
     sum += pull_of_torques(f, slots.link[slot], wrench);
     for (int i = 0; i < 6; i++)
       sum += ambulo__stationary_adjoint(f->s, f->node, ambulo__channel_foot_force(c, slot, i)) *

@@ -13,20 +13,10 @@
  * since the sums stay those of the root wrench.
  */
 #include "sensitivity/contact_split.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <string.h>
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void add_cross(const double a[3], const double b[3], double factor, double out[3]) {
-  for (int i = 0; i < 3; i++) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    out[i] += factor * (a[j] * b[k] - a[k] * b[j]);
-  }
-}
 
 static void add(const double a[3], double factor, double out[3]) {
   for (int i = 0; i < 3; i++) out[i] += factor * a[i];
@@ -49,7 +39,7 @@ typedef struct split {
 static void add_push(const split *s, const contact *c, const double v[3], double factor,
                      double out[3]) {
   add(v, factor * c->weight, out);
-  add(c->line, factor * c->weight * s->preference * dot(c->line, v), out);
+  add(c->line, factor * c->weight * s->preference * ambulo__dot(c->line, v), out);
 }
 
 /* Returns 0 in flight. */
@@ -67,7 +57,7 @@ static int place(split *s, const ambulo__contact_state *state) {
       c->arm[i] = state->place[k][i] - s->middle[i];
       c->line[i] = state->center[i] - state->place[k][i];
     }
-    c->distance = sqrt(dot(c->line, c->line));
+    c->distance = sqrt(ambulo__dot(c->line, c->line));
     for (int i = 0; i < 3; i++) c->line[i] /= c->distance;
   }
   return 1;
@@ -82,10 +72,10 @@ static void couple(split *s) {
     for (int k = 0; k < s->count; k++) {
       const contact *c = &s->contacts[k];
       double u[3] = {y[3], y[4], y[5]}, f[3] = {0}, m[3] = {0};
-      add_cross(y, c->arm, 1, u);
+      ambulo__add_cross(y, c->arm, 1, u);
       add_push(s, c, u, 1, f);
       add(y, c->weight * s->spin, m);
-      add_cross(c->arm, f, 1, m);
+      ambulo__add_cross(c->arm, f, 1, m);
       for (int i = 0; i < 3; i++) {
         s->factor[i][column] += m[i];
         s->factor[3 + i][column] += f[i];
@@ -118,7 +108,7 @@ static void solve(const split *s, double t[6]) {
 static void add_share(const split *s, const contact *c, const double y[6], double *u,
                       double share[6]) {
   double moved[3] = {y[3], y[4], y[5]};
-  add_cross(y, c->arm, 1, moved);
+  ambulo__add_cross(y, c->arm, 1, moved);
   add_push(s, c, moved, 1, share);
   add(y, c->weight * s->spin, share + 3);
   if (u) memcpy(u, moved, sizeof moved);
@@ -129,17 +119,17 @@ static void own_change(const split *s, int k, const double y[6], const ambulo__c
                        const ambulo__contact_state *change, double scale, double out[6]) {
   const contact *c = &s->contacts[k];
   double weight = change->weight[k] * scale, turn[3], swept[3] = {0};
-  double along = dot(c->line, c->moved), cube = state->slant * state->slant * state->slant;
+  double along = ambulo__dot(c->line, c->moved), cube = state->slant * state->slant * state->slant;
   for (int i = 0; i < 3; i++) turn[i] = change->center[i] - change->place[k][i];
-  add(c->line, -dot(c->line, turn), turn);
+  add(c->line, -ambulo__dot(c->line, turn), turn);
   for (int i = 0; i < 3; i++) turn[i] /= c->distance;
   memset(out, 0, 6 * sizeof *out);
   add(c->moved, weight, out);
   add(c->line, weight * s->preference * along, out);
   add(c->line, -2 * change->slant / cube * c->weight * along, out);
   add(turn, c->weight * s->preference * along, out);
-  add(c->line, c->weight * s->preference * dot(turn, c->moved), out);
-  add_cross(y, change->place[k], 1, swept);
+  add(c->line, c->weight * s->preference * ambulo__dot(turn, c->moved), out);
+  ambulo__add_cross(y, change->place[k], 1, swept);
   add_push(s, c, swept, 1, out);
   add(y, weight * s->spin + 2 * c->weight * state->moment_arm * change->moment_arm, out + 3);
 }
@@ -160,18 +150,18 @@ void ambulo__contact_split_tangent(int count, const ambulo__contact_state *state
   couple(&s);
   factor(&s);
   memcpy(y, state->wrench, sizeof y);
-  add_cross(s.middle, state->wrench + 3, -1, y);
+  ambulo__add_cross(s.middle, state->wrench + 3, -1, y);
   solve(&s, y);
   memcpy(by_p, change->wrench, sizeof by_p);
-  add_cross(s.middle, change->wrench + 3, -1, by_p);
+  ambulo__add_cross(s.middle, change->wrench + 3, -1, by_p);
   for (int k = 0; k < count; k++) {
     contact *c = &s.contacts[k];
     double *own = tangent[k];
     add_share(&s, c, y, c->moved, share[k]);
     own_change(&s, k, y, state, change, 1 / scale, own);
     add(own + 3, -1, by_p);
-    add_cross(c->arm, own, -1, by_p);
-    add_cross(change->place[k], share[k], -1, by_p);
+    ambulo__add_cross(c->arm, own, -1, by_p);
+    ambulo__add_cross(change->place[k], share[k], -1, by_p);
     add(own, -1, by_p + 3);
   }
   solve(&s, by_p);

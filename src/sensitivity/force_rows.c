@@ -17,6 +17,7 @@
  * ln m = -(c - constant).
  */
 #include "sensitivity/partials.h"
+#include "base/vector.h"
 
 #include "gait/gait.h"
 #include "gait/loading.h"
@@ -30,10 +31,6 @@ typedef struct force_row {
   const ambulo__table_row *row;
   double pull, weight; /* -lambda; m g, N */
 } force_row;
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* the side that a row of zmp.c stands for: its coefficients of the moment are (b f - a l) / W */
 static ambulo__support_row side_of(const force_row *p) {
@@ -54,7 +51,7 @@ static ambulo__support_row side_of(const force_row *p) {
   ambulo__support_row side = {
       .node = node,
       .before = p->row->before,
-      .normal = {-dot(coefficient, model->left), dot(coefficient, model->forward)},
+      .normal = {-ambulo__dot(coefficient, model->left), ambulo__dot(coefficient, model->forward)},
       .force = along[2]};
   side.moment[0] =
       h * along[0] - ambulo__stationary_along(p->s, node, moment, model->left) / p->weight;

@@ -12,19 +12,9 @@
  *     tau_i. = S_i . (load of i). - sum over its feet of S_i . W_f.
  */
 #include "sensitivity/node_forces.h"
+#include "base/vector.h"
 
 #include <string.h>
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void add_cross(const double a[3], const double b[3], double factor, double out[3]) {
-  for (int i = 0; i < 3; i++) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    out[i] += factor * (a[j] * b[k] - a[k] * b[j]);
-  }
-}
 
 static void add(const double a[3], double factor, double out[3]) {
   for (int i = 0; i < 3; i++) out[i] += factor * a[i];
@@ -49,13 +39,13 @@ static ground ground_at(const ambulo__node_forces *f) {
         ambulo__stationary_channel(f->s, f->node, ambulo__channel_moment(&p->channels, i));
   int center = ambulo__channel_center(&p->channels, 0);
   g.height = ambulo__stationary_along(f->s, f->node, center, up) - h;
-  g.normal = dot(up, g.wrench + 3);
+  g.normal = ambulo__dot(up, g.wrench + 3);
   g.gain = g.kappa * g.product / g.height;
-  add_cross(up, g.wrench, 1.0, g.lever);
+  ambulo__add_cross(up, g.wrench, 1.0, g.lever);
   add(g.wrench + 3, h, g.lever);
   add(g.wrench + 3, g.product, g.passing);
   add(g.lever, g.gain, g.passing);
-  g.twist = dot(g.wrench, g.wrench + 3) / g.normal;
+  g.twist = ambulo__dot(g.wrench, g.wrench + 3) / g.normal;
   return g;
 }
 
@@ -63,11 +53,11 @@ static ground ground_at(const ambulo__node_forces *f) {
 static void passed_tangent(const ambulo__node_forces *f, const ground *g, double out[6]) {
   const ambulo_problem *p = f->s->problem;
   const double *up = p->model->up, *force = f->wrench + 3;
-  double rise = dot(up, f->center) - f->height;
+  double rise = ambulo__dot(up, f->center) - f->height;
   double product = f->share * (g->share[1] - g->share[0]);
   double gain = (f->shear * g->product + g->kappa * product - g->gain * rise) / g->height;
-  double lever[3] = {0}, passing[3] = {0}, normal = dot(up, force);
-  add_cross(up, f->wrench, 1.0, lever);
+  double lever[3] = {0}, passing[3] = {0}, normal = ambulo__dot(up, force);
+  ambulo__add_cross(up, f->wrench, 1.0, lever);
   add(force, p->definition.ground_height, lever);
   add(g->wrench + 3, f->height, lever);
   add(force, g->product, passing);
@@ -75,8 +65,8 @@ static void passed_tangent(const ambulo__node_forces *f, const ground *g, double
   add(g->lever, gain, passing);
   add(lever, g->gain, passing);
   memset(out, 0, 6 * sizeof *out);
-  add_cross(f->apart, g->passing, 1.0, out);
-  add_cross(g->apart, passing, 1.0, out);
+  ambulo__add_cross(f->apart, g->passing, 1.0, out);
+  ambulo__add_cross(g->apart, passing, 1.0, out);
   add(g->apart, -(gain * g->normal + g->gain * normal), out + 3);
   add(f->apart, -g->gain * g->normal, out + 3);
 }
@@ -89,8 +79,8 @@ double ambulo__ground_split_pull(const ambulo__node_forces *f) {
   const ground g = ground_at(f);
   double passed[6], sum = 0.0;
   passed_tangent(f, &g, passed);
-  double twist = (dot(f->wrench, g.wrench + 3) + dot(g.wrench, f->wrench + 3) -
-                  g.twist * dot(p->model->up, f->wrench + 3)) /
+  double twist = (ambulo__dot(f->wrench, g.wrench + 3) + ambulo__dot(g.wrench, f->wrench + 3) -
+                  g.twist * ambulo__dot(p->model->up, f->wrench + 3)) /
                  g.normal;
   for (int foot = 0; foot < 2; foot++) {
     double wrench[6], share = foot ? -f->share : f->share;

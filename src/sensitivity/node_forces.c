@@ -10,15 +10,9 @@
  * A wrench (M, F) on what the joint carries asks S_i . (M, F) of it: z . (M - o x F), or z . F.
  */
 #include "sensitivity/node_forces.h"
+#include "base/vector.h"
 
 #include <string.h>
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-  for (int i = 0; i < 3; i++) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    out[i] = a[j] * b[k] - a[k] * b[j];
-  }
-}
 
 ambulo_status ambulo__node_forces_create(const ambulo__stationary *s, ambulo__pool *pool,
                                          ambulo__node_forces *f) {
@@ -52,9 +46,9 @@ static void place_joint(ambulo__node_forces *f, const ambulo_link *link) {
 /* adds alpha x r + omega x (omega x r) of a link's turning */
 static void add_turning(const ambulo__node_forces *f, int link, const double r[3], double out[3]) {
   double tangential[3], velocity[3], inward[3];
-  cross(f->alpha + 3 * link, r, tangential);
-  cross(f->omega + 3 * link, r, velocity);
-  cross(f->omega + 3 * link, velocity, inward);
+  ambulo__cross(f->alpha + 3 * link, r, tangential);
+  ambulo__cross(f->omega + 3 * link, r, velocity);
+  ambulo__cross(f->omega + 3 * link, velocity, inward);
   for (int i = 0; i < 3; i++) out[i] += tangential[i] + inward[i];
 }
 
@@ -74,7 +68,7 @@ static void move_link(ambulo__node_forces *f, int index) {
     r[k] = frame[4 * k + 3] - (p >= 0 ? f->pose.frames[12 * p + 4 * k + 3] : 0.0);
     if (i >= 0) spin[k] = f->axis[3 * i + k] * f->qd[i];
   }
-  cross(parent[0], spin, turned);
+  ambulo__cross(parent[0], spin, turned);
   for (int k = 0; k < 3; k++) {
     double drive = i >= 0 ? f->axis[3 * i + k] * f->qdd[i] : 0.0;
     int turns = link->type == AMBULO_REVOLUTE;
@@ -122,7 +116,7 @@ void ambulo__node_forces_clear(ambulo__node_forces *f) {
 double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const double wrench[6]) {
   const double *z = f->axis + 3 * i;
   double about[3], sum = 0.0;
-  cross(f->origin + 3 * i, wrench + 3, about);
+  ambulo__cross(f->origin + 3 * i, wrench + 3, about);
   int turns = f->s->problem->model->coordinates[i].type == AMBULO_REVOLUTE;
   for (int k = 0; k < 3; k++) sum += z[k] * (turns ? wrench[k] - about[k] : wrench[3 + k]);
   return sum;
@@ -132,7 +126,7 @@ double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const doub
 void ambulo__node_forces_add(ambulo__node_forces *f, int link, const double place[3],
                              const double force[3]) {
   double wrench[6];
-  cross(place, force, wrench);
+  ambulo__cross(place, force, wrench);
   memcpy(wrench + 3, force, 3 * sizeof *force);
   for (int k = 0; k < 6; k++) f->wrench[k] += wrench[k];
   for (; link >= 0; link = f->s->problem->model->links[link].parent) {

@@ -18,6 +18,7 @@
  * and a = part(s), half of it of the heel, has times: dc/ds = -H part'(s), s along the swing.
  */
 #include "sensitivity/partials.h"
+#include "base/vector.h"
 
 #include "gait/gait.h"
 #include "gait/loading.h"
@@ -32,10 +33,6 @@ typedef struct place_row {
   double total[3]; /* C */
   double first[3]; /* of the first point alone */
 } place_row;
-
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 static int has_point(const ambulo_foot *f, int point) {
   for (int side = 0; side < 2; side++)
@@ -78,8 +75,8 @@ static int read_row(place_row *p) {
 static void add_place(const place_row *p, int contact, ambulo__partials *partials) {
   const ambulo_model *model = p->s->problem->model;
   if (contact < 0) return;
-  partials->place[2 * contact] -= p->pull * dot(p->total, model->forward);
-  partials->place[2 * contact + 1] -= p->pull * dot(p->total, model->left);
+  partials->place[2 * contact] -= p->pull * ambulo__dot(p->total, model->forward);
+  partials->place[2 * contact + 1] -= p->pull * ambulo__dot(p->total, model->left);
 }
 
 static void add_pitch(const place_row *p, const ambulo_contact *contact,
@@ -90,7 +87,7 @@ static void add_pitch(const place_row *p, const ambulo_contact *contact,
   int strikes = contact->mode == AMBULO_CONTACT_HEEL && d->strike_pitch[0] < d->strike_pitch[1] &&
                 ambulo__is_strike(d, contact->foot, problem->times, problem->nodes, p->row->node);
   if (!strikes) return;
-  int is_upper = dot(p->first, problem->model->up) < 0.0;
+  int is_upper = ambulo__dot(p->first, problem->model->up) < 0.0;
   double slope = cos(d->strike_pitch[is_upper]);
   partials->strike_pitch[is_upper] += p->pull * (is_upper ? slope : -slope);
 }
@@ -103,7 +100,8 @@ static void add_contact(const place_row *p, const ambulo_contact *contact,
     return;
   }
   int from_heel_to_toe = p->point == model->feet[p->foot].toe_center;
-  if (from_heel_to_toe && fabs(dot(p->first, model->up)) > fabs(dot(p->first, model->left))) {
+  if (from_heel_to_toe &&
+      fabs(ambulo__dot(p->first, model->up)) > fabs(ambulo__dot(p->first, model->left))) {
     add_pitch(p, contact, partials);
   } else {
     partials->orientation_tolerance += p->pull * (contact->mode == AMBULO_CONTACT_TOE ? 2.0 : 1.0);
@@ -128,7 +126,8 @@ static void add_swing(const place_row *p, ambulo__partials *partials) {
 static void add_clearance(const place_row *p, ambulo__partials *partials) {
   const ambulo_problem *problem = p->s->problem;
   const ambulo_problem_definition *d = &problem->definition;
-  double up = dot(p->total, problem->model->up), left = dot(p->total, problem->model->left);
+  double up = ambulo__dot(p->total, problem->model->up),
+         left = ambulo__dot(p->total, problem->model->left);
   ambulo_clearance *c = &partials->clearance;
   if (p->row->measure != AMBULO__METRES) {
     c->turn += p->pull;
@@ -156,7 +155,7 @@ void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *p
     int holds = kind == AMBULO__KIND_GROUND_PENETRATION || kind == AMBULO__KIND_FOOT_STRIKE ||
                 kind == AMBULO__KIND_CONTACT || kind == AMBULO__KIND_CLEARANCE;
     if (!holds || p.pull == 0.0 || !read_row(&p)) continue;
-    partials->ground_height -= p.pull * dot(p.total, problem->model->up);
+    partials->ground_height -= p.pull * ambulo__dot(p.total, problem->model->up);
     int active = ambulo__stationary_contacts(s, p.row->node, p.row->before)[p.foot];
     if (kind == AMBULO__KIND_CLEARANCE) {
       add_clearance(&p, partials);
