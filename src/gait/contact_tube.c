@@ -22,6 +22,7 @@
 #include "gait/loading.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double most_toes_up = 0.5, most_heel_up = 0.95; /* sines */
 
@@ -135,21 +136,36 @@ static void arc_rows(const tube *t, const ambulo_contact *contact,
   }
 }
 
-/* the point that contact i holds; not again what the other one holds at the same place: of a flat
- * foot the arcs are where they are due */
+/* 1 if contact i holds an arc, on which the foot rolls */
+static int rolls(const tube *t, int i) {
+  return t->outline->has_arcs && t->contact[i]->mode != AMBULO_CONTACT_FLAT;
+}
+
+/* 1 if the other contact of the node says what contact i says: the same point at the same place;
+ * and of a foot that is flat the arcs are where they are due */
+static int is_said(const tube *t, int i) {
+  const ambulo_problem_definition *d = t->context->definition;
+  double place[3], other[3];
+  if (t->contacts == 1) return 0;
+  if (rolls(t, i) || rolls(t, 1 - i))
+    return rolls(t, i) && t->contact[1 - i]->mode == AMBULO_CONTACT_FLAT;
+  return i > 0 &&
+         ambulo__contact_point(d, t->outline, t->contact[i], place) ==
+             ambulo__contact_point(d, t->outline, t->contact[0], other) &&
+         memcmp(place, other, sizeof place) == 0;
+}
+
+/* the point or the arc that contact i holds */
 static void place_rows(const tube *t, int i) {
   const ambulo_problem_definition *d = t->context->definition;
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, t->contact[i]);
-  double place[3], before[3];
-  if (t->outline->has_arcs && t->contact[i]->mode != AMBULO_CONTACT_FLAT) {
-    if (t->contacts == 1 || t->contact[1 - i]->mode != AMBULO_CONTACT_FLAT)
-      arc_rows(t, t->contact[i], &frame);
+  double place[3];
+  if (is_said(t, i)) return;
+  if (rolls(t, i)) {
+    arc_rows(t, t->contact[i], &frame);
     return;
   }
   int point = ambulo__contact_point(d, t->outline, t->contact[i], place);
-  if (i > 0 && ambulo__contact_point(d, t->outline, t->contact[0], before) == point &&
-      before[0] == place[0] && before[1] == place[1] && before[2] == place[2])
-    return;
   place_bounds(t, point, frame.forward, place, "behind", "ahead");
   place_bounds(t, point, frame.up, place, "below", "above");
   if (t->outline->moves_sideways)

@@ -109,6 +109,35 @@ static void events_hold_what_ends_and_what_begins(void **state) {
   row_fixture_close(&f);
 }
 
+/* of feet with arcs, here at the heel's and the toes' centres: on its heel and on its toes a foot
+ * is held by them, flat by its heel alone, also where it was on its heel just before */
+static void arcs_hold_feet_that_roll(void **state) {
+  (void)state;
+  static const double radius = 0.03;
+  row_fixture f;
+  prepare(&f, 0);
+  ambulo_foot *foot = &f.model->feet[WALKER_LEFT];
+  foot->has_arcs = 1;
+  foot->arc[0] = ambulo_model_find_point(f.model, "l_heel_in");
+  foot->arc[1] = ambulo_model_find_point(f.model, "l_toe_out");
+  double neutral = f.model->neutral[3 * foot->arc[1] + 1];
+  f.model->neutral[3 * foot->arc[1] + 1] += radius; /* its centre is that far above the sole */
+  row_event(&f, 1, WALKER_LEFT, 0);
+  ambulo__contact_tube_rows(&f.context, &f.table);
+  expect(&f, "l_heel_in", "ahead", 0.0, 0.002 + 0.05 + 0.6);
+  expect(&f, "l_heel_in", "behind", 0.0, -0.05 - 0.6 + 0.002);
+  assert_int_equal(row_count(&f, "contact", "l_heel", "ahead", 0.0), 0);
+  assert_int_equal(row_count(&f, "contact", "l_heel_in", "ahead", 0.25), 0);
+  expect(&f, "l_heel", "ahead", 0.25, 0.002 + 0.05 + 0.6);
+  expect(&f, "l_toe_out", "above", 0.5, 0.002 + 0.001 + radius);
+  /* the heel rises by a sine of 0.3: the centre is due ahead of where the flat foot has it */
+  *row_channel(&f, 2, ambulo__channel_point(&f.context.channels, foot->heel_center, 1)) += 0.066;
+  expect(&f, "l_toe_out", "ahead", 0.5, 0.002 - 0.17 + 0.6 + 0.22 - radius * asin(-0.3));
+  expect(&f, "l_toe_out", "behind", 0.5, 0.002 + 0.17 - 0.6 - 0.22 + radius * asin(-0.3));
+  f.model->neutral[3 * foot->arc[1] + 1] = neutral;
+  row_fixture_close(&f);
+}
+
 /* the pitch of a strike is asked at the first node of a contact, however far the next is */
 static void a_strike_is_the_first_node_of_any_grid(void **state) {
   (void)state;
@@ -158,6 +187,7 @@ int main(void) {
       cmocka_unit_test(directions_within_the_tolerance),
       cmocka_unit_test(planar_feet_have_four_places_and_a_pitch),
       cmocka_unit_test(events_hold_what_ends_and_what_begins),
+      cmocka_unit_test(arcs_hold_feet_that_roll),
       cmocka_unit_test(a_strike_is_the_first_node_of_any_grid),
       cmocka_unit_test(the_last_node_of_a_repeating_motion_has_none)};
   return cmocka_run_group_tests(tests, NULL, NULL);

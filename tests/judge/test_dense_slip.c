@@ -93,6 +93,27 @@ static void only_loaded_points_and_only_along_the_ground(void **state) {
   dense_close(&f);
 }
 
+/* on its heel and on its toes a foot with arcs rolls: its corners move, and do not slip */
+static void corners_that_roll_do_not_slip(void **state) {
+  (void)state;
+  for (int arcs = 0; arcs < 2; arcs++) {
+    dense_fixture f;
+    dense_open(&f, 20);
+    for (int i = 0; i < 2; i++) {
+      ambulo_foot *foot = &f.model->feet[i];
+      foot->has_arcs = arcs;
+      foot->arc[0] = foot->heel_center;
+      foot->arc[1] = foot->toe_center;
+    }
+    dense_move(&f, 0, 0.0, 0.0, 3.0);
+    dense_look(&f, 10);
+    assert_int_equal(largest_of(&f, "right_heel", -1.0, foot_flat - 1e-6).count == 0, arcs);
+    assert_int_equal(largest_of(&f, "left_toe", -1.0, toe_off).count == 0, arcs);
+    assert_true(largest_of(&f, "right_heel", foot_flat + 0.06, heel_off - 0.03).count > 0);
+    dense_close(&f);
+  }
+}
+
 /* four intervals: the left toe has one node at 0, is down until 0.132 s, before the next one */
 static void a_coarse_grid_still_has_a_place_to_start_from(void **state) {
   (void)state;
@@ -157,6 +178,7 @@ int main(void) {
       cmocka_unit_test(on_events_no_interval_is_free),
       cmocka_unit_test(between_two_nodes_it_is_the_distance_from_the_line),
       cmocka_unit_test(only_loaded_points_and_only_along_the_ground),
+      cmocka_unit_test(corners_that_roll_do_not_slip),
       cmocka_unit_test(a_coarse_grid_still_has_a_place_to_start_from),
       cmocka_unit_test(another_foothold_does_not_hold),
       cmocka_unit_test(a_landing_without_a_node_counts_from_where_it_came_down),

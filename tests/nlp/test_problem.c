@@ -155,6 +155,32 @@ static void the_hash_sees_every_change(void **state) {
   ambulo_model_free(model);
 }
 
+/* where an arc has to be is in no other row: of two footholds one behind the other too */
+static void the_hash_sees_where_arcs_roll(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create();
+  unsigned long long hashes[3];
+  for (int i = 0; i < 2; i++) {
+    model->feet[i].has_arcs = 1;
+    model->feet[i].arc[0] = model->feet[i].heel_center;
+    model->feet[i].arc[1] = model->feet[i].toe_center;
+  }
+  for (int i = 0; i < 3; i++) {
+    ambulo_problem_definition d = ambulo_problem_definition_default();
+    ambulo_contact contact = {0, AMBULO_CONTACT_TOE, 0.0, 1.0, .place = {i == 2 ? 0.1 : 0.0, 0.0}};
+    ambulo_problem *problem = NULL;
+    d.model = model;
+    d.contacts = &contact;
+    d.contact_count = 1;
+    d.contact_tolerance = 0.002;
+    assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &problem), AMBULO_OK);
+    hashes[i] = ambulo_problem_hash(problem);
+    ambulo_problem_free(problem);
+  }
+  assert_true(hashes[0] == hashes[1] && hashes[0] != hashes[2]);
+  ambulo_model_free(model);
+}
+
 /* a mirrored step of the planar walker whose left knee is stiffer than its right one */
 static void limits_are_those_of_both_halves(void **state) {
   (void)state;
@@ -215,6 +241,7 @@ int main(void) {
       cmocka_unit_test(the_problem_owns_its_arrays),
       cmocka_unit_test(every_allocation_may_fail),
       cmocka_unit_test(the_hash_sees_every_change),
+      cmocka_unit_test(the_hash_sees_where_arcs_roll),
       cmocka_unit_test(limits_are_those_of_both_halves),
       cmocka_unit_test(a_mirrored_problem_survives_failed_allocations),
   };
