@@ -71,9 +71,33 @@ static void planar_feet_have_two_corners(void **state) {
   row_fixture_close(&f);
 }
 
+/* a foot that comes down from 0.3 m to 0.1 m stays above its own step, then above the lower one */
+static void feet_in_the_air_stay_above_the_lower_step(void **state) {
+  (void)state;
+  static const ambulo_contact contacts[] = {
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.2, .place = {0, 0, 0.3}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.7, 1.0, .place = {0.3, 0, 0.1}}};
+  static const double height[ROW_NODES] = {0.3, 0.1, 0.1, 0.1, 0.1};
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  f.definition.contacts = contacts;
+  f.definition.contact_count = 2;
+  f.active[WALKER_LEFT] = 0;
+  f.active[2 * 3 + WALKER_LEFT] = f.active[2 * 4 + WALKER_LEFT] = 1;
+  ambulo__ground_rows(&f.context, &f.table);
+  for (int k = 0; k < ROW_NODES; k++) {
+    int left = row_find(&f, "ground_penetration", "l_toe_in", "height", f.times[k]);
+    int right = row_find(&f, "ground_penetration", "r_toe_in", "height", f.times[k]);
+    assert_close(row_value(&f, left), -height[k], 1e-15); /* the sole is at 0 */
+    assert_close(row_value(&f, right), 0.0, 1e-15);
+  }
+  row_fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(heights_by_mode),
                                      cmocka_unit_test(corners_at_events),
+                                     cmocka_unit_test(feet_in_the_air_stay_above_the_lower_step),
                                      cmocka_unit_test(planar_feet_have_two_corners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
