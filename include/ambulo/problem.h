@@ -38,9 +38,11 @@ typedef enum ambulo_discretization {
 } ambulo_discretization;
 
 /* Where nodes or knots are. An event is a time at which a contact begins or ends; for nodes also
- * the time in a swing from which the foot's tip has to clear the ground (ambulo_clearance). The
- * phases between neighbouring events share the intervals in proportion to their durations (largest
- * remainder; at least two for nodes, one for knots) and space them equally.
+ * the times in a swing from which the foot's tip has to clear the ground (ambulo_clearance) and
+ * between which it passes the edges of steps. The phases between neighbouring events share the
+ * intervals in proportion to their durations (largest remainder; at least two for nodes, one for
+ * knots) and space them equally; where contacts share the load (AMBULO_REACTION_SHARED) nodes stand
+ * closer beside the events, down to a fifth of the mean distance.
  * A node on an event belongs to both phases: rows of what ends there and of what begins there hold,
  * each in the sense of its limit. */
 typedef enum ambulo_grid {
@@ -65,7 +67,7 @@ typedef struct ambulo_contact {
   /* Where it is, along forward, left and up (zeros beyond the first two: level ground, straight
    * ahead). */
   double place[3];  /* foothold of the heel centre: m; the third above the ground's height */
-  double normal[3]; /* of the surface, of any length; all zero: up */
+  double normal[3]; /* of the surface, of any length, within 60 degrees of up; all zero: up */
   double heading;   /* of the foot about up, turned to the left, rad */
 } ambulo_contact;
 

@@ -42,6 +42,30 @@ static void callbacks_are_not_asked_off_their_nodes(void **state) {
   ambulo_problem_free(p);
 }
 
+/* every row of the finer grid, those of arcs that roll too, is what an evaluation there says */
+static void rows_are_those_of_an_evaluation(void **state) {
+  (void)state;
+  ambulo_problem *p = load_problem("walk_normal");
+  ambulo_workspace *workspace = NULL;
+  ambulo__dense dense;
+  int arcs = 0;
+  double *x = calloc((size_t)p->variables, sizeof *x);
+  for (int j = 0; j < p->variables; j++) x[j] = 0.1 * sin(7.0 * j);
+  assert_int_equal(ambulo__dense_open(p, x, 2, 0.0, NULL, NULL, &dense), AMBULO_OK);
+  assert_int_equal(ambulo_workspace_create(dense.fine, NULL, &workspace), AMBULO_OK);
+  assert_int_equal(ambulo__evaluate(workspace, x), AMBULO_OK);
+  for (int r = 0; r < dense.fine->rows; r++) {
+    const ambulo__table_row *row = &dense.fine->table.rows[r];
+    arcs += ambulo__row_arc_of(&dense.fine->table, row) != NULL;
+    if (row->node >= 0) assert_close(dense.row_value[r], workspace->row_value[r], 1e-12);
+  }
+  assert_true(arcs > 50);
+  ambulo_workspace_free(workspace);
+  ambulo__dense_close(&dense);
+  free(x);
+  ambulo_problem_free(p);
+}
+
 /* every interval of a grid on events is divided, so that its nodes stay nodes; the trajectory keeps
  * its knots although they sat on events that have moved */
 static void grids_on_events_are_divided(void **state) {
@@ -101,6 +125,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_grid_is_as_fine_as_a_problem_may_be),
       cmocka_unit_test(callbacks_are_not_asked_off_their_nodes),
+      cmocka_unit_test(rows_are_those_of_an_evaluation),
       cmocka_unit_test(grids_on_events_are_divided),
       cmocka_unit_test(contacts_move_but_for_the_ends),
   };
