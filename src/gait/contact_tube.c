@@ -22,7 +22,6 @@
 #include "gait/loading.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double most_toes_up = 0.5, most_heel_up = 0.95; /* sines */
 
@@ -152,7 +151,7 @@ static int is_said(const tube *t, int i) {
   return i > 0 &&
          ambulo__contact_point(d, t->outline, t->contact[i], place) ==
              ambulo__contact_point(d, t->outline, t->contact[0], other) &&
-         memcmp(place, other, sizeof place) == 0;
+         place[0] == other[0] && place[1] == other[1] && place[2] == other[2];
 }
 
 /* the point or the arc that contact i holds */
