@@ -18,10 +18,28 @@
 
 static const double pi = 3.14159265358979323846;
 
+static int has_rates(const ambulo_problem *p) {
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    if (ambulo__term_is_rate(term->kind) && term->weight > 0.0) return 1;
+  }
+  return 0;
+}
+
+/* unknowns from the node's first to the last that its residuals depend on */
+static int reach_of(const ambulo_problem *p, int node, int rates) {
+  int width = ambulo__node_width(p, node);
+  if (!rates || node + 1 == p->nodes) return width;
+  int ahead = ambulo__node_first(p, node + 1) - ambulo__node_first(p, node);
+  int reach = ahead + ambulo__node_width(p, node + 1);
+  return reach > width ? reach : width;
+}
+
 int ambulo__metric_diagonals(const ambulo_problem *p) {
-  int widest = 1;
+  int widest = 1, rates = has_rates(p);
   for (int k = 0; k < p->nodes; k++) {
-    if (ambulo__node_width(p, k) > widest) widest = ambulo__node_width(p, k);
+    int reach = reach_of(p, k, rates);
+    if (reach > widest) widest = reach;
   }
   return widest - 1;
 }
@@ -57,6 +75,7 @@ ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
   if (forms < p->coordinates) forms = p->coordinates; /* accelerations */
   metric->problem = p;
   metric->channels = metric->composites = metric->users = 0;
+  metric->rates = has_rates(p);
   metric->channel = ambulo__pool_ints(pool, (size_t)candidates);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int c = 0; c < candidates; c++) {
@@ -68,7 +87,7 @@ ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
   }
   size_t widest = (size_t)ambulo__metric_diagonals(p) + 1;
   int all = ambulo__channel_count(&p->channels);
-  metric->row_capacity = metric->channels + forms * (2 * metric->composites + 1);
+  metric->row_capacity = metric->channels + forms * (metric->composites + 1);
   if (metric->users > 0) {
     metric->row_capacity += p->coordinates + all + metric->users;
     metric->probe = ambulo__pool_doubles(pool, (size_t)(6 * all));
@@ -103,44 +122,29 @@ static double *row_at(const ambulo__metric *metric, int row, int width) {
   return g;
 }
 
-/* adds the part of a form that stands on `node`, times factor, to a row; returns whether
- * it has one, and whether it has others */
-static int form_row(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
-                    int ahead, const ambulo__form *form, double *row, int *shared) {
-  int width = ambulo__node_width(metric->problem, node), parts = 0;
-  memset(row, 0, (size_t)width * sizeof *row);
-  *shared = 0;
-  for (int c = 0; c < form->count; c++) {
-    if (form->ahead[c] != ahead) {
-      *shared = 1;
-      continue;
-    }
-    ambulo__channel_local_gradient(workspace, node, form->channel[c], metric->one);
-    for (int j = 0; j < width; j++) row[j] += form->slope[c] * metric->one[j];
-    parts++;
-  }
-  return parts;
-}
-
-/* weighted gradients of one composite term's residuals; returns the rows used so far */
+/* Weighted gradients of one composite term's residuals in `width` unknowns; returns the rows used
+ * so far. One over two nodes is kept whole: split, as 2 a^2 + 2 b^2 >= (a + b)^2, the rate of a
+ * force between nodes that stand close would look as stiff as the force itself over the square of
+ * their distance, where what both have in common cancels (walk_normal: 1.5 times the evaluations).
+ */
 static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                          const ambulo_term *term, int node, double scale, int count) {
+                          const ambulo_term *term, int node, int width, double scale, int count) {
   const ambulo_problem *p = metric->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
-  int width = ambulo__node_width(p, node), last = ambulo__term_is_rate(term->kind);
-  for (int ahead = 0; ahead <= last && ahead <= node; ahead++) {
-    int base = node - ahead, forms = ambulo__term_forms(term, &context, base), shared;
-    double weight = scale * term->weight * ambulo__term_quadrature(p, term, base);
-    for (int j = 0; j < forms && count < metric->row_capacity; j++) {
-      double *row = row_at(metric, count, width);
-      ambulo__form form;
-      ambulo__term_form(term, &context, base, j, &form);
-      if (!form_row(metric, workspace, node, ahead, &form, row, &shared)) continue;
-      double curvature = weight * ambulo__term_residual(term, form.u).curvature;
-      /* 2 a^2 + 2 b^2 >= (a + b)^2 keeps a residual over two nodes local to each */
-      double root = sqrt(ambulo__worse(0.0, shared ? 2.0 * curvature : curvature));
-      for (int i = 0; i < width; i++) row[i] *= root;
-      count++;
+  int forms = ambulo__term_forms(term, &context, node);
+  double weight = scale * term->weight * ambulo__term_quadrature(p, term, node);
+  for (int j = 0; j < forms && count < metric->row_capacity; j++) {
+    double *row = row_at(metric, count++, width);
+    ambulo__form form;
+    ambulo__term_form(term, &context, node, j, &form);
+    double root = sqrt(ambulo__worse(0.0, weight * ambulo__term_residual(term, form.u).curvature));
+    memset(row, 0, (size_t)width * sizeof *row);
+    for (int c = 0; c < form.count; c++) {
+      int at = node + form.ahead[c];
+      double *place = row + ambulo__node_first(p, at) - ambulo__node_first(p, node);
+      ambulo__channel_local_gradient(workspace, at, form.channel[c], metric->one);
+      for (int i = 0; i < ambulo__node_width(p, at); i++)
+        place[i] += root * form.slope[c] * metric->one[i];
     }
   }
   return count;
@@ -189,11 +193,24 @@ static void add_light(const ambulo__metric *metric, const ambulo_workspace *work
                          metric->one + i);
 }
 
+/* rows of all composite terms with or without rates */
+static int all_composite_rows(const ambulo__metric *metric, const ambulo_workspace *workspace,
+                              int node, int rates, int width, double scale, int count) {
+  const ambulo_problem *p = metric->problem;
+  for (int t = 0; t < p->definition.term_count; t++) {
+    const ambulo_term *term = &p->definition.terms[t];
+    if (is_composite(term) && ambulo__term_is_rate(term->kind) == rates)
+      count = composite_rows(metric, workspace, term, node, width, scale, count);
+  }
+  return count;
+}
+
 /* returns how many forms have a curvature */
 static int add_node(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                     double scale, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
-  int width = ambulo__node_width(p, node), count = 0, light = 0;
+  int first = ambulo__node_first(p, node), width = ambulo__node_width(p, node);
+  int count = 0, light = 0, rates = 0;
   for (int c = 0; c < metric->channels; c++) {
     double curvature = scale * curvature_of(workspace, node, metric->channel[c]);
     if (curvature <= 0.0) continue; /* not NaN, which the factorization meets */
@@ -206,13 +223,15 @@ static int add_node(const ambulo__metric *metric, const ambulo_workspace *worksp
     ambulo__channel_local_gradient(workspace, node, metric->channel[c], row);
     for (int j = 0; j < width; j++) row[j] *= root;
   }
-  for (int t = 0; t < p->definition.term_count; t++) {
-    const ambulo_term *term = &p->definition.terms[t];
-    if (is_composite(term)) count = composite_rows(metric, workspace, term, node, scale, count);
-  }
+  count = all_composite_rows(metric, workspace, node, 0, width, scale, count);
   if (metric->users > 0) count = user_rows(metric, workspace, node, scale, count);
-  ambulo__band_add_rows(h, ambulo__node_first(p, node), width, count, metric->stride, metric->rows);
-  return count + light;
+  ambulo__band_add_rows(h, first, width, count, metric->stride, metric->rows);
+  if (metric->rates) {
+    int reach = reach_of(p, node, 1);
+    rates = all_composite_rows(metric, workspace, node, 1, reach, scale, 0);
+    ambulo__band_add_rows(h, first, reach, rates, metric->stride, metric->rows);
+  }
+  return count + light + rates;
 }
 
 static void add_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,

@@ -3,9 +3,9 @@
  *     H0 = scale * H_GN + mu I   (+ a small metric of accelerations where H_GN is empty)
  *
  * H_GN = sum_k sum_u curvature_uk g_uk g_uk', u the residuals of the objective's terms
- * (objective/term.h) and g their gradients with respect to the unknowns of node k. Residuals
- * that span two nodes (torque rate) are split by 2 a^2 + 2 b^2 >= (a + b)^2. Terms of the caller
- * have the curvature of nlp/user_term.h.
+ * (objective/term.h) and g their gradients with respect to the unknowns of node k, of a rate also
+ * of the next node: then the band is as wide as the two together. Terms of the caller have the
+ * curvature of nlp/user_term.h.
  */
 #ifndef AMBULO_METHOD_METRIC_H
 #define AMBULO_METHOD_METRIC_H
@@ -18,6 +18,7 @@ typedef struct ambulo__metric {
   int *channel;   /* [channels]: those with a weight in some simple term, ascending */
   int composites; /* terms whose residuals stand on several channels */
   int users;      /* terms of the caller */
+  int rates;      /* 1: some composite is a rate */
   double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
   double *rows;   /* [row_capacity][stride]: one node's weighted gradients */
   int row_capacity, stride;
@@ -27,7 +28,8 @@ typedef struct ambulo__metric {
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,
                                     ambulo__metric *metric);
 
-/* Largest number of unknowns of a node, less one: kd of every matrix of the problem. */
+/* Largest number of unknowns of a node, with rates of two neighbours, less one: kd of every matrix
+ * of the problem. */
 int ambulo__metric_diagonals(const ambulo_problem *problem);
 
 /* H0 at the point held (ambulo__evaluate_jacobian), without mu. */

@@ -41,20 +41,6 @@ static inline void look_at(ambulo_workspace *w, const double *x, look *l) {
   }
 }
 
-/* the torque rate's bound 2 a^2 + 2 b^2 of (a + b)^2, a and b the rates of both torques */
-static inline double torque_rate_form(const ambulo_problem *p, const ambulo_term *term, int node,
-                                      const double *dy, int channels) {
-  double step = p->definition.duration / p->definition.intervals, sum = 0.0;
-  if (node == p->nodes - 1) return 0.0;
-  for (int i = 0; i < p->coordinates; i++) {
-    double factor = ambulo__term_scale(term, i) / step;
-    int tau = ambulo__channel_tau(&p->channels, i);
-    double a = factor * dy[node * channels + tau], b = factor * dy[(node + 1) * channels + tau];
-    sum += term->weight * step * 2.0 * (2.0 * a * a + 2.0 * b * b);
-  }
-  return sum;
-}
-
 /* d'H d as the sum of curvature (du/dt)^2 along x + t d, by central differences of the residuals
  * themselves: knows neither gradients nor bands. Terms of the caller that are no squares: `second`
  * times the square of the first torque. */
@@ -78,9 +64,7 @@ static inline double curvature_along(ambulo_workspace *w, const double *x, const
     for (int k = 0; k < p->nodes; k++) {
       const double *dy = l[0].channel;
       double q = p->quadrature[k];
-      if (term->kind == AMBULO_TORQUE_RATE) {
-        sum += torque_rate_form(p, term, k, dy, channels);
-      } else if (term->kind == AMBULO_USER_TERM) {
+      if (term->kind == AMBULO_USER_TERM) {
         double rate = dy[k * channels + ambulo__channel_tau(&p->channels, 0)];
         sum += term->weight * q * second * rate * rate;
       } else if (ambulo__term_is_simple(term)) {
@@ -97,7 +81,7 @@ static inline double curvature_along(ambulo_workspace *w, const double *x, const
           double curvature = term->kind == AMBULO_USER_SQUARE
                                  ? 2.0
                                  : ambulo__term_residual(term, l[2].u[at]).curvature;
-          sum += term->weight * q * curvature * rate * rate;
+          sum += term->weight * ambulo__term_quadrature(p, term, k) * curvature * rate * rate;
         }
       }
     }
