@@ -1,5 +1,5 @@
 /* method/pipeline.c - the method on one grid: carries x to the equalities, then has NLopt's AUGLAG
- * minimize on them (auglag.c).
+ * minimize on them (auglag.c), by rows as balance.h divides them.
  *
  *     mu = mu_0 T/K, rho = 10, lambda = 0; rho = 3000 where the start nearly satisfies the rows: a
  *     weaker penalty would let go of them, and the solve would wander off into another valley.
@@ -8,13 +8,14 @@
  *
  * Equalities hold all along: every point is a retracted one.
  *
- * Reading order: engine.h, rows_split.h, metric.h, engine_point.h, pipeline.c, restore.c, auglag.c,
- * chart.h, mirror.h, model_step.c, augmented.c, retraction.c, stopping.h, polish.c; refine.c and
- * carry.h around it. Besides: nlopt_whitened.c and nlopt_plain.c with nlopt_direct.h, finisher.h,
- * smooth.h.
+ * Reading order: engine.h, rows_split.h, metric.h, engine_point.h, pipeline.c, restore.c,
+ * balance.h, auglag.c, chart.h, mirror.h, model_step.c, augmented.c, retraction.c, stopping.h,
+ * polish.c; refine.c and carry.h around it. Besides: nlopt_whitened.c and nlopt_plain.c with
+ * nlopt_direct.h, finisher.h, smooth.h.
  */
 #include "method/pipeline.h"
 #include "method/auglag.h"
+#include "method/balance.h"
 #include "method/parameters.h"
 #include "method/restore.h"
 
@@ -49,6 +50,7 @@ static ambulo_status solve(ambulo__engine *e, ambulo__stage stage, ambulo__stopp
     return status;
   }
   begin_multipliers(e, stage);
+  ambulo__balance_rows(e, x);
   return ambulo__auglag(e, stopping, x, ending);
 }
 

@@ -2,7 +2,9 @@
  *
  * Local minima dominate gait problems; a coarse grid has fewer, and knot insertion carries
  * its solution over exactly. Grids go by halves while at least 24 intervals remain, then by
- * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones.
+ * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones. The
+ * trajectory becomes coarser with them, but keeps a knot interval for two of them where it has so
+ * many: one that is too coarse for its contacts is led into other motions.
  * Grids on events distribute their intervals over the phases anew; one that is too coarse for that
  * is refused and left out.
  */
@@ -32,6 +34,15 @@ static int has_callbacks(const ambulo_problem *p) {
     if (ambulo__is_user_term(&p->definition.terms[t])) return 1;
   }
   return p->definition.user_row_count > 0;
+}
+
+/* knot intervals of a grid that is coarser than the one of `nodes` intervals with `spline` */
+static int coarse_spline(int intervals, int nodes, int spline, int least) {
+  int in_proportion = (int)((long long)spline * intervals / nodes);
+  int enough = intervals / AMBULO__COARSE_NODES_A_KNOT;
+  if (enough > spline) enough = spline;
+  int chosen = in_proportion > enough ? in_proportion : enough;
+  return chosen > least || chosen < 1 ? chosen : least;
 }
 
 /* a solved grid: its problem, solution and multipliers */
@@ -96,10 +107,8 @@ ambulo_status ambulo__refine(ambulo__engine *e, const ambulo_allocator *allocato
   ambulo_status status = ambulo__knots_least(&p->definition, &a, &least);
   for (int n = coarser(nodes); n > 0 && count < MAX_LEVELS; n = coarser(n)) grid[count++] = n;
   while (count-- > 0 && !status && !ambulo__run_over(e->run)) {
-    int coarse_spline = (int)((long long)spline * grid[count] / nodes);
-    if (coarse_spline < 1) continue;
-    if (coarse_spline < least) coarse_spline = least;
-    status = solve_level(p, grid[count], coarse_spline, &a, e->run, &last);
+    int coarse = coarse_spline(grid[count], nodes, spline, least);
+    if (coarse >= 1) status = solve_level(p, grid[count], coarse, &a, e->run, &last);
   }
   if (!status && last.problem && ambulo_problem_transfer(last.problem, last.x, p, x) == AMBULO_OK) {
     ambulo__carry_to(&last.carried, e);

@@ -70,10 +70,11 @@ ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspac
   (void)ambulo__sparse_rows_fill(&out->equality, workspace, 1);
   (void)ambulo__sparse_rows_fill(&out->border, workspace, 1);
   (void)ambulo__sparse_rows_fill(&out->inequality, workspace, 1);
+  out->unit = ambulo__pool_doubles(pool, (size_t)l.inequalities);
   out->size = ambulo__pool_doubles(pool, (size_t)l.inequalities);
-  if (!out->size) return AMBULO_E_MEMORY;
+  if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < l.inequalities; i++) {
-    out->size[i] = ambulo__rows_size(p, &out->inequality, i);
+    out->size[i] = out->unit[i] = ambulo__rows_size(p, &out->inequality, i);
     ambulo__sparse_rows_set_scale(&out->inequality, i, -1.0 / out->size[i]);
   }
   return AMBULO_OK;

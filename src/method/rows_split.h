@@ -19,7 +19,8 @@
 
 typedef struct ambulo__rows_split {
   ambulo__sparse_rows equality, border, inequality;
-  double *size; /* [inequality.count]: what each is divided by */
+  double *unit; /* [inequality.count]: the sizes above */
+  double *size; /* what each is divided by: the same, or what balance.h makes of it */
   int *rank;    /* [rows]: ambulo__row_rank */
   int dropped;
   int regular; /* 0: some row fits none of the roles; the banded pipeline cannot serve */

@@ -61,6 +61,19 @@ static void grids_on_events_stop_where_phases_have_too_few(void **state) {
   }
 }
 
+/* Half the nodes are two for each of 14 knot intervals: the trajectory keeps them all, and its
+ * objective is near to the walk's 0.1309. With 7 it is 0.14. */
+static void coarse_trajectories_keep_what_two_nodes_hold(void **state) {
+  (void)state;
+  engine_fixture f;
+  int levels = -1;
+  engine_open(&f, "walk_normal");
+  (void)refine(&f, &levels);
+  assert_int_equal(levels, 1);
+  assert_close(f.engine->iterate.carried_objective / 0.1309, 1.0, 0.05);
+  engine_close(&f);
+}
+
 static double height(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
   (void)user;
   if (g) g->points[1] += 1.0;
@@ -101,6 +114,7 @@ int main(void) {
       cmocka_unit_test(the_next_grid_is_carried_over),
       cmocka_unit_test(few_intervals_have_no_coarser_grid),
       cmocka_unit_test(grids_on_events_stop_where_phases_have_too_few),
+      cmocka_unit_test(coarse_trajectories_keep_what_two_nodes_hold),
       cmocka_unit_test(callbacks_have_no_coarser_grid)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -164,7 +164,7 @@ static void what_counts_as_progress(void **state) {
 /* a point between polish_reach and stalled_reach, the engine's, with the multipliers there */
 static void open_off_the_rows(engine_fixture *f) {
   engine_open(f, "yardstick_12");
-  f->options.maximum_iterations = 4;
+  f->options.maximum_iterations = 5;
   assert_int_equal(ambulo__pipeline(f->engine, AMBULO__FAR, f->x), AMBULO_OK);
   memcpy(f->x, f->engine->reached.x, (size_t)f->n * sizeof *f->x);
   if (!(f->engine->reached.violation > 1e-5 && f->engine->reached.violation < 1e-2))

@@ -121,7 +121,7 @@ static void a_squat_goes_down_and_up_on_both_legs(void **state) {
   open_task(&k, "squat");
   int bottom = (k.count - 1) / 2;
   for (int i = 0; i < k.count; i++) {
-    assert_close(share(&k, i, "left"), 0.5, 1e-6);
+    assert_close(share(&k, i, "left"), 0.5, 1e-5); /* as symmetric as a solve is exact */
     assert_close(degrees(&k, i, "knee_angle_l"), degrees(&k, i, "knee_angle_r"), 1e-3);
   }
   assert_true(value(&k, k.q, bottom, "pelvis_ty") < -0.315);
