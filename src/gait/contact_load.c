@@ -16,8 +16,10 @@
  *
  * Roll r, from 0 on the heel to 1 on the toes. A flat foot is at 1/2; it comes there from where it
  * was, by S, once it is flat and until the neighbour has left (b'), and goes on to where it will be
- * from when the next one is there (e') until it is not flat any more. Half of the flat time each
- * where there is no such event in it; a roll from heel to toes without a flat foot is a jump.
+ * from when the next one is there (e') until it is not flat any more, either over a sixteenth of
+ * the flat time at least: else a foot that leaves just after this one has come to be flat has the
+ * centre jump while both are loaded. Half of the flat time each where there is no such event in it;
+ * a roll from heel to toes without a flat foot is a jump.
  *
  * Centre, ahead of the heel's foothold, with L from heel to toe centre (ball): r (L + a),
  * a = 0.02 m. What a single contact carries does not depend on its centre.
@@ -44,7 +46,8 @@
 
 #include <math.h>
 
-static const double beyond_ball = 0.02; /* m: a */
+static const double beyond_ball = 0.02;          /* m: a */
+static const double shortest_glide = 1.0 / 16.0; /* of the time that a foot is flat */
 static const double loading_onset =
     0.01; /* s: tau; rms above 15 Hz .0051 body weights, without .0097 */
 
@@ -110,6 +113,9 @@ static roll roll_of_flat(const ambulo__stance *stance, double time) {
   double middle = 0.5 * (flat.from + flat.to);
   double settled = stance->leaves > flat.from && stance->leaves < flat.to ? stance->leaves : middle;
   double leaving = stance->comes > flat.from && stance->comes < flat.to ? stance->comes : middle;
+  double least = (flat.to - flat.from) * shortest_glide;
+  settled = fmax(settled, flat.from + least);
+  leaving = fmin(leaving, flat.to - least);
   if (leaving < settled) settled = leaving = middle;
   double on = ramp(time, flat.from, settled), off = ramp(time, leaving, flat.to);
   double from = place_of(stance->before), to = place_of(stance->after);

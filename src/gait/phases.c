@@ -3,6 +3,10 @@
  * Phase p lasts d_p of T. Of N intervals it is due N d_p / T. Those due less than the least get the
  * least; the others share what is left in proportion, whole parts first and the rest by largest
  * remainder (of equal ones the earlier phase).
+ *
+ * Knots: events closer than a fifth of the mean interval count once. A rear foot that leaves .1 ms
+ * after the front one has come to be flat would give two knots .1 ms apart: with them six of twenty
+ * walks between 1.87 and 1.90 m/s found no solution.
  */
 #include "gait/phases.h"
 #include "base/instant.h"
@@ -15,6 +19,8 @@
 
 /* remainders that are one number but for rounding */
 static const double same_remainder = 1e-9;
+/* of the mean knot interval: knots that are closer are one */
+static const double least_apart = 0.2;
 
 /* ------------------------------------------------------------------- events */
 
@@ -179,6 +185,17 @@ ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, 
   return failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
+/* drops what is closer than `least` to what is kept, to 0 or to T */
+static void keep_apart(ambulo__events *events, double duration, double least) {
+  int kept = 0;
+  double last = 0.0;
+  for (int i = 0; i < events->count; i++) {
+    if (events->time[i] - last < least || duration - events->time[i] < least) continue;
+    last = events->time[kept++] = events->time[i];
+  }
+  events->count = kept;
+}
+
 static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_kind kind,
                              int intervals, int least, double grade, const char *what,
                              const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
@@ -186,6 +203,8 @@ static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_k
   ambulo__events events;
   ambulo_status status = ambulo__events_create(d, kind, allocator, &events);
   if (status) return status;
+  if (kind == AMBULO__EVENTS_OF_CONTACTS)
+    keep_apart(&events, d->duration, least_apart * d->duration / intervals);
   status = ambulo__phase_grid(&events, d->duration, intervals, least, grade, allocator, times);
   if (status == AMBULO_E_LIMIT)
     status = ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,

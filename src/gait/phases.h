@@ -59,7 +59,10 @@ ambulo_status ambulo__phase_grid(const ambulo__events *events, double duration, 
 ambulo_status ambulo__node_times(const ambulo_problem_definition *definition,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  double *times);
-/* The breakpoints of a trajectory of `intervals` with knots on events, times[intervals + 1]. */
+/* The breakpoints of a trajectory of `intervals` with knots on events, times[intervals + 1]. Of
+ * events that are closer to one another, to 0 or to T than a fifth of the mean knot interval, T /
+ * intervals, the first has the knot: between knots that nearly coincide accelerations could be
+ * anything. */
 ambulo_status ambulo__knot_times(const ambulo_problem_definition *definition, int intervals,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  double *times);

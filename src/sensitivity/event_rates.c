@@ -87,12 +87,27 @@ static ambulo_status take_events(ambulo__event_map *map, ambulo__event_kind kind
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
+/* not all events have a knot (gait/phases.h) */
+static ambulo_status take_knots(ambulo__event_map *map, ambulo__pool *pool) {
+  const ambulo__basis *basis = map->problem->basis;
+  const double *knot = ambulo__basis_breakpoints(basis);
+  map->knots.time = ambulo__pool_doubles(pool, (size_t)map->contacts.count);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int e = 0, k = 0; e < map->contacts.count; e++) {
+    double time = map->contacts.time[e];
+    while (k < ambulo__basis_intervals(basis) && knot[k] < time - AMBULO__INSTANT) k++;
+    if (fabs(knot[k] - time) <= AMBULO__INSTANT) map->knots.time[map->knots.count++] = time;
+  }
+  return AMBULO_OK;
+}
+
 ambulo_status ambulo__event_map_create(const ambulo_problem *problem, ambulo__pool *pool,
                                        ambulo__event_map *map) {
   const ambulo_problem_definition *d = &problem->definition;
   *map = (ambulo__event_map){.problem = problem};
   ambulo_status status = take_events(map, AMBULO__EVENTS_OF_CONTACTS, pool, &map->contacts);
   if (!status) status = take_events(map, AMBULO__EVENTS_OF_ROWS, pool, &map->rows);
+  if (!status && d->knots == AMBULO_GRID_EVENTS) status = take_knots(map, pool);
   if (status) return status;
   map->of_contact = ambulo__pool_ints(pool, 2 * (size_t)d->contact_count);
   map->source = ambulo__pool_ints(pool, 2 * (size_t)map->rows.count);
@@ -118,7 +133,8 @@ static double rate_of_row(const ambulo__event_map *map, int row, int event) {
 static double rate_of(const ambulo__event_map *map, const ambulo__events *events, int i,
                       int event) {
   if (i < 0 || i >= events->count) return 0.0;
-  return events == &map->rows ? rate_of_row(map, i, event) : i == event;
+  return events == &map->rows ? rate_of_row(map, i, event)
+                              : ambulo__event_at(&map->contacts, events->time[i]) == event;
 }
 
 /* (S.12) e. + (t - e) / (e' - e) (e'. - e.) */
@@ -144,5 +160,5 @@ void ambulo__event_knot_rates(const ambulo__event_map *map, int event, double *r
   int count = ambulo__basis_intervals(basis) + 1;
   memset(rates, 0, (size_t)count * sizeof *rates);
   if (map->problem->definition.knots == AMBULO_GRID_EVENTS)
-    spread(map, &map->contacts, event, ambulo__basis_breakpoints(basis), count, rates);
+    spread(map, &map->knots, event, ambulo__basis_breakpoints(basis), count, rates);
 }

@@ -13,6 +13,7 @@
 typedef struct ambulo__event_map {
   const ambulo_problem *problem;
   ambulo__events contacts, rows; /* of each kind */
+  ambulo__events knots;          /* those of contacts that have a knot */
   int *of_contact;               /* [contacts][2]: the event of from and to; -1: 0, T or beyond */
   /* of each of rows: its time is a sum of up to two events', times these factors */
   int *source;    /* [rows][2]; -1: none */

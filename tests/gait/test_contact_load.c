@@ -124,6 +124,31 @@ static void the_centre_glides_from_heel_to_toes(void **state) {
   close_it(&f);
 }
 
+/* The other foot leaves at 0.1 s and a bit, or comes a bit before 0.4 s: a sixteenth of the 0.3 s
+ * between is the least. Within the bit the centre would jump, and the load with it */
+static void no_glide_is_shorter_than_a_sixteenth(void **state) {
+  (void)state;
+  static const double bits[] = {1e-4, 1e-3, 0.018};
+  for (int b = 0; b < 3; b++) {
+    fixture f;
+    open_with(&f, walker_create(0), 2);
+    for (int i = 0; i < f.definition.contact_count; i++) {
+      ambulo_contact *c = &f.contacts[i];
+      if (c->foot != WALKER_RIGHT) continue;
+      if (fabs(c->to - 0.1) < 1e-9) c->to = 0.1 + bits[b];
+      if (fabs(c->from - 0.5) < 1e-9 && c->to > c->from) c->from = 0.4 - bits[b];
+    }
+    for (int i = 0; i <= 4; i++) {
+      double part = 0.25 * i, glide = 0.3 / 16.0;
+      assert_close(load_at(&f, WALKER_LEFT, 0.1 + part * glide).center[0], 0.12 * smooth(part),
+                   1e-12);
+      assert_close(load_at(&f, WALKER_LEFT, 0.4 - part * glide).center[0],
+                   0.24 - 0.12 * smooth(part), 1e-12);
+    }
+    close_it(&f);
+  }
+}
+
 /* down on the toes, then flat: from the toes back */
 static void a_foot_may_come_down_on_its_toes(void **state) {
   (void)state;
@@ -304,6 +329,7 @@ int main(void) {
       cmocka_unit_test(feet_are_slots_and_toes_behind_a_joint_too),
       cmocka_unit_test(weights_rise_while_the_other_foot_is_there),
       cmocka_unit_test(the_centre_glides_from_heel_to_toes),
+      cmocka_unit_test(no_glide_is_shorter_than_a_sixteenth),
       cmocka_unit_test(a_foot_may_come_down_on_its_toes),
       cmocka_unit_test(patches_are_about_the_centre),
       cmocka_unit_test(the_load_comes_and_goes_at_a_rate),

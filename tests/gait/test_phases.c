@@ -212,6 +212,31 @@ static void the_walk_has_nodes_at_its_events(void **state) {
   ambulo_problem_free(p);
 }
 
+/* foot-flat at .08 of the stride of 1.08 s, the other toe-off 1 ms or 9 ms later; a fifth of the
+ * mean of 17 knot intervals is 6.4 ms */
+static void knots_are_kept_apart(void **state) {
+  (void)state;
+  static const double toe_off[] = {0.581, 0.5884};
+  for (int i = 0; i < 2; i++) {
+    ambulo_problem *p = NULL;
+    char text[64];
+    int nodes = 0, knots = 0;
+    const char *const settings[] = {"time.grid=events", "trajectory.knots=events", text};
+    (void)snprintf(text, sizeof text, "gait.phases.toe_off=%.17g", toe_off[i]);
+    assert_int_equal(
+        ambulo_problem_load("tests/two_step/walk_normal.yaml", settings, 3, NULL, NULL, &p), 0);
+    const double *knot = ambulo__basis_breakpoints(p->basis);
+    double flat = 1.08 * 0.08, leaves = 1.08 * (toe_off[i] - 0.5);
+    for (int k = 0; k < p->nodes; k++) nodes += fabs(p->times[k] - leaves) < 1e-9;
+    for (int k = 0; k <= 17; k++)
+      knots += 2 * (fabs(knot[k] - flat) < 1e-9) + (fabs(knot[k] - leaves) < 1e-9);
+    assert_int_equal(nodes, 1);
+    assert_int_equal(knots, i ? 3 : 2);
+    for (int k = 0; k < 17; k++) assert_true(knot[k + 1] - knot[k] > 0.54 / 17 / 5);
+    ambulo_problem_free(p);
+  }
+}
+
 static void uniform_grids_are_as_before(void **state) {
   (void)state;
   ambulo_problem *p = load_problem("two_step/walk_normal");
@@ -287,6 +312,7 @@ int main(void) {
       cmocka_unit_test(too_few_intervals_are_refused),
       cmocka_unit_test(any_phases_are_shared_out),
       cmocka_unit_test(the_walk_has_nodes_at_its_events),
+      cmocka_unit_test(knots_are_kept_apart),
       cmocka_unit_test(uniform_grids_are_as_before),
       cmocka_unit_test(contacts_need_not_be_legal),
       cmocka_unit_test(lack_of_memory_is_survived),

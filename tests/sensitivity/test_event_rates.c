@@ -61,6 +61,9 @@ static void nodes_and_knots_go_along(void **state) {
   expect_rates("tests/two_step/walk_normal.yaml", "foot_flat", 0.08);
   expect_rates("tests/two_step/walk_normal.yaml", "heel_off", 0.38);
   expect_rates("tests/two_step/walk_normal.yaml", "toe_off", 0.62);
+  /* 1 ms after foot-flat, which alone has a knot */
+  expect_rates("tests/two_step/walk_normal.yaml", "toe_off", 0.581);
+  expect_rates("tests/two_step/walk_normal.yaml", "foot_flat", 0.119);
   expect_rates("tests/two_step/walk_normal.yaml", "heel_strike", -0.02);
   expect_rates("tests/two_step/walk_asymmetric.yaml", "heel_strike", 0.02);
   expect_rates("models/walker_2d_step.yaml", "toe_off", 0.56);
