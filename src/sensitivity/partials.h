@@ -38,8 +38,8 @@ typedef struct ambulo__partials {
   double *weight, *height; /* [terms] */
   double *scale, *offset;  /* [terms][d] */
   double *strength;        /* [terms][d][2]: of the peaks */
-  double travel, ground_height; /* m */
-  double duration;              /* s; contacts and breakpoints at fixed fractions of it */
+  double travel, end_rise, ground_height; /* m */
+  double duration;                        /* s; contacts and breakpoints at fixed fractions of it */
   double support_margin, minimum_force;
   double contact_tolerance, orientation_tolerance, strike_pitch[2];
   ambulo_clearance clearance;

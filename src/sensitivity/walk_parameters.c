@@ -16,8 +16,10 @@
  */
 #include "sensitivity/parameters.h"
 
+#include "gait/contact_frame.h"
 #include "gait/gait.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* odd and even steps up to step s */
@@ -172,4 +174,9 @@ void ambulo__parameters_of_walk(ambulo__parameters *p) {
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
                         "travel", "ends.travel");
   ambulo__parameter_travels(p, 1.0);
+  int on_level = problem->definition.contact_count > 0 &&
+                 ambulo__contacts_are_level(&problem->definition); /* and stays on it */
+  if (on_level || !isfinite(p->partials->end_rise)) return;
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.rise, p->partials->end_rise,
+                        "rise", "ends.rise");
 }
