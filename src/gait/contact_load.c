@@ -44,7 +44,7 @@
 
 #include <math.h>
 
-static const double beyond_ball = 0.02; /* m: a */
+static const double beyond_ball = AMBULO__BEYOND_BALL; /* m: a */
 static const double loading_onset =
     0.01; /* s: tau; rms above 15 Hz .0051 body weights, without .0097 */
 

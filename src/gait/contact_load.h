@@ -10,6 +10,9 @@
 
 enum { AMBULO__MOST_SLOTS = 6 };
 
+/* How far ahead of the ball the centre under the toes is, m. */
+#define AMBULO__BEYOND_BALL 0.02
+
 typedef struct ambulo__slots {
   int count;
   int foot[AMBULO__MOST_SLOTS]; /* whose; slot f < foot_count is foot f's */

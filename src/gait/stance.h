@@ -12,6 +12,7 @@ typedef struct ambulo__stance {
                          the latest half-way; -infinity: none, or it has no beginning */
   double comes;       /* those that hold as it ends: when the last of them began, at the earliest
                          half-way; infinity: none, or it has no end */
+  int leaves_half_way, comes_half_way; /* 1: that is half-way */
   ambulo__span phase; /* the part of it in the contact's mode */
   int before, after;  /* modes of the parts before and after; -1: none */
 } ambulo__stance;

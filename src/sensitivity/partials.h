@@ -15,9 +15,10 @@
  * Each file of this folder adds one of these parts to the partials of the members of the
  * problem's definition; parameters.c makes of them what a file's keys say. All by hand.
  *
- * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c,
- * sharing_rows.c, bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
- * contact_split.h, contact_forces.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
+ * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
+ * place_rows.c; force_rows.c, support_side.c; contact_pull.h, contact_times.c, sharing_rows.c;
+ * bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c, contact_split.h,
+ * contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
  * event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
  * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
  */
@@ -32,6 +33,8 @@
  * row's multiplier in it). Members that are no numbers are unused. */
 typedef struct ambulo__partials {
   double *place;           /* [contacts][2]: footholds, along forward and left */
+  double *rise, *heading;  /* [contacts]: of the place along up, m; rad */
+  double *normal;          /* [contacts][3]: of a normal that is given */
   double *limit;           /* [3][d][2]: by ambulo_limited, of a coordinate that is not fixed */
   double *end_value;       /* [end_value_count] */
   double *half_width;      /* [tubes][d] */
@@ -46,7 +49,8 @@ typedef struct ambulo__partials {
   ambulo_ground_reaction reaction;
   double slope;         /* rad: gravity turned against forward, its size kept */
   double *node_time;    /* [nodes], s: of a node alone */
-  double *contact_time; /* [contacts][2], s: of from and to alone, nodes where they are */
+  double *contact_time; /* [contacts][2], s: of from and to alone, nodes where they are; of
+                           contacts that begin and end at one time any may have all of it */
   int events;           /* 0 where the grid is not on events */
   double *event_time;   /* [events], s: where contacts begin and end, inside (0, T) */
   double *event;        /* [events]: of an event, with all contacts, nodes and knots that go along;
