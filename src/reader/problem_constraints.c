@@ -109,12 +109,27 @@ static void check_steps(const ambulo__problem_reader *reader, const ambulo__yaml
                              "the gait has steps of two lengths or times; expected equal steps");
 }
 
+/* keys of ends that match */
+static void refuse_idle(const ambulo__yaml_node *section) {
+  static const char *const keys[] = {"order", "rise"};
+  for (int i = 0; i < 2; i++) {
+    const ambulo__yaml_node *node = ambulo__yaml_get(section, keys[i]);
+    if (node)
+      (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                               "'%s' does nothing with free ends; expected 'kind: periodic' or "
+                               "'kind: mirrored' beside it",
+                               keys[i]);
+  }
+}
+
 void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const kinds[] = {"free", "periodic", "mirrored"};
   ambulo_problem_definition *d = &reader->definition;
   if (!section) return;
-  int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 0);
-  d->ends = (ambulo_ends)kind;
+  const ambulo__yaml_node *given = ambulo__yaml_get(section, "kind");
+  int kind = ambulo__yaml_choice(given, kinds, 3, given ? -1 : 0); /* -1: that was said */
+  d->ends = kind < 0 ? AMBULO_ENDS_FREE : (ambulo_ends)kind;
+  if (kind == 0) refuse_idle(section);
   check_steps(reader, ambulo__yaml_get(section, "kind"));
   d->ends_order = ambulo__yaml_integer(ambulo__yaml_get(section, "order"), 0, 2, 1);
   reader->keys.travel = ambulo__yaml_get(section, "travel") != NULL;

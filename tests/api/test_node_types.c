@@ -182,7 +182,7 @@ static const char every_key[] =
     "  kind: two_step\n  transfer: smooth\n  exponent: 2\n  shear: 0.3\n  friction: 0.8\n"
     "  free_moment: 0.1\n  minimum_force: off\n"
     "  pressure: {heel: [-0.1, 0.1], roll: 0.5, flat: [0, 1], toe: [0, 0.1], width: 0.01}\n"
-    "ends: {kind: free, order: 1, travel: 0.5, initial: {knee_angle_r: 5}, initial_speed: \n"
+    "ends: {kind: periodic, order: 1, travel: 0.5, rise: 0, initial: {knee_angle_r: 5}, initial_speed: \n"
     "  {knee_angle_r: 5}, final: {knee_angle_l: 5}, final_speed: {knee_angle_l: 5}}\n"
     "objective:\n"
     "  - {term: torque_power, name: t, weight: 1, power: 3, smoothing: 1, scale: {default: 1},\n"
