@@ -46,8 +46,10 @@ typedef struct ambulo_sensitivity {
   const char *name;  /* as a problem file has it, and --set: "gait.step_length",
                         "objective[upright].weight", "model.links[shank_r].coordinate.range[1]";
                         the same for problems made from C */
-  const char *with;  /* with mirrored ends, where both sides have to be alike: the name of the other
-                        side's number, which moves along; "" for none */
+  const char *with;  /* the names of numbers that move along, separated by ", ": with mirrored ends,
+                        where both sides have to be alike, that of the other side; of a foothold
+                        those of the foot's other contacts on it; of a time those of all contacts
+                        that begin or end then; "" for none */
   double with_sign;  /* ... by so many times as much: 1 or -1; 0 for none */
   const char *label; /* in words: "step length" */
   const char *unit;  /* SI and rad, also where a file has degrees; "" for weights, scales,

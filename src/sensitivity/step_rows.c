@@ -86,7 +86,7 @@ static void add_way(const way *w, const double by_e[2], double by_slope, foothol
 }
 
 static void add_riser(const ambulo__step_row *step, const way *w, footholds *f) {
-  double pull = is_detail(step->row, "behind the edge") ? -step->pull : step->pull;
+  double pull = is_detail(step->row, "behind the edge") ? step->pull : -step->pull;
   double by_e[2] = {pull * w->r[0], pull * w->r[1]};
   add_edge(step, w, &step->edges.edge[0], -pull, by_e, f);
   add_way(w, by_e, 0.0, f);

@@ -204,7 +204,8 @@ double ambulo__surface_between(const ambulo__stationary *s, const ambulo_contact
   far.heading *= along;
   add_image(s, from, &near, partials);
   add_image(s, to, &far, partials);
-  if (rise == 0.0 && share > 0.0 && share < 1.0 && pull.place[2] != 0.0) {
+  int two = from->from != to->from; /* one alone goes with itself */
+  if (two && rise == 0.0 && share > 0.0 && share < 1.0 && pull.place[2] != 0.0) {
     ambulo__surface_unclear(s, from, partials); /* up and down are not the same way */
     ambulo__surface_unclear(s, to, partials);
   }

@@ -142,42 +142,6 @@ static void add_width(ambulo__parameters *p) {
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, width, by, "step width", "gait.step_width");
 }
 
-/* height and direction of a foothold that is not on the level ground ahead. On level ground they
- * have none where its rows need that, or change as it is left (gait/clearance.c) */
-static void add_surface(ambulo__parameters *p, int c) {
-  static const char *const axes[] = {"forward", "left", "up"};
-  const ambulo_contact *contact = &p->problem->definition.contacts[c];
-  char label[64];
-  (void)snprintf(label, sizeof label, "height of the foothold of contact %d", c);
-  if (isfinite(p->partials->rise[c]))
-    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, contact->place[2], p->partials->rise[c], label,
-                          "contacts[%d].place[2]", c);
-  (void)snprintf(label, sizeof label, "heading of contact %d", c);
-  ambulo__parameter_add(p, AMBULO__ANGLE, contact->heading, p->partials->heading[c], label,
-                        "contacts[%d].heading", c);
-  for (int i = 0; contact->normal[2] > 0.0 && i < 3; i++) {
-    (void)snprintf(label, sizeof label, "normal of contact %d, %s,", c, axes[i]);
-    ambulo__parameter_add(p, AMBULO__RATIO, contact->normal[i], p->partials->normal[3 * c + i],
-                          label, "contacts[%d].normal[%d]", c, i);
-  }
-}
-
-static void add_places(ambulo__parameters *p) {
-  static const char *const words[] = {"forward", "left"};
-  const ambulo_problem_definition *d = &p->problem->definition;
-  int level = ambulo__contacts_are_level(d);
-  for (int c = 0; c < d->contact_count; c++) {
-    if (!level) add_surface(p, c);
-    for (int i = 0; i < 2; i++) {
-      char label[64];
-      if (!isfinite(p->partials->place[2 * c + i])) continue;
-      (void)snprintf(label, sizeof label, "foothold of contact %d, %s,", c, words[i]);
-      ambulo__parameter_add(p, AMBULO__STEP_LENGTH, d->contacts[c].place[i],
-                            p->partials->place[2 * c + i], label, "contacts[%d].place[%d]", c, i);
-    }
-  }
-}
-
 /* (S.11) sum dL/dplace dplace/dL + dL/dtravel dtravel/dL + dL/dT dx/dL / v; ends.travel takes the
  * place of the gait's */
 void ambulo__parameters_of_walk(ambulo__parameters *p) {
@@ -188,12 +152,13 @@ void ambulo__parameters_of_walk(ambulo__parameters *p) {
     add_lengths(p, by);
     add_width(p);
   } else {
-    add_places(p);
+    ambulo__parameters_of_footholds(p);
   }
   add_times(p, by[0] + by[1]);
   if (problem->definition.ends == AMBULO_ENDS_FREE || (problem->keys.gait && !problem->keys.travel))
     return;
   for (int i = 0; i < p->count; i++) p->list[i].travel = 0.0;
+  if (!problem->keys.gait && ambulo__footholds_meet(&problem->definition)) return;
   if (isfinite(p->partials->travel)) {
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
                           "travel", "ends.travel");
