@@ -47,8 +47,7 @@ void ambulo__partials_of_told(ambulo__node_forces *f, ambulo__partials *partials
     ambulo__timed_contact timed = {.node = f->node, .part = (ambulo__foot_part)slots.part[slot]};
     if (!contact) continue;
     timed.contact = (int)(contact - d->contacts);
-    timed.load =
-        ambulo__contact_load_at(d, outlines, &slots, slot, contact, p->times[f->node]);
+    timed.load = ambulo__contact_load_at(d, outlines, &slots, slot, contact, p->times[f->node]);
     if (timed.load.loaded) add_contact(f, slot, &timed, partials);
   }
   ambulo__node_forces_clear(f);

@@ -5,8 +5,8 @@
  *
  *     t. = e. + (t - e) / (e' - e) (e'. - e.),    0. = T. = 0
  *
- * Where the tip of a foot begins to have to clear the ground, or where a foot comes to the edge of a
- * step and is past it, off + r (down - off) of a swing, that moves by (1 - r) off. + r down. s.
+ * Where the tip of a foot begins to have to clear the ground, or where a foot comes to the edge of
+ * a step and is past it, off + r (down - off) of a swing, that moves by (1 - r) off. + r down. s.
  */
 #include "sensitivity/event_rates.h"
 

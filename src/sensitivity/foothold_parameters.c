@@ -5,8 +5,9 @@
  * and has the sum of their partials.
  *
  * Where the motion repeats, a foothold at T is one at 0 that has travelled: neither is listed, nor
- * travel and rise, for none of them can move alone. Not listed as well are those without a partial (surface.c, step_rows.c); on level ground all but places,
- * because rows change in a jump as it is left (gait/clearance.c).
+ * travel and rise, for none of them can move alone. Not listed as well are those without a partial
+ * (surface.c, step_rows.c); on level ground all but places, because rows change in a jump as it is
+ * left (gait/clearance.c).
  */
 #include "sensitivity/parameters.h"
 

@@ -23,7 +23,8 @@ typedef struct ambulo__node_forces {
   double apart[3];       /* tangent of D (mechanics/kernel_ground.h), m */
   double shear, height;  /* tangents of kappa and of the height of the ground, m */
   double share;          /* tangent of a_0 */
-  /* where contacts share the load: tangents of their centres, weights, of moment_arm and of slant */
+  /* where contacts share the load: tangents of their centres, weights, of moment_arm and of slant
+   */
   double place[AMBULO__MOST_CONTACTS][3], load[AMBULO__MOST_CONTACTS], moment_arm, slant;
 } ambulo__node_forces;
 

@@ -32,8 +32,8 @@ enum { AMBULO__PARAMETER_TEXT = 320 };
 #define AMBULO__BOTH_OF_A_PAIR " (both sides)"
 
 typedef struct ambulo__parameter {
-  char name[AMBULO__PARAMETER_TEXT];  /* "gait.step_length" */
-  char label[AMBULO__PARAMETER_TEXT]; /* "step length" */
+  char name[AMBULO__PARAMETER_TEXT];     /* "gait.step_length" */
+  char label[AMBULO__PARAMETER_TEXT];    /* "step length" */
   char with[4 * AMBULO__PARAMETER_TEXT]; /* those that move by with_sign as much, "a, b"; "" */
   double with_sign;
   char words[3 * AMBULO__PARAMETER_TEXT];

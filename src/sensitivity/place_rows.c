@@ -83,7 +83,8 @@ static void add_contact(const place_row *p, const ambulo_contact *contact,
     return;
   }
   int from_heel_to_toe = p->point == model->feet[p->foot].toe_center;
-  if (from_heel_to_toe && fabs(ambulo__dot(p->first, p->frame.up)) > fabs(ambulo__dot(p->first, p->frame.left))) {
+  if (from_heel_to_toe &&
+      fabs(ambulo__dot(p->first, p->frame.up)) > fabs(ambulo__dot(p->first, p->frame.left))) {
     add_pitch(p, contact, partials);
   } else {
     partials->orientation_tolerance += p->pull * (contact->mode == AMBULO_CONTACT_TOE ? 2.0 : 1.0);
@@ -162,8 +163,7 @@ static double add_way(place_row *p, const ambulo__span *air, double s, ambulo__p
   const ambulo_problem_definition *d = &p->s->problem->definition;
   ambulo_contact from = {.foot = p->foot}, to = from;
   (void)ambulo__swing_contacts(d, p->foot, p->row->time, &from, &to);
-  ambulo__step_edges edges =
-      ambulo__step_edges_between(d, p->foot, p->row->time, &from, &to);
+  ambulo__step_edges edges = ambulo__step_edges_between(d, p->foot, p->row->time, &from, &to);
   if (edges.count > 0 && ambulo__is_step_row(p->row))
     return add_step(p, &from, &to, &edges, air, s, partials);
   p->frame = ambulo__contact_frame_between(d, &from, &to, s);
@@ -178,8 +178,8 @@ static void add_clearance(place_row *p, ambulo__partials *partials) {
   ambulo__span air = ambulo__air_span(d, p->foot, p->row->time);
   double length = air.to - air.from;
   double s = length > 0.0 ? (p->row->time - air.from) / length : 0.0;
-  double by_s = ambulo__contacts_are_level(d) ? add_track(p, s, partials)
-                                              : add_way(p, &air, s, partials);
+  double by_s =
+      ambulo__contacts_are_level(d) ? add_track(p, s, partials) : add_way(p, &air, s, partials);
   if (length > 0.0) add_swing(p, s, &air, by_s, partials);
 }
 

@@ -1,9 +1,9 @@
 /* sensitivity/step_rows.c - where a foot passes the edges of steps, when footholds move
  * (gait/clearance.c, step_edge.c, in their letters).
  *
- * With s the horizontal step from the foothold left to the next one, |s| long, e = s / |s|, t across
- * it to the left, z the rise between them, m = z / |s|, and an edge at x, height h, midway between
- * the footholds a behind and b beyond it:
+ * With s the horizontal step from the foothold left to the next one, |s| long, e = s / |s|, t
+ * across it to the left, z the rise between them, m = z / |s|, and an edge at x, height h, midway
+ * between the footholds a behind and b beyond it:
  *
  *     e. = t (t.s.) / |s|,   x. = (e. . (a + b) + e . (a. + b.)) / 2,   m. = (z. - m e.s.) / |s|
  *     beside the riser       c = +-(e.r - x)             c. = +-(e. . r - x.)

@@ -110,8 +110,8 @@ static contact_pull pull_on(const ambulo_problem_definition *d, const ambulo_con
   const double *axes[3] = {m->forward, m->left, m->up};
   ambulo__contact_frame frame = ambulo__contact_frame_of(d, c);
   contact_pull pull = {{0.0}, 0.0, {0.0}};
-  double ahead[3], aside[3], size = sqrt(ambulo__dot(c->normal, c->normal)), cosine = cos(c->heading),
-                             sine = sin(c->heading);
+  double ahead[3], aside[3], size = sqrt(ambulo__dot(c->normal, c->normal)),
+                             cosine = cos(c->heading), sine = sin(c->heading);
   for (int i = 0; i < 3; i++) {
     ahead[i] = cosine * m->forward[i] + sine * m->left[i];
     aside[i] = cosine * m->left[i] - sine * m->forward[i];

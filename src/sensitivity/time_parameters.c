@@ -6,9 +6,9 @@
  *     dL/df = S sum dL/de over the events that are there
  *
  * There is none on other grids, where rows come and go as an event passes a node; where an event
- * of another phase, or 0 or T, is at the same time, so that nodes come or go (ends of listed contacts
- * at one time move together); nor for what stays in
- * seconds while nodes move: references, tubes, functions of the caller.
+ * of another phase, or 0 or T, is at the same time, so that nodes come or go (ends of listed
+ * contacts at one time move together); nor for what stays in seconds while nodes move: references,
+ * tubes, functions of the caller.
  */
 #include "sensitivity/parameters.h"
 

@@ -210,6 +210,6 @@ int main(void) {
                                      cmocka_unit_test(ends_go_with_the_number_of_steps),
                                      cmocka_unit_test(mirrored_steps_are_equal),
                                      cmocka_unit_test(free_ends_take_no_rise_and_no_order),
-      cmocka_unit_test(differences_are_placed)};
+                                     cmocka_unit_test(differences_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,6 +81,26 @@ static void the_file_is_read_again(void **state) {
   ambulo_problem_free(p);
 }
 
+/* all contacts of a stance; all that begin and end at a time */
+static void others_go_along(void **state) {
+  (void)state;
+  static const char *const overrides[] = {
+      "free={\"contacts[4].place[0]\": [0.4, 0.6], \"contacts[3].to\": [1.1, 1.25]}"};
+  const double values[2] = {0.55, 1.2};
+  ambulo_problem *p = NULL, *at = NULL;
+  assert_int_equal(ambulo_problem_load("models/walk_start.yaml", overrides, 1, NULL, NULL, &p),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_problem_at(p, values, NULL, NULL, &at), AMBULO_OK);
+  const ambulo_contact *c = at->definition.contacts;
+  for (int i = 4; i <= 6; i++) assert_close(c[i].place[0], 0.55, 0.0);
+  assert_close(c[7].place[0], 1.18, 0.0);
+  assert_close(c[3].to, 1.2, 0.0);
+  assert_close(c[4].to, 1.2, 0.0);
+  assert_close(c[5].from, 1.2, 0.0);
+  ambulo_problem_free(at);
+  ambulo_problem_free(p);
+}
+
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(WALK "free: {gait.step_tim: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
@@ -148,6 +168,7 @@ int main(void) {
       cmocka_unit_test(bounds_are_read_in_units_of_the_file),
       cmocka_unit_test(the_hash_sees_what_is_free),
       cmocka_unit_test(the_file_is_read_again),
+      cmocka_unit_test(others_go_along),
       cmocka_unit_test(faults_are_placed),
       cmocka_unit_test(every_allocation_may_fail),
   };

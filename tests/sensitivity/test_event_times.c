@@ -40,7 +40,8 @@ static void contacts_one_by_one_on_events(void **state) {
       {"contacts[0].place[0]", "contacts[1].place[0]", "contacts[2].place[0]", "subject.mass",
        "ground.slope", "contacts[1].to", "contacts[0].to"}};
   check(&c, "time.duration");
-  expect_absent(&c, (const char *const[]){"contacts[1].from", NULL}); /* goes along with the end of the one before */
+  expect_absent(&c, (const char *const[]){"contacts[1].from",
+                                          NULL}); /* goes along with the end of the one before */
 }
 
 static void a_walk_under_load_on_events(void **state) {

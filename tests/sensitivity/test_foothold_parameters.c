@@ -4,14 +4,13 @@
 
 static void walk_start(void **state) {
   (void)state;
-  static const setting c = {
-      "models/walk_start.yaml",
-      {NULL},
-      {"contacts[0].place[0]", "contacts[2].place[1]", "contacts[4].place[0]",
-       "contacts[7].place[0]", "contacts[0].to", "contacts[1].to", "contacts[3].to",
-       "contacts[4].from", "subject.mass", "ground_reaction.moment_arm",
-       "ground_reaction.loading_rate", "ends.final_speed.pelvis_tx",
-       "constraints.clearance.height"}};
+  static const setting c = {"models/walk_start.yaml",
+                            {NULL},
+                            {"contacts[0].place[0]", "contacts[2].place[1]", "contacts[4].place[0]",
+                             "contacts[7].place[0]", "contacts[0].to", "contacts[1].to",
+                             "contacts[3].to", "contacts[4].from", "subject.mass",
+                             "ground_reaction.moment_arm", "ground_reaction.loading_rate",
+                             "ends.final_speed.pelvis_tx", "constraints.clearance.height"}};
   check(&c, "contacts[5].place[0]");
 }
 
@@ -41,12 +40,12 @@ static void stairs(void **state) {
 
 static void walk_on_arcs(void **state) {
   (void)state;
-  static const setting c = {
-      "models/walk_normal.yaml",
-      {NULL},
-      {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "gait.step_length",
-       "gait.step_width", "time.duration", "subject.mass", "ground_reaction.moment_arm",
-       "ground_reaction.slant", "ground_reaction.loading_rate", "constraints.contact_tolerance"}};
+  static const setting c = {"models/walk_normal.yaml",
+                            {NULL},
+                            {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off",
+                             "gait.step_length", "gait.step_width", "time.duration", "subject.mass",
+                             "ground_reaction.moment_arm", "ground_reaction.slant",
+                             "ground_reaction.loading_rate", "constraints.contact_tolerance"}};
   check(&c, NULL);
 }
 
@@ -88,8 +87,10 @@ static void a_stance_moves_as_one(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(walk_start),   cmocka_unit_test(walk_turn),
-      cmocka_unit_test(stairs),       cmocka_unit_test(walk_on_arcs),
+      cmocka_unit_test(walk_start),
+      cmocka_unit_test(walk_turn),
+      cmocka_unit_test(stairs),
+      cmocka_unit_test(walk_on_arcs),
       cmocka_unit_test(a_stance_moves_as_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

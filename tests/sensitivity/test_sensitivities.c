@@ -140,10 +140,14 @@ static void contacts_that_share_solved_anew(void **state) {
 static void a_step_up_solved_anew(void **state) {
   (void)state;
   static const char *const base[] = {
-      SHARED_ON_EVENTS, "gait=null",
-      "ends={initial_speed: {pelvis_tx: 1.2}, final_speed: {pelvis_tx: 1.2}}", "time.duration=0.5",
+      SHARED_ON_EVENTS,
+      "gait=null",
+      "ends={initial_speed: {pelvis_tx: 1.2}, final_speed: {pelvis_tx: 1.2}}",
+      "time.duration=0.5",
       "objective=[{term: torque_squared, scale: {default: 0.01}}, {term: acceleration, weight: "
-      "1e-3}]", "time.intervals=32", "trajectory.intervals=14",
+      "1e-3}]",
+      "time.intervals=32",
+      "trajectory.intervals=14",
       "contacts=[{foot: right, mode: flat, from: 0, to: 0.31, place: [0, 0, 0]}, "
       "{foot: right, mode: toe, from: 0.31, to: 0.42, place: [0, 0, 0]}, "
       "{foot: left, mode: toe, from: 0, to: 0.06, place: [-0.3, 0, -0.03]}, "
@@ -151,9 +155,13 @@ static void a_step_up_solved_anew(void **state) {
       "1]}, "
       "{foot: left, mode: flat, from: 0.42, to: 0.5, place: [0.35, 0, 0.04], normal: [-0.1, 0, "
       "1]}]"};
-  static const char *const names[] = {
-      "contacts[3].place[0]", "contacts[3].place[2]", "contacts[0].to",
-      "contacts[1].to",       "contacts[2].to",       "contacts[3].from", NULL};
+  static const char *const names[] = {"contacts[3].place[0]",
+                                      "contacts[3].place[2]",
+                                      "contacts[0].to",
+                                      "contacts[1].to",
+                                      "contacts[2].to",
+                                      "contacts[3].from",
+                                      NULL};
   static const char *const slope[] = {"contacts[3].normal[0]", NULL};
   compare("models/walker_2d_step.yaml", base, 18, names, 1e-3, 1e-4);
   compare("models/walker_2d_step.yaml", base, 18, slope, 0.1, 1e-4);
@@ -272,12 +280,11 @@ static void every_allocation_may_fail(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(phases_solved_anew),
-      cmocka_unit_test(the_dearest_stands_first),  cmocka_unit_test(no_optimum_has_none),
-      cmocka_unit_test(arguments_are_checked),     cmocka_unit_test(contacts_that_share_solved_anew),
-      cmocka_unit_test(a_step_up_solved_anew),
-      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),       cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),   cmocka_unit_test(phases_solved_anew),
+      cmocka_unit_test(the_dearest_stands_first), cmocka_unit_test(no_optimum_has_none),
+      cmocka_unit_test(arguments_are_checked),    cmocka_unit_test(contacts_that_share_solved_anew),
+      cmocka_unit_test(a_step_up_solved_anew),    cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,15 +13,15 @@
 
 static void down_two_steps(void **state) {
   (void)state;
-  static const setting c = {
-      "models/stairs_up.yaml",
-      {"ends=null", "time.duration=1.1", "time.intervals=96", "trajectory.intervals=20",
-       "ground={slope: 2}", DOWN},
-      {"contacts[0].place[0]", "contacts[0].place[1]", "contacts[0].place[2]",
-       "contacts[2].place[0]", "contacts[2].place[2]", "contacts[3].place[0]",
-       "contacts[3].place[1]", "contacts[3].place[2]", "contacts[5].place[0]",
-       "contacts[5].place[2]", "contacts[5].heading", "contacts[2].to", "contacts[3].from",
-       "contacts[5].from", "constraints.clearance.ceiling", "constraints.ground_height"}};
+  static const setting c = {"models/stairs_up.yaml",
+                            {"ends=null", "time.duration=1.1", "time.intervals=96",
+                             "trajectory.intervals=20", "ground={slope: 2}", DOWN},
+                            {"contacts[0].place[0]", "contacts[0].place[1]", "contacts[0].place[2]",
+                             "contacts[2].place[0]", "contacts[2].place[2]", "contacts[3].place[0]",
+                             "contacts[3].place[1]", "contacts[3].place[2]", "contacts[5].place[0]",
+                             "contacts[5].place[2]", "contacts[5].heading", "contacts[2].to",
+                             "contacts[3].from", "contacts[5].from",
+                             "constraints.clearance.ceiling", "constraints.ground_height"}};
   check(&c, "contacts[1].place[0]"); /* goes along with contact 0 */
 }
 

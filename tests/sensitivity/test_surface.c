@@ -20,9 +20,8 @@ static void up_stairs(void **state) {
        "time.duration=0.65", "time.intervals=40", "ground={slope: 2}", STAIRS},
       {"contacts[0].place[0]", "contacts[0].place[1]", "contacts[0].place[2]",
        "contacts[0].heading", "contacts[0].normal[0]", "contacts[0].normal[1]",
-       "contacts[0].normal[2]", "ground_reaction.moment_arm",
-       "constraints.clearance.height", "constraints.clearance.inward",
-       "constraints.ground_height"}};
+       "contacts[0].normal[2]", "ground_reaction.moment_arm", "constraints.clearance.height",
+       "constraints.clearance.inward", "constraints.ground_height"}};
   check(&c, "time.duration");
   /* footholds at both ends would have to go along */
   expect_absent(&c, (const char *const[]){"ends.rise", "ends.travel", "contacts[2].place[2]",
@@ -34,7 +33,7 @@ static void up_stairs(void **state) {
 static double lagrangian_of(double travel, double rise, const ambulo_result *r) {
   char ends[128], behind[64], below[64];
   ambulo_problem *problem = NULL;
-  const char *const overrides[] = {"gait=null", ends, SHARED, "time.duration=0.65",
+  const char *const overrides[] = {"gait=null",         ends,   SHARED, "time.duration=0.65",
                                    "time.intervals=40", STAIRS, behind, below};
   (void)snprintf(ends, sizeof ends, "ends={kind: mirrored, order: 2, travel: %.17g, rise: %.17g}",
                  travel, rise);
