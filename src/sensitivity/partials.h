@@ -88,6 +88,8 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
 /* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);
 
+/* Places and heights that have none, without a solution: NaN. */
+void ambulo__partials_name_places(const ambulo_problem *problem, ambulo__partials *partials);
 /* The events alone, without a solution: 0 where there is a derivative. E_MEMORY. */
 ambulo_status ambulo__partials_name_events(const ambulo_problem *problem, ambulo__pool *pool,
                                            ambulo__partials *partials);

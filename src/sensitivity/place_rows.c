@@ -237,6 +237,37 @@ static void add_surface(place_row *p, ambulo__partials *partials) {
   ambulo__surface_of_contact(p->s, contact, &by, partials);
 }
 
+/* ------------------------------------------------------- without a solution */
+
+/* a row of a foot in the air that depends on heights: which have no partial */
+static void name_row(const place_row *p, ambulo__partials *partials) {
+  const ambulo_problem_definition *d = &p->s->problem->definition;
+  ambulo_contact from = {.foot = p->foot}, to = from;
+  (void)ambulo__swing_contacts(d, p->foot, p->row->time, &from, &to);
+  ambulo__step_row step = {.row = p->row, .from = &from, .to = &to};
+  step.edges = ambulo__step_edges_between(d, p->foot, p->row->time, &from, &to);
+  if (p->row->kind == AMBULO__KIND_CLEARANCE && step.edges.count > 0 &&
+      ambulo__is_step_row(p->row)) {
+    if (ambulo__step_is_unclear(&step)) ambulo__step_unclear(p->s, &step, partials);
+  } else if (from.from != to.from && from.place[2] == to.place[2]) {
+    ambulo__surface_unclear(p->s, &from, partials);
+    ambulo__surface_unclear(p->s, &to, partials);
+  }
+}
+
+void ambulo__partials_name_places(const ambulo_problem *problem, ambulo__partials *partials) {
+  const ambulo__stationary s = {.problem = problem};
+  if (ambulo__contacts_are_level(&problem->definition)) return;
+  for (int r = 0; r < problem->rows; r++) {
+    place_row p = {.s = &s, .row = &problem->table.rows[r]};
+    int kind = p.row->kind;
+    if ((kind != AMBULO__KIND_GROUND_PENETRATION && kind != AMBULO__KIND_CLEARANCE) ||
+        !read_row(&p) || ambulo__dot(p.total, p.total) == 0.0)
+      continue;
+    if (kind == AMBULO__KIND_CLEARANCE || contact_of(&p) < 0) name_row(&p, partials);
+  }
+}
+
 /* (S.2) -C.f, -C.l, -C.n */
 void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *partials) {
   const ambulo_problem *problem = s->problem;

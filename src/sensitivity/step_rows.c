@@ -119,9 +119,16 @@ static void add_foothold(const ambulo__stationary *s, const ambulo__step_row *st
   }
 }
 
-static int is_unclear(const ambulo__step_row *step, int beside, int over) {
+int ambulo__step_is_unclear(const ambulo__step_row *step) {
   const ambulo__step_edges *e = &step->edges;
-  return (beside && e->edge[0].unsure) || (over && (e->even || e->edge[e->highest].unsure));
+  if (is_detail(step->row, "low over the edge")) return e->even || e->edge[e->highest].unsure;
+  return !is_detail(step->row, "low") && !is_detail(step->row, "high") && e->edge[0].unsure;
+}
+
+void ambulo__step_unclear(const ambulo__stationary *s, const ambulo__step_row *step,
+                          ambulo__partials *partials) {
+  static const double nothing[3] = {(double)NAN, (double)NAN, (double)NAN};
+  for (int k = 0; k < FOOTHOLDS; k++) add_foothold(s, step, k, nothing, partials);
 }
 
 /* (S.18) +-(e. . r - x.), (-h. - (m (e.r - x)).) / k - N m m. / k^3, -+h. */
@@ -140,9 +147,7 @@ int ambulo__partials_of_step(const ambulo__stationary *s, const ambulo__step_row
   if (low) f.by[past][2] -= pull;
   if (high) f.by[climbs][2] -= pull;
   if (!beside) partials->ground_height -= over ? pull / sqrt(1.0 + w.slope * w.slope) : pull;
-  for (int k = 0; k < FOOTHOLDS; k++) {
-    for (int i = 0; is_unclear(step, beside, over) && i < 3; i++) f.by[k][i] = (double)NAN;
-    add_foothold(s, step, k, f.by[k], partials);
-  }
+  for (int k = 0; k < FOOTHOLDS; k++) add_foothold(s, step, k, f.by[k], partials);
+  if (ambulo__step_is_unclear(step)) ambulo__step_unclear(s, step, partials);
   return high ? -1 : !beside;
 }

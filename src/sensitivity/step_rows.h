@@ -21,5 +21,10 @@ int ambulo__is_step_row(const ambulo__table_row *row);
  * not to exceed, 0 of neither. */
 int ambulo__partials_of_step(const ambulo__stationary *s, const ambulo__step_row *step,
                              ambulo__partials *partials);
+/* 1 if the row has no partials by places and heights. */
+int ambulo__step_is_unclear(const ambulo__step_row *step);
+/* Those that it depends on become NaN. */
+void ambulo__step_unclear(const ambulo__stationary *s, const ambulo__step_row *step,
+                          ambulo__partials *partials);
 
 #endif

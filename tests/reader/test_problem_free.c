@@ -101,6 +101,24 @@ static void others_go_along(void **state) {
   ambulo_problem_free(p);
 }
 
+/* equal heights, equal steps, footholds at both ends of a motion that repeats */
+static void kinks_cannot_be_free(void **state) {
+  (void)state;
+  static const char *const names[][2] = {
+      {"models/walk_turn.yaml", "free={\"contacts[4].place[2]\": [-1, 1]}"},
+      {"models/walk_turn.yaml", "free={\"contacts[1].to\": [0.1, 0.2]}"},
+      {"models/stairs_up.yaml", "free={ends.rise: [0, 1]}"},
+      {"models/stairs_up.yaml", "free={\"contacts[0].place[0]\": [-1, 1]}"}};
+  for (int i = 0; i < 4; i++) {
+    ambulo_problem *p = NULL;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    assert_int_equal(ambulo_problem_load(names[i][0], &names[i][1], 1, NULL, list, &p),
+                     AMBULO_E_SCHEMA);
+    assert_non_null(strstr(ambulo_diagnostics_get(list, 0)->message, "cannot be free"));
+    ambulo_diagnostics_free(list);
+  }
+}
+
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(WALK "free: {gait.step_tim: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
@@ -169,6 +187,7 @@ int main(void) {
       cmocka_unit_test(the_hash_sees_what_is_free),
       cmocka_unit_test(the_file_is_read_again),
       cmocka_unit_test(others_go_along),
+      cmocka_unit_test(kinks_cannot_be_free),
       cmocka_unit_test(faults_are_placed),
       cmocka_unit_test(every_allocation_may_fail),
   };

@@ -60,6 +60,19 @@ static void kinks_are_left_out(void **state) {
       {NULL}};
   expect_absent(&c, (const char *const[]){"contacts[0].place[0]", "contacts[1].place[2]",
                                           "contacts[3].place[1]", NULL});
+  ambulo_problem *problem =
+      NULL; /* nor can they be free: that is known before there is a solution */
+  const char *const overrides[] = {"ends=null",
+                                   "time.duration=0.8",
+                                   "time.intervals=72",
+                                   "trajectory.intervals=18",
+                                   EQUAL,
+                                   "free={\"contacts[0].place[0]\": [-0.5, 0]}"};
+  assert_int_equal(ambulo_problem_load("models/stairs_up.yaml", overrides, 5, NULL, NULL, &problem),
+                   AMBULO_OK);
+  ambulo_problem_free(problem);
+  assert_int_equal(ambulo_problem_load("models/stairs_up.yaml", overrides, 6, NULL, NULL, &problem),
+                   AMBULO_E_SCHEMA);
 }
 
 int main(void) {
