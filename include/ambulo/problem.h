@@ -255,7 +255,7 @@ typedef struct ambulo_problem_definition {
   int ends_order; /* highest derivative that is matched: 0, 1 (default) or 2; below 2 forces jump
                      from one period to the next */
   double travel;  /* m along forward */
-  double rise;    /* m along up: of stairs, over the motion */
+  double rise;    /* m along up: of stairs, over the motion; 0 with free ends */
   const ambulo_end_value *end_values;
   int end_value_count;
   int tube_count;

@@ -18,12 +18,20 @@
  *     as a step length moves the corners of a flat foot, every choice gives the same value. If p
  *     moves one of them alone, f* has a kink at p (or the problem has a solution on one side
  *     only), and the value is between the slopes of the two sides.
- *   - Phases of a gait, and times of listed contacts at which no other contact begins or ends, are
- *     there on grids on events (AMBULO_GRID_EVENTS without node_times): nodes, and knots if they
- *     are on events, go along, and each phase keeps its number of intervals. A time that coincides
- *     with 0, T, another event or, for nodes that move along fixed knots of a cubic, with a knot
- *     has no derivative and is left out; so are all beside references, tubes and functions of the
- *     caller.
+ *   - Phases of a gait, and times of listed contacts, are there on grids on events
+ *     (AMBULO_GRID_EVENTS without node_times): nodes, and knots if they are on events, go along,
+ *     and each phase keeps its number of intervals. Contacts that begin or end at one time move
+ *     together. A time that coincides with 0, T, an event of another phase of a gait or, for nodes
+ *     that move along fixed knots of a cubic, with a knot has no derivative and is left out; so are
+ *     all beside references, tubes and functions of the caller.
+ *   - Where contacts share the load (AMBULO_REACTION_SHARED) their weights, centres, patches and
+ *     greatest forces go along with places and times.
+ *   - Of footholds off the level ground also height, heading, and a normal that is given. Contacts
+ *     of a foot that follow each other on one foothold move together. Left out are what would
+ *     leave level ground, and the height of a foothold from which a foot swings to another of the
+ *     same height (rows of swinging feet change in a jump there); places and heights of equal steps
+ *     past whose edges a foot swings (a kink); and, in a motion that repeats, footholds at 0 and T
+ *     with travel and rise, of which none moves alone.
  *   - A number on which the grid, or what is active at a node, depends in jumps has no derivative
  *     and is left out: those times on uniform grids, numbers of intervals. Left out as well are
  *     those that act through a file (stature, a reference) or a curve (exponents,
@@ -46,8 +54,10 @@ typedef struct ambulo_sensitivity {
   const char *name;  /* as a problem file has it, and --set: "gait.step_length",
                         "objective[upright].weight", "model.links[shank_r].coordinate.range[1]";
                         the same for problems made from C */
-  const char *with;  /* with mirrored ends, where both sides have to be alike: the name of the other
-                        side's number, which moves along; "" for none */
+  const char *with;  /* the names of numbers that move along, separated by ", ": with mirrored ends,
+                        where both sides have to be alike, that of the other side; of a foothold
+                        those of the foot's other contacts on it; of a time those of all contacts
+                        that begin or end then; "" for none */
   double with_sign;  /* ... by so many times as much: 1 or -1; 0 for none */
   const char *label; /* in words: "step length" */
   const char *unit;  /* SI and rad, also where a file has degrees; "" for weights, scales,

@@ -59,9 +59,8 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
   return frame;
 }
 
-ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definition *d,
-                                                    const ambulo_contact *from,
-                                                    const ambulo_contact *to, double share) {
+ambulo_contact ambulo__contact_between(const ambulo_contact *from, const ambulo_contact *to,
+                                       double share) {
   ambulo_contact there = *to;
   double along = ambulo__smooth_step(share), rise = to->place[2] - from->place[2];
   double climb = ambulo__smooth_step(rise > 0.0 ? 2.0 * share : 2.0 * share - 1.0);
@@ -75,6 +74,13 @@ ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definit
            b = to->normal[2] > 0.0 ? to->normal[i] : up;
     there.normal[i] = a + along * (b - a);
   }
+  return there;
+}
+
+ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definition *d,
+                                                    const ambulo_contact *from,
+                                                    const ambulo_contact *to, double share) {
+  ambulo_contact there = ambulo__contact_between(from, to, share);
   return ambulo__contact_frame_of(d, &there);
 }
 

@@ -25,6 +25,9 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
 ambulo__contact_frame ambulo__contact_frame_between(const ambulo_problem_definition *definition,
                                                     const ambulo_contact *from,
                                                     const ambulo_contact *to, double share);
+/* The contact that such a surface would be of. */
+ambulo_contact ambulo__contact_between(const ambulo_contact *from, const ambulo_contact *to,
+                                       double share);
 /* direction . (point - origin) */
 double ambulo__contact_frame_along(const ambulo__contact_frame *frame, const double direction[3],
                                    const double point[3]);

@@ -46,8 +46,7 @@
 
 #include <math.h>
 
-static const double beyond_ball = 0.02;          /* m: a */
-static const double shortest_glide = 1.0 / 16.0; /* of the time that a foot is flat */
+static const double beyond_ball = AMBULO__BEYOND_BALL; /* m: a */
 static const double loading_onset =
     0.01; /* s: tau; rms above 15 Hz .0051 body weights, without .0097 */
 
@@ -113,7 +112,7 @@ static roll roll_of_flat(const ambulo__stance *stance, double time) {
   double middle = 0.5 * (flat.from + flat.to);
   double settled = stance->leaves > flat.from && stance->leaves < flat.to ? stance->leaves : middle;
   double leaving = stance->comes > flat.from && stance->comes < flat.to ? stance->comes : middle;
-  double least = (flat.to - flat.from) * shortest_glide;
+  double least = (flat.to - flat.from) * AMBULO__SHORTEST_GLIDE;
   settled = fmax(settled, flat.from + least);
   leaving = fmin(leaving, flat.to - least);
   if (leaving < settled) settled = leaving = middle;

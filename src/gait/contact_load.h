@@ -10,6 +10,11 @@
 
 enum { AMBULO__MOST_SLOTS = 6 };
 
+/* How far ahead of the ball the centre under the toes is, m. */
+#define AMBULO__BEYOND_BALL 0.02
+/* Of the time that a foot is flat: the least over which that centre comes there, and goes on. */
+#define AMBULO__SHORTEST_GLIDE (1.0 / 16.0)
+
 typedef struct ambulo__slots {
   int count;
   int foot[AMBULO__MOST_SLOTS]; /* whose; slot f < foot_count is foot f's */

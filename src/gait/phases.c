@@ -53,26 +53,26 @@ int ambulo__event_at(const ambulo__events *events, double time) {
   return low < events->count && events->time[low] <= time + AMBULO__INSTANT ? low : -1;
 }
 
-/* where in a swing the foot has come to the first edge of a step, and where past the last one */
-static void insert_edges(const ambulo_problem_definition *d, int foot, ambulo__span air,
-                         ambulo__events *events) {
+int ambulo__edge_times(const ambulo_problem_definition *d, int foot, ambulo__span air,
+                       double time[2]) {
   ambulo_contact from = {.foot = foot}, to = from;
   double middle = 0.5 * (air.from + air.to);
   if (!(air.to - air.from > AMBULO__INSTANT) ||
       !ambulo__swing_contacts(d, foot, middle, &from, &to) ||
       ambulo__step_edges_between(d, foot, middle, &from, &to).count == 0)
-    return;
-  for (int last = 0; last < 2; last++)
-    insert(events, ambulo__step_edge_time(air, &from, &to, last), d->duration);
+    return 0;
+  for (int last = 0; last < 2; last++) time[last] = ambulo__step_edge_time(air, &from, &to, last);
+  return 2;
 }
 
 /* where in the swing beside `time` the foot's tip begins to have to clear the ground, and edges */
 static void insert_swing(const ambulo_problem_definition *d, int foot, double time,
                          ambulo__events *events) {
   ambulo__span air;
-  double tip = ambulo__tip_time(d, foot, time, &air);
+  double tip = ambulo__tip_time(d, foot, time, &air), edge[2];
   if (d->model->feet[foot].has_tip) insert(events, tip, d->duration);
-  insert_edges(d, foot, air, events);
+  int edges = ambulo__edge_times(d, foot, air, edge);
+  for (int i = 0; i < edges; i++) insert(events, edge[i], d->duration);
 }
 
 int ambulo__has_tip_rows(const ambulo_problem_definition *d) {

@@ -19,7 +19,8 @@ typedef struct ambulo__events {
 
 typedef enum ambulo__event_kind {
   AMBULO__EVENTS_OF_CONTACTS, /* starts and ends of contacts */
-  AMBULO__EVENTS_OF_ROWS      /* and where in a swing the foot's tip has to clear the ground */
+  AMBULO__EVENTS_OF_ROWS      /* and where in a swing the foot's tip has to clear the ground, and
+                                 where the foot comes to edges of steps and is past them */
 } ambulo__event_kind;
 
 /* Freed with ambulo__free(allocator, events->time). Contacts need not be legal. E_MEMORY. */
@@ -31,6 +32,10 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *definition,
  * (air->to - air->from) on, which this returns. */
 double ambulo__tip_time(const ambulo_problem_definition *definition, int foot, double time,
                         ambulo__span *air);
+/* When it comes to the first edge of a step on its way, and when it is past the last one, fixed
+ * shares of the time in the air. Returns 2; 0 if there is no step. */
+int ambulo__edge_times(const ambulo_problem_definition *definition, int foot, ambulo__span air,
+                       double time[2]);
 /* 1 if the definition has rows on the tips of feet. Contacts need not be legal. */
 int ambulo__has_tip_rows(const ambulo_problem_definition *definition);
 /* The event at `time`, -1: there is none. */

@@ -22,8 +22,14 @@ static void meet(ambulo__stance *s, double middle, ambulo__span other) {
   int at_end = other.to > s->to + AMBULO__INSTANT && other.from < s->to - AMBULO__INSTANT;
   double leaves = other.to < s->to ? other.to : middle;
   double comes = other.from > s->from ? other.from : middle;
-  if (at_begin && (s->leaves == -INFINITY || leaves < s->leaves)) s->leaves = leaves;
-  if (at_end && (s->comes == INFINITY || comes > s->comes)) s->comes = comes;
+  if (at_begin && (s->leaves == -INFINITY || leaves < s->leaves)) {
+    s->leaves = leaves;
+    s->leaves_half_way = !(other.to < s->to);
+  }
+  if (at_end && (s->comes == INFINITY || comes > s->comes)) {
+    s->comes = comes;
+    s->comes_half_way = !(other.from > s->from);
+  }
 }
 
 static int touches(ambulo__span span, double time) {

@@ -6,14 +6,15 @@
 
 /* Times, s, may lie outside [0, T] in a motion that repeats. */
 typedef struct ambulo__stance {
-  double from, to;    /* infinite where the foot never came down or leaves: in a motion that repeats
-                         if it is down all the time, in another where that begins or ends with it */
-  double leaves;      /* those of other feet that hold as it begins: when the first of them ends, at
-                         the latest half-way; -infinity: none, or it has no beginning */
-  double comes;       /* those that hold as it ends: when the last of them began, at the earliest
-                         half-way; infinity: none, or it has no end */
-  ambulo__span phase; /* the part of it in the contact's mode */
-  int before, after;  /* modes of the parts before and after; -1: none */
+  double from, to; /* infinite where the foot never came down or leaves: in a motion that repeats
+                      if it is down all the time, in another where that begins or ends with it */
+  double leaves;   /* those of other feet that hold as it begins: when the first of them ends, at
+                      the latest half-way; -infinity: none, or it has no beginning */
+  double comes;    /* those that hold as it ends: when the last of them began, at the earliest
+                      half-way; infinity: none, or it has no end */
+  int leaves_half_way, comes_half_way; /* 1: that is half-way */
+  ambulo__span phase;                  /* the part of it in the contact's mode */
+  int before, after;                   /* modes of the parts before and after; -1: none */
 } ambulo__stance;
 
 /* Of the foot of one of the definition's contacts, at that contact. */

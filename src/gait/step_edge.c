@@ -22,6 +22,7 @@ enum { MOST = 3 }; /* footholds on the way: those of the foot, that of the other
 static const double shortest_way =
     0.05; /* m forward, below which a foot goes up or down on the spot */
 static const double same_height = 1e-3; /* m */
+static const double same_place = 1e-9;  /* m: rounding */
 
 typedef struct way {
   int count;
@@ -37,29 +38,41 @@ static double along(const double direction[2], const double place[3]) {
   return direction[0] * place[0] + direction[1] * place[1];
 }
 
-static void add_other_foot(const ambulo_problem_definition *d, int foot, double time,
-                           const double direction[2], way *w) {
+static const ambulo_contact *add_other_foot(const ambulo_problem_definition *d, int foot,
+                                            double time, const double direction[2], way *w) {
   const ambulo_contact *c = d->model->feet[foot].mirror >= 0 && d->model->feet[foot].mirror != foot
                                 ? ambulo__contact_of(d, d->model->feet[foot].mirror, time)
                                 : NULL;
   double low = fmin(w->z[0], w->z[1]), high = fmax(w->z[0], w->z[1]);
   if (!c || !is_horizontal(c) || c->place[2] < low - same_height ||
       c->place[2] > high + same_height)
-    return;
+    return NULL;
   w->x[w->count] = along(direction, c->place);
   w->z[w->count++] = c->place[2];
+  return c;
 }
 
-/* x of the edge between the footholds up to `low` and those from `high` on */
-static double edge_between(const way *w, double low, double high, double length) {
+/* foothold i is the nearest one so far, or as near as that */
+static void approach(ambulo__step_edge *edge, double nearness, int i, double *nearest, int *which) {
+  edge->unsure |= fabs(nearness - *nearest) <= same_place;
+  if (!(nearness > *nearest)) return;
+  *nearest = nearness;
+  *which = i;
+}
+
+/* the edge between the footholds up to `low` and those from `high` on */
+static ambulo__step_edge edge_between(const way *w, double low, double high, double length) {
   int climbs = w->z[1] > w->z[0];
-  double behind = -INFINITY, ahead = INFINITY;
+  double behind = -INFINITY, beyond = -INFINITY;
+  ambulo__step_edge edge = {.z = high};
   for (int i = 0; i < w->count; i++) {
     int is_low = w->z[i] <= low + same_height, is_high = w->z[i] >= high - same_height;
-    if (climbs ? is_low : is_high) behind = fmax(behind, w->x[i]);
-    if (climbs ? is_high : is_low) ahead = fmin(ahead, w->x[i]);
+    if (climbs ? is_low : is_high) approach(&edge, w->x[i], i, &behind, &edge.behind);
+    if (climbs ? is_high : is_low) approach(&edge, -w->x[i], i, &beyond, &edge.beyond);
   }
-  return ambulo__riser_between(behind, length, ahead);
+  while (w->z[edge.on] != high) edge.on++;
+  edge.x = ambulo__riser_between(behind, length, -beyond);
+  return edge;
 }
 
 static void set_plane(const ambulo_model *m, double slope, ambulo__step_edges *edges) {
@@ -67,9 +80,16 @@ static void set_plane(const ambulo_model *m, double slope, ambulo__step_edges *e
   for (int i = 0; i < 3; i++) edges->above[i] = (m->up[i] - slope * edges->ahead[i]) / size;
 }
 
-static void add_edge(double x, double z, double slope, ambulo__step_edges *edges) {
-  double height = (z - slope * x) / sqrt(1.0 + slope * slope);
-  edges->height = edges->count++ ? fmax(edges->height, height) : height;
+static void add_edge(ambulo__step_edge edge, double ground, double slope,
+                     ambulo__step_edges *edges) {
+  edge.z += ground;
+  double height = (edge.z - slope * edge.x) / sqrt(1.0 + slope * slope);
+  edges->even = edges->count > 0 && fabs(height - edges->height) <= same_place;
+  if (edges->count == 0 || height > edges->height) {
+    edges->height = height;
+    edges->highest = edges->count;
+  }
+  edges->edge[edges->count++] = edge;
 }
 
 double ambulo__step_edge_time(ambulo__span air, const ambulo_contact *from,
@@ -92,18 +112,17 @@ ambulo__step_edges ambulo__step_edges_between(const ambulo_problem_definition *d
   way w = {.count = 2,
            .x = {along(direction, from->place), along(direction, to->place)},
            .z = {from->place[2], to->place[2]}};
-  add_other_foot(d, foot, time, direction, &w);
+  edges.other = add_other_foot(d, foot, time, direction, &w);
   double low = fmin(w.z[0], w.z[1]), high = fmax(w.z[0], w.z[1]), middle = w.z[w.count - 1];
   for (int i = 0; i < 3; i++)
     edges.ahead[i] = direction[0] * d->model->forward[i] + direction[1] * d->model->left[i];
   set_plane(d->model, slope, &edges);
   if (w.count == MOST && middle > low + same_height && middle < high - same_height) {
-    edges.riser = edge_between(&w, low, middle, length);
-    add_edge(edges.riser, d->ground_height + middle, slope, &edges);
-    add_edge(edge_between(&w, middle, high, length), d->ground_height + high, slope, &edges);
+    add_edge(edge_between(&w, low, middle, length), d->ground_height, slope, &edges);
+    add_edge(edge_between(&w, middle, high, length), d->ground_height, slope, &edges);
   } else {
-    edges.riser = edge_between(&w, low, high, length);
-    add_edge(edges.riser, d->ground_height + high, slope, &edges);
+    add_edge(edge_between(&w, low, high, length), d->ground_height, slope, &edges);
   }
+  edges.riser = edges.edge[0].x;
   return edges;
 }

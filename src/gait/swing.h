@@ -11,6 +11,11 @@
 int ambulo__swing_contacts(const ambulo_problem_definition *definition, int foot, double time,
                            ambulo_contact *from, ambulo_contact *to);
 
+/* Which of the definition's contacts one of those is, and in *period how many periods later; -1:
+ * none. */
+int ambulo__swing_source(const ambulo_problem_definition *definition, const ambulo_contact *image,
+                         int *period);
+
 /* The plane that a foot's corners stay above: of the contact at `time`, else of the lower one of
  * those between which it swings, else the level ground. */
 ambulo__contact_frame ambulo__surface_below(const ambulo_problem_definition *definition, int foot,

@@ -108,6 +108,7 @@ static void free_ends(const ambulo__advice *a) {
                      "what else fixes its state there",
                      a->row->subject, a->row->detail, a->give, a->row->unit);
   ambulo__advice_set(a, "ends.kind=free");
+  if (a->problem->definition.rise != 0.0) ambulo__advice_set(a, "ends.rise=0");
 }
 
 static void matching_ends(const ambulo__advice *a) {

@@ -255,6 +255,9 @@ static ambulo_status check_ends(const ambulo_problem_definition *d, ambulo_diagn
   int coordinates = ambulo_model_coordinate_count(d->model);
   if (d->ends_order < 0 || d->ends_order > 2)
     status = REFUSE(list, "ends.order is %d; expected 0, 1 or 2", d->ends_order);
+  if (d->ends == AMBULO_ENDS_FREE && d->rise != 0.0)
+    status =
+        REFUSE(list, "ends.rise is %g with free ends; expected 0, or ends that match", d->rise);
   for (int i = 0; i < d->end_value_count; i++) {
     const ambulo_end_value *end = &d->end_values[i];
     if (end->coordinate < 0 || end->coordinate >= coordinates)

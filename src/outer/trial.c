@@ -64,16 +64,23 @@ static const ambulo_sensitivity *find(const ambulo_sensitivity_list *list, const
   return NULL;
 }
 
-/* dF/dp = (df*_dp - F dD/dp) / D; a limit that the motion does not touch has no sensitivity */
-static void take_gradient(const ambulo__outer *run, ambulo__outer_trial *t,
-                          const ambulo_sensitivity_list *list) {
+/* a limit that the motion does not touch has no sensitivity; what else has none is at a kink */
+static int is_limit(const char *name) {
+  return strncmp(name, "model.", 6) == 0;
+}
+
+/* dF/dp = (df*_dp - F dD/dp) / D; returns 0 at a kink */
+static int take_gradient(const ambulo__outer *run, ambulo__outer_trial *t,
+                         const ambulo_sensitivity_list *list) {
   int per_distance = run->parameters.per == AMBULO_PER_DISTANCE;
   for (int i = 0; i < run->parameters.count; i++) {
     const ambulo_sensitivity *s = find(list, run->parameters.items[i].name);
     double travel = s && per_distance ? s->travel : 0.0;
     double sign = t->problem->definition.travel < 0.0 ? -1.0 : 1.0;
     t->gradient[i] = s ? (s->derivative - t->objective * sign * travel) / t->distance : 0.0;
+    if (!s && !is_limit(run->parameters.items[i].name)) return 0;
   }
+  return 1;
 }
 
 static ambulo_status value_of(ambulo__outer *run, ambulo__outer_trial *t) {
@@ -86,7 +93,7 @@ static ambulo_status value_of(ambulo__outer *run, ambulo__outer_trial *t) {
   if (status == AMBULO_E_NUMERIC) return AMBULO_OK;
   if (status) return status;
   t->objective = ambulo_result_objective(t->result) / t->distance;
-  take_gradient(run, t, list);
+  if (!take_gradient(run, t, list)) t->objective = HUGE_VAL; /* given up: no way on from there */
   ambulo_sensitivities_free(list);
   return AMBULO_OK;
 }

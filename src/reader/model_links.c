@@ -91,7 +91,7 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
 static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int index, int *root) {
   static const char *const types[] = {"fixed", "revolute", "prismatic"};
   ambulo_link *link = &reader->links[index];
-  int choice = ambulo__yaml_choice(ambulo__yaml_require(item, "joint"), types, 3, 0);
+  int choice = ambulo__yaml_choice(ambulo__yaml_require(item, "joint"), types, 3, -1);
   link->type = choice == 1 ? AMBULO_REVOLUTE : choice == 2 ? AMBULO_PRISMATIC : AMBULO_FIXED;
   read_parent(reader, item, index, root);
   read_dh(reader, item, link);
@@ -99,7 +99,7 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
   if (link->type != AMBULO_FIXED) {
     read_coordinate(reader, coordinate, link, reader->link_places[index]);
-  } else if (coordinate) {
+  } else if (coordinate && choice == 0) {
     (void)ambulo__yaml_error(coordinate, AMBULO_E_SCHEMA, NULL,
                              "link '%s' is fixed; expected no coordinate", link->name);
   }

@@ -18,31 +18,45 @@ ambulo_parameters ambulo_problem_parameters(const ambulo_problem *problem) {
   return problem->free ? problem->free->parameters : ambulo_parameters_default();
 }
 
-/* "key=value" in the file's unit; the texts of a run stand one behind the other */
-static char *write_override(char *at, const char *key, double value) {
-  int length = sprintf(at, "%s=%.17g", key, value);
-  return at + length + 1;
+/* names in "a, b" */
+static int count_names(const char *names) {
+  int count = names[0] != '\0';
+  for (; *names; names++) count += *names == ',';
+  return count;
 }
 
 static size_t room_for(const ambulo__free_section *s) {
   size_t room = 0;
-  for (int i = 0; i < s->parameters.count; i++)
-    room += strlen(s->item[i].name) + strlen(s->key[i].with) + 2 * (NUMBER + 2);
+  for (int i = 0; i < s->parameters.count; i++) {
+    size_t names = 1 + (size_t)count_names(s->key[i].with);
+    room += strlen(s->item[i].name) + strlen(s->key[i].with) + names * (NUMBER + 2);
+  }
   return room;
 }
 
-/* fills override[], writes texts at `at`; returns how many there are */
+/* of each of the names in "a, b" */
+static char *write_all(char *at, const char *names, double value, const char **override,
+                       int *count) {
+  while (*names) {
+    size_t length = strcspn(names, ",");
+    override[(*count)++] = at;
+    at += sprintf(at, "%.*s=%.17g", (int)length, names, value) + 1;
+    names += length;
+    names += strspn(names, ", ");
+  }
+  return at;
+}
+
+/* fills override[], writes texts at `at`, "key=value" in the file's unit, one behind the other;
+ * returns how many there are */
 static int fill(const ambulo__free_section *s, const double *values, char *at,
                 const char **override) {
   int count = 0;
   for (; count < s->overrides; count++) override[count] = s->override[count];
   for (int i = 0; i < s->parameters.count; i++) {
     double value = values[i] / s->key[i].unit;
-    override[count++] = at;
-    at = write_override(at, s->item[i].name, value);
-    if (!s->key[i].with[0]) continue;
-    override[count++] = at;
-    at = write_override(at, s->key[i].with, s->key[i].with_sign * value);
+    at = write_all(at, s->item[i].name, value, override, &count);
+    at = write_all(at, s->key[i].with, s->key[i].with_sign * value, override, &count);
   }
   override[count++] = "free=null";
   return count;
@@ -53,7 +67,8 @@ ambulo_status ambulo__problem_at(ambulo__text_loader *load, const ambulo_problem
                                  ambulo_diagnostics *diagnostics, ambulo_problem **at) {
   const ambulo__free_section *s = problem->free;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
-  size_t most = (size_t)s->overrides + 2 * (size_t)s->parameters.count + 1;
+  size_t most = (size_t)s->overrides + (size_t)s->parameters.count + 1;
+  for (int i = 0; i < s->parameters.count; i++) most += (size_t)count_names(s->key[i].with);
   const char **override = ambulo__alloc(&own, most, sizeof *override);
   char *text = ambulo__alloc(&own, room_for(s), 1);
   ambulo_status status = AMBULO_E_MEMORY;

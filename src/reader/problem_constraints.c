@@ -109,16 +109,32 @@ static void check_steps(const ambulo__problem_reader *reader, const ambulo__yaml
                              "the gait has steps of two lengths or times; expected equal steps");
 }
 
+/* keys of ends that match: a height is not given for nothing, an order may stay in the file */
+static void check_idle(const ambulo__yaml_node *section, double rise) {
+  const ambulo__yaml_node *order = ambulo__yaml_get(section, "order");
+  if (order)
+    ambulo__yaml_warning(order, NULL,
+                         "'order' has no effect with free ends; it belongs to kind "
+                         "periodic or mirrored");
+  if (rise != 0.0)
+    (void)ambulo__yaml_error(ambulo__yaml_get(section, "rise"), AMBULO_E_PROBLEM, NULL,
+                             "a rise of %g m with free ends, which do nothing with it; expected "
+                             "'kind: periodic' or 'kind: mirrored' beside it",
+                             rise);
+}
+
 void ambulo__read_ends(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const kinds[] = {"free", "periodic", "mirrored"};
   ambulo_problem_definition *d = &reader->definition;
   if (!section) return;
-  int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 0);
-  d->ends = (ambulo_ends)kind;
+  const ambulo__yaml_node *given = ambulo__yaml_get(section, "kind");
+  int kind = ambulo__yaml_choice(given, kinds, 3, given ? -1 : 0); /* -1: that was said */
+  d->ends = kind < 0 ? AMBULO_ENDS_FREE : (ambulo_ends)kind;
   check_steps(reader, ambulo__yaml_get(section, "kind"));
   d->ends_order = ambulo__yaml_integer(ambulo__yaml_get(section, "order"), 0, 2, 1);
   reader->keys.travel = ambulo__yaml_get(section, "travel") != NULL;
   d->rise = ambulo__yaml_number_in(ambulo__yaml_get(section, "rise"), -1e6, 1e6, 0.0);
+  if (kind == 0) check_idle(section, d->rise);
   d->travel = ambulo__yaml_number_in(ambulo__yaml_get(section, "travel"), -1e6, 1e6, d->travel);
   size_t coordinates = (size_t)ambulo_model_coordinate_count(reader->model);
   end_list list = {ambulo__reader_alloc(reader, 6 * coordinates, sizeof(ambulo_end_value)), 0};

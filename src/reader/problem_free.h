@@ -8,7 +8,7 @@
 
 /* How the value of a free parameter is written in the file. */
 typedef struct ambulo__free_key {
-  const char *with; /* the other side's key, which moves along; "" */
+  const char *with; /* keys that move along, "a, b"; "" */
   double with_sign;
   double unit; /* SI, rad per unit of the file */
 } ambulo__free_key;

@@ -119,10 +119,12 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
   ambulo_problem_definition *d = &reader->definition;
   ambulo_ground_reaction *r = &d->ground_reaction;
   if (!section) return;
-  int kind = ambulo__yaml_choice(ambulo__yaml_get(section, "kind"), kinds, 3, 1);
+  const ambulo__yaml_node *given = ambulo__yaml_get(section, "kind");
+  int kind = ambulo__yaml_choice(given, kinds, 3, given ? -1 : AMBULO_REACTION_TWO_STEP);
   int transfer = ambulo__yaml_choice(ambulo__yaml_get(section, "transfer"), transfers, 3, 0);
+  if (kind >= 0) warn_of_others(section, kind);
+  if (kind < 0) kind = AMBULO_REACTION_TWO_STEP; /* that was said */
   r->kind = (ambulo_reaction_kind)kind;
-  warn_of_others(section, kind);
   r->transfer = (ambulo_transfer)transfer;
   r->exponent =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "exponent"), 1.0, 10.0, r->exponent);

@@ -179,7 +179,8 @@ static int has_scale(ambulo_term_kind kind) {
          kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE;
 }
 
-static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
+/* 0: there is none, which was said */
+static int read_kind(const ambulo__yaml_node *node, ambulo_term_kind *kind) {
   static const char *const words[] = {"torque_squared",   "torque_absolute", "acceleration",
                                       "tracking",         "torque_power",    "torque_rate",
                                       "mechanical_power", "posture",         "upright",
@@ -188,12 +189,17 @@ static ambulo_term_kind read_kind(const ambulo__yaml_node *node) {
       AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
       AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
       AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,        AMBULO_FORCE_RATE};
-  return kinds[ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), 0)];
+  int choice = ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), -1);
+  if (choice >= 0) *kind = kinds[choice];
+  return choice >= 0;
 }
 
 static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                       ambulo_term *term) {
-  *term = ambulo_term_default(read_kind(ambulo__yaml_require(node, "term")));
+  ambulo_term_kind kind = AMBULO_TORQUE_SQUARED;
+  int known = read_kind(ambulo__yaml_require(node, "term"), &kind);
+  *term = ambulo_term_default(kind);
+  if (!known) return; /* which keys it has is not known either */
   const ambulo__yaml_node *name = ambulo__yaml_get(node, "name");
   if (name) term->name = ambulo__yaml_name(name);
   term->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e12, 1.0);

@@ -1,14 +1,15 @@
 /* sensitivity/bound_rows.c - limits, tubes, and what is asked of the ends.
  *
- *     limit     y - lo >= 0, hi - y >= 0         dc/dlo = -1, dc/dhi = 1
- *     mirrored  lo, hi = s (limit - shift) of the partner m: dc/dlimit = 1 of its upper limit, -1
- * of its lower one, dc/dtravel = s shift'_m on the lower side, -s shift'_m on the upper tube (q -
- * r) + w >= 0, (r - q) + w >= 0             dc/dw = 1 ends      D^o q - value = 0, q(T) - .. -
- * shift = 0       dc/dvalue = -1, dc/dtravel = -shift'
+ *     limit     y - lo >= 0, hi - y >= 0             dc/dlo = -1, dc/dhi = 1
+ *     mirrored  lo, hi = s (limit - shift) of m       dc/dlimit = 1 of its upper one, -1 of its
+ *                                                     lower one, dc/dtravel = +-s shift'_m
+ *     tube      (q - r) + w >= 0, (r - q) + w >= 0    dc/dw = 1
+ *     ends      D^o q - value = 0                     dc/dvalue = -1
+ *               q(T) - .. - shift = 0                 dc/dtravel = -shift'
  *
- * shift' = a . f, the axis of the root's translation along forward (gait/ends.c). rad, m, per s, N
- * m, N. A limit of a coordinate that is fixed, lo = hi, has no partial: half of it alone cannot
- * move.
+ * m is the partner, + on the lower side; shift' = a . f, the axis of the root's translation along
+ * forward (gait/ends.c), and a . n by the rise. rad, m, per s, N m, N. A limit of a coordinate that
+ * is fixed, lo = hi, has no partial: half of it alone cannot move.
  */
 #include "sensitivity/partials.h"
 
@@ -17,10 +18,18 @@
 
 #include <math.h>
 
-/* shift' of coordinate i: ambulo__end_shift is linear in the travel */
+/* shift' of coordinate i: ambulo__end_shift is linear in travel and rise */
 static double shift_per_travel(const ambulo_problem_definition *definition, int i) {
   ambulo_problem_definition unit = *definition;
   unit.travel = 1.0;
+  unit.rise = 0.0;
+  return ambulo__end_shift(&unit, i);
+}
+
+static double shift_per_rise(const ambulo_problem_definition *definition, int i) {
+  ambulo_problem_definition unit = *definition;
+  unit.travel = 0.0;
+  unit.rise = 1.0;
   return ambulo__end_shift(&unit, i);
 }
 
@@ -40,8 +49,9 @@ static void add_limit(const ambulo_problem *p, const ambulo__table_row *row, dou
   partials->limit[2 * ((int)what * p->coordinates + bound->owner) + bound->is_upper] +=
       bound->is_upper ? pull : -pull;
   if (bound->later == 0.0 || what != AMBULO_LIMITED_POSITION) return;
-  double turned = p->model->coordinates[i].mirror_sign * shift_per_travel(d, bound->owner);
-  partials->travel += pull * (is_low ? turned : -turned);
+  double turned = p->model->coordinates[i].mirror_sign * (is_low ? pull : -pull);
+  partials->travel += turned * shift_per_travel(d, bound->owner);
+  partials->end_rise += turned * shift_per_rise(d, bound->owner);
 }
 
 /* the first tube after number `tube` that has rows at all */
@@ -58,6 +68,7 @@ static void add_matching(const ambulo_problem *p, const ambulo__table_row *row, 
   const ambulo__row_term *term = p->table.terms + row->first_term;
   if (term->channel >= p->coordinates) return; /* rates do not travel */
   partials->travel -= pull * shift_per_travel(&p->definition, term->channel);
+  partials->end_rise -= pull * shift_per_rise(&p->definition, term->channel);
 }
 
 /* (S.3) -1, 1, -shift' */

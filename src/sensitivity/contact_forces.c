@@ -57,6 +57,7 @@ double ambulo__contact_forces_pull(const ambulo__node_forces *f) {
   memcpy(change.wrench, f->wrench, sizeof change.wrench);
   memcpy(change.center, f->center, sizeof change.center);
   memcpy(change.place, f->place, sizeof change.place);
+  memcpy(change.weight, f->load, sizeof change.weight);
   ambulo__contact_split_tangent(c->slots, &state, &change, share, tangent);
   for (int slot = 0; slot < c->slots; slot++) {
     double wrench[6];

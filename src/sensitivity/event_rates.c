@@ -5,8 +5,8 @@
  *
  *     t. = e. + (t - e) / (e' - e) (e'. - e.),    0. = T. = 0
  *
- * Where the tip of a foot begins to have to clear the ground, off + r (down - off) of a swing, it
- * moves by (1 - r) off. + r down. s.
+ * Where the tip of a foot begins to have to clear the ground, or where a foot comes to the edge of
+ * a step and is past it, off + r (down - off) of a swing, that moves by (1 - r) off. + r down. s.
  */
 #include "sensitivity/event_rates.h"
 
@@ -50,17 +50,25 @@ static void settle(ambulo__event_map *map, double time, sum is) {
   }
 }
 
-/* the swing beside one end of a contact */
-static void settle_tip(ambulo__event_map *map, int foot, double time) {
-  const ambulo_problem_definition *d = &map->problem->definition;
-  ambulo__span air;
-  if (!d->model->feet[foot].has_tip) return;
-  double tip = ambulo__tip_time(d, foot, time, &air), r = d->clearance.tip_from;
+/* what is at `time`, a fixed share of a swing */
+static void settle_share(ambulo__event_map *map, ambulo__span air, double time) {
+  double r = (time - air.from) / (air.to - air.from);
   int off = air.begins >= 0 ? map->of_contact[2 * air.begins + 1] : -1;
   int down = air.ends >= 0 ? map->of_contact[2 * air.ends] : -1;
   sum is = {{off, down}, {off >= 0 ? 1.0 - r : 0.0, down >= 0 ? r : 0.0}};
   if (off == down) is = (sum){{off, -1}, {off >= 0 ? 1.0 : 0.0, 0.0}}; /* between two contacts */
-  settle(map, tip, is);
+  settle(map, time, is);
+}
+
+/* the swing beside one end of a contact */
+static void settle_swing(ambulo__event_map *map, int foot, double time) {
+  const ambulo_problem_definition *d = &map->problem->definition;
+  ambulo__span air;
+  double tip = ambulo__tip_time(d, foot, time, &air), edge[2];
+  if (!(air.to - air.from > AMBULO__INSTANT)) return; /* between two contacts */
+  if (d->model->feet[foot].has_tip) settle_share(map, air, tip);
+  int edges = ambulo__edge_times(d, foot, air, edge);
+  for (int i = 0; i < edges; i++) settle_share(map, air, edge[i]);
 }
 
 static void settle_all(ambulo__event_map *map) {
@@ -68,8 +76,8 @@ static void settle_all(ambulo__event_map *map) {
   for (int e = 0; e < map->contacts.count; e++)
     settle(map, map->contacts.time[e], (sum){{e, -1}, {1.0, 0.0}});
   for (int c = 0; ambulo__has_tip_rows(d) && c < d->contact_count; c++) {
-    settle_tip(map, d->contacts[c].foot, d->contacts[c].from);
-    settle_tip(map, d->contacts[c].foot, d->contacts[c].to);
+    settle_swing(map, d->contacts[c].foot, d->contacts[c].from);
+    settle_swing(map, d->contacts[c].foot, d->contacts[c].to);
   }
 }
 

@@ -7,12 +7,9 @@
  *           + sum_k dL/dt_k t_k. + sum over contacts that begin or end there of dL/dfrom, dL/dto
  *           - sum over matching ends of lambda (c + shift) s_o. / s_o
  *
- * None where contacts share the load: their weights and centres move with the events in ways that
- * are not written down here.
- *
  * L_q .. are adjoints with the mechanics' reverse sweep in them; dL/dt_k, dL/dfrom, dL/dto what
- * terms.c, place_rows.c and force_rows.c say of quadrature, heights due in the swing, boxes that
- * roll and shares of the load; s_o = 1 / max_c |D^o B_c(0)| (gait/ends.c).
+ * terms.c, place_rows.c, force_rows.c and contact_times.c say of quadrature, heights due in the
+ * swing, boxes that roll and shares of the load; s_o = 1 / max_c |D^o B_c(0)| (gait/ends.c).
  */
 #include "sensitivity/event_rates.h"
 #include "sensitivity/partials.h"
@@ -117,7 +114,7 @@ static ambulo_status fill_events(const ambulo__stationary *s, int solved, ambulo
                                  ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   ambulo__event_map map;
-  if (!p->before || p->definition.node_times || ambulo__plan_contacts(p->plan)) return AMBULO_OK;
+  if (!p->before || p->definition.node_times) return AMBULO_OK;
   ambulo_status status = ambulo__event_map_create(p, pool, &map);
   if (status) return status;
   size_t knots = (size_t)ambulo__basis_intervals(p->basis) + 1;

@@ -7,15 +7,15 @@
  *     load m_l at p       force per kg a - g at p,  dc/dm_l = (p - c) / m
  *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays
  *     bodies alone        d/d ln m_b = d/d ln m - m_l d/dm_l, and likewise of m in rows and terms
- *     slope               force -m_b dg/ds on the centre of each body, dg/ds = |g| (sin s n - cos s
- * f) footholds           D = place_0 - place_1 + constant while both feet are loaded shear, height
- * of the ground: ground_split.c
+ *     slope               force -m_b dg/ds on the centre of each body,
+ *                         dg/ds = |g| (sin s n - cos s f)
+ *     footholds           D = place_0 - place_1 + constant while both feet are loaded
+ *
+ * Shear and height of the ground: ground_split.c; contacts that share the load: contact_told.c.
  *
  * An offset of a term that is the body weight m g is one of that mass too.
  */
 #include "sensitivity/node_forces.h"
-
-#include "gait/contact_load.h"
 
 #include <math.h>
 #include <string.h>
@@ -66,35 +66,6 @@ static double pull_of_all(const ambulo__node_forces *f) {
   return sum;
 }
 
-/* every contact of a foot along an axis; foot -1: of both */
-static double pull_of_places(ambulo__node_forces *f, const ambulo__slots *slots, int foot,
-                             const double axis[3]) {
-  ambulo__node_forces_clear(f);
-  for (int slot = 0; slot < slots->count && slot < AMBULO__MOST_SLOTS; slot++)
-    if (foot < 0 || slots->foot[slot] == foot) memcpy(f->place[slot], axis, sizeof f->place[slot]);
-  return ambulo__node_forces_pull(f);
-}
-
-/* contacts that share the load */
-static void add_contacts(ambulo__node_forces *f, ambulo__partials *partials) {
-  const ambulo_problem *p = f->s->problem;
-  const int *active = p->active + 2 * (size_t)f->node;
-  const ambulo__slots slots = ambulo__slots_of(p->model);
-  ambulo__node_forces_clear(f);
-  f->moment_arm = 1.0;
-  partials->reaction.moment_arm += ambulo__node_forces_pull(f);
-  ambulo__node_forces_clear(f);
-  f->slant = 1.0;
-  partials->reaction.slant += ambulo__node_forces_pull(f);
-  partials->ground_height += pull_of_places(f, &slots, -1, p->model->up);
-  for (int foot = 0; foot < 2; foot++) {
-    if (active[foot] < 0) continue;
-    double *by = partials->place + 2 * (size_t)active[foot];
-    by[0] += pull_of_places(f, &slots, foot, p->model->forward);
-    by[1] += pull_of_places(f, &slots, foot, p->model->left);
-  }
-}
-
 static void add_footholds(ambulo__node_forces *f, ambulo__partials *partials) {
   const ambulo_problem *p = f->s->problem;
   const int *active = p->active + 2 * (size_t)f->node;
@@ -111,7 +82,7 @@ static void add_footholds(ambulo__node_forces *f, ambulo__partials *partials) {
 
 static void add_ground(ambulo__node_forces *f, ambulo__partials *partials) {
   if (ambulo__plan_contacts(f->s->problem->plan) > 0) {
-    add_contacts(f, partials);
+    ambulo__partials_of_told(f, partials);
     return;
   }
   ambulo__node_forces_clear(f);

@@ -110,6 +110,7 @@ void ambulo__node_forces_clear(ambulo__node_forces *f) {
   memset(f->center, 0, sizeof f->center);
   memset(f->apart, 0, sizeof f->apart);
   memset(f->place, 0, sizeof f->place);
+  memset(f->load, 0, sizeof f->load);
   f->shear = f->height = f->share = f->moment_arm = f->slant = 0.0;
 }
 

@@ -23,8 +23,9 @@ typedef struct ambulo__node_forces {
   double apart[3];       /* tangent of D (mechanics/kernel_ground.h), m */
   double shear, height;  /* tangents of kappa and of the height of the ground, m */
   double share;          /* tangent of a_0 */
-  /* where contacts share the load: tangents of their centres, of moment_arm and of slant */
-  double place[AMBULO__MOST_CONTACTS][3], moment_arm, slant;
+  /* where contacts share the load: tangents of their centres, weights, of moment_arm and of slant
+   */
+  double place[AMBULO__MOST_CONTACTS][3], load[AMBULO__MOST_CONTACTS], moment_arm, slant;
 } ambulo__node_forces;
 
 /* Memory from `pool` but for the pose, which ambulo__node_forces_free frees. E_MEMORY. */
@@ -51,6 +52,9 @@ double ambulo__node_forces_pull(const ambulo__node_forces *forces);
 /* The ground's part. */
 double ambulo__ground_split_pull(const ambulo__node_forces *forces);
 double ambulo__contact_forces_pull(const ambulo__node_forces *forces);
+
+/* Where contacts share the load: adds the partials of all that the law is told at the node. */
+void ambulo__partials_of_told(ambulo__node_forces *forces, ambulo__partials *partials);
 
 /* The generalized force of joint i by a wrench that acts through it: S_i . w. */
 double ambulo__node_forces_joint(const ambulo__node_forces *forces, int i, const double wrench[6]);

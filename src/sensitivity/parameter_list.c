@@ -31,11 +31,14 @@ void ambulo__parameter_add(ambulo__parameters *p, ambulo__quantity quantity, dou
 void ambulo__parameter_with(ambulo__parameters *p, double sign, const char *name, ...) {
   if (p->failed) return;
   ambulo__parameter *last = &p->list[p->count - 1];
+  size_t used = strlen(last->with), room = sizeof last->with - used;
+  int comma = used ? snprintf(last->with + used, room, ", ") : 0;
   last->with_sign = sign;
   va_list arguments;
   va_start(arguments, name);
-  (void)vsnprintf(last->with, sizeof last->with, name, arguments);
+  int length = vsnprintf(last->with + used + comma, room - (size_t)comma, name, arguments);
   va_end(arguments);
+  if ((size_t)(comma + length) >= room) p->count--;
 }
 
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *p) {

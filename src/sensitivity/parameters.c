@@ -230,6 +230,7 @@ ambulo_status ambulo__parameters_name(ambulo__parameters *p) {
   ambulo__pool pool;
   ambulo__pool_init(&pool, &p->allocator);
   ambulo_status status = ambulo__partials_create(p->problem, &pool, &partials);
+  if (!status) ambulo__partials_name_places(p->problem, &partials);
   if (!status) status = ambulo__partials_name_events(p->problem, &pool, &partials);
   p->partials = &partials;
   p->all = 1;

@@ -32,9 +32,9 @@ enum { AMBULO__PARAMETER_TEXT = 320 };
 #define AMBULO__BOTH_OF_A_PAIR " (both sides)"
 
 typedef struct ambulo__parameter {
-  char name[AMBULO__PARAMETER_TEXT];  /* "gait.step_length" */
-  char label[AMBULO__PARAMETER_TEXT]; /* "step length" */
-  char with[AMBULO__PARAMETER_TEXT];  /* the other side's, which moves by with_sign as much; "" */
+  char name[AMBULO__PARAMETER_TEXT];     /* "gait.step_length" */
+  char label[AMBULO__PARAMETER_TEXT];    /* "step length" */
+  char with[4 * AMBULO__PARAMETER_TEXT]; /* those that move by with_sign as much, "a, b"; "" */
   double with_sign;
   char words[3 * AMBULO__PARAMETER_TEXT];
   ambulo__quantity quantity;
@@ -58,7 +58,8 @@ typedef struct ambulo__parameters {
 void ambulo__parameter_add(ambulo__parameters *parameters, ambulo__quantity quantity, double value,
                            double derivative, const char *label, const char *name, ...);
 
-/* The one added last moves along with another, `sign` times. */
+/* The one added last moves along with another, `sign` times; with more than one always the same.
+ * Without room for so many names it is dropped. */
 void ambulo__parameter_with(ambulo__parameters *parameters, double sign, const char *name, ...);
 /* ... moves the travel by `travel` per unit. */
 void ambulo__parameter_travels(ambulo__parameters *parameters, double travel);
@@ -73,8 +74,13 @@ ambulo_status ambulo__parameters_collect(ambulo__parameters *parameters);
 ambulo_status ambulo__parameters_name(ambulo__parameters *parameters);
 /* SI and rad per unit that the problem's file has for it; 0: its unit of angle is not stated. */
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
-/* The pieces: footholds, times, speed, travel; events of contacts; terms of the objective. */
+/* The pieces: lengths, times, speed, travel; footholds of listed contacts; their events; terms of
+ * the objective. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
+void ambulo__parameters_of_footholds(ambulo__parameters *parameters);
+/* 1 if the motion repeats and a listed foothold at its end is one at its begin that has travelled.
+ */
+int ambulo__footholds_meet(const ambulo_problem_definition *definition);
 void ambulo__parameters_of_events(ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);
 

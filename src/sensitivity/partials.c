@@ -8,6 +8,9 @@ ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__poo
   const ambulo_problem_definition *d = &problem->definition;
   size_t n = (size_t)problem->coordinates, terms = (size_t)d->term_count;
   *partials = (ambulo__partials){.place = ambulo__pool_doubles(pool, 2 * (size_t)d->contact_count)};
+  partials->rise = ambulo__pool_doubles(pool, (size_t)d->contact_count);
+  partials->heading = ambulo__pool_doubles(pool, (size_t)d->contact_count);
+  partials->normal = ambulo__pool_doubles(pool, 3 * (size_t)d->contact_count);
   partials->limit = ambulo__pool_doubles(pool, 6 * n);
   partials->end_value = ambulo__pool_doubles(pool, (size_t)d->end_value_count);
   partials->half_width = ambulo__pool_doubles(pool, (size_t)d->tube_count * n);

@@ -15,9 +15,10 @@
  * Each file of this folder adds one of these parts to the partials of the members of the
  * problem's definition; parameters.c makes of them what a file's keys say. All by hand.
  *
- * Reading order: partials.h, partials.c; place_rows.c, force_rows.c, support_side.c,
- * sharing_rows.c, bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
- * contact_split.h, contact_forces.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
+ * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
+ * place_rows.c; force_rows.c, support_side.c; contact_pull.h, contact_times.c, sharing_rows.c;
+ * bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c, contact_split.h,
+ * contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
  * event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
  * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
  */
@@ -32,21 +33,24 @@
  * row's multiplier in it). Members that are no numbers are unused. */
 typedef struct ambulo__partials {
   double *place;           /* [contacts][2]: footholds, along forward and left */
+  double *rise, *heading;  /* [contacts]: of the place along up, m; rad */
+  double *normal;          /* [contacts][3]: of a normal that is given */
   double *limit;           /* [3][d][2]: by ambulo_limited, of a coordinate that is not fixed */
   double *end_value;       /* [end_value_count] */
   double *half_width;      /* [tubes][d] */
   double *weight, *height; /* [terms] */
   double *scale, *offset;  /* [terms][d] */
   double *strength;        /* [terms][d][2]: of the peaks */
-  double travel, ground_height; /* m */
-  double duration;              /* s; contacts and breakpoints at fixed fractions of it */
+  double travel, end_rise, ground_height; /* m */
+  double duration;                        /* s; contacts and breakpoints at fixed fractions of it */
   double support_margin, minimum_force;
   double contact_tolerance, orientation_tolerance, strike_pitch[2];
   ambulo_clearance clearance;
   ambulo_ground_reaction reaction;
   double slope;         /* rad: gravity turned against forward, its size kept */
   double *node_time;    /* [nodes], s: of a node alone */
-  double *contact_time; /* [contacts][2], s: of from and to alone, nodes where they are */
+  double *contact_time; /* [contacts][2], s: of from and to alone, nodes where they are; of
+                           contacts that begin and end at one time any may have all of it */
   int events;           /* 0 where the grid is not on events */
   double *event_time;   /* [events], s: where contacts begin and end, inside (0, T) */
   double *event;        /* [events]: of an event, with all contacts, nodes and knots that go along;
@@ -84,6 +88,8 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
 /* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);
 
+/* Places and heights that have none, without a solution: NaN. */
+void ambulo__partials_name_places(const ambulo_problem *problem, ambulo__partials *partials);
 /* The events alone, without a solution: 0 where there is a derivative. E_MEMORY. */
 ambulo_status ambulo__partials_name_events(const ambulo_problem *problem, ambulo__pool *pool,
                                            ambulo__partials *partials);

@@ -1,7 +1,6 @@
 /* sensitivity/sensitivities.c - ambulo_sensitivities: partials at a result, by name, in words. */
 #include "ambulo/sensitivity.h"
 
-#include "gait/contact_frame.h"
 #include "sensitivity/parameters.h"
 
 /* one block: the public list first, so that it is freed by its own address */
@@ -69,8 +68,6 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
 
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
-  if (!ambulo__contacts_are_level(&problem->definition))
-    return "there are none yet for contacts of different height, slope or heading";
   if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";

@@ -6,8 +6,9 @@
  *     dL/df = S sum dL/de over the events that are there
  *
  * There is none on other grids, where rows come and go as an event passes a node; where an event
- * of another phase, or 0 or T, is at the same time, so that nodes come or go; nor for what stays in
- * seconds while nodes move: references, tubes, functions of the caller.
+ * of another phase, or 0 or T, is at the same time, so that nodes come or go (ends of listed
+ * contacts at one time move together); nor for what stays in seconds while nodes move: references,
+ * tubes, functions of the caller.
  */
 #include "sensitivity/parameters.h"
 
@@ -78,20 +79,40 @@ static void add_phases(ambulo__parameters *p) {
   }
 }
 
-/* one end of a contact, if no other contact begins or ends there */
-static void add_contact_time(ambulo__parameters *p, int contact, int side) {
-  static const char *const keys[2] = {"from", "to"}, *const words[2] = {"start", "end"};
+static double end_of(const ambulo_problem_definition *d, int end) {
+  return end % 2 ? d->contacts[end / 2].to : d->contacts[end / 2].from;
+}
+
+/* "end of contact 0 and start of contact 1" */
+static void name_ends(const ambulo_problem_definition *d, int first,
+                      char label[AMBULO__PARAMETER_TEXT]) {
+  static const char *const words[2] = {"start", "end"};
+  size_t used = 0;
+  for (int end = first; end < 2 * d->contact_count; end++) {
+    if (!same_time(end_of(d, end), end_of(d, first)) || used >= AMBULO__PARAMETER_TEXT) continue;
+    int length = snprintf(label + used, AMBULO__PARAMETER_TEXT - used, "%s%s of contact %d",
+                          used ? " and " : "", words[end % 2], end / 2);
+    used += (size_t)length;
+  }
+}
+
+/* an end of a contact, with those of others that are there: the first of them has the name */
+static void add_contact_time(ambulo__parameters *p, int first) {
+  static const char *const keys[2] = {"from", "to"};
   const ambulo_problem_definition *d = &p->problem->definition;
   const ambulo__events events = {p->partials->events, p->partials->event_time};
-  double time = side ? d->contacts[contact].to : d->contacts[contact].from;
-  int event = ambulo__event_at(&events, time), there = 0;
-  for (int c = 0; c < d->contact_count; c++)
-    there += same_time(d->contacts[c].from, time) + same_time(d->contacts[c].to, time);
-  if (event < 0 || there > 1 || !isfinite(p->partials->event[event])) return;
-  char label[64];
-  (void)snprintf(label, sizeof label, "%s of contact %d", words[side], contact);
+  double time = end_of(d, first);
+  int event = ambulo__event_at(&events, time), count = p->count;
+  char label[AMBULO__PARAMETER_TEXT];
+  if (event < 0 || !isfinite(p->partials->event[event])) return;
+  for (int end = 0; end < first; end++)
+    if (same_time(end_of(d, end), time)) return;
+  name_ends(d, first, label);
   ambulo__parameter_add(p, AMBULO__EVENT_TIME, time, p->partials->event[event], label,
-                        "contacts[%d].%s", contact, keys[side]);
+                        "contacts[%d].%s", first / 2, keys[first % 2]);
+  for (int end = first + 1; end < 2 * d->contact_count && p->count > count; end++)
+    if (same_time(end_of(d, end), time))
+      ambulo__parameter_with(p, 1.0, "contacts[%d].%s", end / 2, keys[end % 2]);
 }
 
 void ambulo__parameters_of_events(ambulo__parameters *p) {
@@ -103,8 +124,5 @@ void ambulo__parameters_of_events(ambulo__parameters *p) {
     add_phases(p);
     return;
   }
-  for (int c = 0; c < d->contact_count; c++) {
-    add_contact_time(p, c, 0);
-    add_contact_time(p, c, 1);
-  }
+  for (int end = 0; end < 2 * d->contact_count; end++) add_contact_time(p, end);
 }

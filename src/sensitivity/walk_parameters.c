@@ -16,8 +16,10 @@
  */
 #include "sensitivity/parameters.h"
 
+#include "gait/contact_frame.h"
 #include "gait/gait.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* odd and even steps up to step s */
@@ -140,19 +142,6 @@ static void add_width(ambulo__parameters *p) {
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, width, by, "step width", "gait.step_width");
 }
 
-static void add_places(ambulo__parameters *p) {
-  static const char *const words[] = {"forward", "left"};
-  const ambulo_problem_definition *d = &p->problem->definition;
-  for (int c = 0; c < d->contact_count; c++) {
-    for (int i = 0; i < 2; i++) {
-      char label[64];
-      (void)snprintf(label, sizeof label, "foothold of contact %d, %s,", c, words[i]);
-      ambulo__parameter_add(p, AMBULO__STEP_LENGTH, d->contacts[c].place[i],
-                            p->partials->place[2 * c + i], label, "contacts[%d].place[%d]", c, i);
-    }
-  }
-}
-
 /* (S.11) sum dL/dplace dplace/dL + dL/dtravel dtravel/dL + dL/dT dx/dL / v; ends.travel takes the
  * place of the gait's */
 void ambulo__parameters_of_walk(ambulo__parameters *p) {
@@ -163,13 +152,21 @@ void ambulo__parameters_of_walk(ambulo__parameters *p) {
     add_lengths(p, by);
     add_width(p);
   } else {
-    add_places(p);
+    ambulo__parameters_of_footholds(p);
   }
   add_times(p, by[0] + by[1]);
   if (problem->definition.ends == AMBULO_ENDS_FREE || (problem->keys.gait && !problem->keys.travel))
     return;
   for (int i = 0; i < p->count; i++) p->list[i].travel = 0.0;
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
-                        "travel", "ends.travel");
-  ambulo__parameter_travels(p, 1.0);
+  if (!problem->keys.gait && ambulo__footholds_meet(&problem->definition)) return;
+  if (isfinite(p->partials->travel)) {
+    ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.travel, p->partials->travel,
+                          "travel", "ends.travel");
+    ambulo__parameter_travels(p, 1.0);
+  }
+  int on_level = problem->definition.contact_count > 0 &&
+                 ambulo__contacts_are_level(&problem->definition); /* and stays on it */
+  if (on_level || !isfinite(p->partials->end_rise)) return;
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, problem->definition.rise, p->partials->end_rise,
+                        "rise", "ends.rise");
 }

@@ -41,6 +41,9 @@ static void faults_are_named(void **state) {
   d.ends_order = 3;
   expect_refusal(&d, "ends.order is 3");
   d = good;
+  d.rise = 0.17;
+  expect_refusal(&d, "ends.rise is 0.17 with free ends; expected 0");
+  d = good;
   ambulo_end_value end = {5, 0, 0, 0.0};
   d.end_values = &end;
   d.end_value_count = 1;

@@ -114,6 +114,39 @@ static void several_at_once(void **state) {
   release(&b);
 }
 
+#define SHARED_ON_EVENTS                                                                           \
+  "ground_reaction={kind: shared, friction: 0.8, pressure: {heel: [-0.04, 0.05], flat: [-0.04, "   \
+  "0.05], toe: [-0.05, 0.05], width: 0.05}}",                                                      \
+      "time={grid: events, intervals: 30}",                                                        \
+      "trajectory={knots: events, intervals: 15, degree: 5}",                                      \
+      "constraints={contact_tolerance: 0.005, joint_limits: nodes}"
+
+/* contacts that share the load: their weights and centres move with the phase */
+static void a_phase_of_shared_contacts(void **state) {
+  (void)state;
+  static const char *const overrides[] = {SHARED_ON_EVENTS,
+                                          "free={gait.phases.heel_off: [0.2, 0.4]}"};
+  solved s = solve(PLANAR, overrides, 5, NULL);
+  assert_int_equal(ambulo_result_verdict(s.result), AMBULO_OPTIMAL);
+  assert_int_equal(s.outcome->items[0].bound, AMBULO_AT_UPPER);
+  assert_true(s.outcome->items[0].derivative < 0.0);
+  assert_true(s.outcome->objective < 0.9 * s.outcome->first);
+  assert_true(s.outcome->solves <= 4);
+  release(&s);
+}
+
+/* at the bound the other foot strikes: there is no slope, and none is made up */
+static void a_kink_is_given_up(void **state) {
+  (void)state;
+  static const char *const overrides[] = {SHARED_ON_EVENTS,
+                                          "free={gait.phases.heel_off: [0.2, 0.44]}"};
+  solved s = solve(PLANAR, overrides, 5, NULL);
+  assert_int_equal(s.outcome->items[0].bound, AMBULO_BETWEEN);
+  assert_true(s.outcome->items[0].derivative != 0.0);
+  assert_true(s.outcome->failed >= 1);
+  release(&s);
+}
+
 /* a gradient that points out of the bounds is the end, at once */
 static void a_bound_ends_the_run(void **state) {
   (void)state;
@@ -276,6 +309,8 @@ int main(void) {
                                      cmocka_unit_test(a_step_at_a_speed),
                                      cmocka_unit_test(a_duration),
                                      cmocka_unit_test(several_at_once),
+                                     cmocka_unit_test(a_phase_of_shared_contacts),
+                                     cmocka_unit_test(a_kink_is_given_up),
                                      cmocka_unit_test(a_bound_ends_the_run),
                                      cmocka_unit_test(the_best_problem_is_the_file_with_its_values),
                                      cmocka_unit_test(values_without_a_solution_are_given_up),

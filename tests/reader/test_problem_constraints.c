@@ -158,6 +158,28 @@ static void mirrored_steps_are_equal(void **state) {
                  "p.yaml:7:14: error[E_PROBLEM]: mirrored ends make each step the mirror image");
 }
 
+/* what only ends that match look at */
+static void free_ends_take_no_rise_and_no_order(void **state) {
+  (void)state;
+  expect_refusal(WALKER TIME "ends: {kind: free, rise: 0.17}\n", AMBULO_E_PROBLEM,
+                 "p.yaml:6:26: error[E_PROBLEM]: a rise of 0.17 m with free ends, which do nothing "
+                 "with it; expected 'kind: periodic' or 'kind: mirrored' beside it");
+  ambulo_problem *p = NULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(load_text(WALKER TIME "ends: {order: 2, rise: 0}\n", list, &p), AMBULO_OK);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  assert_int_equal(ambulo_diagnostics_error_count(list), 0);
+  assert_string_equal(ambulo_diagnostics_get(list, 0)->message,
+                      "'order' has no effect with free ends; it belongs to kind periodic or "
+                      "mirrored");
+  ambulo_problem_free(p);
+  ambulo_diagnostics_clear(list);
+  assert_int_equal(load_text(WALKER TIME "ends: {kind: cyclic, rise: 0.17, order: 2}\n", list, &p),
+                   AMBULO_E_SCHEMA);
+  assert_int_equal(ambulo_diagnostics_count(list), 1);
+  ambulo_diagnostics_free(list);
+}
+
 /* what the problem itself objects to points to the key that it is about */
 static void differences_are_placed(void **state) {
   (void)state;
@@ -193,6 +215,7 @@ int main(void) {
                                      cmocka_unit_test(faults_are_placed),
                                      cmocka_unit_test(ends_go_with_the_number_of_steps),
                                      cmocka_unit_test(mirrored_steps_are_equal),
+                                     cmocka_unit_test(free_ends_take_no_rise_and_no_order),
                                      cmocka_unit_test(differences_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

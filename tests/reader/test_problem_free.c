@@ -81,6 +81,44 @@ static void the_file_is_read_again(void **state) {
   ambulo_problem_free(p);
 }
 
+/* all contacts of a stance; all that begin and end at a time */
+static void others_go_along(void **state) {
+  (void)state;
+  static const char *const overrides[] = {
+      "free={\"contacts[4].place[0]\": [0.4, 0.6], \"contacts[3].to\": [1.1, 1.25]}"};
+  const double values[2] = {0.55, 1.2};
+  ambulo_problem *p = NULL, *at = NULL;
+  assert_int_equal(ambulo_problem_load("models/walk_start.yaml", overrides, 1, NULL, NULL, &p),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_problem_at(p, values, NULL, NULL, &at), AMBULO_OK);
+  const ambulo_contact *c = at->definition.contacts;
+  for (int i = 4; i <= 6; i++) assert_close(c[i].place[0], 0.55, 0.0);
+  assert_close(c[7].place[0], 1.18, 0.0);
+  assert_close(c[3].to, 1.2, 0.0);
+  assert_close(c[4].to, 1.2, 0.0);
+  assert_close(c[5].from, 1.2, 0.0);
+  ambulo_problem_free(at);
+  ambulo_problem_free(p);
+}
+
+/* equal heights, equal steps, footholds at both ends of a motion that repeats */
+static void kinks_cannot_be_free(void **state) {
+  (void)state;
+  static const char *const names[][2] = {
+      {"models/walk_turn.yaml", "free={\"contacts[4].place[2]\": [-1, 1]}"},
+      {"models/walk_turn.yaml", "free={\"contacts[1].to\": [0.1, 0.2]}"},
+      {"models/stairs_up.yaml", "free={ends.rise: [0, 1]}"},
+      {"models/stairs_up.yaml", "free={\"contacts[0].place[0]\": [-1, 1]}"}};
+  for (int i = 0; i < 4; i++) {
+    ambulo_problem *p = NULL;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    assert_int_equal(ambulo_problem_load(names[i][0], &names[i][1], 1, NULL, list, &p),
+                     AMBULO_E_SCHEMA);
+    assert_non_null(strstr(ambulo_diagnostics_get(list, 0)->message, "cannot be free"));
+    ambulo_diagnostics_free(list);
+  }
+}
+
 static void faults_are_placed(void **state) {
   (void)state;
   expect_refusal(WALK "free: {gait.step_tim: [0.4, 0.8]}\n", AMBULO_E_SCHEMA,
@@ -148,6 +186,8 @@ int main(void) {
       cmocka_unit_test(bounds_are_read_in_units_of_the_file),
       cmocka_unit_test(the_hash_sees_what_is_free),
       cmocka_unit_test(the_file_is_read_again),
+      cmocka_unit_test(others_go_along),
+      cmocka_unit_test(kinks_cannot_be_free),
       cmocka_unit_test(faults_are_placed),
       cmocka_unit_test(every_allocation_may_fail),
   };

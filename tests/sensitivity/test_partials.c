@@ -57,6 +57,16 @@ static void contacts_one_by_one(void **state) {
   check(&c, "time.duration");
 }
 
+/* the root is carried forward and up, and each by itself */
+static void ends_that_rise(void **state) {
+  (void)state;
+  static const setting c = {"models/walker_2d_step.yaml",
+                            {"gait=null", "time.duration=0.5", "constraints={joint_limits: nodes}",
+                             "ends={kind: mirrored, order: 1, travel: 0.5, rise: 0.1}"},
+                            {"ends.travel", "ends.rise", "time.duration"}};
+  check(&c, NULL);
+}
+
 static void breakpoints_stay_in_seconds(void **state) {
   (void)state;
   static const setting c = {"models/two_link_reach.yaml",
@@ -249,6 +259,7 @@ int main(void) {
       cmocka_unit_test(a_planar_step),
       cmocka_unit_test(four_steps_on_hulls),
       cmocka_unit_test(contacts_one_by_one),
+      cmocka_unit_test(ends_that_rise),
       cmocka_unit_test(breakpoints_stay_in_seconds),
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),

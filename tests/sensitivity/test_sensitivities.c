@@ -114,6 +114,59 @@ static void phases_solved_anew(void **state) {
   compare("models/walker_2d_step.yaml", base, 6, names, 3e-3, 1e-4);
 }
 
+#define SHARED_ON_EVENTS                                                                           \
+  "angles=degrees", "constraints.zmp=off",                                                         \
+      "ground_reaction={kind: shared, friction: 0.8, pressure: {heel: [-0.04, 0.05], flat: "       \
+      "[-0.04, 0.05], toe: [-0.05, 0.05], width: 0.05}}",                                          \
+      "time.grid=events", "trajectory.knots=events", "trajectory.intervals=15",                    \
+      "trajectory.degree=5", "time.intervals=30", "constraints.foot_strike=false",                 \
+      "constraints.ground_penetration=false", "constraints.contact_tolerance=0.005"
+
+static void contacts_that_share_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {SHARED_ON_EVENTS};
+  static const char *const names[] = {"gait.phases.heel_strike",
+                                      "gait.phases.foot_flat",
+                                      "gait.step_length",
+                                      "ground_reaction.moment_arm",
+                                      "ground_reaction.slant",
+                                      "subject.mass",
+                                      "gait.speed",
+                                      NULL};
+  compare("models/walker_2d_step.yaml", base, 11, names, 1e-3, 1e-4);
+}
+
+/* onto a slope, all of a stance at once, times that contacts of both feet share */
+static void a_step_up_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {
+      SHARED_ON_EVENTS,
+      "gait=null",
+      "ends={initial_speed: {pelvis_tx: 1.2}, final_speed: {pelvis_tx: 1.2}}",
+      "time.duration=0.5",
+      "objective=[{term: torque_squared, scale: {default: 0.01}}, {term: acceleration, weight: "
+      "1e-3}]",
+      "time.intervals=32",
+      "trajectory.intervals=14",
+      "contacts=[{foot: right, mode: flat, from: 0, to: 0.31, place: [0, 0, 0]}, "
+      "{foot: right, mode: toe, from: 0.31, to: 0.42, place: [0, 0, 0]}, "
+      "{foot: left, mode: toe, from: 0, to: 0.06, place: [-0.3, 0, -0.03]}, "
+      "{foot: left, mode: heel, from: 0.36, to: 0.42, place: [0.35, 0, 0.04], normal: [-0.1, 0, "
+      "1]}, "
+      "{foot: left, mode: flat, from: 0.42, to: 0.5, place: [0.35, 0, 0.04], normal: [-0.1, 0, "
+      "1]}]"};
+  static const char *const names[] = {"contacts[3].place[0]",
+                                      "contacts[3].place[2]",
+                                      "contacts[0].to",
+                                      "contacts[1].to",
+                                      "contacts[2].to",
+                                      "contacts[3].from",
+                                      NULL};
+  static const char *const slope[] = {"contacts[3].normal[0]", NULL};
+  compare("models/walker_2d_step.yaml", base, 18, names, 1e-3, 1e-4);
+  compare("models/walker_2d_step.yaml", base, 18, slope, 0.1, 1e-4);
+}
+
 /* --------------------------------------------------------------- what is said */
 
 static const char step[] = "models/walker_2d_step.yaml";
@@ -182,18 +235,6 @@ static void no_optimum_has_none(void **state) {
   close_solved(&s);
 }
 
-/* rows on surfaces of their own are no part of it yet: no number is better than a wrong one */
-static void uneven_ground_has_none(void **state) {
-  (void)state;
-  solved s;
-  open_solved(&s, step, NULL);
-  ambulo_contact *contact = (ambulo_contact *)s.problem->definition.contacts;
-  contact->normal[0] = 0.1;
-  contact->normal[2] = 1.0;
-  expect_reason(&s, "there are none yet for contacts of different height, slope or heading");
-  close_solved(&s);
-}
-
 static void arguments_are_checked(void **state) {
   (void)state;
   solved s;
@@ -234,15 +275,16 @@ static void every_allocation_may_fail(void **state) {
   (void)state;
   expect_no_leak("models/yardstick_12.yaml", NULL);
   expect_no_leak(step, "time.grid=events");
+  expect_no_leak("tests/two_step/walk_normal.yaml", "ground_reaction={kind: shared}");
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(an_arm_solved_anew),        cmocka_unit_test(a_planar_step_solved_anew),
-      cmocka_unit_test(four_steps_solved_anew),    cmocka_unit_test(phases_solved_anew),
-      cmocka_unit_test(the_dearest_stands_first),  cmocka_unit_test(no_optimum_has_none),
-      cmocka_unit_test(uneven_ground_has_none),    cmocka_unit_test(arguments_are_checked),
-      cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(an_arm_solved_anew),       cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(four_steps_solved_anew),   cmocka_unit_test(phases_solved_anew),
+      cmocka_unit_test(the_dearest_stands_first), cmocka_unit_test(no_optimum_has_none),
+      cmocka_unit_test(arguments_are_checked),    cmocka_unit_test(contacts_that_share_solved_anew),
+      cmocka_unit_test(a_step_up_solved_anew),    cmocka_unit_test(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,8 @@
 #include "nlp/nlp.h"
 #include "support/test.h"
 
+enum { MOST_WITH = 6 };
+
 /* SI units and radians per unit of the file */
 static inline double unit_in_file(const ambulo_problem *problem, const ambulo_sensitivity *s) {
   static const char *const cosines[] = {"constraints.orientation_tolerance",
@@ -28,16 +30,23 @@ static inline double unit_in_file(const ambulo_problem *problem, const ambulo_se
 static inline ambulo_problem *moved_problem(const char *path, const char *const *base, int count,
                                             const ambulo_problem *problem,
                                             const ambulo_sensitivity *s, double by) {
-  char text[400], with[400];
-  const char *overrides[16];
+  char text[400], with[MOST_WITH][400];
+  const char *overrides[20 + MOST_WITH], *names = s->with;
   ambulo_problem *moved = NULL;
   double unit = unit_in_file(problem, s), value = s->value + by;
   (void)snprintf(text, sizeof text, "%s=%.17g", s->name, value / unit);
-  (void)snprintf(with, sizeof with, "%s=%.17g", s->with, s->with_sign * value / unit);
   for (int i = 0; i < count; i++) overrides[i] = base[i];
-  overrides[count] = text;
-  overrides[count + 1] = with;
-  (void)!ambulo_problem_load(path, overrides, count + 1 + (s->with[0] != '\0'), NULL, NULL, &moved);
+  overrides[count++] = text;
+  for (int k = 0; *names; k++) { /* "a, b" */
+    int length = (int)strcspn(names, ",");
+    assert_true(k < MOST_WITH);
+    (void)snprintf(with[k], sizeof with[k], "%.*s=%.17g", length, names,
+                   s->with_sign * value / unit);
+    overrides[count++] = with[k];
+    names += length;
+    names += strspn(names, ", ");
+  }
+  (void)!ambulo_problem_load(path, overrides, count, NULL, NULL, &moved);
   return moved;
 }
 

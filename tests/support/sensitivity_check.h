@@ -10,7 +10,7 @@
 #include "judge/result.h"
 #include "support/moved_problem.h"
 
-enum { MOST_OVERRIDES = 8, MOST_WANTED = 16 };
+enum { MOST_OVERRIDES = 14, MOST_WANTED = 16 };
 
 typedef struct setting {
   const char *file;
@@ -37,29 +37,31 @@ static inline ambulo_result *scattered(const ambulo_problem *problem) {
   return result;
 }
 
-static inline int is_phase(const ambulo_sensitivity *s) {
-  return strncmp(s->name, "gait.phases.", 12) == 0;
+/* of phases and of times of contacts */
+static inline int moves_nodes(const ambulo_sensitivity *s) {
+  int of_contact = strncmp(s->name, "contacts[", 9) == 0 && strcmp(s->unit, "s") == 0;
+  return of_contact || strncmp(s->name, "gait.phases.", 12) == 0;
 }
 
 static inline double step_of(const ambulo_sensitivity *s) {
-  if (is_phase(s)) return 2e-6; /* of nodes that are 1e-3 of a stride apart */
+  if (moves_nodes(s)) return 2e-6; /* of nodes that are 1e-3 of a stride apart */
   return s->value == 0.0 ? 1e-3 * s->step : 1e-5 * fmax(fabs(s->value), 0.1 * s->step);
 }
 
-/* 0: the file refuses the number moved. Differences of fourth order for phases, whose third
+/* 0: the file refuses the number moved. Differences of fourth order for events, whose third
  * derivatives go with the third power of a node's rate */
 static inline int compare(const setting *c, int count, const ambulo_problem *problem,
                           const ambulo_result *r, const ambulo_sensitivity *s) {
   static const double at[4] = {-1.0, 1.0, -2.0, 2.0};
   double value[4] = {NAN, NAN, NAN, NAN}, travel[4] = {0.0}, by = step_of(s);
-  for (int k = 0; k < (is_phase(s) ? 4 : 2); k++) {
+  for (int k = 0; k < (moves_nodes(s) ? 4 : 2); k++) {
     ambulo_problem *moved = moved_problem(c->file, c->overrides, count, problem, s, at[k] * by);
     if (moved) value[k] = lagrangian_at(moved, r->x, r->multiplier, r->rows);
     if (moved) travel[k] = moved->definition.travel;
     ambulo_problem_free(moved);
   }
   double difference = (value[1] - value[0]) / (2.0 * by);
-  if (is_phase(s)) difference = (4.0 * difference - (value[3] - value[2]) / (4.0 * by)) / 3.0;
+  if (moves_nodes(s)) difference = (4.0 * difference - (value[3] - value[2]) / (4.0 * by)) / 3.0;
   if (isnan(difference)) return 0;
   double further = (travel[1] - travel[0]) / (2.0 * by);
   if (!(fabs(further - s->travel) <= 1e-8 * (1.0 + fabs(s->travel))))
@@ -95,6 +97,24 @@ static inline void check(const setting *c, const char *unwanted) {
   for (int i = 0; unwanted && i < list->count; i++)
     assert_string_not_equal(unwanted, list->items[i].name);
   assert_true(compared > 6);
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+/* no number has one of these names; the last is NULL */
+static inline void expect_absent(const setting *c, const char *const *names) {
+  int count = 0;
+  ambulo_problem *problem = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  while (count < MOST_OVERRIDES && c->overrides[count]) count++;
+  assert_int_equal(ambulo_problem_load(c->file, c->overrides, count, NULL, NULL, &problem),
+                   AMBULO_OK);
+  ambulo_result *result = scattered(problem);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  assert_true(list->count > 6);
+  for (; *names; names++)
+    for (int i = 0; i < list->count; i++) assert_string_not_equal(*names, list->items[i].name);
   ambulo_sensitivities_free(list);
   ambulo_result_free(result);
   ambulo_problem_free(problem);
