@@ -79,6 +79,17 @@ static void print_points(const ambulo_model *model) {
   }
 }
 
+static void print_patches(const ambulo_model *model) {
+  int patches = ambulo_model_patch_count(model);
+  if (patches) printf("\npatches (m)\n");
+  for (int i = 0; i < patches; i++) {
+    const ambulo_patch *p = ambulo_model_patch(model, i);
+    printf("  %-3d %-10s point %s, %.4g long, %.4g wide, mirror image %s\n", i, p->name,
+           point_name(model, p->point), 2.0 * p->size[0], 2.0 * p->size[1],
+           ambulo_model_patch(model, p->mirror)->name);
+  }
+}
+
 /* its own mirror image, or the first difference */
 static void print_symmetry(const ambulo_model *model) {
   ambulo_diagnostics *differences = ambulo_diagnostics_create(NULL);
@@ -101,6 +112,7 @@ static void print_model(const ambulo_model *model) {
   print_links(model);
   print_coordinates(model);
   print_points(model);
+  print_patches(model);
 }
 
 /* ------------------------------------------------------------------- problem */
@@ -223,7 +235,7 @@ const ambulo__cli_command ambulo__cli_info = {
     .arguments = "MODEL.yaml|PROBLEM.yaml",
     .summary = "what was understood: links, masses, schedule, sizes",
     .description =
-        "Prints links, masses, coordinates with their limits, points and feet of a model; for a\n"
+        "Prints links, masses, coordinates with their limits, points, feet and patches of a model; for a\n"
         "problem also the unknowns, rows by family, objective terms and the contact schedule with\n"
         "its footholds.",
     .example = "ambulo info models/lower_body_18.yaml\n"
