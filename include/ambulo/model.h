@@ -101,7 +101,7 @@ typedef struct ambulo_patch {
   int point;        /* its middle, which a contact holds in place */
   double size[2];   /* half its length along the surface's forward, half its width along left, m:
                        how far the centre of pressure may be from the middle; > 0 */
-  int mirror;       /* patch that takes its place in the mirror image (in a definition -1: itself) */
+  int mirror; /* patch that takes its place in the mirror image (in a definition -1: itself) */
 } ambulo_patch;
 
 /* ------------------------------------------------------------ build in code */
@@ -201,9 +201,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
  * and forward, coordinate for coordinate as `mirror` and `mirror_sign` have it? Compared are, at
  * q = 0: which joint hangs on which, axes of joints, mass, centre of mass and inertia of what each
  * joint carries, and the points of the feet; within 1e-6 of their size (lengths: of the body's;
- * directions: rad). Points that no foot uses, patches, limits and `actuated` are not. Link frames may be of
- * either handedness. Each difference is a message with the names of both partners and both
- * numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
+ * directions: rad). Points that no foot uses, patches, limits and `actuated` are not. Link frames
+ * may be of either handedness. Each difference is a message with the names of both partners and
+ * both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_check_mirror(
     const ambulo_model *model, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics);
 

@@ -71,7 +71,7 @@ static double pull_of_places(ambulo__node_forces *f, const ambulo__slots *slots,
                              const double axis[3]) {
   ambulo__node_forces_clear(f);
   for (int slot = 0; slot < slots->count && slot < AMBULO__MOST_SLOTS; slot++)
-    if (foot < 0 || slots->foot[slot] == foot) memcpy(f->place[slot], axis, sizeof f->place[slot]);
+    if (foot < 0 || slots->effector[slot] == foot) memcpy(f->place[slot], axis, sizeof f->place[slot]);
   return ambulo__node_forces_pull(f);
 }
 
@@ -79,7 +79,7 @@ static double pull_of_places(ambulo__node_forces *f, const ambulo__slots *slots,
 static void add_contacts(ambulo__node_forces *f, ambulo__partials *partials) {
   const ambulo_problem *p = f->s->problem;
   const int *active = p->active + 2 * (size_t)f->node;
-  const ambulo__slots slots = ambulo__slots_of(p->model);
+  const ambulo__slots slots = ambulo__slots_of(&p->definition);
   ambulo__node_forces_clear(f);
   f->moment_arm = 1.0;
   partials->reaction.moment_arm += ambulo__node_forces_pull(f);

@@ -67,10 +67,17 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
   return status;
 }
 
+static int holds_patches(const ambulo_problem_definition *d) {
+  for (int i = 0; i < d->contact_count; i++)
+    if (d->contacts[i].foot < 0) return 1;
+  return 0;
+}
+
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
   if (!ambulo__contacts_are_level(&problem->definition))
     return "there are none yet for contacts of different height, slope or heading";
+  if (holds_patches(&problem->definition)) return "there are none yet for contacts of patches";
   if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";

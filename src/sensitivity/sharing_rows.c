@@ -62,10 +62,10 @@ void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot
                                  ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   const ambulo__channels *channels = &p->channels;
-  const ambulo__slots slots = ambulo__slots_of(p->model);
+  const ambulo__slots slots = ambulo__slots_of(&p->definition);
   int first = ambulo__channel_foot_force(channels, 0, 0);
   int slot = (ambulo__sharing_channel(p, row) - first) / channels->slot_rows;
-  int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.foot[slot]];
+  int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.effector[slot]];
   contact_row c = {.contact = &p->definition.contacts[own], .pull = pull};
   c.load = ambulo__contact_load_at(&p->definition, outlines, &slots, slot, c.contact, row->time);
   int force = ambulo__channel_foot_force(channels, slot, 0);

@@ -3,9 +3,12 @@
 #include "support/walker_fixture.h"
 
 static const ambulo_contact contacts[] = {
-    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0.0, -0.1, 0.0}, {0.1, 0.2, 1.0}, 0.3},
-    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.3, 0.4, {0.0, -0.1, 0.0}, {0.1, 0.2, 1.0}, 0.3},
-    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.35, 0.5, {0.6, 0.1, 0.2}, {0, 0, 0}, 0.0}};
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.3, .place = {0.0, -0.1, 0.0},
+     .normal = {0.1, 0.2, 1.0}, .heading = 0.3},
+    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.3, 0.4, .place = {0.0, -0.1, 0.0},
+     .normal = {0.1, 0.2, 1.0}, .heading = 0.3},
+    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.35, 0.5, .place = {0.6, 0.1, 0.2}, .normal = {0, 0, 0},
+     .heading = 0.0}};
 
 static ambulo_problem_definition definition_of(ambulo_model *model, ambulo_ends ends) {
   ambulo_problem_definition d = ambulo_problem_definition_default();
@@ -54,7 +57,7 @@ static void odd_periods_of_mirrored_ends_are_the_other_foot(void **state) {
     assert_close(c.heading, 0.3 * side, 0.0);
     ambulo__span span = ambulo__image_span(&d, 1, period);
     assert_close(span.to, c.to, 0.0);
-    assert_int_equal(ambulo__image_foot(&d, 1, period), c.foot);
+    assert_int_equal(ambulo__image_effector(&d, 1, period), c.foot);
   }
   ambulo_model_free(model);
 }

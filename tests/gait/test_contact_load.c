@@ -32,7 +32,7 @@ static void open_with(fixture *f, ambulo_model *model, int steps) {
   assert_int_equal(
       ambulo_gait_expand(f->model, &gait, f->contacts, 12, &f->definition.contact_count), 0);
   for (int i = 0; i < 2; i++) f->outlines[i] = ambulo__foot_outline_of(f->model, i);
-  f->slots = ambulo__slots_of(f->model);
+  f->slots = ambulo__slots_of(&f->definition);
 }
 
 static void close_it(fixture *f) {
@@ -50,19 +50,20 @@ static double smooth(double u) {
 static void feet_are_slots_and_toes_behind_a_joint_too(void **state) {
   (void)state;
   ambulo_model *walker = walker_create(0), *toed = toed_body();
-  ambulo__slots two = ambulo__slots_of(walker), four = ambulo__slots_of(toed);
+  ambulo_problem_definition of_walker = {.model = walker}, of_toed = {.model = toed};
+  ambulo__slots two = ambulo__slots_of(&of_walker), four = ambulo__slots_of(&of_toed);
   assert_int_equal(two.count, 2);
   assert_int_equal(four.count, 4);
   for (int i = 0; i < 4; i++) {
     int foot = i % 2;
     const ambulo_foot *f = &toed->feet[foot];
     int point = i < 2 ? f->heel_center : f->toe_center;
-    assert_int_equal(four.foot[i], foot);
+    assert_int_equal(four.effector[i], foot);
     assert_int_equal(four.link[i], toed->points[point].link);
     assert_int_equal(four.part[i], i < 2 ? AMBULO__REAR_FOOT : AMBULO__FORE_FOOT);
     assert_string_equal(ambulo__slot_name(toed, &four, i), toed->points[point].name);
     if (i >= 2) continue;
-    assert_int_equal(two.foot[i], i);
+    assert_int_equal(two.effector[i], i);
     assert_int_equal(two.part[i], AMBULO__WHOLE_FOOT);
     assert_string_equal(ambulo__slot_name(walker, &two, i), walker->feet[i].name);
   }

@@ -66,8 +66,8 @@ static void contradictions_are_named(void **state) {
   bad.foot = 5;
   expect_refusal(&bad, 1, "contacts[0]: no foot 5; the model 'walker' has 2");
   bad = good;
-  bad.mode = (ambulo_contact_mode)3;
-  expect_refusal(&bad, 1, "contacts[0]: foot 'left' in unknown mode 3");
+  bad.mode = (ambulo_contact_mode)4;
+  expect_refusal(&bad, 1, "contacts[0]: foot 'left' in unknown mode 4");
   bad = good;
   bad.place[1] = NAN;
   expect_refusal(&bad, 1, "expected finite lengths");

@@ -120,7 +120,8 @@ static void rows_are_about_the_axes_of_the_surface(void **state) {
   (void)state;
   static const ambulo_contact leaning[] = {
       {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, .place = {0.0, -0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.5, 0.1, 0.2}, {-0.3, 0.2, 1.0}, 0.5}};
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.5, 0.1, 0.2},
+       .normal = {-0.3, 0.2, 1.0}, .heading = 0.5}};
   row_fixture f;
   prepare(&f, 0, leaning, 2);
   ambulo__sharing_rows(&f.context, &f.table);

@@ -40,11 +40,16 @@ static inline int regular(const ambulo_model *model, ambulo_problem_definition *
 /* up a turning stair of leaning treads */
 static inline int irregular(ambulo_problem_definition *d, ambulo_contact *contacts) {
   static const ambulo_contact list[] = {
-      {0, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0.0, -0.1, 0.0}, {-0.1, 0.05, 1.0}, 0.0},
-      {0, AMBULO_CONTACT_TOE, 0.3, 0.4, {0.0, -0.1, 0.0}, {-0.1, 0.05, 1.0}, 0.0},
-      {1, AMBULO_CONTACT_FLAT, 0.2, 0.8, {0.3, 0.1, 0.15}, {0.1, -0.2, 2.0}, 0.3},
-      {0, AMBULO_CONTACT_HEEL, 0.65, 0.75, {0.6, 0.1, 0.3}, {0, 0, 0}, 0.5},
-      {0, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, 0.1, 0.3}, {0, 0, 0}, 0.5}};
+      {0, AMBULO_CONTACT_FLAT, 0.0, 0.3, .place = {0.0, -0.1, 0.0}, .normal = {-0.1, 0.05, 1.0},
+       .heading = 0.0},
+      {0, AMBULO_CONTACT_TOE, 0.3, 0.4, .place = {0.0, -0.1, 0.0}, .normal = {-0.1, 0.05, 1.0},
+       .heading = 0.0},
+      {1, AMBULO_CONTACT_FLAT, 0.2, 0.8, .place = {0.3, 0.1, 0.15}, .normal = {0.1, -0.2, 2.0},
+       .heading = 0.3},
+      {0, AMBULO_CONTACT_HEEL, 0.65, 0.75, .place = {0.6, 0.1, 0.3}, .normal = {0, 0, 0},
+       .heading = 0.5},
+      {0, AMBULO_CONTACT_FLAT, 0.75, 1.0, .place = {0.6, 0.1, 0.3}, .normal = {0, 0, 0},
+       .heading = 0.5}};
   d->duration = 1.0;
   memcpy(contacts, list, sizeof list);
   return (int)(sizeof list / sizeof *list);

@@ -93,7 +93,7 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
     fixture f;
     fixture_open(&f, kind);
     const ambulo__channels *c = &f.problem->channels;
-    ambulo__slots slots = ambulo__slots_of(f.model);
+    ambulo__slots slots = ambulo__slots_of(&f.problem->definition);
     ambulo__pose pose;
     int n = c->coordinates;
     double q[TOED_COORDINATES], qd[TOED_COORDINATES], qdd[TOED_COORDINATES];
