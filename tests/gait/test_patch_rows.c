@@ -1,4 +1,5 @@
-/* Rows that hold patches: hands of the walker at q = 0 at (0.4, 1.22, -+0.25) m, x forward, y up. */
+/* Rows that hold patches: hands of the walker at q = 0 at (0.4, 1.22, -+0.25) m, x forward, y up.
+ */
 #include "gait/bounded.h"
 #include "gait/patch_rows.h"
 #include "support/patched_walker.h"
@@ -31,8 +32,8 @@ static void prepare(row_fixture *f, int planar, double tolerance) {
   f->channel = calloc((size_t)(ROW_NODES * count), sizeof(double));
   for (int k = 0; k < ROW_NODES; k++)
     for (int p = 0; p < f->model->point_count; p++)
-      ambulo__neutral_point(
-          f->model, p, row_channel(f, k, ambulo__channel_point(&f->context.channels, p, 0)));
+      ambulo__neutral_point(f->model, p,
+                            row_channel(f, k, ambulo__channel_point(&f->context.channels, p, 0)));
 }
 
 static void expect(row_fixture *f, const char *subject, const char *detail, double time,
