@@ -22,6 +22,12 @@
 
 static const double rear_ahead = 0.02; /* m */
 
+int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time) {
+  if (time < contact->from - AMBULO__INSTANT) return 0;
+  if (time < contact->to - AMBULO__INSTANT) return 1;
+  return contact->to >= duration - AMBULO__INSTANT && time <= duration + AMBULO__INSTANT;
+}
+
 const ambulo_contact *ambulo__contact_of(const ambulo_problem_definition *d, int effector,
                                          double time) {
   for (int i = 0; i < d->contact_count; i++) {

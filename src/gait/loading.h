@@ -5,6 +5,10 @@
 #include "gait/contact_image.h"
 #include "gait/foot_outline.h"
 
+/* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that
+ * ends at `duration` includes it. */
+int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time);
+
 /* The uninterrupted contact of an effector around `time`; 0 if it is in the air. */
 int ambulo__loaded_span(const ambulo_problem_definition *definition, int effector, double time,
                         ambulo__span *span);

@@ -16,12 +16,6 @@
 #define REFUSE(list, hint, ...)                                                                    \
   ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, hint, __VA_ARGS__)
 
-int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time) {
-  if (time < contact->from - AMBULO__INSTANT) return 0;
-  if (time < contact->to - AMBULO__INSTANT) return 1;
-  return contact->to >= duration - AMBULO__INSTANT && time <= duration + AMBULO__INSTANT;
-}
-
 static ambulo_status check_effector(const ambulo_problem_definition *d, int index,
                                     ambulo_diagnostics *list) {
   const ambulo_contact *c = &d->contacts[index];

@@ -24,7 +24,7 @@
 #include <math.h>
 
 /* m, times the weight: a contact that carries a hundredth of the weight may do so 1 cm beyond its
- * patch. Just after a strike forces are so small that rows without it can hardly be moved, and
+ * box. Just after a strike forces are so small that rows without it can hardly be moved, and
  * walks take up to four times the iterations */
 static const double allowance = 1e-4;
 static const double under_arc = 0.005; /* m: an arc is no line; 2 mm under 800 N are worth joules */

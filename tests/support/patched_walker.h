@@ -50,10 +50,10 @@ static inline ambulo_model *patched_walker(int planar) {
 }
 
 /* a contact of a patch; from, to in s, place along forward, left, up in m */
+/* clang-format off */
 #define OF_PATCH(index, begin, end, ...)                                                           \
-  {                                                                                                \
-      .foot = -1, .mode = AMBULO_CONTACT_PATCH, .patch = (index), .from = (begin), .to = (end),    \
-      .place = __VA_ARGS__                                                                         \
-  }
+  {.foot = -1, .mode = AMBULO_CONTACT_PATCH, .from = (begin), .to = (end),                         \
+   .place = __VA_ARGS__, .patch = (index)}
+/* clang-format on */
 
 #endif
