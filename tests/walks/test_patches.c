@@ -1,6 +1,7 @@
 /* Patches in whole problems: who carries what, by hand and by a law that is solved otherwise; what
  * strides and results say of them. */
 #include "ambulo/ambulo.h"
+#include "format/motion_csv.h"
 #include "mechanics/pose.h"
 #include "stride/impulse.h"
 #include "stride/stride.h"
@@ -256,6 +257,59 @@ static void a_hand_on_a_rail_takes_what_the_law_says(void **state) {
 
 /* ------------------------------------------------------------ mirrored strides */
 
+/* the field under a heading, in line k of the numbers; NULL: there is no such heading */
+static const char *field(const char *table, const char *heading, int k) {
+  const char *line = strchr(table, '\n') + 1, *at = strstr(line, heading);
+  if (!at || at > strchr(line, '\n')) return NULL;
+  int column = 0;
+  for (const char *c = line; c < at; c++) column += *c == ',';
+  for (int i = 0; i <= k; i++) line = strchr(line, '\n') + 1;
+  for (; column > 0; line++) column -= *line == ',';
+  return line;
+}
+
+/* both hands, of which one is down in the second step only; no seat */
+static void expect_columns(const ambulo__stride *s) {
+  static const int hands[] = {HAND_R, HAND_L};
+  ambulo__motion_table table = {.model = s->model,
+                                .name = "hands",
+                                .samples = s->samples,
+                                .times = s->times,
+                                .q = s->q,
+                                .qd = s->qd,
+                                .qdd = s->qdd,
+                                .tau = s->tau,
+                                .zmp = s->zmp,
+                                .feet = s->feet,
+                                .grf = s->grf,
+                                .cop = s->cop,
+                                .free_moment = s->free_moment,
+                                .patches = 2,
+                                .patch = hands,
+                                .patch_force = s->patch_force,
+                                .patch_cop = s->patch_cop,
+                                .patch_free_moment = s->patch_free_moment};
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, NULL);
+  ambulo__motion_csv(&table, &text);
+  const char *csv = ambulo__text_data(&text);
+  for (int k = 0; k < s->samples; k++) {
+    for (int i = 0; i < 2; i++) {
+      char heading[40];
+      size_t at = (size_t)(PATCHES * k + hands[i]);
+      snprintf(heading, sizeof heading, "grf.%s.y", s->model->patches[hands[i]].name);
+      assert_close(strtod(field(csv, heading, k), NULL), s->patch_force[3 * at + 1], 0.0);
+      snprintf(heading, sizeof heading, "free_moment.%s", s->model->patches[hands[i]].name);
+      assert_close(strtod(field(csv, heading, k), NULL), s->patch_free_moment[at], 0.0);
+      snprintf(heading, sizeof heading, "cop.%s.x", s->model->patches[hands[i]].name);
+      double place = strtod(field(csv, heading, k), NULL);
+      assert_true(place == s->patch_cop[3 * at] || (isnan(place) && isnan(s->patch_cop[3 * at])));
+    }
+  }
+  assert_null(field(csv, "grf.seat", 0));
+  ambulo__text_free(&text);
+}
+
 /* the right hand in one step is the left one in the next: force, place and contact reflected */
 static void strides_mirror_patches(void **state) {
   (void)state;
@@ -295,6 +349,7 @@ static void strides_mirror_patches(void **state) {
   assert_close(ambulo__stride_patch_peak(&s, HAND_R), ambulo__stride_patch_peak(&s, HAND_L), 1e-12);
   assert_true(ambulo__stride_patch_peak(&s, HAND_R) > 0.01);
   assert_close(ambulo__stride_patch_peak(&s, SEAT), 0.0, 0.0);
+  expect_columns(&s);
   ambulo__stride_free(&s);
   assert_int_equal(ambulo__impulses(problem, x, NULL, impulse), AMBULO_OK);
   for (int i = 0; i < 3; i++)
