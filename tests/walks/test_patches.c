@@ -2,6 +2,7 @@
  * strides and results say of them. */
 #include "ambulo/ambulo.h"
 #include "format/motion_csv.h"
+#include "judge/dense.h"
 #include "mechanics/pose.h"
 #include "stride/impulse.h"
 #include "stride/stride.h"
@@ -361,6 +362,91 @@ static void strides_mirror_patches(void **state) {
   ambulo_model_free(model);
 }
 
+/* ------------------------------------------------------------ between the nodes */
+
+enum { NODES = 8, FINER = 10 };
+
+typedef struct seen {
+  const char *family, *subject;
+  int count;
+  double value, first, last;
+} seen;
+
+static void keep(void *user, const ambulo__dense_sample *sample) {
+  seen *s = user;
+  if (strcmp(sample->family, s->family) != 0 || strcmp(sample->subject, s->subject) != 0) return;
+  s->first = s->count ? fmin(s->first, sample->time) : sample->time;
+  s->last = fmax(s->last, sample->time);
+  s->count++;
+  if (sample->time > 0.25 && sample->time < 0.75) s->value = fmax(s->value, sample->value);
+}
+
+/* slip of a hand along a wall, which does not care about the way to the wall and back, and how far
+ * its force is from the lines between the nodes, from the motion itself */
+static void patches_are_looked_at_between_nodes(void **state) {
+  (void)state;
+  ambulo_model *model = patched_walker(0);
+  ambulo_contact contacts[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {-0.05, -0.09}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {-0.05, 0.09}},
+      OF_PATCH(HAND_R, 0.2, 0.8, {0.4, -0.25, 1.22})};
+  contacts[2].normal[0] = -1.0;
+  ambulo_problem_definition d = definition_of(model, contacts, 3);
+  ambulo_problem *problem = create(&d);
+  ambulo_workspace *workspace = NULL;
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  int n = ambulo_problem_variable_count(problem), points = model->point_count;
+  double *x = calloc((size_t)n, sizeof *x), *place, *force, times[NODES * FINER + 1];
+  for (int i = 0; i < n; i++) x[i] = 0.02 * sin(1.1 * (i / 7) + 1.3 * (i % 7));
+  int count = NODES * FINER + 1, palm = model->patches[HAND_R].point;
+  for (int k = 0; k < count; k++) times[k] = (double)k / (count - 1);
+  place = calloc((size_t)(3 * points * count), sizeof *place);
+  force = calloc((size_t)(3 * PATCHES * count), sizeof *force);
+  ambulo_motion motion = {.points = place, .patch_force = force};
+  assert_int_equal(ambulo_problem_motion(problem, workspace, x, count, times, &motion), AMBULO_OK);
+  double slip = 0.0, bent = 0.0;
+  for (int k = 2 * FINER; k < 6 * FINER; k++) {
+    double off[2][3], part = (double)(k % FINER) / FINER;
+    int a = k / FINER * FINER;
+    for (int i = 0; i < 3; i++) {
+      int r = 3 * points, at = 3 * palm + i, f = 3 * PATCHES, of = 3 * HAND_R + i;
+      off[0][i] =
+          place[r * k + at] - (1.0 - part) * place[r * a + at] - part * place[r * (a + FINER) + at];
+      off[1][i] = (force[f * k + of] - (1.0 - part) * force[f * a + of] -
+                   part * force[f * (a + FINER) + of]) /
+                  weight;
+    }
+    slip = fmax(slip, hypot(off[0][1], off[0][2]));
+    bent = fmax(bent, sqrt(off[1][0] * off[1][0] + off[1][1] * off[1][1] + off[1][2] * off[1][2]));
+  }
+  assert_true(slip > 1e-5 && bent > 1e-3);
+  ambulo__dense dense;
+  assert_int_equal(ambulo__dense_open(problem, x, FINER, 0.0, NULL, NULL, &dense), AMBULO_OK);
+  seen slipping = {.family = "slip", .subject = "palm_r"};
+  seen pushing = {.family = "ground_force", .subject = "hand_r"};
+  ambulo__dense_slip(&dense, keep, &slipping);
+  ambulo__dense_force(&dense, keep, &pushing);
+  assert_close(slipping.value, slip, 1e-12);
+  assert_close(slipping.first, 0.2, 1e-12); /* where the contact begins, and ends */
+  assert_close(slipping.last, 0.8, 1e-12);
+  assert_close(pushing.value, bent, 1e-12);
+  seen others[] = {{.family = "slip", .subject = "palm_l"},
+                   {.family = "slip", .subject = "seat"},
+                   {.family = "ground_force", .subject = "seat"}};
+  for (int i = 0; i < 3; i++) {
+    ambulo__dense_slip(&dense, keep, &others[i]);
+    ambulo__dense_force(&dense, keep, &others[i]);
+    assert_int_equal(others[i].count, 0);
+  }
+  ambulo__dense_close(&dense);
+  free(x);
+  free(place);
+  free(force);
+  ambulo_workspace_free(workspace);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
 /* ------------------------------------------------------------------- refusals */
 
 static void what_does_not_go_is_refused(void **state) {
@@ -442,6 +528,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(four_legs_carry_a_quarter_each),
                                      cmocka_unit_test(a_hand_on_a_rail_takes_what_the_law_says),
                                      cmocka_unit_test(strides_mirror_patches),
+                                     cmocka_unit_test(patches_are_looked_at_between_nodes),
                                      cmocka_unit_test(what_does_not_go_is_refused),
                                      cmocka_unit_test(mirrored_ends_ask_for_partners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
