@@ -177,6 +177,13 @@ static void walls_have_up_for_forward(void **state) {
   expect(frame.up, 0.0, 0.0, -1.0);
   expect(frame.forward, 1.0, 0.0, 0.0);
   expect(frame.left, 0.0, -1.0, 0.0);
+  /* leaning by 32 degrees from the heading, to one side: forward is still that of the heading */
+  c.normal[0] = -0.8;
+  c.normal[1] = 0.3;
+  c.normal[2] = 0.5;
+  frame = ambulo__contact_frame_of(&d, &c);
+  assert_close(dot(frame.left, model->forward), 0.0, 1e-14);
+  c.normal[0] = c.normal[1] = c.normal[2] = 0.0;
   /* a ceiling */
   c.normal[1] = 0.0;
   c.normal[2] = -1.0;

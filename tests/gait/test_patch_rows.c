@@ -145,6 +145,18 @@ static void ends_that_match_are_held_once(void **state) {
   f.table.row_count = 0;
   ambulo__patch_rows(&f.context, &f.table);
   assert_int_equal(row_count(&f, "contact", "hand_r", "ahead", 1.0), 1);
+  /* mirrored, the left hand goes on where the right one ends: the first node has it */
+  ambulo_contact both[] = {through, through};
+  both[1].patch = HAND_L;
+  both[1].from = 0.0;
+  both[1].to = 0.25;
+  f.definition.contacts = both;
+  f.definition.contact_count = 2;
+  f.definition.ends = AMBULO_ENDS_MIRRORED;
+  f.table.row_count = 0;
+  ambulo__patch_rows(&f.context, &f.table);
+  assert_int_equal(row_count(&f, "contact", "hand_r", "ahead", 1.0), 0);
+  assert_int_equal(row_count(&f, "contact", "hand_l", "ahead", 0.0), 1);
   row_fixture_close(&f);
 }
 

@@ -271,7 +271,7 @@ static const char *field(const char *table, const char *heading, int k) {
 
 /* both hands, of which one is down in the second step only; no seat */
 static void expect_columns(const ambulo__stride *s) {
-  static const int hands[] = {HAND_R, HAND_L};
+  static const int hands[] = {HAND_L, HAND_R};
   ambulo__motion_table table = {.model = s->model,
                                 .name = "hands",
                                 .samples = s->samples,
