@@ -43,3 +43,9 @@ int ambulo__patch_is_used(const ambulo_problem_definition *d, int patch) {
   }
   return 0;
 }
+
+int ambulo__holds_patches(const ambulo_problem_definition *d) {
+  for (int i = 0; i < d->contact_count; i++)
+    if (d->contacts[i].foot < 0) return 1;
+  return 0;
+}

@@ -21,5 +21,7 @@ const char *ambulo__effector_name(const ambulo_model *model, int effector);
 int ambulo__effector_is_known(const ambulo_model *model, const ambulo_contact *contact);
 /* 1 if some contact is of that patch or, with mirrored ends, of its mirror image. */
 int ambulo__patch_is_used(const ambulo_problem_definition *definition, int patch);
+/* 1 if some contact is of a patch. */
+int ambulo__holds_patches(const ambulo_problem_definition *definition);
 
 #endif

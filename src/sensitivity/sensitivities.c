@@ -2,6 +2,7 @@
 #include "ambulo/sensitivity.h"
 
 #include "gait/contact_frame.h"
+#include "gait/effector.h"
 #include "sensitivity/parameters.h"
 
 /* one block: the public list first, so that it is freed by its own address */
@@ -67,17 +68,13 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
   return status;
 }
 
-static int holds_patches(const ambulo_problem_definition *d) {
-  for (int i = 0; i < d->contact_count; i++)
-    if (d->contacts[i].foot < 0) return 1;
-  return 0;
-}
+static const char none_of_patches[] = "there are none yet for contacts of patches";
 
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
   if (!ambulo__contacts_are_level(&problem->definition))
     return "there are none yet for contacts of different height, slope or heading";
-  if (holds_patches(&problem->definition)) return "there are none yet for contacts of patches";
+  if (ambulo__holds_patches(&problem->definition)) return none_of_patches;
   if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";
@@ -111,5 +108,6 @@ ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
                                            const ambulo_result *result,
                                            const ambulo_allocator *allocator,
                                            ambulo_sensitivity_list **list) {
-  return list_of(problem, result, "", allocator, list);
+  int patches = ambulo__holds_patches(&problem->definition);
+  return list_of(problem, result, patches ? none_of_patches : "", allocator, list);
 }

@@ -494,6 +494,50 @@ static void what_does_not_go_is_refused(void **state) {
   ambulo_model_free(no_feet);
 }
 
+static ambulo_status no_problem(void *user, const double *values, const ambulo_allocator *allocator,
+                                ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+  (void)user, (void)values, (void)allocator, (void)diagnostics, (void)problem;
+  return AMBULO_E_INTERNAL;
+}
+
+/* no sensitivities yet, and so nothing that is chosen by them */
+static void there_are_no_sensitivities_yet(void **state) {
+  (void)state;
+  ambulo_model *model = patched_walker(0);
+  const ambulo_contact contacts[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {-0.05, -0.09}},
+      OF_PATCH(HAND_R, 0.2, 0.8, {0.4, -0.25, 1.22})};
+  ambulo_problem_definition d = definition_of(model, contacts, 2);
+  ambulo_term term = ambulo_term_default(AMBULO_ACCELERATION);
+  d.terms = &term;
+  d.term_count = 1;
+  ambulo_problem *problem = create(&d), *best = NULL;
+  ambulo_options options = ambulo_problem_options(problem);
+  double *zero = calloc((size_t)ambulo_problem_variable_count(problem), sizeof *zero);
+  ambulo_result *result = NULL;
+  ambulo_sensitivity_list *list = NULL;
+  assert_int_equal(ambulo_audit_point(problem, &options, zero, NULL, NULL, &result), AMBULO_OK);
+  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
+  assert_int_equal(list->count, 0);
+  assert_string_equal(list->reason, "there are none yet for contacts of patches");
+  ambulo_sensitivities_free(list);
+  ambulo_result_free(result);
+  ambulo_parameter item = {.name = "subject.mass", .lower = 50.0, .upper = 90.0};
+  ambulo_parameters free_ones = ambulo_parameters_default();
+  free_ones.items = &item;
+  free_ones.count = 1;
+  free_ones.problem_at = no_problem;
+  ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
+  assert_int_equal(
+      ambulo_solve_parameters(problem, &free_ones, NULL, NULL, NULL, messages, &best, &result),
+      AMBULO_E_ARGUMENT);
+  assert_message(messages, 0, "which contacts of patches do not have yet");
+  ambulo_diagnostics_free(messages);
+  free(zero);
+  ambulo_problem_free(problem);
+  ambulo_model_free(model);
+}
+
 /* the left hand is no mirror image of the right one: smaller, elsewhere, or on another link */
 static void mirrored_ends_ask_for_partners(void **state) {
   (void)state;
@@ -530,6 +574,7 @@ int main(void) {
                                      cmocka_unit_test(strides_mirror_patches),
                                      cmocka_unit_test(patches_are_looked_at_between_nodes),
                                      cmocka_unit_test(what_does_not_go_is_refused),
+                                     cmocka_unit_test(there_are_no_sensitivities_yet),
                                      cmocka_unit_test(mirrored_ends_ask_for_partners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
