@@ -98,13 +98,14 @@ static void faults_of_patches(void **state) {
             "t.yaml:14:25: error[E_MODEL]: unknown point (got 'h3'); expected the name of a point");
   model_bad(PATCH("point: h1"), AMBULO_E_SCHEMA,
             "t.yaml:14:5: error[E_SCHEMA]: missing required key 'size' in patches[0] ('hand')");
-  model_bad(PATCH("point: h1, size: [1]"), AMBULO_E_SCHEMA, 
+  model_bad(PATCH("point: h1, size: [1]"), AMBULO_E_SCHEMA,
             "t.yaml:14:35: error[E_SCHEMA]: got a sequence of 1; expected a sequence of 2");
   model_bad(PATCH("point: h1, size: [1, -1]"), AMBULO_E_MODEL,
             "t.yaml:14:5: error[E_MODEL]: half the width of patch 'hand' is out of range (got -1 "
             "m)");
   model_bad(PATCH("point: h1, size: [1, 1], mirror: hnd"), AMBULO_E_MODEL,
-            "t.yaml:14:51: error[E_MODEL]: unknown patch (got 'hnd'); expected the name of a patch of this model\n  hint: did "
+            "t.yaml:14:51: error[E_MODEL]: unknown patch (got 'hnd'); expected the name of a patch "
+            "of this model\n  hint: did "
             "you mean 'hand'?");
   model_bad(PATCH("point: h1, size: [1, 1], sise: 1"), AMBULO_E_SCHEMA,
             "t.yaml:14:43: error[E_SCHEMA]: unknown key 'sise' in patches[0] ('hand')\n  hint: did "

@@ -49,7 +49,7 @@ static void patches_in_contact_stand_beside_feet(void **state) {
   assert_int_equal(write(problem, NULL, &text), AMBULO_OK);
   const char *json = ambulo__text_data(&text);
   assert_true(is_json(json));
-  static const char *const there[] = {"\"right\": {", "\"left\": {", "\"hand_r\": {",
+  static const char *const there[] = {"\"right\": {",          "\"left\": {",      "\"hand_r\": {",
                                       "\"impulse_forward\": ", "\"impulse_up\": ", "\"peak\": "};
   for (size_t i = 0; i < sizeof there / sizeof *there; i++) assert_non_null(strstr(json, there[i]));
   assert_null(strstr(json, "hand_l"));
