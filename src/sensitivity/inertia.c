@@ -71,7 +71,8 @@ static double pull_of_places(ambulo__node_forces *f, const ambulo__slots *slots,
                              const double axis[3]) {
   ambulo__node_forces_clear(f);
   for (int slot = 0; slot < slots->count && slot < AMBULO__MOST_SLOTS; slot++)
-    if (foot < 0 || slots->effector[slot] == foot) memcpy(f->place[slot], axis, sizeof f->place[slot]);
+    if (foot < 0 || slots->effector[slot] == foot)
+      memcpy(f->place[slot], axis, sizeof f->place[slot]);
   return ambulo__node_forces_pull(f);
 }
 
