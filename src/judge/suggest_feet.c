@@ -110,8 +110,7 @@ static void contact_place(const ambulo__advice *a) {
   double old = a->problem->definition.contact_tolerance;
   double wide = ambulo__outward(old + a->room, 1);
   int is_patch = ambulo_model_find_patch(a->problem->model, a->row->subject) >= 0;
-  ambulo__advice_say(a,
-                     "%s at t = %.4g s is %.4g m further %s than its contact lets it: %s%s",
+  ambulo__advice_say(a, "%s at t = %.4g s is %.4g m further %s than its contact lets it: %s%s",
                      a->row->subject, a->row->time, a->give, a->row->detail,
                      is_patch ? "move its place, or change the time of its contact"
                               : "shorten the steps or give them more time",

@@ -1,4 +1,5 @@
 /* The schedule: membership of nodes, and every contradiction with its message. */
+#include "gait/loading.h"
 #include "support/patched_walker.h"
 #include "support/row_fixture.h"
 
