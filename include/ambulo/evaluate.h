@@ -69,12 +69,14 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambu
  * plus the ZMP [count][3] on the ground plane (NaN where n . F <= 0); each may be
  * NULL. With ground reaction also the force on each foot grf [count][feet][3] (N), its centre of
  * pressure cop [count][feet][3] (m; NaN in the air), its free moment about the normal
- * free_moment [count][feet] (N m); without it these are filled with NaN.
- * E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not finite; the outputs are filled
- * all the same. */
+ * free_moment [count][feet] (N m), and the same of each patch of the model, patch_...
+ * [count][patches]: zeros and a NaN centre where it is not in contact. Without ground reaction
+ * these are filled with NaN. E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not
+ * finite; the outputs are filled all the same. */
 typedef struct ambulo_motion {
   double *q, *qd, *qdd, *tau, *wrench, *points, *zmp;
   double *grf, *cop, *free_moment;
+  double *patch_force, *patch_cop, *patch_free_moment;
 } ambulo_motion;
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_problem *problem,
                                                                 ambulo_workspace *workspace,
@@ -91,6 +93,9 @@ AMBULO_API double ambulo_problem_load_share(const ambulo_problem *problem, int f
 
 /* Which contact of `foot` is active at time t: its index, or -1. */
 AMBULO_API int ambulo_problem_contact_at(const ambulo_problem *problem, int foot, double time);
+/* Which contact of `patch` is. */
+AMBULO_API int ambulo_problem_patch_contact_at(const ambulo_problem *problem, int patch,
+                                               double time);
 
 /* --------------------------------------------------------- derivative check */
 

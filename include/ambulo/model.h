@@ -94,6 +94,16 @@ typedef struct ambulo_foot {
   int arc[2];   /* points: centre of the heel's, of the forefoot's */
 } ambulo_foot;
 
+/* A small surface of a link that may press on something: a hand, the seat, an elbow, the pad of a
+ * robot. What it rests on is said by the contacts of a problem (problem.h). */
+typedef struct ambulo_patch {
+  const char *name; /* "hand_r", "seat"; no foot has the same */
+  int point;        /* its middle, which a contact holds in place */
+  double size[2];   /* half its length along the surface's forward, half its width along left, m:
+                       how far the centre of pressure may be from the middle; > 0 */
+  int mirror; /* patch that takes its place in the mirror image (in a definition -1: itself) */
+} ambulo_patch;
+
 /* ------------------------------------------------------------ build in code */
 
 /* Everything a model consists of. Arrays are borrowed during the call only.
@@ -114,6 +124,8 @@ typedef struct ambulo_model_definition {
   const ambulo_foot *feet;
   int foot_count;
   double stature; /* m; 0 if unknown */
+  const ambulo_patch *patches;
+  int patch_count;
 } ambulo_model_definition;
 
 /* Gravity -9.81 along y, forward x, no links. */
@@ -189,9 +201,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
  * and forward, coordinate for coordinate as `mirror` and `mirror_sign` have it? Compared are, at
  * q = 0: which joint hangs on which, axes of joints, mass, centre of mass and inertia of what each
  * joint carries, and the points of the feet; within 1e-6 of their size (lengths: of the body's;
- * directions: rad). Points that no foot uses, limits and `actuated` are not. Link frames may be of
- * either handedness. Each difference is a message with the names of both partners and both
- * numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
+ * directions: rad). Points that no foot uses, patches, limits and `actuated` are not. Link frames
+ * may be of either handedness. Each difference is a message with the names of both partners and
+ * both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_check_mirror(
     const ambulo_model *model, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics);
 
@@ -204,14 +216,17 @@ AMBULO_API int ambulo_model_link_count(const ambulo_model *model);
 AMBULO_API int ambulo_model_coordinate_count(const ambulo_model *model);
 AMBULO_API int ambulo_model_point_count(const ambulo_model *model);
 AMBULO_API int ambulo_model_foot_count(const ambulo_model *model);
+AMBULO_API int ambulo_model_patch_count(const ambulo_model *model);
 AMBULO_API const ambulo_link *ambulo_model_link(const ambulo_model *model, int index);
 AMBULO_API const ambulo_coordinate *ambulo_model_coordinate(const ambulo_model *model, int index);
 AMBULO_API const ambulo_point *ambulo_model_point(const ambulo_model *model, int index);
 AMBULO_API const ambulo_foot *ambulo_model_foot(const ambulo_model *model, int index);
+AMBULO_API const ambulo_patch *ambulo_model_patch(const ambulo_model *model, int index);
 AMBULO_API int ambulo_model_find_link(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_coordinate(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_point(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_foot(const ambulo_model *model, const char *name);
+AMBULO_API int ambulo_model_find_patch(const ambulo_model *model, const char *name);
 AMBULO_API double ambulo_model_mass(const ambulo_model *model);           /* kg, whole body */
 AMBULO_API double ambulo_model_stature(const ambulo_model *model);        /* m; 0 if unknown */
 AMBULO_API const double *ambulo_model_gravity(const ambulo_model *model); /* [3], m/s^2 */

@@ -55,20 +55,26 @@ typedef enum ambulo_contact_mode {
   AMBULO_CONTACT_HEEL, /* heel corners down; heel centre on the foothold */
   AMBULO_CONTACT_FLAT, /* all corners down; heel centre on the foothold, toe centre straight ahead
                         */
-  AMBULO_CONTACT_TOE   /* toe corners down; toe centre where the flat foot has it */
+  AMBULO_CONTACT_TOE,  /* toe corners down; toe centre where the flat foot has it */
+  AMBULO_CONTACT_PATCH /* of no foot: the middle of a patch on its place, however it is turned */
 } ambulo_contact_mode;
 
-/* One foot in one mode on one foothold. Nodes with from <= t < to are in contact;
- * a span that ends at the duration includes it, and so does a node at `to` of a grid on events. */
+/* One foot in one mode on one foothold, or one patch on one place. Nodes with from <= t < to are in
+ * contact; a span that ends at the duration includes it, and so does a node at `to` of a grid on
+ * events. Patches that are not in contact have no rows: nothing keeps them off the surroundings. */
 typedef struct ambulo_contact {
-  int foot; /* index of the model's foot */
+  int foot; /* index of the model's foot; -1 of a patch */
   ambulo_contact_mode mode;
   double from, to; /* s */
   /* Where it is, along forward, left and up (zeros beyond the first two: level ground, straight
    * ahead). */
-  double place[3];  /* foothold of the heel centre: m; the third above the ground's height */
-  double normal[3]; /* of the surface, of any length, within 60 degrees of up; all zero: up */
-  double heading;   /* of the foot about up, turned to the left, rad */
+  double place[3]; /* foothold of the heel centre, place of a patch: m; the third above the ground's
+                      height */
+  double normal[3]; /* of the surface, away from it, of any length; under a foot within 60 degrees
+                       of up; all zero: up */
+  double heading; /* of the foot, or the surface's forward, about up, turned to the left, rad. Of a
+                     surface that faces it (25 degrees) up takes the place of forward */
+  int patch;      /* index of the model's patch, of a contact in mode AMBULO_CONTACT_PATCH */
 } ambulo_contact;
 
 /* A regular walk; ambulo_gait_expand() turns it into contacts. Step s (0 .. steps)

@@ -79,6 +79,17 @@ static void print_points(const ambulo_model *model) {
   }
 }
 
+static void print_patches(const ambulo_model *model) {
+  int patches = ambulo_model_patch_count(model);
+  if (patches) printf("\npatches (m)\n");
+  for (int i = 0; i < patches; i++) {
+    const ambulo_patch *p = ambulo_model_patch(model, i);
+    printf("  %-3d %-10s point %s, %.4g long, %.4g wide, mirror image %s\n", i, p->name,
+           point_name(model, p->point), 2.0 * p->size[0], 2.0 * p->size[1],
+           ambulo_model_patch(model, p->mirror)->name);
+  }
+}
+
 /* its own mirror image, or the first difference */
 static void print_symmetry(const ambulo_model *model) {
   ambulo_diagnostics *differences = ambulo_diagnostics_create(NULL);
@@ -101,22 +112,25 @@ static void print_model(const ambulo_model *model) {
   print_links(model);
   print_coordinates(model);
   print_points(model);
+  print_patches(model);
 }
 
 /* ------------------------------------------------------------------- problem */
 
 static void print_schedule(const ambulo_problem *problem) {
-  static const char *const modes[] = {"heel", "flat", "toe"};
+  static const char *const modes[] = {"heel", "flat", "toe", "patch"};
   int count = ambulo_problem_contact_count(problem);
   if (count == 0) return;
-  printf(
-      "\ncontacts (s; foothold in m along forward and left)\n  %-3s %-10s %-5s %9s %9s %9s %9s\n",
-      "", "foot", "mode", "from", "to", "forward", "left");
+  printf("\ncontacts (s; place in m along forward, left and up)\n  %-3s %-10s %-5s %9s %9s %9s %9s "
+         "%9s\n",
+         "", "of", "mode", "from", "to", "forward", "left", "up");
   for (int i = 0; i < count; i++) {
     const ambulo_contact *c = ambulo_problem_contact(problem, i);
-    printf("  %-3d %-10s %-5s %9.4f %9.4f %9.4f %9.4f\n", i,
-           ambulo_model_foot(ambulo_problem_model(problem), c->foot)->name, modes[c->mode], c->from,
-           c->to, c->place[0], c->place[1]);
+    const ambulo_model *model = ambulo_problem_model(problem);
+    const char *name = c->foot >= 0 ? ambulo_model_foot(model, c->foot)->name
+                                    : ambulo_model_patch(model, c->patch)->name;
+    printf("  %-3d %-10s %-5s %9.4f %9.4f %9.4f %9.4f %9.4f\n", i, name, modes[c->mode], c->from,
+           c->to, c->place[0], c->place[1], c->place[2]);
   }
 }
 
@@ -223,7 +237,8 @@ const ambulo__cli_command ambulo__cli_info = {
     .arguments = "MODEL.yaml|PROBLEM.yaml",
     .summary = "what was understood: links, masses, schedule, sizes",
     .description =
-        "Prints links, masses, coordinates with their limits, points and feet of a model; for a\n"
+        "Prints links, masses, coordinates with their limits, points, feet and patches of a model; "
+        "for a\n"
         "problem also the unknowns, rows by family, objective terms and the contact schedule with\n"
         "its footholds.",
     .example = "ambulo info models/lower_body_18.yaml\n"

@@ -4,15 +4,15 @@
 
 #include <math.h>
 
-static void foot_header(const char *foot, ambulo__text_buffer *text) {
+static void force_header(const char *name, ambulo__text_buffer *text) {
   static const char *const prefixes[] = {",grf.", ",cop."}, *const axes[] = {".x", ".y", ".z"};
   for (int i = 0; i < 6; i++) {
     ambulo__text_append(text, prefixes[i / 3]);
-    ambulo__text_append(text, foot);
+    ambulo__text_append(text, name);
     ambulo__text_append(text, axes[i % 3]);
   }
   ambulo__text_append(text, ",free_moment.");
-  ambulo__text_append(text, foot);
+  ambulo__text_append(text, name);
 }
 
 /* without the dust that sums of many parts leave */
@@ -30,7 +30,7 @@ static void comment(const ambulo__motion_table *table, ambulo__text_buffer *text
   }
   ambulo__text_append(text, " m/s^2; SI units and radians: time s; q rad or m, qd per s, qdd per "
                             "s^2; tau N m or N; zmp m, world axes");
-  if (table->feet)
+  if (table->feet || table->patches)
     ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal");
   if (table->wrench) ambulo__text_append(text, "; wrench N, N m about the origin, world axes");
   if (table->residual)
@@ -57,7 +57,9 @@ static void header(const ambulo__motion_table *table, ambulo__text_buffer *text)
   ambulo__text_append(text, "time");
   for (int p = 0; p < 4; p++) coordinates(table->model, prefixes[p], text);
   ambulo__text_append(text, ",zmp.x,zmp.y,zmp.z");
-  for (int foot = 0; foot < table->feet; foot++) foot_header(table->model->feet[foot].name, text);
+  for (int foot = 0; foot < table->feet; foot++) force_header(table->model->feet[foot].name, text);
+  for (int i = 0; i < table->patches; i++)
+    force_header(table->model->patches[table->patch[i]].name, text);
   if (table->wrench) wrench_header("wrench", text);
   if (table->residual) wrench_header("residual", text);
   if (table->power) coordinates(table->model, ",power.", text);
@@ -68,6 +70,15 @@ static void numbers(ambulo__text_buffer *text, const double *values, int count) 
   for (int i = 0; i < count; i++) {
     ambulo__text_append_char(text, ',');
     ambulo__text_append_number(text, values[i]);
+  }
+}
+
+static void patch_numbers(const ambulo__motion_table *table, int k, ambulo__text_buffer *text) {
+  for (int i = 0; i < table->patches; i++) {
+    size_t at = (size_t)k * (size_t)table->model->patch_count + (size_t)table->patch[i];
+    numbers(text, table->patch_force + 3 * at, 3);
+    numbers(text, table->patch_cop + 3 * at, 3);
+    numbers(text, table->patch_free_moment + at, 1);
   }
 }
 
@@ -88,6 +99,7 @@ void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *
       numbers(text, table->cop + 3 * i, 3);
       numbers(text, table->free_moment + i, 1);
     }
+    patch_numbers(table, k, text);
     if (table->wrench) {
       numbers(text, table->wrench + 6 * (size_t)k + 3, 3);
       numbers(text, table->wrench + 6 * (size_t)k, 3);

@@ -13,6 +13,9 @@ typedef struct ambulo__motion_table {
   const double *times, *q, *qd, *qdd, *tau, *zmp;
   int feet;                              /* 0: no forces on the feet */
   const double *grf, *cop, *free_moment; /* [samples][feet][3], ..., [samples][feet] */
+  int patches;      /* with columns of their own: patch[patches], which of the model's */
+  const int *patch; /* their numbers are [samples][patches of the model][3], ... */
+  const double *patch_force, *patch_cop, *patch_free_moment;
   /* of an inverse dynamics; each may be NULL */
   const double *wrench;   /* [samples][6]: moment about the origin, force */
   const double *residual; /* [samples][6]: force, moment about the centre of mass */
@@ -21,9 +24,9 @@ typedef struct ambulo__motion_table {
 
 /* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time:
  * time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
- * cop.<foot>.x|y|z, free_moment.<foot>; of an inverse dynamics wrench.force.x|y|z,
- * wrench.moment.x|y|z, the same of residual, and power.*; a value that does not exist (the ZMP in
- * flight) is "nan". */
+ * cop.<foot>.x|y|z, free_moment.<foot>, the same of the patches; of an inverse dynamics
+ * wrench.force.x|y|z, wrench.moment.x|y|z, the same of residual, and power.*; a value that does not
+ * exist (the ZMP in flight) is "nan". */
 void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text);
 
 /* Coordinates only, inDegrees=no. */

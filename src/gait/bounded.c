@@ -1,5 +1,7 @@
 /* gait/bounded.c - pairs of inequality rows (bounded.h). */
 #include "gait/bounded.h"
+#include "gait/effector.h"
+#include "gait/loading.h"
 
 #include <math.h>
 
@@ -33,22 +35,44 @@ void ambulo__bounded_rows(const ambulo__gait_context *context, int node,
   side(context, node, name, form, -1.0, high, table);
 }
 
-/* 1 if what `foot` does up to T is not what it goes on with, which is what the first node has */
-static int ends_at_last(const ambulo__gait_context *context, int foot, int before) {
+/* the contact of an effector at a node, -1 in the air; patches are few, and found by their times */
+static int contact_at(const ambulo__gait_context *context, int effector, int node) {
   const ambulo_problem_definition *d = context->definition;
-  int image = d->ends == AMBULO_ENDS_MIRRORED ? context->model->feet[foot].mirror : foot;
-  int next = context->active[image];
+  int feet = context->model->foot_count;
+  if (effector < feet) return context->active[node * feet + effector];
+  const ambulo_contact *contact = ambulo__contact_of(d, effector, context->times[node]);
+  return contact ? (int)(contact - d->contacts) : -1;
+}
+
+/* just before a node, where that counts too */
+static int contact_before(const ambulo__gait_context *context, int effector, int node) {
+  const ambulo_problem_definition *d = context->definition;
+  int feet = context->model->foot_count;
+  if (!context->before || (effector >= feet && node == 0))
+    return contact_at(context, effector, node);
+  if (effector < feet) return context->before[node * feet + effector];
+  const ambulo_contact *contact = ambulo__contact_before(d, effector, context->times[node]);
+  return contact ? (int)(contact - d->contacts) : -1;
+}
+
+/* 1 if what an effector does up to T is not what it goes on with, which is what the first node has
+ */
+static int ends_at_last(const ambulo__gait_context *context, int effector, int before) {
+  const ambulo_problem_definition *d = context->definition;
+  int mirrored = d->ends == AMBULO_ENDS_MIRRORED;
+  int image = mirrored ? ambulo__effector_mirror(context->model, effector) : effector;
+  int next = contact_at(context, image, 0);
   if (before < 0 || next < 0) return before != next;
   return d->contacts[before].mode != d->contacts[next].mode;
 }
 
 ambulo__phases_of_foot ambulo__phases_at(const ambulo__gait_context *context, int order, int node,
-                                         int foot) {
-  int feet = context->model->foot_count, now = context->active[node * feet + foot];
-  int before = context->before ? context->before[node * feet + foot] : now;
+                                         int effector) {
+  int now = contact_at(context, effector, node);
+  int before = contact_before(context, effector, node);
   ambulo__phases_of_foot phases = {0, {before, now}};
   if (node >= ambulo__distinct_nodes(context, order)) {
-    phases.count = context->before != NULL && ends_at_last(context, foot, before);
+    phases.count = context->before != NULL && ends_at_last(context, effector, before);
     return phases;
   }
   phases.count = before == now ? 1 : 2;

@@ -39,14 +39,15 @@ enum { AMBULO__OF_PLACES = 0, AMBULO__OF_FORCES = 2 };
  * derivative, the last node is the first one again and has none. */
 int ambulo__distinct_nodes(const ambulo__gait_context *context, int order);
 
-/* What a foot's rows at a node are about: contact[count], indices or -1 in the air. One, but on a
- * grid on events two where a contact begins or ends: that before the node, then that from it on.
- * Of a last node that is the first one again: only what ends there, none otherwise. */
+/* What the rows of an effector (gait/effector.h) at a node are about: contact[count], indices or -1
+ * in the air. One, but on a grid on events two where a contact begins or ends: that before the
+ * node, then that from it on. Of a last node that is the first one again: only what ends there,
+ * none otherwise. */
 typedef struct ambulo__phases_of_foot {
   int count, contact[2];
 } ambulo__phases_of_foot;
 ambulo__phases_of_foot ambulo__phases_at(const ambulo__gait_context *context, int order, int node,
-                                         int foot);
+                                         int effector);
 /* 1 if contact[i] of what ambulo__phases_at gives is that before the node. */
 static inline int ambulo__phase_is_before(const ambulo__gait_context *context, int i) {
   return i == 0 && context->before != NULL;

@@ -11,6 +11,8 @@
 
 #include <math.h>
 
+static const double facing = 0.90630778703664997; /* cosine of 25 degrees */
+
 int ambulo__contact_normal_is_legal(const double normal[3]) {
   double size = sqrt(ambulo__dot(normal, normal));
   return size == 0.0 || (isfinite(size) && normal[2] >= 0.5 * size);
@@ -28,7 +30,7 @@ int ambulo__contacts_same_place(const ambulo_contact *one, const ambulo_contact 
 
 int ambulo__contacts_are_level(const ambulo_problem_definition *d) {
   for (int i = 0; i < d->contact_count; i++)
-    if (!ambulo__contact_is_level(&d->contacts[i])) return 0;
+    if (d->contacts[i].foot >= 0 && !ambulo__contact_is_level(&d->contacts[i])) return 0;
   return 1;
 }
 
@@ -43,7 +45,8 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
     frame.left[i] = m->left[i];
     frame.up[i] = m->up[i];
   }
-  if (c->heading == 0.0 && c->normal[0] == 0.0 && c->normal[1] == 0.0) return frame;
+  if (c->heading == 0.0 && c->normal[0] == 0.0 && c->normal[1] == 0.0 && c->normal[2] >= 0.0)
+    return frame;
   double size = sqrt(ambulo__dot(c->normal, c->normal));
   for (int i = 0; i < 3; i++) {
     ahead[i] = cos(c->heading) * m->forward[i] + sin(c->heading) * m->left[i];
@@ -52,6 +55,8 @@ ambulo__contact_frame ambulo__contact_frame_of(const ambulo_problem_definition *
           (c->normal[0] * m->forward[i] + c->normal[1] * m->left[i] + c->normal[2] * m->up[i]) /
           size;
   }
+  if (fabs(ambulo__dot(frame.up, ahead)) > facing)
+    for (int i = 0; i < 3; i++) ahead[i] = m->up[i];
   ambulo__cross(frame.up, ahead, frame.left);
   length = sqrt(ambulo__dot(frame.left, frame.left));
   for (int i = 0; i < 3; i++) frame.left[i] /= length;

@@ -6,7 +6,9 @@
  *     origin = p_f f + p_l l + (h + p_n) n
  *     left    = unit(u x (cos psi f + sin psi l)),   forward = left x u
  *
- * in world axes. On level ground, heading 0, they are f, l and n themselves. */
+ * in world axes. On level ground, heading 0, they are f, l and n themselves. Where u is within 25
+ * degrees of the heading or its opposite (the wall that a hand pushes) n takes the heading's place:
+ * forward is up the wall. */
 #ifndef AMBULO_GAIT_CONTACT_FRAME_H
 #define AMBULO_GAIT_CONTACT_FRAME_H
 
@@ -31,13 +33,13 @@ ambulo_contact ambulo__contact_between(const ambulo_contact *from, const ambulo_
 /* direction . (point - origin) */
 double ambulo__contact_frame_along(const ambulo__contact_frame *frame, const double direction[3],
                                    const double point[3]);
-/* 1 for a normal of zeros, and up to 60 degrees from up. */
+/* Under a foot: 1 for a normal of zeros, and up to 60 degrees from up. */
 int ambulo__contact_normal_is_legal(const double normal[3]);
 /* 1 where the contact's surface is the level ground plane and its heading straight ahead. */
 int ambulo__contact_is_level(const ambulo_contact *contact);
 /* 1 if both hold the foot to the same foothold. */
 int ambulo__contacts_same_place(const ambulo_contact *one, const ambulo_contact *other);
-/* 1 if all contacts are: what stands on one zero-moment point needs that. */
+/* 1 if all contacts of feet are: what stands on one zero-moment point needs that. */
 int ambulo__contacts_are_level(const ambulo_problem_definition *definition);
 
 #endif

@@ -1,13 +1,14 @@
 /* gait/contact_image.c - contacts, k periods of the motion later.
  *
  *     from, to + k T,   place + k (travel, 0, rise),   with mirrored ends and odd k of the mirror
- *     foot, with place_l, normal_l and heading of the opposite sign
+ *     foot or patch, with place_l, normal_l and heading of the opposite sign
  *
  * Two periods before and after hold whatever touches the motion: no stance or swing of a gait is
  * longer than a stride.
  */
 #include "gait/contact_image.h"
 #include "base/instant.h"
+#include "gait/effector.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -22,9 +23,9 @@ static int is_mirrored(const ambulo_problem_definition *d, int period) {
   return d->ends == AMBULO_ENDS_MIRRORED && period % 2 != 0;
 }
 
-int ambulo__image_foot(const ambulo_problem_definition *d, int index, int period) {
-  int foot = d->contacts[index].foot;
-  return is_mirrored(d, period) ? d->model->feet[foot].mirror : foot;
+int ambulo__image_effector(const ambulo_problem_definition *d, int index, int period) {
+  int effector = ambulo__effector_of(d->model, &d->contacts[index]);
+  return is_mirrored(d, period) ? ambulo__effector_mirror(d->model, effector) : effector;
 }
 
 ambulo__span ambulo__image_span(const ambulo_problem_definition *d, int index, int period) {
@@ -37,7 +38,12 @@ ambulo_contact ambulo__contact_image(const ambulo_problem_definition *d, int ind
   ambulo_contact image = d->contacts[index];
   ambulo__span span = ambulo__image_span(d, index, period);
   double side = is_mirrored(d, period) ? -1.0 : 1.0;
-  image.foot = ambulo__image_foot(d, index, period);
+  int effector = ambulo__image_effector(d, index, period);
+  if (image.foot >= 0) {
+    image.foot = effector;
+  } else {
+    image.patch = ambulo__effector_patch(d->model, effector);
+  }
   image.from = span.from;
   image.to = span.to;
   image.place[0] += period * d->travel;
@@ -49,13 +55,13 @@ ambulo_contact ambulo__contact_image(const ambulo_problem_definition *d, int ind
 }
 
 /* joins one more contact to the span; 0: none touches it from outside */
-static int grow(const ambulo_problem_definition *d, int foot, int modes, ambulo__span *span) {
+static int grow(const ambulo_problem_definition *d, int effector, int modes, ambulo__span *span) {
   int last = ambulo__image_periods(d);
   for (int i = 0; i < d->contact_count; i++) {
     if (!(modes & 1 << d->contacts[i].mode)) continue;
     for (int period = -last; period <= last; period++) {
       ambulo__span image = ambulo__image_span(d, i, period);
-      if (ambulo__image_foot(d, i, period) != foot) continue;
+      if (ambulo__image_effector(d, i, period) != effector) continue;
       int touches =
           image.from <= span->to + AMBULO__INSTANT && image.to >= span->from - AMBULO__INSTANT;
       int reaches =
@@ -75,8 +81,8 @@ static int grow(const ambulo_problem_definition *d, int foot, int modes, ambulo_
   return 0;
 }
 
-ambulo__span ambulo__uninterrupted(const ambulo_problem_definition *d, int foot, int modes,
+ambulo__span ambulo__uninterrupted(const ambulo_problem_definition *d, int effector, int modes,
                                    ambulo__span span) {
-  while (grow(d, foot, modes, &span)) continue;
+  while (grow(d, effector, modes, &span)) continue;
   return span;
 }

@@ -12,17 +12,18 @@ typedef struct ambulo__span {
 
 /* How many periods before and after are looked at; 0 for a motion that does not repeat. */
 int ambulo__image_periods(const ambulo_problem_definition *definition);
-/* The foot of contact `index`, `period` periods later; when that holds; and all of it then. */
-int ambulo__image_foot(const ambulo_problem_definition *definition, int index, int period);
+/* The effector of contact `index` (gait/effector.h), `period` periods later; when that holds; and
+ * all of it then. */
+int ambulo__image_effector(const ambulo_problem_definition *definition, int index, int period);
 ambulo__span ambulo__image_span(const ambulo_problem_definition *definition, int index, int period);
 ambulo_contact ambulo__contact_image(const ambulo_problem_definition *definition, int index,
                                      int period);
 
 /* Sets of modes: 1 << mode, added. */
-enum { AMBULO__ANY_MODE = 7 };
+enum { AMBULO__ANY_MODE = 15 };
 
-/* A span of contact of `foot`, made as long as contacts in one of `modes` touch it. */
-ambulo__span ambulo__uninterrupted(const ambulo_problem_definition *definition, int foot, int modes,
-                                   ambulo__span span);
+/* A span of contact of an effector, made as long as contacts in one of `modes` touch it. */
+ambulo__span ambulo__uninterrupted(const ambulo_problem_definition *definition, int effector,
+                                   int modes, ambulo__span span);
 
 #endif

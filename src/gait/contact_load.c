@@ -1,15 +1,16 @@
-/* gait/contact_load.c - weight, centre, patch and greatest force of a contact (contact_load.h).
+/* gait/contact_load.c - weight, centre, region of pressure and greatest force of a contact
+ * (contact_load.h).
  *
- * A stance is the uninterrupted time [b, e] that a foot is down, in a motion that repeats beyond
- * the ends; one that begins at 0 or ends at T of a motion that does not has no beginning or end.
- * S(u) = u^2 (3 - 2 u), u cut to [0, 1].
+ * A stance is the uninterrupted time [b, e] that a foot or a patch is down, in a motion that
+ * repeats beyond the ends; one that begins at 0 or ends at T of a motion that does not has no
+ * beginning or end. S(u) = u^2 (3 - 2 u), u cut to [0, 1].
  *
  * Weight. Over the time that the stance shares with those that were there before it, and with
  * those that stay:
  *
  *     w = S((t - b) / (b' - b)) S((e - t) / (e - e'))
- *     b' = earliest end of the stances of other feet that hold at b (none: no such factor)
- *     e' = latest beginning of those that hold at e
+ *     b' = earliest end of the stances of other feet and patches that hold at b (none: no such
+ * factor) e' = latest beginning of those that hold at e
  *
  * A neighbour that outlasts the stance on that side gives half the stance, and a stance of no
  * length (a strike where the motion ends) carries nothing.
@@ -29,6 +30,8 @@
  * is at min(r, 1/2) L. The fore one gets w as the foot rolls from the heel to flat; its centre is
  * at L + a. Likewise backwards.
  *
+ * A patch does not roll: its centre is its place, and pressure is within its size about that.
+ *
  * Greatest normal force, body weights:
  *
  *     g(min(t - b, e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
@@ -40,6 +43,7 @@
 #include "gait/contact_load.h"
 #include "base/vector.h"
 #include "base/instant.h"
+#include "gait/effector.h"
 #include "gait/loading.h"
 #include "gait/stance.h"
 #include "model/model.h"
@@ -52,15 +56,16 @@ static const double loading_onset =
 
 /* -------------------------------------------------------------------- slots */
 
-static void add_slot(ambulo__slots *s, int foot, int link, ambulo__foot_part part) {
+static void add_slot(ambulo__slots *s, int effector, int link, ambulo__slot_part part) {
   int i = s->count++;
   if (i >= AMBULO__MOST_SLOTS) return;
-  s->foot[i] = foot;
+  s->effector[i] = effector;
   s->link[i] = link;
   s->part[i] = (int)part;
 }
 
-ambulo__slots ambulo__slots_of(const ambulo_model *m) {
+ambulo__slots ambulo__slots_of(const ambulo_problem_definition *d) {
+  const ambulo_model *m = d->model;
   ambulo__slots s = {.count = 0};
   for (int fore = 0; fore < 2; fore++) {
     for (int f = 0; f < m->foot_count; f++) {
@@ -70,14 +75,18 @@ ambulo__slots ambulo__slots_of(const ambulo_model *m) {
       if (fore && heel != toe) add_slot(&s, f, toe, AMBULO__FORE_FOOT);
     }
   }
-  if (s.count > AMBULO__MOST_SLOTS) s.count = 0;
+  for (int i = 0; i < m->patch_count; i++)
+    if (ambulo__patch_is_used(d, i))
+      add_slot(&s, m->foot_count + i, m->points[m->patches[i].point].link, AMBULO__WHOLE_PATCH);
   return s;
 }
 
 const char *ambulo__slot_name(const ambulo_model *m, const ambulo__slots *slots, int slot) {
-  const ambulo_foot *foot = &m->feet[slots->foot[slot]];
-  if (slots->part[slot] == (int)AMBULO__WHOLE_FOOT) return foot->name;
-  int point = slots->part[slot] == (int)AMBULO__REAR_FOOT ? foot->heel_center : foot->toe_center;
+  int effector = slots->effector[slot], part = slots->part[slot];
+  if (part == (int)AMBULO__WHOLE_FOOT || part == (int)AMBULO__WHOLE_PATCH)
+    return ambulo__effector_name(m, effector);
+  const ambulo_foot *foot = &m->feet[effector];
+  int point = part == (int)AMBULO__REAR_FOOT ? foot->heel_center : foot->toe_center;
   return m->points[point].name;
 }
 
@@ -130,7 +139,7 @@ static roll roll_of(const ambulo_contact *contact, const ambulo__stance *stance,
   return (roll){along, 1.0 - along, along};
 }
 
-/* --------------------------------------------------------------------- patch */
+/* ----------------------------------------------------------- where pressure is */
 
 /* on the heel, of the time from strike to foot-flat; else 0 */
 static double rolled(const ambulo_contact *contact, const ambulo__stance *stance, double time) {
@@ -140,8 +149,8 @@ static double rolled(const ambulo_contact *contact, const ambulo__stance *stance
 }
 
 /* ends along forward, from the heel's foothold */
-static void patch_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
-                     double part_rolled, double box[2]) {
+static void box_of(const ambulo_ground_reaction *r, const ambulo_contact *contact, double length,
+                   double part_rolled, double box[2]) {
   if (contact->mode == AMBULO_CONTACT_FLAT) {
     box[0] = r->flat_pressure[0];
     box[1] = length + r->flat_pressure[1];
@@ -157,14 +166,14 @@ static void patch_of(const ambulo_ground_reaction *r, const ambulo_contact *cont
 /* ---------------------------------------------------------------------- load */
 
 /* modes in which a part is down */
-static int modes_of(ambulo__foot_part part) {
+static int modes_of(ambulo__slot_part part) {
   if (part == AMBULO__REAR_FOOT) return 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT;
   if (part == AMBULO__FORE_FOOT) return 1 << AMBULO_CONTACT_FLAT | 1 << AMBULO_CONTACT_TOE;
   return AMBULO__ANY_MODE;
 }
 
 /* weight, centre and box of the foot become those of the part; returns the centre */
-static double narrow(ambulo__foot_part part, roll at, double length, ambulo__contact_load *load) {
+static double narrow(ambulo__slot_part part, roll at, double length, ambulo__contact_load *load) {
   double ahead = length + beyond_ball, *box = load->box;
   if (part == AMBULO__WHOLE_FOOT) return at.along * ahead;
   load->weight *= part == AMBULO__REAR_FOOT ? at.rear : at.fore;
@@ -184,35 +193,48 @@ static double most_after(double rate, double time, double *by_time) {
   return rate * (time + loading_onset * onset);
 }
 
+/* region, centre and arc of a foot's contact; its weight goes to the part */
+static void load_foot(const ambulo_problem_definition *d, const ambulo__foot_outline *outline,
+                      const ambulo_contact *contact, const ambulo__stance *stance,
+                      ambulo__slot_part part, double time, ambulo__contact_load *load) {
+  const ambulo_ground_reaction *r = &d->ground_reaction;
+  load->rolled = rolled(contact, stance, time);
+  box_of(r, contact, outline->length, load->rolled, load->box);
+  double center = narrow(part, roll_of(contact, stance, time), outline->length, load);
+  for (int i = 0; i < 3; i++) load->center[i] += center * load->frame.forward[i];
+  load->box[0] -= center;
+  load->box[1] -= center;
+  load->side = r->pressure_width;
+  if (outline->has_arcs && contact->mode != AMBULO_CONTACT_FLAT)
+    load->arc = outline->arc[contact->mode == AMBULO_CONTACT_TOE];
+}
+
 /* (W.8) the contact of a slot */
 ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
                                              const ambulo__foot_outline *outlines,
                                              const ambulo__slots *slots, int slot,
                                              const ambulo_contact *contact, double time) {
   ambulo__contact_load load = {.loaded = 0, .arc = -1};
-  int foot = slots->foot[slot];
-  ambulo__foot_part part = (ambulo__foot_part)slots->part[slot];
-  const ambulo_ground_reaction *r = &d->ground_reaction;
-  if (!contact) contact = ambulo__contact_of(d, foot, time);
+  int effector = slots->effector[slot], patch = ambulo__effector_patch(d->model, effector);
+  ambulo__slot_part part = (ambulo__slot_part)slots->part[slot];
+  if (!contact) contact = ambulo__contact_of(d, effector, time);
   if (!contact || !(modes_of(part) & 1 << contact->mode)) return load;
   ambulo__stance stance = ambulo__stance_of(d, contact);
   ambulo__span down = ambulo__stance_in(d, contact, modes_of(part));
-  double length = outlines[foot].length;
   load.loaded = 1;
   load.weight = weight_of(&stance, time);
-  load.rolled = rolled(contact, &stance, time);
-  patch_of(r, contact, length, load.rolled, load.box);
-  double center = narrow(part, roll_of(contact, &stance, time), length, &load);
   load.frame = ambulo__contact_frame_of(d, contact);
-  for (int i = 0; i < 3; i++)
-    load.center[i] = load.frame.origin[i] + center * load.frame.forward[i];
-  load.box[0] -= center;
-  load.box[1] -= center;
-  load.side = r->pressure_width;
-  if (outlines[foot].has_arcs && contact->mode != AMBULO_CONTACT_FLAT)
-    load.arc = outlines[foot].arc[contact->mode == AMBULO_CONTACT_TOE];
+  for (int i = 0; i < 3; i++) load.center[i] = load.frame.origin[i];
+  if (patch < 0) {
+    load_foot(d, &outlines[effector], contact, &stance, part, time, &load);
+  } else {
+    load.box[1] = d->model->patches[patch].size[0];
+    load.box[0] = -load.box[1];
+    load.side = d->model->patches[patch].size[1];
+  }
   load.since = time - down.from;
   load.until = down.to - time;
-  load.most = most_after(r->loading_rate, fmin(load.since, load.until), &load.most_by_time);
+  load.most =
+      most_after(d->ground_reaction.loading_rate, fmin(load.since, load.until), &load.most_by_time);
   return load;
 }

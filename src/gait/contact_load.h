@@ -1,7 +1,8 @@
 /* gait/contact_load.h - what the law that shares the load among contacts is told of them.
  *
  * A slot is a link that contacts act on: of each foot the link of its heel and, behind a joint of
- * the toes, that of its toe centre. At most one contact of a slot is down at a time. */
+ * the toes, that of its toe centre; of each patch in contact its own. At most one contact of a slot
+ * is down at a time. */
 #ifndef AMBULO_GAIT_CONTACT_LOAD_H
 #define AMBULO_GAIT_CONTACT_LOAD_H
 
@@ -17,31 +18,34 @@ enum { AMBULO__MOST_SLOTS = 6 };
 
 typedef struct ambulo__slots {
   int count;
-  int foot[AMBULO__MOST_SLOTS]; /* whose; slot f < foot_count is foot f's */
+  int effector[AMBULO__MOST_SLOTS]; /* whose (gait/effector.h); slot f < foot_count is foot f's */
   int link[AMBULO__MOST_SLOTS];
-  int part[AMBULO__MOST_SLOTS]; /* an ambulo__foot_part */
+  int part[AMBULO__MOST_SLOTS]; /* an ambulo__slot_part */
 } ambulo__slots;
 
-typedef enum ambulo__foot_part {
+typedef enum ambulo__slot_part {
   AMBULO__WHOLE_FOOT, /* no joint between heel and toes */
   AMBULO__REAR_FOOT,
-  AMBULO__FORE_FOOT
-} ambulo__foot_part;
+  AMBULO__FORE_FOOT,
+  AMBULO__WHOLE_PATCH
+} ambulo__slot_part;
 
-/* count = 0 for a model whose feet need more than AMBULO__MOST_SLOTS. */
-ambulo__slots ambulo__slots_of(const ambulo_model *model);
+/* Of all feet, and of the patches that are in contact at some time. `count` may exceed
+ * AMBULO__MOST_SLOTS, of which the arrays then have the first. */
+ambulo__slots ambulo__slots_of(const ambulo_problem_definition *definition);
 
-/* What messages call it: the foot, of two parts the points of its heel and toe centre. */
+/* What messages call it: the foot or patch, of two parts the points of its heel and toe centre. */
 const char *ambulo__slot_name(const ambulo_model *model, const ambulo__slots *slots, int slot);
 
 /* A slot at a time. */
 typedef struct ambulo__contact_load {
-  int loaded;          /* 0: all else is zero */
-  double weight;       /* w, 0 to 1 */
-  double center[3];    /* p: world, m */
-  double box[2], side; /* the patch: from behind to ahead of the centre, to either side, m */
-  int cut[2];          /* 1: that end of it is at the joint of the toes */
-  double rolled;       /* how much of heel_roll is in it */
+  int loaded;       /* 0: all else is zero */
+  double weight;    /* w, 0 to 1 */
+  double center[3]; /* p: world, m */
+  double box[2],
+      side;      /* where pressure may be: from behind to ahead of the centre, to either side, m */
+  int cut[2];    /* 1: that end of it is at the joint of the toes */
+  double rolled; /* how much of heel_roll is in it */
   double since, until; /* it came down, it leaves: s from now on either side; may be infinite */
   int arc;             /* point of the arc on which the foot rolls, or -1 */
   double most;         /* normal force, body weights; may be infinite */

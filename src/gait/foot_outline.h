@@ -36,8 +36,9 @@ double ambulo__foot_reach(const ambulo_model *model, int foot);
 int ambulo__corner_in_contact(ambulo_contact_mode mode, int is_heel);
 
 /* The point that a contact holds in place, and where: the heel centre on the foothold,
- * or (in toe contact) the toe centre where the flat foot has it; world axes, m. `outline`: of the
- * contact's foot. Returns the point. */
+ * or (in toe contact) the toe centre where the flat foot has it, the middle of a patch on its
+ * place; world axes, m. `outline`: of the contact's foot; not read for a patch. Returns the point.
+ */
 int ambulo__contact_point(const ambulo_problem_definition *definition,
                           const ambulo__foot_outline *outline, const ambulo_contact *contact,
                           double place[3]);

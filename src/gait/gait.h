@@ -27,10 +27,6 @@ typedef struct ambulo__gait_context {
   const int *before; /* [nodes][feet]: just before the node, where that counts too; NULL: nowhere */
 } ambulo__gait_context;
 
-/* 1 if `contact` is active at `time`: from <= time < to, both within 1e-9 s; a contact that
- * ends at `duration` includes it. */
-int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time);
-
 /* When step `step` of a regular walk strikes (s), and how far its foothold is from that of step 0
  * (m). */
 double ambulo__gait_strike(const ambulo_gait *gait, int step);

@@ -6,11 +6,16 @@
  *   tubes    two partners that both have a half width have the same; one that the reference lacks
  *            may be free on one side, for the reference is that of one step
  *
+ *   patches  that are in contact: the partner's middle is the mirror image at q = 0, on a link that
+ *            moves with the partner coordinate, and of the same size
+ *
  * Terms: objective/mirror_terms.c. Footholds: gait/schedule_ends.c.
  */
 #include "gait/bounds.h"
+#include "gait/effector.h"
 #include "gait/gait.h"
 #include "model/mirror_image.h"
+#include "model/neutral_pose.h"
 
 #include <math.h>
 
@@ -66,6 +71,48 @@ static ambulo_status check_tubes(const ambulo_problem_definition *d, int i,
   return status;
 }
 
+/* the coordinate that moves a point; -1: none */
+static int mover_of(const ambulo_model *m, int point) {
+  int link = m->points[point].link;
+  while (link >= 0 && m->links[link].coordinate < 0) link = m->links[link].parent;
+  return link < 0 ? -1 : m->links[link].coordinate;
+}
+
+/* how far the middle of one patch is from the mirror image of the other's, m */
+static double off_image(const ambulo_model *m, const ambulo_patch *own, const ambulo_patch *other) {
+  double a[3], b[3], aside = 0.0, square = 0.0;
+  ambulo__neutral_point(m, own->point, a);
+  ambulo__neutral_point(m, other->point, b);
+  for (int i = 0; i < 3; i++) aside += a[i] * m->left[i];
+  for (int i = 0; i < 3; i++) {
+    double apart = a[i] - 2.0 * aside * m->left[i] - b[i];
+    square += apart * apart;
+  }
+  return sqrt(square);
+}
+
+static ambulo_status check_patch(const ambulo_problem_definition *d, int i,
+                                 ambulo_diagnostics *list) {
+  const ambulo_model *m = d->model;
+  const ambulo_patch *own = &m->patches[i], *other = &m->patches[own->mirror];
+  int mover = mover_of(m, own->point), image = mover_of(m, other->point);
+  double off = off_image(m, own, other);
+  if (image != (mover < 0 ? -1 : m->coordinates[mover].mirror))
+    return REFUSE(list,
+                  "ends.kind: mirrored ends, but patch '%s' moves with '%s' and its mirror image "
+                  "'%s' with '%s'; expected mirror partners",
+                  own->name, mover < 0 ? "the world" : m->coordinates[mover].name, other->name,
+                  image < 0 ? "the world" : m->coordinates[image].name);
+  if (off > 1e-6 || own->size[0] != other->size[0] || own->size[1] != other->size[1])
+    return REFUSE(list,
+                  "ends.kind: mirrored ends, but patch '%s' (%.6g by %.6g m) is not the mirror "
+                  "image of '%s' (%.6g by %.6g m), by %.3g m at q = 0; expected the same place on "
+                  "the other side, and the same size",
+                  own->name, 2.0 * own->size[0], 2.0 * own->size[1], other->name,
+                  2.0 * other->size[0], 2.0 * other->size[1], off);
+  return AMBULO_OK;
+}
+
 ambulo_status ambulo__mirror_check(const ambulo_problem_definition *d,
                                    const ambulo_allocator *allocator, ambulo_diagnostics *list) {
   static const ambulo__mirror_words body = {AMBULO_E_PROBLEM, "ends.kind: mirrored ends, but ",
@@ -80,6 +127,10 @@ ambulo_status ambulo__mirror_check(const ambulo_problem_definition *d,
       if (asked[what] && check_limits(d, i, (ambulo_limited)what, list)) status = AMBULO_E_PROBLEM;
     }
     if (check_tubes(d, i, list)) status = AMBULO_E_PROBLEM;
+  }
+  for (int i = 0; i < d->model->patch_count; i++) {
+    if (d->model->patches[i].mirror < i || !ambulo__patch_is_used(d, i)) continue;
+    if (check_patch(d, i, list)) status = AMBULO_E_PROBLEM;
   }
   return status;
 }

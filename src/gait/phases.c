@@ -10,6 +10,7 @@
  */
 #include "gait/phases.h"
 #include "base/instant.h"
+#include "gait/effector.h"
 #include "gait/loading.h"
 #include "gait/step_edge.h"
 #include "gait/swing.h"
@@ -78,7 +79,7 @@ static void insert_swing(const ambulo_problem_definition *d, int foot, double ti
 int ambulo__has_tip_rows(const ambulo_problem_definition *d) {
   int known = d->clearance.height >= 0.0;
   for (int i = 0; known && i < d->contact_count; i++)
-    known = d->contacts[i].foot >= 0 && d->contacts[i].foot < d->model->foot_count;
+    known = ambulo__effector_is_known(d->model, &d->contacts[i]);
   return known;
 }
 
@@ -92,7 +93,7 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__
     const ambulo_contact *c = &d->contacts[i];
     insert(events, c->from, d->duration);
     insert(events, c->to, d->duration);
-    if (!swings) continue;
+    if (!swings || c->foot < 0) continue;
     insert_swing(d, c->foot, c->from, events);
     insert_swing(d, c->foot, c->to, events);
   }

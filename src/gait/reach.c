@@ -1,19 +1,20 @@
-/* gait/reach.c - footholds that the legs can span.
+/* gait/reach.c - contacts that the body can span.
  *
  * Whatever the angles, two points of a tree are no further apart than
  *
  *     reach = |p_a| + sum over the links between them of sqrt(a^2 + d^2) + |p_b|
  *
  * (each DH transform moves the origin by that much; p_a, p_b in their link frames). The
- * links are those from each foot up to, not including, their common ancestor. A
+ * links are those from each point up to, not including, their common ancestor. A
  * prismatic joint among them can stretch without bound: no check.
  *
  * Compared are the points that two contacts hold (gait/foot_outline.h), whenever two
- * different feet are down at the same time or hand over to each other. With a contact tolerance
- * each point may stand off its place by that much in every direction.
+ * different feet or patches are down at the same time or hand over to each other. With a contact
+ * tolerance each point may stand off its place by that much in every direction.
  */
 #include "gait/foot_outline.h"
 #include "base/instant.h"
+#include "gait/effector.h"
 #include "gait/gait.h"
 
 #include <math.h>
@@ -61,9 +62,17 @@ static double common_time(const double *times, int nodes, int feet, const int *a
                           const ambulo_contact *a, int j, const ambulo_contact *b) {
   for (int k = 0; k < nodes; k++) {
     const int *at = active + k * feet;
+    if (a->foot < 0 || b->foot < 0) break;
     if (at[a->foot] == i && at[b->foot] == j) return times[k];
   }
   return fmax(a->from, b->from);
+}
+
+static int point_of(const ambulo_problem_definition *definition, const ambulo_contact *contact,
+                    double place[3]) {
+  ambulo__foot_outline outline = {.length = 0.0};
+  if (contact->foot >= 0) outline = ambulo__foot_outline_of(definition->model, contact->foot);
+  return ambulo__contact_point(definition, &outline, contact, place);
 }
 
 static ambulo_status check_pair(const ambulo_problem_definition *definition, int i, int j,
@@ -71,10 +80,8 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
   const ambulo_model *model = definition->model;
   const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
   double place_a[3], place_b[3];
-  ambulo__foot_outline outline_a = ambulo__foot_outline_of(model, a->foot);
-  ambulo__foot_outline outline_b = ambulo__foot_outline_of(model, b->foot);
-  int point_a = ambulo__contact_point(definition, &outline_a, a, place_a);
-  int point_b = ambulo__contact_point(definition, &outline_b, b, place_b);
+  int effector_a = ambulo__effector_of(model, a), effector_b = ambulo__effector_of(model, b);
+  int point_a = point_of(definition, a, place_a), point_b = point_of(definition, b, place_b);
   double square = 0.0;
   for (int k = 0; k < 3; k++) square += (place_a[k] - place_b[k]) * (place_a[k] - place_b[k]);
   double distance = sqrt(square);
@@ -82,12 +89,16 @@ static ambulo_status check_pair(const ambulo_problem_definition *definition, int
   double reach = reach_between(model, point_a, point_b) + slack;
   if (distance <= reach + length_tolerance) return AMBULO_OK;
   char hint[80];
-  (void)snprintf(hint, sizeof hint, "shorten the step by %.3g m or more", distance - reach);
-  return ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, hint,
-                       "contacts[%d] (foot '%s') and contacts[%d] (foot '%s') are out of reach at "
-                       "t = %.6g s: %.4g m apart; expected at most %.4g m, the legs' length",
-                       i, model->feet[a->foot].name, j, model->feet[b->foot].name, time, distance,
-                       reach);
+  int feet = a->foot >= 0 && b->foot >= 0;
+  (void)snprintf(hint, sizeof hint, "%s by %.3g m or more",
+                 feet ? "shorten the step" : "bring the places closer", distance - reach);
+  return ambulo__error(
+      diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, hint,
+      "contacts[%d] (%s '%s') and contacts[%d] (%s '%s') are out of reach at "
+      "t = %.6g s: %.4g m apart; expected at most %.4g m, the %s length",
+      i, ambulo__effector_kind(model, effector_a), ambulo__effector_name(model, effector_a), j,
+      ambulo__effector_kind(model, effector_b), ambulo__effector_name(model, effector_b), time,
+      distance, reach, feet ? "legs'" : "links'");
 }
 
 /* (REACH) neighbouring footholds within the reach of both legs */
@@ -100,7 +111,8 @@ ambulo_status ambulo__schedule_check_reach(const ambulo_problem_definition *defi
   for (int i = 0; i < definition->contact_count; i++) {
     for (int j = i + 1; j < definition->contact_count; j++) {
       const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
-      if (a->foot == b->foot) continue;
+      if (ambulo__effector_of(definition->model, a) == ambulo__effector_of(definition->model, b))
+        continue;
       if (fmin(a->to, b->to) < fmax(a->from, b->from) - AMBULO__INSTANT) continue;
       double time = common_time(times, nodes, feet, active, i, a, j, b);
       ambulo_status one = check_pair(definition, i, j, time, diagnostics);

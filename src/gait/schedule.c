@@ -6,7 +6,9 @@
  * not only at the nodes: a finer grid must not turn a legal schedule into an illegal one.
  */
 #include "gait/contact_frame.h"
+#include "gait/effector.h"
 #include "gait/gait.h"
+#include "gait/loading.h"
 #include "base/instant.h"
 
 #include <math.h>
@@ -14,68 +16,84 @@
 #define REFUSE(list, hint, ...)                                                                    \
   ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, hint, __VA_ARGS__)
 
-int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time) {
-  if (time < contact->from - AMBULO__INSTANT) return 0;
-  if (time < contact->to - AMBULO__INSTANT) return 1;
-  return contact->to >= duration - AMBULO__INSTANT && time <= duration + AMBULO__INSTANT;
+static ambulo_status check_effector(const ambulo_problem_definition *d, int index,
+                                    ambulo_diagnostics *list) {
+  const ambulo_contact *c = &d->contacts[index];
+  const char *model = ambulo_model_name(d->model);
+  if (ambulo__effector_is_known(d->model, c)) return AMBULO_OK;
+  if (c->mode != AMBULO_CONTACT_PATCH)
+    return REFUSE(list, NULL, "contacts[%d]: no foot %d; the model '%s' has %d", index, c->foot,
+                  model, ambulo_model_foot_count(d->model));
+  if (c->foot != -1)
+    return REFUSE(list, NULL, "contacts[%d]: foot %d in mode patch; expected foot -1", index,
+                  c->foot);
+  return REFUSE(list, NULL, "contacts[%d]: no patch %d; the model '%s' has %d", index, c->patch,
+                model, ambulo_model_patch_count(d->model));
+}
+
+static int normal_is_legal(const ambulo_contact *c) {
+  if (c->foot >= 0) return ambulo__contact_normal_is_legal(c->normal);
+  return isfinite(c->normal[0]) && isfinite(c->normal[1]) && isfinite(c->normal[2]);
 }
 
 static ambulo_status check_contact(const ambulo_problem_definition *definition, int index,
                                    ambulo_diagnostics *list) {
   const ambulo_contact *c = &definition->contacts[index];
   double duration = definition->duration;
-  int feet = ambulo_model_foot_count(definition->model);
-  if (c->foot < 0 || c->foot >= feet) {
-    return REFUSE(list, NULL, "contacts[%d]: no foot %d; the model '%s' has %d", index, c->foot,
-                  ambulo_model_name(definition->model), feet);
-  }
-  const char *foot = ambulo_model_foot(definition->model, c->foot)->name;
-  if ((int)c->mode < AMBULO_CONTACT_HEEL || (int)c->mode > AMBULO_CONTACT_TOE) {
+  ambulo_status status = check_effector(definition, index, list);
+  if (status) return status;
+  int effector = ambulo__effector_of(definition->model, c);
+  const char *kind = ambulo__effector_kind(definition->model, effector);
+  const char *name = ambulo__effector_name(definition->model, effector);
+  if ((int)c->mode < AMBULO_CONTACT_HEEL || (int)c->mode > AMBULO_CONTACT_PATCH) {
     return REFUSE(list, NULL,
                   "contacts[%d]: foot '%s' in unknown mode %d; expected heel, flat or toe", index,
-                  foot, (int)c->mode);
+                  name, (int)c->mode);
   }
   if (!isfinite(c->place[0]) || !isfinite(c->place[1]) || !isfinite(c->place[2])) {
     return REFUSE(list, NULL,
-                  "contacts[%d]: foot '%s' has the foothold (%g, %g, %g) m; expected finite "
-                  "lengths",
-                  index, foot, c->place[0], c->place[1], c->place[2]);
+                  "contacts[%d]: %s '%s' has the %s (%g, %g, %g) m; expected finite lengths", index,
+                  kind, name, c->foot >= 0 ? "foothold" : "place", c->place[0], c->place[1],
+                  c->place[2]);
   }
-  if (!ambulo__contact_normal_is_legal(c->normal) || !isfinite(c->heading)) {
+  if (!normal_is_legal(c) || !isfinite(c->heading)) {
     return REFUSE(list, NULL,
-                  "contacts[%d]: foot '%s' stands on the normal (%g, %g, %g), turned by %g rad; "
-                  "expected a finite normal, up to 60 degrees from up, and a finite angle",
-                  index, foot, c->normal[0], c->normal[1], c->normal[2], c->heading);
+                  "contacts[%d]: %s '%s' stands on the normal (%g, %g, %g), turned by %g rad; "
+                  "expected a finite normal%s, and a finite angle",
+                  index, kind, name, c->normal[0], c->normal[1], c->normal[2], c->heading,
+                  c->foot >= 0 ? ", up to 60 degrees from up" : "");
   }
   if (!(c->from >= -AMBULO__INSTANT) || !(c->to <= duration + AMBULO__INSTANT)) {
     return REFUSE(list, NULL,
-                  "contacts[%d]: foot '%s' from %.6g s to %.6g s; expected times in 0 to "
-                  "%.6g s",
-                  index, foot, c->from, c->to, duration);
+                  "contacts[%d]: %s '%s' from %.6g s to %.6g s; expected times in 0 to %.6g s",
+                  index, kind, name, c->from, c->to, duration);
   }
   int at_end = c->from == c->to && c->to >= duration - AMBULO__INSTANT;
   if (!(c->from < c->to) && !at_end) {
-    return REFUSE(list, NULL, "contacts[%d]: foot '%s' from %.6g s to %.6g s; expected from < to",
-                  index, foot, c->from, c->to);
+    return REFUSE(list, NULL, "contacts[%d]: %s '%s' from %.6g s to %.6g s; expected from < to",
+                  index, kind, name, c->from, c->to);
   }
   return AMBULO_OK;
 }
 
 static ambulo_status check_overlaps(const ambulo_problem_definition *definition,
                                     ambulo_diagnostics *list) {
+  const ambulo_model *model = definition->model;
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < definition->contact_count; i++) {
     for (int j = i + 1; j < definition->contact_count; j++) {
       const ambulo_contact *a = &definition->contacts[i], *b = &definition->contacts[j];
-      if (a->foot != b->foot) continue;
+      int effector = ambulo__effector_of(model, a);
+      if (ambulo__effector_of(model, b) != effector) continue;
       double common = fmin(a->to, b->to) - fmax(a->from, b->from);
       int both_at_end = common == 0.0 && a->to == b->to && (a->from == a->to || b->from == b->to);
       if (common <= AMBULO__INSTANT && !both_at_end) continue;
+      const char *kind = ambulo__effector_kind(model, effector);
       status = REFUSE(list, NULL,
-                      "contacts[%d] and contacts[%d] overlap on foot '%s': %.6g s to %.6g s and "
-                      "%.6g s to %.6g s; expected one contact of a foot at a time",
-                      i, j, ambulo_model_foot(definition->model, a->foot)->name, a->from, a->to,
-                      b->from, b->to);
+                      "contacts[%d] and contacts[%d] overlap on %s '%s': %.6g s to %.6g s and "
+                      "%.6g s to %.6g s; expected one contact of a %s at a time",
+                      i, j, kind, ambulo__effector_name(model, effector), a->from, a->to, b->from,
+                      b->to, kind);
     }
   }
   return status;
@@ -112,37 +130,36 @@ static ambulo_status check_gaps(const ambulo_problem_definition *definition,
     }
     double next = next_contact(definition, time + AMBULO__INSTANT);
     status = REFUSE(list, "rows on contacts, zmp and ground_reaction need support at all times",
-                    "contacts: no foot touches the ground from %.6g s to %.6g s; "
+                    "contacts: no foot%s touches the ground from %.6g s to %.6g s; "
                     "expected at least one contact at every time",
-                    time, next);
+                    definition->model->patch_count ? " and no patch" : "", time, next);
     time = next;
   }
   return status;
-}
-
-/* the contact of `foot` just before `time`; -1: in the air */
-static int contact_before(const ambulo_problem_definition *d, int foot, double time) {
-  for (int i = 0; i < d->contact_count; i++) {
-    const ambulo_contact *c = &d->contacts[i];
-    if (c->foot == foot && c->from < time - AMBULO__INSTANT && time <= c->to + AMBULO__INSTANT)
-      return i;
-  }
-  return -1;
 }
 
 void ambulo__schedule_before(const ambulo_problem_definition *d, const double *times, int nodes,
                              const int *active, int *before) {
   int feet = ambulo_model_foot_count(d->model);
   for (int foot = 0; foot < feet; foot++) before[foot] = active[foot];
-  for (int i = feet; i < nodes * feet; i++)
-    before[i] = contact_before(d, i % feet, times[i / feet]);
+  for (int i = feet; i < nodes * feet; i++) {
+    const ambulo_contact *contact = ambulo__contact_before(d, i % feet, times[i / feet]);
+    before[i] = contact ? (int)(contact - d->contacts) : -1;
+  }
 }
 
-/* one zero-moment point and one plane serve level ground only */
+/* one zero-moment point and one plane serve feet on level ground only */
 static ambulo_status check_level(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
   int two_step = d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP;
-  if ((!two_step && d->support == AMBULO_SUPPORT_OFF) || ambulo__contacts_are_level(d))
-    return AMBULO_OK;
+  if (!two_step && d->support == AMBULO_SUPPORT_OFF) return AMBULO_OK;
+  for (int i = 0; i < d->contact_count; i++) {
+    if (d->contacts[i].foot >= 0) continue;
+    return REFUSE(list, "ground_reaction: {kind: shared} knows contacts of patches",
+                  "contacts[%d]: patch '%s' does not go with %s; expected feet alone", i,
+                  d->model->patches[d->contacts[i].patch].name,
+                  two_step ? "ground_reaction: {kind: two_step}" : "constraints.zmp");
+  }
+  if (ambulo__contacts_are_level(d)) return AMBULO_OK;
   return REFUSE(list, "ground_reaction: {kind: shared} stands on contacts of any place",
                 "contacts: footholds of different height, slope or heading do not go with %s; "
                 "expected level ground",
@@ -172,7 +189,8 @@ ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
     for (int foot = 0; foot < feet; foot++) active[k * feet + foot] = -1;
     for (int i = 0; i < definition->contact_count; i++) {
       const ambulo_contact *c = &definition->contacts[i];
-      if (ambulo__contact_holds(c, definition->duration, times[k])) active[k * feet + c->foot] = i;
+      if (c->foot >= 0 && ambulo__contact_holds(c, definition->duration, times[k]))
+        active[k * feet + c->foot] = i;
     }
   }
   return AMBULO_OK;

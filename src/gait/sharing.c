@@ -1,8 +1,9 @@
 /* gait/sharing.c - what each contact can supply where contacts share the load ("normal_force",
  * "friction", "pressure", "free_moment").
  *
- * Of a loaded contact: force f and moment m about its centre p, axes f, l, n of its surface, patch
- * [back, front] x [-side, side] about p, W = m g. All rows are linear in the channels.
+ * Of a loaded contact: force f and moment m about its centre p, axes f, l, n of its surface, its
+ * region of pressure [back, front] x [-side, side] about p, W = m g. All rows are linear in the
+ * channels.
  *
  *     0 <= n.f / W <= most              body weights; most: how fast it may be loaded
  *     mu n.f -+ e.f >= 0,  e = f, l     body weights
@@ -23,7 +24,7 @@
 #include <math.h>
 
 /* m, times the weight: a contact that carries a hundredth of the weight may do so 2 cm beyond its
- * patch. Just after a strike, and just before a foot leaves, forces are so small that rows without
+ * box. Just after a strike, and just before a foot leaves, forces are so small that rows without
  * it can hardly be moved: walks take up to four times the iterations, and of 300 random ones
  * (bench/random_walks.py) 11 are only feasible with half of it */
 static const double allowance = 2e-4;
@@ -130,9 +131,9 @@ static void slot_rows(one *c, const ambulo__foot_outline *outlines, const ambulo
                       int slot) {
   const ambulo__gait_context *context = c->context;
   const ambulo_problem_definition *d = context->definition;
-  int foot = slots->foot[slot];
+  int effector = slots->effector[slot];
   double time = context->times[c->node];
-  ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_FORCES, c->node, foot);
+  ambulo__phases_of_foot phases = ambulo__phases_at(context, AMBULO__OF_FORCES, c->node, effector);
   c->subject = ambulo__slot_name(context->model, slots, slot);
   c->force = ambulo__channel_foot_force(&context->channels, slot, 0);
   c->moment = ambulo__channel_contact_moment(&context->channels, slot, 0);
@@ -154,7 +155,7 @@ void ambulo__sharing_rows(const ambulo__gait_context *context, ambulo__row_table
     table->status = AMBULO_E_MEMORY;
     return;
   }
-  ambulo__slots slots = ambulo__slots_of(model);
+  ambulo__slots slots = ambulo__slots_of(context->definition);
   one c = {.context = context, .table = table};
   c.planar = !ambulo__model_moves_sideways(model);
   c.weight = ambulo__model_weight(model);

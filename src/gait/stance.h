@@ -1,4 +1,5 @@
-/* gait/stance.h - how long a foot is down without interruption, and beside which others. */
+/* gait/stance.h - how long a foot or a patch is down without interruption, and beside which others.
+ */
 #ifndef AMBULO_GAIT_STANCE_H
 #define AMBULO_GAIT_STANCE_H
 
@@ -6,10 +7,10 @@
 
 /* Times, s, may lie outside [0, T] in a motion that repeats. */
 typedef struct ambulo__stance {
-  double from, to; /* infinite where the foot never came down or leaves: in a motion that repeats
+  double from, to; /* infinite where it never came down or leaves: in a motion that repeats
                       if it is down all the time, in another where that begins or ends with it */
-  double leaves;   /* those of other feet that hold as it begins: when the first of them ends, at
-                      the latest half-way; -infinity: none, or it has no beginning */
+  double leaves;   /* those of other feet and patches that hold as it begins: when the first of them
+                      ends, at the latest half-way; -infinity: none, or it has no beginning */
   double comes;    /* those that hold as it ends: when the last of them began, at the earliest
                       half-way; infinity: none, or it has no end */
   int leaves_half_way, comes_half_way; /* 1: that is half-way */
@@ -17,11 +18,11 @@ typedef struct ambulo__stance {
   int before, after;                   /* modes of the parts before and after; -1: none */
 } ambulo__stance;
 
-/* Of the foot of one of the definition's contacts, at that contact. */
+/* Of the foot or patch of one of the definition's contacts, at that contact. */
 ambulo__stance ambulo__stance_of(const ambulo_problem_definition *definition,
                                  const ambulo_contact *contact);
-/* How long one of `modes` holds the foot without interruption, around a contact in one of them;
- * infinite as above. */
+/* How long one of `modes` holds the foot (a patch: its only one) without interruption, around a
+ * contact in one of them; infinite as above. */
 ambulo__span ambulo__stance_in(const ambulo_problem_definition *definition,
                                const ambulo_contact *contact, int modes);
 

@@ -31,7 +31,7 @@ int ambulo__swing_source(const ambulo_problem_definition *d, const ambulo_contac
   for (int i = 0; i < d->contact_count; i++) {
     for (*period = -last; *period <= last; (*period)++) {
       ambulo__span span = ambulo__image_span(d, i, *period);
-      if (ambulo__image_foot(d, i, *period) == image->foot && span.from == image->from &&
+      if (ambulo__image_effector(d, i, *period) == image->foot && span.from == image->from &&
           span.to == image->to)
         return i;
     }

@@ -37,7 +37,8 @@ static double longest_step(const ambulo_problem_definition *d) {
   for (int i = 0; i < d->contact_count; i++) {
     for (int j = 0; j < i; j++) {
       const ambulo_contact *a = &d->contacts[i], *b = &d->contacts[j];
-      if (a->foot == b->foot || fmin(a->to, b->to) < fmax(a->from, b->from) - AMBULO__INSTANT)
+      if (a->foot < 0 || b->foot < 0 || a->foot == b->foot ||
+          fmin(a->to, b->to) < fmax(a->from, b->from) - AMBULO__INSTANT)
         continue;
       longest = fmax(longest, fabs(a->place[0] - b->place[0]));
     }

@@ -6,9 +6,11 @@
  * The straight line, because that is what motion.csv says: it has the nodes, and who draws it,
  * integrates it by trapezoids or compares it with a force plate joins them so. (A denser table,
  * --samples, has the true force; the accelerations behind it are just as free between the nodes.)
- * Of all contacts together, from the root wrench, and with ground reaction of each foot.
+ * Of all contacts together, from the root wrench, and with ground reaction of each foot. A patch
+ * may press any way: of one that is in contact at some time all of its force, as |f(t) - ...|.
  */
 #include "gait/contact_load.h"
+#include "gait/effector.h"
 #include "judge/dense.h"
 
 #include <math.h>
@@ -16,7 +18,7 @@
 typedef struct force {
   const ambulo__dense *dense;
   const char *subject;
-  int foot; /* -1: all of it */
+  int effector; /* gait/effector.h; -1: all of it */
   double weight;
   ambulo__slots slots;
 } force;
@@ -29,34 +31,44 @@ static double upward_at(const force *f, int node, int channel) {
   return sum / f->weight;
 }
 
-/* of a foot, the sum of its contacts */
-static double normal_at(const force *f, int node) {
+/* what counts of the force: its part upwards, then zeros; of a patch all three parts. Of a foot the
+ * sum of its contacts. */
+static void parts_at(const force *f, int node, double part[3]) {
+  const ambulo_model *model = f->dense->problem->model;
   const ambulo__channels *channels = &f->dense->problem->channels;
-  if (f->foot < 0) return upward_at(f, node, ambulo__channel_force(channels, 0));
-  double sum = 0.0;
-  for (int slot = 0; slot < channels->slots; slot++)
-    if (f->slots.foot[slot] == f->foot)
-      sum += upward_at(f, node, ambulo__channel_foot_force(channels, slot, 0));
-  return sum;
+  part[0] = part[1] = part[2] = 0.0;
+  if (f->effector < 0) part[0] = upward_at(f, node, ambulo__channel_force(channels, 0));
+  for (int slot = 0; f->effector >= 0 && slot < channels->slots; slot++) {
+    int channel = ambulo__channel_foot_force(channels, slot, 0);
+    if (f->slots.effector[slot] != f->effector) continue;
+    if (f->effector < model->foot_count) part[0] += upward_at(f, node, channel);
+    for (int i = 0; i < 3 && f->effector >= model->foot_count; i++)
+      part[i] += ambulo__dense_channel(f->dense, node, channel + i) / f->weight;
+  }
 }
 
 static void visit_force(const force *f, ambulo__dense_visitor visit, void *user) {
   const ambulo__dense *dense = f->dense;
+  const ambulo_problem *p = dense->problem;
   int index = ambulo__dense_rule_of_force(), samples = dense->samples;
   const ambulo__dense_rule *rule = ambulo__dense_rule_at(index);
   ambulo__dense_sample sample = {.rule = index,
                                  .family = ambulo__row_family(rule->kind),
                                  .subject = f->subject,
-                                 .detail = "normal",
+                                 .detail = f->effector < p->model->foot_count ? "normal" : "",
                                  .unit = ambulo__measure_text(rule->measure),
                                  .tolerance = rule->tolerance};
-  for (int k = 0; k < dense->problem->nodes; k++) {
-    double a = normal_at(f, k * samples);
-    double b = k + 1 < dense->problem->nodes ? normal_at(f, (k + 1) * samples) : a;
+  for (int k = 0; k < p->nodes; k++) {
+    double a[3], b[3], now[3];
+    parts_at(f, k * samples, a);
+    parts_at(f, (k + 1 < p->nodes ? k + 1 : k) * samples, b);
     for (int i = 0; i < samples && k * samples + i < dense->fine->nodes; i++) {
-      double line = a + (b - a) * i / samples;
+      double square = 0.0;
+      parts_at(f, k * samples + i, now);
+      for (int j = 0; j < 3; j++) now[j] -= a[j] + (b[j] - a[j]) * i / samples;
+      for (int j = 0; j < 3; j++) square += now[j] * now[j];
       sample.time = dense->fine->times[k * samples + i];
-      sample.value = fabs(normal_at(f, k * samples + i) - line);
+      sample.value = sqrt(square);
       visit(user, &sample);
     }
   }
@@ -67,13 +79,16 @@ void ambulo__dense_force(const ambulo__dense *dense, ambulo__dense_visitor visit
   const ambulo_problem *p = dense->problem;
   force f = {.dense = dense,
              .subject = "total",
-             .foot = -1,
+             .effector = -1,
              .weight = ambulo__model_weight(p->model),
-             .slots = ambulo__slots_of(p->model)};
+             .slots = ambulo__slots_of(&p->definition)};
   if (p->definition.contact_count == 0 || !(f.weight > 0.0)) return;
   visit_force(&f, visit, user);
-  for (f.foot = 0; f.foot < p->channels.feet; f.foot++) {
-    f.subject = p->model->feet[f.foot].name;
+  int effectors = p->channels.slots ? ambulo__effector_count(p->model) : 0;
+  for (f.effector = 0; f.effector < effectors; f.effector++) {
+    int patch = ambulo__effector_patch(p->model, f.effector);
+    if (patch >= 0 && !ambulo__patch_is_used(&p->definition, patch)) continue;
+    f.subject = ambulo__effector_name(p->model, f.effector);
     visit_force(&f, visit, user);
   }
 }

@@ -1,4 +1,5 @@
-/* judge/dense_slip.c - how far loaded points of a foot move along the ground between nodes.
+/* judge/dense_slip.c - how far loaded points of feet and patches move along the ground between
+ * nodes.
  *
  * A corner is loaded while a contact of its foot has it down (gait/foot_outline.h). With a and b
  * the nodes before and after t at which the corner stands loaded on the same foothold,
@@ -11,10 +12,14 @@
  * events the last loaded node is toe-off). Movements
  * from node to node are not slip: rows hold those, exactly or within contact_tolerance. A corner
  * that has no node while it is loaded moves away from where it came down. On its heel and on its
- * toes a foot with arcs rolls: how far it slips there the rows of its contact say.
+ * toes a foot with arcs rolls: how far it slips there the rows of its contact say. A patch in
+ * contact is loaded in its middle, and slips along its own surface.
  */
-#include "gait/foot_outline.h"
 #include "base/instant.h"
+#include "gait/contact_frame.h"
+#include "gait/effector.h"
+#include "gait/foot_outline.h"
+#include "gait/loading.h"
 #include "judge/dense.h"
 
 #include <math.h>
@@ -24,7 +29,7 @@ enum { SEARCH = 2 }; /* nodes to either side: moved events lie up to one interva
 
 typedef struct corner {
   const ambulo__dense *dense;
-  int foot, point, is_heel, rolls;
+  int effector, point, is_heel, rolls;
   ambulo__dense_visitor visit;
   void *user;
 } corner;
@@ -38,7 +43,13 @@ static const ambulo_contact *loading(const ambulo_problem *p, const corner *c, i
 
 /* on a grid on events a node has the corner loaded also when it is unloaded there */
 static const ambulo_contact *contact_at(const ambulo_problem *p, const corner *c, int node) {
-  int at = node * p->model->foot_count + c->foot;
+  int at = node * p->model->foot_count + c->effector;
+  if (c->effector >= p->model->foot_count) {
+    const ambulo_problem_definition *d = &p->definition;
+    const ambulo_contact *now = ambulo__contact_of(d, c->effector, p->times[node]);
+    if (now || !p->before) return now;
+    return ambulo__contact_before(d, c->effector, p->times[node]);
+  }
   const ambulo_contact *contact = loading(p, c, p->active[at]);
   return contact || !p->before ? contact : loading(p, c, p->before[at]);
 }
@@ -63,7 +74,8 @@ static int holding_node(const corner *c, int node, int step, const ambulo_contac
   for (int k = node; k >= 0 && k < p->nodes && abs(k - node) < SEARCH; k += step) {
     const ambulo_contact *contact = contact_at(p, c, k);
     if (contact &&
-        hypot(contact->place[0] - there->place[0], contact->place[1] - there->place[1]) < 1e-9)
+        hypot(hypot(contact->place[0] - there->place[0], contact->place[1] - there->place[1]),
+              contact->place[2] - there->place[2]) < 1e-9)
       return k;
   }
   return -1;
@@ -90,13 +102,19 @@ static int held_place(const corner *c, double time, const ambulo_contact *contac
 static void visit_time(const corner *c, double time, const ambulo_contact *contact,
                        const double first[3]) {
   const ambulo_model *model = c->dense->problem->model;
+  const double *up = model->up;
+  ambulo__contact_frame frame;
   double r[3], held[3], normal = 0.0, square = 0.0;
+  if (contact->foot < 0) {
+    frame = ambulo__contact_frame_of(&c->dense->problem->definition, contact);
+    up = frame.up;
+  }
   place_at(c, time, r);
   if (!held_place(c, time, contact, held))
     for (int i = 0; i < 3; i++) held[i] = first[i];
-  for (int i = 0; i < 3; i++) normal += (r[i] - held[i]) * model->up[i];
+  for (int i = 0; i < 3; i++) normal += (r[i] - held[i]) * up[i];
   for (int i = 0; i < 3; i++) {
-    double along = r[i] - held[i] - normal * model->up[i];
+    double along = r[i] - held[i] - normal * up[i];
     square += along * along;
   }
   int index = ambulo__dense_rule_of_slip();
@@ -128,14 +146,24 @@ static int visit_loading(const corner *c, int j) {
   return j;
 }
 
+static void visit_corner(const corner *c) {
+  const ambulo_problem *fine = c->dense->fine;
+  for (int j = 0; j < fine->nodes;) j = contact_at(fine, c, j) ? visit_loading(c, j) : j + 1;
+}
+
 /* (A.2a) way along the ground between two nodes that hold */
 void ambulo__dense_slip(const ambulo__dense *dense, ambulo__dense_visitor visit, void *user) {
   const ambulo_problem *fine = dense->fine;
-  for (int foot = 0; fine->definition.contact_count && foot < fine->model->foot_count; foot++) {
-    ambulo__foot_outline outline = ambulo__foot_outline_of(fine->model, foot);
+  const ambulo_model *model = fine->model;
+  for (int foot = 0; fine->definition.contact_count && foot < model->foot_count; foot++) {
+    ambulo__foot_outline outline = ambulo__foot_outline_of(model, foot);
     for (int i = 0; i < outline.count; i++) {
       corner c = {dense, foot, outline.point[i], outline.is_heel[i], outline.has_arcs, visit, user};
-      for (int j = 0; j < fine->nodes;) j = contact_at(fine, &c, j) ? visit_loading(&c, j) : j + 1;
+      visit_corner(&c);
     }
+  }
+  for (int p = 0; p < model->patch_count; p++) {
+    corner c = {dense, model->foot_count + p, model->patches[p].point, 0, 0, visit, user};
+    visit_corner(&c);
   }
 }

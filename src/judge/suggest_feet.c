@@ -109,10 +109,11 @@ static void foothold(const ambulo__advice *a) {
 static void contact_place(const ambulo__advice *a) {
   double old = a->problem->definition.contact_tolerance;
   double wide = ambulo__outward(old + a->room, 1);
-  ambulo__advice_say(a,
-                     "%s at t = %.4g s is %.4g m further %s than its contact lets it: shorten the "
-                     "steps or give them more time%s",
+  int is_patch = ambulo_model_find_patch(a->problem->model, a->row->subject) >= 0;
+  ambulo__advice_say(a, "%s at t = %.4g s is %.4g m further %s than its contact lets it: %s%s",
                      a->row->subject, a->row->time, a->give, a->row->detail,
+                     is_patch ? "move its place, or change the time of its contact"
+                              : "shorten the steps or give them more time",
                      wide <= widest_contact ? ", or let contacts hold within a wider tolerance"
                                             : "");
   if (wide <= widest_contact) ambulo__advice_set(a, "constraints.contact_tolerance=%.6g", wide);

@@ -144,7 +144,7 @@ static int modes_of(const ambulo__advice *a, ambulo_contact_mode mode[2]) {
 }
 
 /* normal force that a row of pressure counts by, body weights. Where contacts share the load it is
- * that of the contact: both sides of the patch add up to it, times the way between them, and what
+ * that of the contact: both sides of its box add up to it, times the way between them, and what
  * is allowed on either side. */
 static double counted_by(const ambulo__advice *a) {
   const ambulo_problem *p = a->problem;
@@ -169,7 +169,7 @@ static double counted_by(const ambulo__advice *a) {
   return way > 0.0 ? sum / way : 0.0;
 }
 
-/* a side of a patch that ends at the joint of the toes, or under an arc, whatever its box */
+/* a side of a box that ends at the joint of the toes, or under an arc, whatever its box */
 static int is_fixed(const ambulo__advice *a) {
   const ambulo_model *m = a->problem->model;
   int foot = foot_of(a);

@@ -10,6 +10,7 @@ enum {
   AMBULO__MAX_LINKS = 4096,
   AMBULO__MAX_POINTS = 4096,
   AMBULO__MAX_FEET = 64,
+  AMBULO__MAX_PATCHES = 64,
   AMBULO__MAX_PARTS = 256, /* bodies merged into one link */
   AMBULO__MAX_NAME = 64
 };
@@ -52,7 +53,7 @@ static inline ambulo__place ambulo__place_of_link(const ambulo__checker *c, int 
 void ambulo__check_links(ambulo__checker *c);
 /* Ranges ordered, mirror pairs mutual. */
 void ambulo__check_coordinates(ambulo__checker *c);
-/* Points on links, feet on points. */
+/* Points on links, feet and patches on points. */
 void ambulo__check_contacts(ambulo__checker *c);
 
 #endif

@@ -64,6 +64,8 @@ static ambulo_status copy_model(const ambulo_model *model, const ambulo_allocato
   d.point_count = model->point_count;
   d.feet = model->feet;
   d.foot_count = model->foot_count;
+  d.patches = model->patches;
+  d.patch_count = model->patch_count;
   d.stature = model->stature;
   for (int i = 0; i < 3; i++) {
     d.gravity[i] = -9.81 * model->up[i];

@@ -1,4 +1,4 @@
-/* model/contact_check.c - coordinates, points and feet: ranges, pairs, references. */
+/* model/contact_check.c - coordinates, points, feet and patches: ranges, pairs, references. */
 #include <math.h>
 #include <string.h>
 #include <stdio.h>
@@ -6,6 +6,7 @@
 #include "model/check.h"
 
 static const double LONGEST = 1e6;        /* m */
+static const double LARGEST_PATCH = 10.0; /* m */
 static const double LARGEST_LIMIT = 1e12; /* rad, m, their rates, N m, N */
 
 /* ------------------------------------------------------------- coordinates */
@@ -86,7 +87,7 @@ void ambulo__check_coordinates(ambulo__checker *c) {
   }
 }
 
-/* ----------------------------------------------------------- points and feet */
+/* -------------------------------------------------- points, feet and patches */
 
 static void check_point(ambulo__checker *c, int index) {
   const ambulo_point *point = &c->definition->points[index];
@@ -151,7 +152,52 @@ static void check_foot(ambulo__checker *c, int index) {
   }
 }
 
+static void check_patch_mirror(ambulo__checker *c, int index, ambulo__place place) {
+  const ambulo_model_definition *d = c->definition;
+  const ambulo_patch *patch = &d->patches[index];
+  const char *name = patch->name ? patch->name : "";
+  int mirror = patch->mirror < 0 ? index : patch->mirror;
+  if (mirror >= d->patch_count) {
+    c->status =
+        ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                      "mirror image of patch '%s' does not exist (got index %d)", name, mirror);
+  } else if ((d->patches[mirror].mirror < 0 ? mirror : d->patches[mirror].mirror) != index) {
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "mirror image of patch '%s' has another mirror image itself; "
+                              "expected a pair",
+                              name);
+  }
+}
+
+static void check_patch(ambulo__checker *c, int index) {
+  const ambulo_model_definition *d = c->definition;
+  const ambulo_patch *patch = &d->patches[index];
+  ambulo__place place = ambulo__place_in(c, c->places ? c->places->patches : NULL, index);
+  const char *name = patch->name ? patch->name : "";
+  if (!is_point(d, patch->point))
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "point of patch '%s' does not exist (got index %d); expected 0 to %d",
+                              name, patch->point, d->point_count - 1);
+  for (int i = 0; i < 2; i++) {
+    if (patch->size[i] > 0.0 && patch->size[i] <= LARGEST_PATCH) continue;
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "%s of patch '%s' is out of range (got %s m); expected more than 0, "
+                              "at most %g m",
+                              i ? "half the width" : "half the length", name,
+                              ambulo__number_text(patch->size[i]).text, LARGEST_PATCH);
+  }
+  for (int f = 0; f < d->foot_count; f++) {
+    if (!d->feet[f].name || strcmp(d->feet[f].name, name) != 0) continue;
+    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                              "a patch and a foot are both named '%s'; expected different names, "
+                              "results are named after them",
+                              name);
+  }
+  check_patch_mirror(c, index, place);
+}
+
 void ambulo__check_contacts(ambulo__checker *c) {
   for (int i = 0; i < c->definition->point_count; i++) check_point(c, i);
   for (int i = 0; i < c->definition->foot_count; i++) check_foot(c, i);
+  for (int i = 0; i < c->definition->patch_count; i++) check_patch(c, i);
 }

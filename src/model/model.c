@@ -79,6 +79,7 @@ static size_t text_size(const ambulo_model_definition *d) {
   for (int i = 0; i < d->coordinate_count; i++) size += strlen(d->coordinates[i].name) + 1;
   for (int i = 0; i < d->point_count; i++) size += strlen(d->points[i].name) + 1;
   for (int i = 0; i < d->foot_count; i++) size += strlen(d->feet[i].name) + 1;
+  for (int i = 0; i < d->patch_count; i++) size += strlen(d->patches[i].name) + 1;
   return size;
 }
 
@@ -122,6 +123,11 @@ static void copy_contacts(ambulo_model *m, const ambulo_model_definition *d, con
     m->feet[i].name = keep(text, d->feet[i].name);
     if (m->feet[i].mirror < 0) m->feet[i].mirror = i;
   }
+  for (int i = 0; i < m->patch_count; i++) {
+    m->patches[i] = d->patches[i];
+    m->patches[i].name = keep(text, d->patches[i].name);
+    if (m->patches[i].mirror < 0) m->patches[i].mirror = i;
+  }
 }
 
 /* up = -g/|g|; forward made horizontal; left = up x forward. */
@@ -149,8 +155,9 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   m->points = ambulo__alloc(a, (size_t)d->point_count, sizeof *m->points);
   m->neutral = ambulo__alloc(a, 3 * (size_t)d->point_count, sizeof *m->neutral);
   m->feet = ambulo__alloc(a, (size_t)d->foot_count, sizeof *m->feet);
+  m->patches = ambulo__alloc(a, (size_t)d->patch_count, sizeof *m->patches);
   return m->text && m->links && m->coordinates && m->coordinate_link && m->points && m->neutral &&
-         m->feet;
+         m->feet && m->patches;
 }
 
 static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
@@ -167,6 +174,7 @@ static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
   m->coordinate_count = d->coordinate_count;
   m->point_count = d->point_count;
   m->foot_count = d->foot_count;
+  m->patch_count = d->patch_count;
   m->stature = d->stature;
   char *text = m->text;
   m->name = keep(&text, d->name);
@@ -217,5 +225,6 @@ void ambulo_model_free(ambulo_model *model) {
   ambulo__free(&a, model->points);
   ambulo__free(&a, model->neutral);
   ambulo__free(&a, model->feet);
+  ambulo__free(&a, model->patches);
   ambulo__free(&a, model);
 }

@@ -38,6 +38,8 @@ struct ambulo_model {
   int point_count;
   ambulo_foot *feet; /* [foot_count] */
   int foot_count;
+  ambulo_patch *patches; /* [patch_count] */
+  int patch_count;
 };
 
 /* Structural and physical checks of a definition, all of them, each with the
@@ -45,7 +47,7 @@ struct ambulo_model {
  * link i stands in a file. */
 #include "base/diagnostics.h"
 typedef struct ambulo__model_places {
-  const ambulo__place *links, *coordinates, *points, *feet; /* each may be NULL */
+  const ambulo__place *links, *coordinates, *points, *feet, *patches; /* each may be NULL */
   ambulo__place model;
 } ambulo__model_places;
 ambulo_status ambulo__model_check(const ambulo_model_definition *definition,

@@ -8,9 +8,9 @@
 
 static int counts_are_sane(const ambulo_model_definition *d) {
   return d->link_count >= 0 && d->coordinate_count >= 0 && d->point_count >= 0 &&
-         d->foot_count >= 0 && (d->links || d->link_count == 0) &&
+         d->foot_count >= 0 && d->patch_count >= 0 && (d->links || d->link_count == 0) &&
          (d->coordinates || d->coordinate_count == 0) && (d->points || d->point_count == 0) &&
-         (d->feet || d->foot_count == 0);
+         (d->feet || d->foot_count == 0) && (d->patches || d->patch_count == 0);
 }
 
 static ambulo_status check_sizes(ambulo__checker *c) {
@@ -23,7 +23,8 @@ static ambulo_status check_sizes(ambulo__checker *c) {
   } sizes[] = {{"links", d->link_count, AMBULO__MAX_LINKS},
                {"coordinates", d->coordinate_count, AMBULO__MAX_LINKS},
                {"points", d->point_count, AMBULO__MAX_POINTS},
-               {"feet", d->foot_count, AMBULO__MAX_FEET}};
+               {"feet", d->foot_count, AMBULO__MAX_FEET},
+               {"patches", d->patch_count, AMBULO__MAX_PATCHES}};
   for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
     if (sizes[i].count <= sizes[i].limit) continue;
     return ambulo__error(c->diagnostics, AMBULO_E_LIMIT, place, NULL,
@@ -125,6 +126,10 @@ static const char *foot_name(const ambulo_model_definition *d, int i) {
   return d->feet[i].name;
 }
 
+static const char *patch_name(const ambulo_model_definition *d, int i) {
+  return d->patches[i].name;
+}
+
 static const char *coordinate_name(const ambulo_model_definition *d, int i) {
   return d->coordinates[i].name;
 }
@@ -142,6 +147,7 @@ static void check_all_names(ambulo__checker *c) {
   check_names(c, "coordinate", "coordinates", d->coordinate_count, coordinate_name, p->coordinates);
   check_names(c, "point", "points", d->point_count, point_name, p->points);
   check_names(c, "foot", "feet", d->foot_count, foot_name, p->feet);
+  check_names(c, "patch", "patches", d->patch_count, patch_name, p->patches);
 }
 
 /* --------------------------------------------------------------- the world */

@@ -24,6 +24,10 @@ int ambulo_model_foot_count(const ambulo_model *model) {
   return model ? model->foot_count : 0;
 }
 
+int ambulo_model_patch_count(const ambulo_model *model) {
+  return model ? model->patch_count : 0;
+}
+
 const ambulo_link *ambulo_model_link(const ambulo_model *model, int index) {
   return model && index >= 0 && index < model->link_count ? &model->links[index] : NULL;
 }
@@ -38,6 +42,10 @@ const ambulo_point *ambulo_model_point(const ambulo_model *model, int index) {
 
 const ambulo_foot *ambulo_model_foot(const ambulo_model *model, int index) {
   return model && index >= 0 && index < model->foot_count ? &model->feet[index] : NULL;
+}
+
+const ambulo_patch *ambulo_model_patch(const ambulo_model *model, int index) {
+  return model && index >= 0 && index < model->patch_count ? &model->patches[index] : NULL;
 }
 
 int ambulo_model_find_link(const ambulo_model *model, const char *name) {
@@ -64,6 +72,13 @@ int ambulo_model_find_point(const ambulo_model *model, const char *name) {
 int ambulo_model_find_foot(const ambulo_model *model, const char *name) {
   for (int i = 0; model && name && i < model->foot_count; i++) {
     if (strcmp(model->feet[i].name, name) == 0) return i;
+  }
+  return -1;
+}
+
+int ambulo_model_find_patch(const ambulo_model *model, const char *name) {
+  for (int i = 0; model && name && i < model->patch_count; i++) {
+    if (strcmp(model->patches[i].name, name) == 0) return i;
   }
   return -1;
 }

@@ -14,10 +14,10 @@
 #include "base/vector.h"
 
 #include "gait/contact_load.h"
+#include "gait/effector.h"
 #include "gait/loading.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct fill {
   const ambulo_problem *problem;
@@ -63,11 +63,11 @@ static void fill_contacts(const fill *f, int k, double time) {
 ambulo_status ambulo__ground_fill(const ambulo_problem *p, const ambulo_allocator *a,
                                   const double *times, int count, double **ground) {
   *ground = NULL;
-  if (!p->channels.feet) return AMBULO_OK;
+  if (!p->channels.slots) return AMBULO_OK;
   size_t lanes = (size_t)ambulo__block_count(count) * AMBULO__LANES;
   size_t entries = (size_t)ambulo__plan_ground_entries(p->plan);
   ambulo__foot_outline *outlines = ambulo__foot_outlines(p->model, a);
-  fill f = {p, outlines, ambulo__slots_of(p->model), NULL};
+  fill f = {p, outlines, ambulo__slots_of(&p->definition), NULL};
   f.ground = ambulo__alloc_aligned(a, lanes * entries, sizeof *f.ground);
   if (!f.ground || !outlines) {
     ambulo__free_aligned(a, f.ground);
@@ -125,24 +125,22 @@ static void pressure_of(const ambulo__contact_frame *frame, const double force[3
   *free_moment = normal > 0.0 ? twist / normal : 0.0;
 }
 
-void ambulo__contact_pressures(const ambulo_problem *p, const ambulo__foot_outline *outlines,
-                               double time, const double *channel, double grf[6], double cop[6],
-                               double free_moment[2]) {
-  ambulo__slots slots = ambulo__slots_of(p->model);
-  ambulo__contact_frame frame[2] = {{{0.0}, {0.0}, {0.0}, {0.0}}, {{0.0}, {0.0}, {0.0}, {0.0}}};
-  double moment[6] = {0.0};
-  memset(grf, 0, 6 * sizeof *grf);
+void ambulo__contact_pressure(const ambulo_problem *p, const ambulo__foot_outline *outlines,
+                              int effector, double time, const double *channel, double force[3],
+                              double cop[3], double *free_moment) {
+  ambulo__slots slots = ambulo__slots_of(&p->definition);
+  ambulo__contact_frame frame = {{0.0}, {0.0}, {0.0}, {0.0}};
+  double moment[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < 3; i++) force[i] = 0.0;
   for (int slot = 0; slot < slots.count; slot++) {
-    int at = 3 * slots.foot[slot];
+    if (slots.effector[slot] != effector) continue;
     ambulo__contact_load load =
         ambulo__contact_load_at(&p->definition, outlines, &slots, slot, NULL, time);
     if (!load.loaded) continue;
-    frame[slots.foot[slot]] = load.frame;
-    add_slot(p, &load, slot, channel, grf + at, moment + at);
+    frame = load.frame;
+    add_slot(p, &load, slot, channel, force, moment);
   }
-  for (int foot = 0; foot < 2; foot++)
-    pressure_of(&frame[foot], grf + 3 * foot, moment + 3 * foot, cop + 3 * foot,
-                &free_moment[foot]);
+  pressure_of(&frame, force, moment, cop, free_moment);
 }
 
 const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_problem *p) {
@@ -150,7 +148,7 @@ const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_proble
 }
 
 double ambulo_problem_load_share(const ambulo_problem *p, int foot, double time) {
-  if (!p->channels.feet || foot < 0 || foot > 1) return 0.0;
+  if (!p->channels.slots || foot < 0 || foot >= p->channels.feet) return 0.0;
   if (p->definition.ground_reaction.kind == AMBULO_REACTION_SHARED) return (double)NAN;
   ambulo__foot_outline outlines[2] = {ambulo__foot_outline_of(p->model, 0),
                                       ambulo__foot_outline_of(p->model, 1)};

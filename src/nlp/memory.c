@@ -43,6 +43,7 @@ double ambulo__rows_at_most(const ambulo_problem *p) {
       limits * p->coordinates + 2.0 * d->tube_count * p->coordinates + d->user_row_count;
   /* contacts, clearance, pressure and friction of a foot; support, friction and moments of all */
   per_node += 24.0 * ambulo_model_foot_count(p->model) + 16.0;
+  per_node += 18.0 * ambulo_model_patch_count(p->model);
   double points = d->joint_limits == AMBULO_LIMIT_CONTROL_POINTS ? 2.0 * p->variables : 0.0;
   return per_node * p->nodes + points + 6.0 * p->coordinates;
 }

@@ -7,6 +7,8 @@
  */
 #include "nlp/nlp.h"
 
+#include "gait/effector.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -91,21 +93,40 @@ static void fill_split(const ambulo_problem *p, const dense *d, int channels, in
   }
 }
 
+/* where one foot or patch of sample k stands in the outputs of the caller */
+typedef struct outputs {
+  double *force, *cop, *free_moment;
+} outputs;
+
+static outputs outputs_of(const ambulo_model *m, const ambulo_motion *motion, int effector, int k) {
+  int patch = ambulo__effector_patch(m, effector);
+  outputs all = patch < 0
+                    ? (outputs){motion->grf, motion->cop, motion->free_moment}
+                    : (outputs){motion->patch_force, motion->patch_cop, motion->patch_free_moment};
+  size_t of = (size_t)(patch < 0 ? m->foot_count : m->patch_count);
+  size_t at = (size_t)k * of + (size_t)(patch < 0 ? effector : patch);
+  return (outputs){all.force ? all.force + 3 * at : NULL, all.cop ? all.cop + 3 * at : NULL,
+                   all.free_moment ? all.free_moment + at : NULL};
+}
+
 /* of contacts that share the load */
 static ambulo_status fill_contacts(const ambulo_problem *p, const dense *d,
                                    const ambulo_allocator *a, const double *times, int count,
                                    const ambulo_motion *motion) {
-  int channels = ambulo__channel_count(&p->channels);
+  int channels = ambulo__channel_count(&p->channels), effectors = ambulo__effector_count(p->model);
   ambulo__foot_outline *outlines = ambulo__foot_outlines(p->model, a);
   if (!outlines) return AMBULO_E_MEMORY;
-  for (int k = 0; k < count; k++) {
-    double grf[6], cop[6], free_moment[2];
-    ambulo__contact_pressures(p, outlines, times[k],
-                              d->channel + ambulo__lane_index(k, channels, 0), grf, cop,
-                              free_moment);
-    if (motion->grf) memcpy(motion->grf + 6 * k, grf, sizeof grf);
-    if (motion->cop) memcpy(motion->cop + 6 * k, cop, sizeof cop);
-    if (motion->free_moment) memcpy(motion->free_moment + 2 * k, free_moment, sizeof free_moment);
+  for (int at = 0; at < count * effectors; at++) {
+    int k = at / effectors, effector = at % effectors;
+    outputs out = outputs_of(p->model, motion, effector, k);
+    double force[3], cop[3], free_moment;
+    if (!out.force && !out.cop && !out.free_moment) continue;
+    ambulo__contact_pressure(p, outlines, effector, times[k],
+                             d->channel + ambulo__lane_index(k, channels, 0), force, cop,
+                             &free_moment);
+    if (out.force) memcpy(out.force, force, sizeof force);
+    if (out.cop) memcpy(out.cop, cop, sizeof cop);
+    if (out.free_moment) *out.free_moment = free_moment;
   }
   ambulo__free(a, outlines);
   return AMBULO_OK;
@@ -115,12 +136,21 @@ static void fill_none(int numbers, double *out) {
   for (int i = 0; out && i < numbers; i++) out[i] = NAN;
 }
 
-static ambulo_status fill_feet(const ambulo_problem *p, const dense *d, const ambulo_allocator *a,
-                               const double *times, int count, const ambulo_motion *motion) {
+static void fill_no_patches(const ambulo_problem *p, int count, const ambulo_motion *motion) {
+  int patches = ambulo_model_patch_count(p->model);
+  fill_none(3 * count * patches, motion->patch_force);
+  fill_none(3 * count * patches, motion->patch_cop);
+  fill_none(count * patches, motion->patch_free_moment);
+}
+
+static ambulo_status fill_effectors(const ambulo_problem *p, const dense *d,
+                                    const ambulo_allocator *a, const double *times, int count,
+                                    const ambulo_motion *motion) {
   int feet = ambulo_model_foot_count(p->model);
   switch (p->definition.ground_reaction.kind) {
   case AMBULO_REACTION_TWO_STEP:
     fill_split(p, d, ambulo__channel_count(&p->channels), count, motion);
+    fill_no_patches(p, count, motion);
     return AMBULO_OK;
   case AMBULO_REACTION_SHARED:
     return fill_contacts(p, d, a, times, count, motion);
@@ -130,6 +160,7 @@ static ambulo_status fill_feet(const ambulo_problem *p, const dense *d, const am
   fill_none(3 * count * feet, motion->grf);
   fill_none(3 * count * feet, motion->cop);
   fill_none(count * feet, motion->free_moment);
+  fill_no_patches(p, count, motion);
   return AMBULO_OK;
 }
 
@@ -166,7 +197,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c, 6, count, motion->wrench);
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
-    status = fill_feet(p, &d, a, times, count, motion);
+    status = fill_effectors(p, &d, a, times, count, motion);
     if (!status && !finite) status = AMBULO_E_NUMERIC;
   }
   dense_free(a, &d);

@@ -127,12 +127,12 @@ ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_al
 /* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN
  * for a foot in the air. */
 void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
-/* Force grf[2][3], centre of pressure cop[2][3] and free moment [2] of the feet where contacts
- * share the load, at `time`, from the channels of a node (`channel`: of the first, in the lanes);
- * cop is NaN where a foot carries nothing. E_MEMORY. */
-void ambulo__contact_pressures(const ambulo_problem *problem, const ambulo__foot_outline *outlines,
-                               double time, const double *channel, double grf[6], double cop[6],
-                               double free_moment[2]);
+/* Force (N), centre of pressure (m) and free moment (N m) of a foot or a patch (gait/effector.h)
+ * where contacts share the load, at `time`, from the channels of a node (`channel`: of the first,
+ * in the lanes); cop is NaN where it carries nothing. */
+void ambulo__contact_pressure(const ambulo_problem *problem, const ambulo__foot_outline *outlines,
+                              int effector, double time, const double *channel, double force[3],
+                              double cop[3], double *free_moment);
 /* The entries of one block, NULL without ground reaction. */
 static inline const double *ambulo__ground_block(const ambulo_problem *problem,
                                                  const double *ground, int block) {

@@ -3,6 +3,7 @@
 
 #include "base/instant.h"
 #include "gait/bounds.h"
+#include "gait/loading.h"
 #include "gait/phases.h"
 
 #include <math.h>
@@ -107,11 +108,16 @@ int ambulo__node_at(const ambulo_problem *p, double time, double *between) {
   return low;
 }
 
+static int contact_index(const ambulo_problem *p, int effector, double time) {
+  const ambulo_contact *contact = ambulo__contact_of(&p->definition, effector, time);
+  return contact ? (int)(contact - p->definition.contacts) : -1;
+}
+
 int ambulo_problem_contact_at(const ambulo_problem *p, int foot, double time) {
-  const ambulo_problem_definition *d = &p->definition;
-  for (int c = 0; c < d->contact_count; c++) {
-    if (d->contacts[c].foot == foot && ambulo__contact_holds(&d->contacts[c], d->duration, time))
-      return c;
-  }
-  return -1;
+  return foot >= 0 && foot < p->model->foot_count ? contact_index(p, foot, time) : -1;
+}
+
+int ambulo_problem_patch_contact_at(const ambulo_problem *p, int patch, double time) {
+  int known = patch >= 0 && patch < p->model->patch_count;
+  return known ? contact_index(p, p->model->foot_count + patch, time) : -1;
 }

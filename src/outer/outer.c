@@ -14,6 +14,7 @@
 #include "outer/outcome.h"
 #include "base/clock.h"
 #include "base/diagnostics.h"
+#include "gait/effector.h"
 #include "sensitivity/parameters.h"
 #include "solver/options.h"
 
@@ -66,6 +67,11 @@ static ambulo_status check_counts(const ambulo__outer *run) {
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "%d free parameters, at most %d solves; expected at least 1 of each",
                          p->items ? p->count : 0, p->maximum_solves);
+  if (ambulo__holds_patches(&run->problem->definition))
+    return ambulo__error(
+        run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+        "free parameters are chosen by sensitivities, which contacts of patches do "
+        "not have yet; expected contacts of feet alone");
   if (!p->problem_at && !run->problem->free)
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "free parameters without problem_at; expected it, or a problem from a "

@@ -1,13 +1,23 @@
-/* picture/gait_forces.c - forces of the ground on each foot, in body weights: upward and forward.
+/* picture/gait_forces.c - forces on each foot and on each patch in contact, in body weights: upward
+ * and forward.
  *
- * A foot's side is that of its heel at q = 0: left where it stands further along left. */
+ * A foot's side is that of its heel at q = 0: of two left where it stands further along left.
+ */
 #include <math.h>
 
+#include "base/vector.h"
+#include "gait/effector.h"
 #include "model/neutral_pose.h"
 #include "picture/gait_chart.h"
 #include "picture/svg.h"
 
-enum { MOST_FEET = 2 };
+enum { MOST_CURVES = 16 };
+
+/* the curves: effectors and the colours that they have */
+typedef struct curves {
+  int count, effector[MOST_CURVES], column[MOST_CURVES];
+  ambulo__side side[MOST_CURVES];
+} curves;
 
 static double along_left(const ambulo_model *model, int foot) {
   double r[3];
@@ -15,20 +25,43 @@ static double along_left(const ambulo_model *model, int foot) {
   return r[0] * model->left[0] + r[1] * model->left[1] + r[2] * model->left[2];
 }
 
-static void draw_force(ambulo__gait_chart *c, const double direction[3], double *values,
-                       const char *title, ambulo__text_buffer *text) {
+static ambulo__side side_of(const ambulo_model *model, int effector) {
+  int patch = ambulo__effector_patch(model, effector);
+  if (patch >= 0) return ambulo__gait_patch_side(model, patch);
+  double other = model->foot_count == 2 ? along_left(model, 1 - effector) : 0.0;
+  return along_left(model, effector) > other ? AMBULO__LEFT : AMBULO__RIGHT;
+}
+
+static curves curves_of(const ambulo__stride *s) {
+  curves all = {.count = 0};
+  for (int e = 0; e < s->feet + s->patches && all.count < MOST_CURVES; e++) {
+    if (!ambulo__gait_shows(s, e)) continue;
+    all.effector[all.count] = e;
+    all.side[all.count] = side_of(s->model, e);
+    all.column[all.count] = all.count;
+    all.count++;
+  }
+  return all;
+}
+
+static double force_along(const ambulo__stride *s, int k, int effector, const double direction[3]) {
+  int patch = ambulo__effector_patch(s->model, effector);
+  if (patch < 0) return ambulo__stride_force(s, k, effector, direction);
+  return ambulo__dot(ambulo__stride_patch_force(s, k, patch), direction) /
+         ambulo__model_weight(s->model);
+}
+
+static void draw_force(ambulo__gait_chart *c, const curves *all, const double direction[3],
+                       double *values, const char *title, ambulo__text_buffer *text) {
   const ambulo__stride *s = c->stride;
-  const int columns[MOST_FEET] = {0, 1};
-  int left = along_left(s->model, 1) > along_left(s->model, 0);
   for (int k = 0; k < s->samples; k++) {
-    for (int foot = 0; foot < s->feet; foot++)
-      values[k * s->feet + foot] = ambulo__stride_force(s, k, foot, direction);
+    for (int i = 0; i < all->count; i++)
+      values[k * all->count + i] = force_along(s, k, all->effector[i], direction);
   }
   ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0, title);
-  ambulo__chart_range(c, columns, s->feet);
+  ambulo__chart_range(c, all->column, all->count);
   ambulo__chart_grid(c, text);
-  for (int foot = s->feet - 1; foot >= 0; foot--)
-    ambulo__chart_curve(c, foot, foot == left ? AMBULO__LEFT : AMBULO__RIGHT, text);
+  for (int i = all->count - 1; i >= 0; i--) ambulo__chart_curve(c, i, all->side[i], text);
   ambulo__panel axis = c->box;
   axis.y += c->box.height;
   ambulo__time_axis(&axis, 4, "s", text);
@@ -37,8 +70,9 @@ static void draw_force(ambulo__gait_chart *c, const double direction[3], double 
 ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
                                   ambulo__text_buffer *text) {
   const double label_room = 44.0, gap = 30.0;
-  if (stride->feet != MOST_FEET) return AMBULO_OK;
-  size_t count = (size_t)stride->samples * MOST_FEET;
+  curves all = curves_of(stride);
+  if (all.count == 0) return AMBULO_OK;
+  size_t count = (size_t)stride->samples * (size_t)all.count;
   double *values = ambulo__alloc(&text->allocator, count, sizeof *values);
   if (!values) return AMBULO_E_MEMORY;
   double width = 0.5 * (panel->width - gap) - label_room;
@@ -46,12 +80,13 @@ ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__pa
       .box = {panel->x + label_room, panel->y, width, panel->height, stride->duration},
       .stride = stride,
       .values = values,
-      .columns = stride->feet,
+      .columns = all.count,
       .factor = 1.0};
   ambulo__gait_chart ahead = up;
   ahead.box.x += width + label_room + gap;
-  draw_force(&up, stride->model->up, values, "Ground reaction upward, body weights", text);
-  draw_force(&ahead, stride->model->forward, values, "Ground reaction forward, body weights", text);
+  draw_force(&up, &all, stride->model->up, values, "Ground reaction upward, body weights", text);
+  draw_force(&ahead, &all, stride->model->forward, values, "Ground reaction forward, body weights",
+             text);
   ambulo__free(&text->allocator, values);
   return AMBULO_OK;
 }

@@ -19,7 +19,8 @@ static int is_level(const ambulo_problem_definition *d) {
   if (d->rise != 0.0) return 0;
   for (int i = 0; i < d->contact_count; i++) {
     const ambulo_contact *c = &d->contacts[i];
-    if (c->place[2] != 0.0 || c->normal[0] != 0.0 || c->normal[1] != 0.0) return 0;
+    if (c->foot >= 0 && (c->place[2] != 0.0 || c->normal[0] != 0.0 || c->normal[1] != 0.0))
+      return 0;
   }
   return 1;
 }
@@ -39,6 +40,13 @@ static int by_place(const void *a, const void *b) {
   return (one->at > other->at) - (one->at < other->at);
 }
 
+/* of those that stand on the ground; there is one where it is not level */
+static int first_foot(const ambulo_problem_definition *d) {
+  int i = 0;
+  while (d->contacts[i].foot < 0) i++;
+  return d->contacts[i].foot;
+}
+
 ambulo_status ambulo__gait_ground_create(const ambulo_problem *problem,
                                          const ambulo_allocator *allocator,
                                          ambulo__gait_ground *ground) {
@@ -53,9 +61,11 @@ ambulo_status ambulo__gait_ground_create(const ambulo_problem *problem,
   if (!g.surface) return AMBULO_E_MEMORY;
   for (int period = -before; period <= after; period++)
     for (int i = 0; i < d->contact_count; i++)
-      add(&g, &d->contacts[i], period * d->travel, period * d->rise);
+      if (d->contacts[i].foot >= 0) add(&g, &d->contacts[i], period * d->travel, period * d->rise);
+  *ground = g;
+  if (g.count == 0) return AMBULO_OK; /* nothing stands on the ground */
   qsort(g.surface, (size_t)g.count, sizeof *g.surface, by_place);
-  double reach = ambulo__foot_reach(d->model, d->contacts[0].foot);
+  double reach = ambulo__foot_reach(d->model, first_foot(d));
   g.surface[0].from = -INFINITY;
   for (int i = 1; i < g.count; i++)
     g.surface[i].from = g.surface[i - 1].to =

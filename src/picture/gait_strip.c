@@ -11,6 +11,7 @@
  */
 #include <math.h>
 
+#include "gait/contact_frame.h"
 #include "picture/gait_ground.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
@@ -182,8 +183,9 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
   static const char *const styles[] = {"trunk-mark", "left-mark", "right-mark"};
   for (int f = 0; f < s->model->foot_count; f++) {
     const ambulo_foot *foot = &s->model->feet[f];
-    ambulo_contact_mode mode;
-    if (!ambulo__stride_contact(stride, f, t, &mode)) continue;
+    const ambulo_contact *contact = ambulo__stride_contact(stride, f, t);
+    if (!contact) continue;
+    ambulo_contact_mode mode = contact->mode;
     const ambulo_point *heel = &s->model->points[foot->heel_center];
     const ambulo_point *toe = &s->model->points[foot->toe_center];
     const ambulo_point *ends[2] = {mode == AMBULO_CONTACT_TOE ? toe : heel,
@@ -203,6 +205,29 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
     /* a zero-length line with round ends would not be drawn everywhere */
     ambulo__svg_line(text, styles[s->skeleton.side[heel->link]], page[0][0] - 0.5, y[0],
                      page[1][0] + 0.5, y[1]);
+  }
+}
+
+/* the surface that a patch in contact rests on, as long as the patch */
+static void draw_patches(const strip *s, const ambulo__stride *stride, double t,
+                         ambulo__text_buffer *text) {
+  static const char *const styles[] = {"trunk-mark", "left-mark", "right-mark"};
+  const ambulo_model *model = s->model;
+  for (int i = 0; i < model->patch_count; i++) {
+    const ambulo_contact *contact = ambulo__stride_contact(stride, model->foot_count + i, t);
+    if (!contact) continue;
+    const ambulo_point *point = &model->points[model->patches[i].point];
+    ambulo__contact_frame frame = ambulo__contact_frame_of(&stride->problem->definition, contact);
+    ambulo__bone bone = {.link = {-1, point->link}};
+    for (int k = 0; k < 3; k++) bone.at[1][k] = point->position[k];
+    double ahead = model->patches[i].size[0] * s->scale, at[2], page[2];
+    double x = ahead * along(model->forward, frame.forward);
+    double y = ahead * along(model->up, frame.forward);
+    flat_point(s, &bone, 1, t, at);
+    to_page(s, t, at, page);
+    if (!isfinite(page[0] + page[1])) continue;
+    ambulo__svg_line(text, styles[ambulo__gait_patch_side(model, i)], page[0] - x, page[1] + y,
+                     page[0] + x, page[1] - y);
   }
 }
 
@@ -262,6 +287,7 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
     draw_head(s, t, text);
     draw_side(s, t, AMBULO__RIGHT, "right", text);
     draw_contacts(s, stride, t, text);
+    draw_patches(s, stride, t, text);
     if (!s->model->foot_count) draw_pivot(s, t, text);
     ambulo__svg_group_end(text);
   }

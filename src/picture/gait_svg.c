@@ -4,6 +4,7 @@
  * gait_chart.h, gait_curves.c, gait_forces.c.
  */
 #include "picture/gait_svg.h"
+#include "gait/effector.h"
 
 #include <math.h>
 
@@ -94,7 +95,9 @@ typedef struct layout {
 } layout;
 
 static ambulo_status arrange(const ambulo__stride *stride, const double *x, layout *page) {
-  int feet = ambulo_problem_contact_count(stride->problem) ? stride->model->foot_count : 0;
+  int lanes = 0, forces = stride->feet + stride->patches > 0;
+  for (int e = 0; e < ambulo__effector_count(stride->model); e++)
+    lanes += ambulo_problem_contact_count(stride->problem) && ambulo__gait_shows(stride, e);
   double left = margin + 70.0, width = page_width - 2.0 * margin - 150.0;
   ambulo__panel strip = {left, 92.0, width, 270.0, stride->duration};
   ambulo_status status = ambulo__gait_strip_height(stride->problem, x, &stride->allocator, &strip);
@@ -102,14 +105,14 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x, layo
   page->bars = strip;
   page->bars.y = strip.y + strip.height + 30.0;
   page->axis = page->bars;
-  page->axis.y = page->bars.y + 19.0 * (double)feet + (feet ? 3.0 : -12.0);
+  page->axis.y = page->bars.y + 19.0 * (double)lanes + (lanes ? 3.0 : -12.0);
   ambulo__panel curves = {margin, page->axis.y + 78.0, page_width - 2.0 * margin, 430.0,
                           stride->duration};
   page->curves = curves;
   page->forces = curves;
   page->forces.y = curves.y + curves.height + 66.0;
-  page->forces.height = stride->feet ? 178.0 : 0.0;
-  page->height = curves.y + curves.height + 46.0 + (stride->feet ? 244.0 : 0.0);
+  page->forces.height = forces ? 178.0 : 0.0;
+  page->height = curves.y + curves.height + 46.0 + (forces ? 244.0 : 0.0);
   return status;
 }
 

@@ -1,12 +1,13 @@
 /* picture/gait_svg.h - gait.svg: the motion at a glance.
  *
  * A strip of stick figures seen from the right side (forward to the right), the contact
- * phases of the feet on the same time axis, and curves of joint angles and torques. */
+ * phases of feet and patches on the same time axis, and curves of joint angles and torques. */
 #ifndef AMBULO_PICTURE_GAIT_SVG_H
 #define AMBULO_PICTURE_GAIT_SVG_H
 
 #include "ambulo/report.h"
 #include "base/text_buffer.h"
+#include "picture/skeleton.h"
 #include "stride/stride.h"
 
 /* Appends the whole picture. Errors: E_MEMORY. */
@@ -34,7 +35,11 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
 ambulo_status ambulo__gait_strip_height(const ambulo_problem *problem, const double *x,
                                         const ambulo_allocator *allocator, ambulo__panel *panel);
 
-/* One bar a foot; returns the height used, px (0 for a model without feet). */
+/* 1 for feet, and for patches that are in contact at some time. */
+int ambulo__gait_shows(const ambulo__stride *stride, int effector);
+/* Of its middle at q = 0. */
+ambulo__side ambulo__gait_patch_side(const ambulo_model *model, int patch);
+/* One bar an effector that is shown; returns the height used, px (0 where there is none). */
 double ambulo__gait_bars(const ambulo__stride *stride, const ambulo__panel *panel,
                          ambulo__text_buffer *text);
 /* Ticks and numbers below y = panel->y. */
@@ -45,7 +50,7 @@ void ambulo__time_axis(const ambulo__panel *panel, int parts, const char *unit,
 void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
                          ambulo__text_buffer *text);
 
-/* Forces on the feet, upward and forward, side by side; nothing without ground reaction.
+/* Forces on feet and patches, upward and forward, side by side; nothing without ground reaction.
  * Errors: E_MEMORY. */
 ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
                                   ambulo__text_buffer *text);

@@ -1,4 +1,4 @@
-/* reader/model_contacts.c - `points` and `feet` of a model file. */
+/* reader/model_contacts.c - `points`, `feet` and `patches` of a model file. */
 #include "reader/model_reader.h"
 
 void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list) {
@@ -75,5 +75,25 @@ void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list) {
     reader->feet[i].mirror =
         ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "foot",
                                reader->foot_names, reader->definition.foot_count);
+  }
+}
+
+void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list) {
+  for (int i = 0; i < reader->definition.patch_count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    ambulo_patch *patch = &reader->patches[i];
+    const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
+    patch->name = reader->patch_names[i] = name;
+    reader->patch_places[i] = ambulo__yaml_place(item);
+    patch->point = point_at(reader, ambulo__yaml_require(item, "point"));
+    (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "size"), 2, reader->length,
+                              patch->size);
+    ambulo__yaml_expect(item, "mirror");
+    ambulo__yaml_close(item);
+  }
+  for (int i = 0; i < reader->definition.patch_count; i++) {
+    reader->patches[i].mirror =
+        ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "patch",
+                               reader->patch_names, reader->definition.patch_count);
   }
 }

@@ -16,26 +16,31 @@ ambulo_status ambulo__reader_status(const ambulo__reader *reader) {
 static int allocate(ambulo__reader *r) {
   const ambulo_allocator *a = &r->allocator;
   size_t links = (size_t)r->definition.link_count, points = (size_t)r->definition.point_count;
-  size_t feet = (size_t)r->definition.foot_count, all = 2 * links + points + feet;
+  size_t feet = (size_t)r->definition.foot_count, patches = (size_t)r->definition.patch_count;
+  size_t all = 2 * links + points + feet + patches;
   r->links = ambulo__alloc(a, links, sizeof *r->links);
   r->coordinates = ambulo__alloc(a, links, sizeof *r->coordinates);
   r->points = ambulo__alloc(a, points, sizeof *r->points);
   r->feet = ambulo__alloc(a, feet, sizeof *r->feet);
+  r->patches = ambulo__alloc(a, patches, sizeof *r->patches);
   r->link_places = ambulo__alloc(a, all, sizeof *r->link_places);
   r->link_names = ambulo__alloc(a, all, sizeof *r->link_names);
-  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->link_places || !r->link_names) {
+  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->patches || !r->link_places ||
+      !r->link_names)
     return 0;
-  }
   r->coordinate_places = r->link_places + links;
   r->point_places = r->coordinate_places + links;
   r->foot_places = r->point_places + points;
+  r->patch_places = r->foot_places + feet;
   r->coordinate_names = r->link_names + links;
   r->point_names = r->coordinate_names + links;
   r->foot_names = r->point_names + points;
+  r->patch_names = r->foot_names + feet;
   r->places.links = r->link_places;
   r->places.coordinates = r->coordinate_places;
   r->places.points = r->point_places;
   r->places.feet = r->foot_places;
+  r->places.patches = r->patch_places;
   return 1;
 }
 
@@ -45,6 +50,7 @@ static void release(ambulo__reader *r) {
   ambulo__free(a, r->coordinates);
   ambulo__free(a, r->points);
   ambulo__free(a, r->feet);
+  ambulo__free(a, r->patches);
   ambulo__free(a, r->link_places);
   ambulo__free(a, r->link_names);
 }
@@ -84,10 +90,12 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
   const ambulo__yaml_node *links = ambulo__yaml_require(root, "links");
   const ambulo__yaml_node *points = ambulo__yaml_get(root, "points");
   const ambulo__yaml_node *feet = ambulo__yaml_get(root, "feet");
+  const ambulo__yaml_node *patches = ambulo__yaml_get(root, "patches");
   ambulo__yaml_close(root);
   int good = ambulo__read_count(r, links, "links", AMBULO__MAX_LINKS, &d->link_count);
   good &= ambulo__read_count(r, points, "points", AMBULO__MAX_POINTS, &d->point_count);
   good &= ambulo__read_count(r, feet, "feet", AMBULO__MAX_FEET, &d->foot_count);
+  good &= ambulo__read_count(r, patches, "patches", AMBULO__MAX_PATCHES, &d->patch_count);
   if (!good) return;
   if (!allocate(r)) {
     r->status = AMBULO_E_MEMORY;
@@ -96,10 +104,12 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
   ambulo__read_links(r, links);
   ambulo__read_points(r, points);
   ambulo__read_feet(r, feet);
+  ambulo__read_patches(r, patches);
   d->links = r->links;
   d->coordinates = r->coordinates;
   d->points = r->points;
   d->feet = r->feet;
+  d->patches = r->patches;
 }
 
 /* ------------------------------------------------------------------- loading */

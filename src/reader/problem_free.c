@@ -8,6 +8,7 @@
 #include "reader/problem_free.h"
 
 #include "base/text_hash.h"
+#include "gait/effector.h"
 #include "sensitivity/parameters.h"
 
 #include <math.h>
@@ -274,6 +275,12 @@ ambulo_status ambulo__read_free(ambulo__problem_reader *reader, const ambulo__ya
                                 ambulo_problem *problem) {
   const ambulo__yaml_node *section = ambulo__reader_section(root, "free");
   if (!section) return ambulo__yaml_finish(reader->document);
+  if (ambulo__holds_patches(&problem->definition)) {
+    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
+                             "free numbers are chosen by sensitivities, which contacts of patches "
+                             "do not have yet; expected contacts of feet alone");
+    return ambulo__yaml_finish(reader->document);
+  }
   gathered g = {.reader = reader,
                 .section = section,
                 .problem = problem,

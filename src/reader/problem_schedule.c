@@ -47,25 +47,63 @@ static void read_place(const ambulo__yaml_node *node, double place[3]) {
                            "'place' is not a list of 2 or 3 lengths: forward, left, up");
 }
 
-static void read_normal(const ambulo__yaml_node *node, double normal[3]) {
+/* zeros are no choice; those of patches point anywhere */
+static void read_normal(const ambulo__yaml_node *node, int is_foot, double normal[3]) {
   if (!ambulo__yaml_numbers(node, 3, normal)) return;
-  if (normal[2] != 0.0 && ambulo__contact_normal_is_legal(normal)) return; /* zeros are no choice */
+  if (normal[2] != 0.0 && ambulo__contact_normal_is_legal(normal)) return;
+  if (!is_foot && (normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0)) return;
+  if (!is_foot) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "a normal of zeros along forward, left and up; expected a direction");
+    return;
+  }
   (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
                            "a normal of (%g, %g, %g) along forward, left and up; expected one that "
                            "is up to 60 degrees from up",
                            normal[0], normal[1], normal[2]);
 }
 
-static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                         ambulo_contact *contact) {
+/* index of the patch a node names; 0 after an error */
+static int read_patch(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  int count = ambulo_model_patch_count(reader->model);
+  if (count == 0) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL, "the model has no patches");
+    return 0;
+  }
+  const char **names = ambulo__reader_alloc(reader, (size_t)count, sizeof *names);
+  for (int i = 0; names && i < count; i++) names[i] = ambulo_model_patch(reader->model, i)->name;
+  return names ? ambulo__yaml_choice(node, names, count, 0) : 0;
+}
+
+/* {foot, mode} or {patch} */
+static void read_effector(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          ambulo_contact *contact) {
   static const char *const modes[] = {"heel", "flat", "toe"};
+  const ambulo__yaml_node *patch = ambulo__yaml_get(node, "patch");
+  if (patch && ambulo__yaml_get(node, "foot"))
+    (void)ambulo__yaml_error(patch, AMBULO_E_SCHEMA, NULL,
+                             "a contact of both a foot and a patch; expected one of them");
+  if (patch && ambulo__yaml_get(node, "mode"))
+    (void)ambulo__yaml_error(ambulo__yaml_get(node, "mode"), AMBULO_E_SCHEMA, NULL,
+                             "a mode of a patch; expected one with a foot only");
+  if (patch) {
+    contact->foot = -1;
+    contact->mode = AMBULO_CONTACT_PATCH;
+    contact->patch = read_patch(reader, patch);
+    return;
+  }
   contact->foot = read_foot(reader, ambulo__yaml_require(node, "foot"));
   int mode = ambulo__yaml_choice(ambulo__yaml_require(node, "mode"), modes, 3, 1);
   contact->mode = (ambulo_contact_mode)mode;
+}
+
+static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                         ambulo_contact *contact) {
+  read_effector(reader, node, contact);
   contact->from = ambulo__yaml_number(ambulo__yaml_require(node, "from"), 0.0);
   contact->to = ambulo__yaml_number(ambulo__yaml_require(node, "to"), 0.0);
   read_place(ambulo__yaml_require(node, "place"), contact->place);
-  read_normal(ambulo__yaml_get(node, "normal"), contact->normal);
+  read_normal(ambulo__yaml_get(node, "normal"), contact->foot >= 0, contact->normal);
   contact->heading = ambulo__read_plain_angle(reader, ambulo__yaml_get(node, "heading"), 0.0);
   ambulo__yaml_close(node);
 }

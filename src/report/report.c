@@ -8,6 +8,8 @@
 
 #include "base/atomic_file.h"
 #include "format/motion_csv.h"
+#include "gait/effector.h"
+#include "model/check.h"
 #include "picture/gait_svg.h"
 #include "report/solution_yaml.h"
 #include "report/summary_json.h"
@@ -69,6 +71,9 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
   ambulo_status status =
       ambulo__stride_create(problem, ambulo_result_x(result), samples, &text->allocator, &stride);
   if (status) return status;
+  int patch[AMBULO__MAX_PATCHES], patches = 0;
+  for (int i = 0; i < stride.patches; i++)
+    if (ambulo__patch_is_used(&problem->definition, i)) patch[patches++] = i;
   ambulo__motion_table table = {
       .model = stride.model,
       .name = ambulo_problem_name(problem),
@@ -83,6 +88,11 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
       .grf = stride.grf,
       .cop = stride.cop,
       .free_moment = stride.free_moment,
+      .patches = patches,
+      .patch = patch,
+      .patch_force = stride.patch_force,
+      .patch_cop = stride.patch_cop,
+      .patch_free_moment = stride.patch_free_moment,
   };
   ambulo__motion_csv(&table, text);
   status = write_text(folder, "motion.csv", text, diagnostics);

@@ -7,8 +7,7 @@
 #include "ambulo/parameters.h"
 #include "format/json_text.h"
 #include "gait/gait.h"
-#include "stride/impulse.h"
-#include "stride/stride.h"
+#include "report/reaction_json.h"
 #include "stride/strikes.h"
 
 static void objective(ambulo__json *json, const ambulo_problem *problem,
@@ -21,43 +20,6 @@ static void objective(ambulo__json *json, const ambulo_problem *problem,
     ambulo__json_number(json, ambulo_problem_term_name(problem, i), terms[i]);
   ambulo__json_close(json, '}');
   ambulo__json_close(json, '}');
-}
-
-/* per foot: impulse of the ground's force over the stride, N s, along forward, up and left, and
- * the largest normal force in body weights; nothing without ground reaction */
-static void feet(ambulo__json *json, const ambulo_model *model, const ambulo__stride *stride,
-                 const double *impulses) {
-  const double *axes[3] = {model->forward, model->up, model->left};
-  static const char *const keys[3] = {"impulse_forward", "impulse_up", "impulse_left"};
-  for (int foot = 0; foot < stride->feet; foot++) {
-    ambulo__json_open(json, model->feet[foot].name, '{');
-    for (int axis = 0; axis < 3; axis++) {
-      double along = 0.0;
-      for (int i = 0; i < 3; i++) along += impulses[3 * foot + i] * axes[axis][i];
-      ambulo__json_number(json, keys[axis], along);
-    }
-    ambulo__json_number(json, "peak", ambulo__stride_peak(stride, foot));
-    ambulo__json_close(json, '}');
-  }
-}
-
-static ambulo_status ground_reaction(ambulo__json *json, const ambulo_problem *problem,
-                                     const ambulo_result *result) {
-  ambulo__stride stride = {.samples = 0};
-  const ambulo_allocator *a = &json->text->allocator;
-  if (!problem->channels.feet) return AMBULO_OK;
-  double *impulses = ambulo__alloc(a, 3 * (size_t)problem->channels.feet, sizeof *impulses);
-  ambulo_status status = impulses ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status) status = ambulo__impulses(problem, ambulo_result_x(result), a, impulses);
-  if (!status) status = ambulo__stride_create(problem, ambulo_result_x(result), 0, a, &stride);
-  if (!status) {
-    ambulo__json_open(json, "ground_reaction", '{');
-    feet(json, ambulo_problem_model(problem), &stride, impulses);
-    ambulo__json_close(json, '}');
-    ambulo__stride_free(&stride);
-  }
-  ambulo__free(a, impulses);
-  return status;
 }
 
 static void violation_members(ambulo__json *json, const ambulo_violation *v) {
@@ -383,7 +345,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   gait(json, problem);
   objective(json, problem, result);
   free_parameters(json, result);
-  if (!status) status = ground_reaction(json, problem, result);
+  if (!status) status = ambulo__reaction_json(json, problem, result);
   audit(json, result);
   between_nodes(json, result);
   explanation(json, result);

@@ -50,7 +50,7 @@ static double pull_of_torques(const ambulo__node_forces *f, int link, const doub
 double ambulo__contact_forces_pull(const ambulo__node_forces *f) {
   const ambulo_problem *p = f->s->problem;
   const ambulo__channels *c = &p->channels;
-  const ambulo__slots slots = ambulo__slots_of(p->model);
+  const ambulo__slots slots = ambulo__slots_of(&p->definition);
   const ambulo__contact_state state = state_at(f);
   ambulo__contact_state change = {.moment_arm = f->moment_arm, .slant = f->slant};
   double share[AMBULO__MOST_CONTACTS][6], tangent[AMBULO__MOST_CONTACTS][6], sum = 0.0;

@@ -16,7 +16,7 @@ typedef struct ambulo__load_pull {
 /* One of the definition's contacts at a node, as a slot has it. */
 typedef struct ambulo__timed_contact {
   int node, contact;
-  ambulo__foot_part part;
+  ambulo__slot_part part;
   ambulo__contact_load load;
 } ambulo__timed_contact;
 

@@ -35,7 +35,7 @@ typedef struct timed {
   const ambulo__contact_load *load;
   const ambulo_contact *contact;
   ambulo__stance stance;
-  ambulo__foot_part part;
+  ambulo__slot_part part;
   double length, time; /* of the foot, m; of the node */
   int node;
 } timed;

@@ -38,13 +38,13 @@ static void add_contact(ambulo__node_forces *f, int slot, const ambulo__timed_co
 void ambulo__partials_of_told(ambulo__node_forces *f, ambulo__partials *partials) {
   const ambulo_problem *p = f->s->problem;
   const ambulo_problem_definition *d = &p->definition;
-  const ambulo__slots slots = ambulo__slots_of(p->model);
+  const ambulo__slots slots = ambulo__slots_of(&p->definition);
   ambulo__foot_outline outlines[AMBULO__MOST_SLOTS];
   for (int foot = 0; foot < p->model->foot_count; foot++)
     outlines[foot] = ambulo__foot_outline_of(p->model, foot);
   for (int slot = 0; slot < slots.count; slot++) {
-    const ambulo_contact *contact = ambulo__contact_of(d, slots.foot[slot], p->times[f->node]);
-    ambulo__timed_contact timed = {.node = f->node, .part = (ambulo__foot_part)slots.part[slot]};
+    const ambulo_contact *contact = ambulo__contact_of(d, slots.effector[slot], p->times[f->node]);
+    ambulo__timed_contact timed = {.node = f->node, .part = (ambulo__slot_part)slots.part[slot]};
     if (!contact) continue;
     timed.contact = (int)(contact - d->contacts);
     timed.load = ambulo__contact_load_at(d, outlines, &slots, slot, contact, p->times[f->node]);

@@ -76,6 +76,7 @@ static void settle_all(ambulo__event_map *map) {
   for (int e = 0; e < map->contacts.count; e++)
     settle(map, map->contacts.time[e], (sum){{e, -1}, {1.0, 0.0}});
   for (int c = 0; ambulo__has_tip_rows(d) && c < d->contact_count; c++) {
+    if (d->contacts[c].foot < 0) continue;
     settle_swing(map, d->contacts[c].foot, d->contacts[c].from);
     settle_swing(map, d->contacts[c].foot, d->contacts[c].to);
   }

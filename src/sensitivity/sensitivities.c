@@ -1,6 +1,7 @@
 /* sensitivity/sensitivities.c - ambulo_sensitivities: partials at a result, by name, in words. */
 #include "ambulo/sensitivity.h"
 
+#include "gait/effector.h"
 #include "sensitivity/parameters.h"
 
 /* one block: the public list first, so that it is freed by its own address */
@@ -66,8 +67,11 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
   return status;
 }
 
+static const char none_of_patches[] = "there are none yet for contacts of patches";
+
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
+  if (ambulo__holds_patches(&problem->definition)) return none_of_patches;
   if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";
@@ -101,5 +105,6 @@ ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
                                            const ambulo_result *result,
                                            const ambulo_allocator *allocator,
                                            ambulo_sensitivity_list **list) {
-  return list_of(problem, result, "", allocator, list);
+  int patches = ambulo__holds_patches(&problem->definition);
+  return list_of(problem, result, patches ? none_of_patches : "", allocator, list);
 }

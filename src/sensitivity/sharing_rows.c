@@ -93,14 +93,14 @@ void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot
                                  ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   const ambulo__channels *channels = &p->channels;
-  const ambulo__slots slots = ambulo__slots_of(p->model);
+  const ambulo__slots slots = ambulo__slots_of(&p->definition);
   int first = ambulo__channel_foot_force(channels, 0, 0);
   int slot = (ambulo__sharing_channel(p, row) - first) / channels->slot_rows;
-  int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.foot[slot]];
+  int own = ambulo__stationary_contacts(s, row->node, row->before)[slots.effector[slot]];
   const ambulo_contact *contact = &p->definition.contacts[own];
   contact_row c = {.mode = contact->mode, .pull = pull};
   c.timed = (ambulo__timed_contact){
-      .node = row->node, .contact = own, .part = (ambulo__foot_part)slots.part[slot]};
+      .node = row->node, .contact = own, .part = (ambulo__slot_part)slots.part[slot]};
   c.timed.load =
       ambulo__contact_load_at(&p->definition, outlines, &slots, slot, contact, row->time);
   const ambulo__contact_frame *frame = &c.timed.load.frame;

@@ -1,12 +1,13 @@
-/* stride/impulse.h - integral of the ground's force on the feet over the motion as it is shown. */
+/* stride/impulse.h - integral of the forces on feet and patches over the motion as it is shown. */
 #ifndef AMBULO_STRIDE_IMPULSE_H
 #define AMBULO_STRIDE_IMPULSE_H
 
 #include "nlp/nlp.h"
 
-/* impulse [feet][3], N s, world axes: over [0, T], or over the whole stride when its second step is
- * the mirror image (stride/stride.h). A motion that is not finite gives numbers that are not.
- * Nothing without ground reaction. Errors: E_MEMORY. */
+/* impulse [effectors][3] (gait/effector.h; without patches the feet's), N s, world axes: over [0,
+ * T], or over the whole stride when its second step is the mirror image (stride/stride.h). A motion
+ * that is not finite gives numbers that are not. Nothing without ground reaction. Errors: E_MEMORY.
+ */
 ambulo_status ambulo__impulses(const ambulo_problem *problem, const double *x,
                                const ambulo_allocator *allocator, double *impulse);
 

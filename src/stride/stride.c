@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+#include "gait/effector.h"
+#include "gait/loading.h"
+
 /* times at which the problem itself is sampled, and which of them stand for the mirrored step */
 typedef struct sampling {
   double *base;   /* [samples], in [0, T] */
@@ -85,6 +88,8 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   s.model = ambulo_problem_model(problem);
   s.coordinates = ambulo_model_coordinate_count(s.model);
   s.feet = problem->channels.feet;
+  if (problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED)
+    s.patches = s.model->patch_count;
   s.mirrored = ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED;
   s.duration = (s.mirrored ? 2.0 : 1.0) * ambulo_problem_duration(problem);
   s.samples = samples ? samples : (s.mirrored ? 2 : 1) * intervals + 1;
@@ -102,7 +107,10 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
                             .zmp = s.zmp,
                             .grf = s.grf,
                             .cop = s.cop,
-                            .free_moment = s.free_moment};
+                            .free_moment = s.free_moment,
+                            .patch_force = s.patch_force,
+                            .patch_cop = s.patch_cop,
+                            .patch_free_moment = s.patch_free_moment};
     status = ambulo_problem_motion(problem, workspace, x, s.samples, sample.base, &motion);
     /* a motion that blew up is still shown, holes and all */
     if (status == AMBULO_E_NUMERIC) status = AMBULO_OK;
@@ -130,16 +138,16 @@ void ambulo__stride_free(ambulo__stride *s) {
   ambulo__free(&s->allocator, s->grf);
   ambulo__free(&s->allocator, s->cop);
   ambulo__free(&s->allocator, s->free_moment);
+  ambulo__free(&s->allocator, s->patch_force);
+  ambulo__free(&s->allocator, s->patch_cop);
+  ambulo__free(&s->allocator, s->patch_free_moment);
 }
 
-int ambulo__stride_contact(const ambulo__stride *s, int foot, double t, ambulo_contact_mode *mode) {
+const ambulo_contact *ambulo__stride_contact(const ambulo__stride *s, int effector, double t) {
   double step = ambulo_problem_duration(s->problem);
   if (s->mirrored && t > step) {
     t -= step;
-    foot = ambulo_model_foot(s->model, foot)->mirror;
+    effector = ambulo__effector_mirror(s->model, effector);
   }
-  int contact = ambulo_problem_contact_at(s->problem, foot, t);
-  if (contact < 0) return 0;
-  *mode = ambulo_problem_contact(s->problem, contact)->mode;
-  return 1;
+  return ambulo__contact_of(&s->problem->definition, effector, t);
 }

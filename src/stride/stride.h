@@ -27,6 +27,8 @@ typedef struct ambulo__stride {
   int feet;                   /* 0 without ground reaction */
   double *grf, *cop;          /* [samples][feet][3], N, m; no centre of pressure (NaN) in the air */
   double *free_moment;        /* [samples][feet], about the normal, N m */
+  int patches;                /* of the model; 0 unless contacts share the load */
+  double *patch_force, *patch_cop, *patch_free_moment; /* likewise, [samples][patches] */
 } ambulo__stride;
 
 /* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced
@@ -35,9 +37,9 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
                                     const ambulo_allocator *allocator, ambulo__stride *stride);
 void ambulo__stride_free(ambulo__stride *stride); /* accepts a zero-filled one */
 
-/* Mode of the contact of `foot` at time t in the stride; 0 if it is in the air. */
-int ambulo__stride_contact(const ambulo__stride *stride, int foot, double t,
-                           ambulo_contact_mode *mode);
+/* The contact of an effector (gait/effector.h) at time t in the stride, where and when it is in the
+ * motion itself; NULL if it is in the air. */
+const ambulo_contact *ambulo__stride_contact(const ambulo__stride *stride, int effector, double t);
 
 /* The mirror image of a place, one step on; in place. */
 void ambulo__stride_mirror_place(const ambulo__stride *stride, double *place);
@@ -45,6 +47,10 @@ void ambulo__stride_mirror_place(const ambulo__stride *stride, double *place);
 ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
 void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);
 
+/* Force on a patch at sample k, N. */
+const double *ambulo__stride_patch_force(const ambulo__stride *stride, int k, int patch);
+/* Its largest size over the samples, in body weights. */
+double ambulo__stride_patch_peak(const ambulo__stride *stride, int patch);
 /* Force on a foot along `direction` at sample k, in body weights; its largest along the normal. */
 double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
                             const double direction[3]);

@@ -1,23 +1,31 @@
-/* stride/stride_feet.c - forces on the feet in a mirrored stride.
+/* stride/stride_feet.c - forces on feet and patches in a mirrored stride.
  *
- * In the mirror image foot m takes the place of foot i. Across the sagittal plane forces keep
- * their forward and upward parts and turn the one along left, places also move on by the travel
- * and the rise, and a moment about the normal changes its sign:
+ * In the mirror image foot m takes the place of foot i, and patches likewise. Across the sagittal
+ * plane forces keep their forward and upward parts and turn the one along left, places also move on
+ * by the travel and the rise, and a moment about the normal changes its sign:
  *
  *     grf_m = grf_i - 2 (grf_i . l) l,   cop_m = cop_i - 2 (cop_i . l) l + travel f + rise n,
  *     T_m = -T_i
  */
 #include <math.h>
 
+#include "base/vector.h"
 #include "stride/stride.h"
 
+static int allocate(const ambulo__stride *s, int of, double **force, double **cop,
+                    double **free_moment) {
+  size_t count = (size_t)s->samples * (size_t)of;
+  if (!of) return 1;
+  *force = ambulo__alloc(&s->allocator, 3 * count, sizeof(double));
+  *cop = ambulo__alloc(&s->allocator, 3 * count, sizeof(double));
+  *free_moment = ambulo__alloc(&s->allocator, count, sizeof(double));
+  return *force && *cop && *free_moment;
+}
+
 ambulo_status ambulo__stride_feet_allocate(ambulo__stride *s) {
-  if (!s->feet) return AMBULO_OK;
-  size_t count = (size_t)s->samples * (size_t)s->feet;
-  s->grf = ambulo__alloc(&s->allocator, 3 * count, sizeof(double));
-  s->cop = ambulo__alloc(&s->allocator, 3 * count, sizeof(double));
-  s->free_moment = ambulo__alloc(&s->allocator, count, sizeof(double));
-  return s->grf && s->cop && s->free_moment ? AMBULO_OK : AMBULO_E_MEMORY;
+  int feet = allocate(s, s->feet, &s->grf, &s->cop, &s->free_moment);
+  int patches = allocate(s, s->patches, &s->patch_force, &s->patch_cop, &s->patch_free_moment);
+  return feet && patches ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
 static void mirror_vector(const ambulo_model *model, double *v) {
@@ -41,14 +49,18 @@ static void exchange(double *a, double *b, int count) {
   }
 }
 
+static void mirror_one(const ambulo__stride *s, double *force, double *cop, double *free_moment) {
+  mirror_vector(s->model, force);
+  ambulo__stride_mirror_place(s, cop);
+  *free_moment = -*free_moment;
+}
+
 void ambulo__stride_feet_mirror(ambulo__stride *s, int k) {
-  size_t first = (size_t)k * (size_t)s->feet;
-  for (int i = 0; i < s->feet; i++) {
-    size_t at = first + (size_t)i;
-    mirror_vector(s->model, s->grf + 3 * at);
-    ambulo__stride_mirror_place(s, s->cop + 3 * at);
-    s->free_moment[at] = -s->free_moment[at];
-  }
+  size_t first = (size_t)k * (size_t)s->feet, patch = (size_t)k * (size_t)s->patches;
+  for (size_t at = first; at < first + (size_t)s->feet; at++)
+    mirror_one(s, s->grf + 3 * at, s->cop + 3 * at, s->free_moment + at);
+  for (size_t at = patch; at < patch + (size_t)s->patches; at++)
+    mirror_one(s, s->patch_force + 3 * at, s->patch_cop + 3 * at, s->patch_free_moment + at);
   for (int i = 0; i < s->feet; i++) {
     int m = s->model->feet[i].mirror;
     if (m <= i) continue;
@@ -56,6 +68,14 @@ void ambulo__stride_feet_mirror(ambulo__stride *s, int k) {
     exchange(s->grf + 3 * a, s->grf + 3 * b, 3);
     exchange(s->cop + 3 * a, s->cop + 3 * b, 3);
     exchange(s->free_moment + a, s->free_moment + b, 1);
+  }
+  for (int i = 0; i < s->patches; i++) {
+    int m = s->model->patches[i].mirror;
+    if (m <= i) continue;
+    size_t a = patch + (size_t)i, b = patch + (size_t)m;
+    exchange(s->patch_force + 3 * a, s->patch_force + 3 * b, 3);
+    exchange(s->patch_cop + 3 * a, s->patch_cop + 3 * b, 3);
+    exchange(s->patch_free_moment + a, s->patch_free_moment + b, 1);
   }
 }
 
@@ -69,5 +89,18 @@ double ambulo__stride_peak(const ambulo__stride *s, int foot) {
   double peak = 0.0;
   for (int k = 0; k < s->samples; k++)
     peak = fmax(peak, ambulo__stride_force(s, k, foot, s->model->up));
+  return peak;
+}
+
+const double *ambulo__stride_patch_force(const ambulo__stride *s, int k, int patch) {
+  return s->patch_force + 3 * ((size_t)k * (size_t)s->patches + (size_t)patch);
+}
+
+double ambulo__stride_patch_peak(const ambulo__stride *s, int patch) {
+  double peak = 0.0;
+  for (int k = 0; k < s->samples; k++) {
+    const double *f = ambulo__stride_patch_force(s, k, patch);
+    peak = fmax(peak, sqrt(ambulo__dot(f, f)) / ambulo__model_weight(s->model));
+  }
   return peak;
 }

@@ -56,6 +56,7 @@ int ambulo__strikes(const ambulo_problem *problem, ambulo__strike *strikes) {
   double period = ends == AMBULO_ENDS_FREE ? 0.0 : (mirrored ? 2.0 : 1.0) * duration;
   for (int i = 0; i < ambulo_problem_contact_count(problem); i++) {
     const ambulo_contact *c = ambulo_problem_contact(problem, i);
+    if (c->foot < 0) continue;
     int follows = c->from <= AMBULO__INSTANT ? begins_loaded(problem, c->foot)
                                              : ends_at(problem, c->foot, c->from);
     if (follows) continue;

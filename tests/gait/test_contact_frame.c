@@ -157,6 +157,47 @@ static void a_swing_passes_the_edge_of_a_step(void **state) {
   ambulo_model_free(model);
 }
 
+/* a wall ahead, one behind, one to the right: forward is up where the heading runs into it */
+static void walls_have_up_for_forward(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create(0);
+  ambulo_problem_definition d = definition_of(model);
+  ambulo_contact c = {.foot = -1, .mode = AMBULO_CONTACT_PATCH, .normal = {-2.0, 0.0, 0.0}};
+  ambulo__contact_frame frame = ambulo__contact_frame_of(&d, &c);
+  expect(frame.up, -1.0, 0.0, 0.0);
+  expect(frame.forward, 0.0, 1.0, 0.0);
+  expect(frame.left, 0.0, 0.0, -1.0);
+  c.normal[0] = 1.0;
+  frame = ambulo__contact_frame_of(&d, &c);
+  expect(frame.forward, 0.0, 1.0, 0.0);
+  expect(frame.left, 0.0, 0.0, 1.0);
+  c.normal[0] = 0.0;
+  c.normal[1] = 1.0;
+  frame = ambulo__contact_frame_of(&d, &c);
+  expect(frame.up, 0.0, 0.0, -1.0);
+  expect(frame.forward, 1.0, 0.0, 0.0);
+  expect(frame.left, 0.0, -1.0, 0.0);
+  /* leaning by 32 degrees from the heading, to one side: forward is still that of the heading */
+  c.normal[0] = -0.8;
+  c.normal[1] = 0.3;
+  c.normal[2] = 0.5;
+  frame = ambulo__contact_frame_of(&d, &c);
+  assert_close(dot(frame.left, model->forward), 0.0, 1e-14);
+  c.normal[0] = c.normal[1] = c.normal[2] = 0.0;
+  /* a ceiling */
+  c.normal[1] = 0.0;
+  c.normal[2] = -1.0;
+  frame = ambulo__contact_frame_of(&d, &c);
+  expect(frame.up, 0.0, -1.0, 0.0);
+  expect(frame.forward, 1.0, 0.0, 0.0);
+  /* the steepest ground that feet stand on has the heading for forward */
+  ambulo_contact steep = {.normal = {-sqrt(3.0), 0.0, 1.0}};
+  assert_true(ambulo__contact_normal_is_legal(steep.normal));
+  frame = ambulo__contact_frame_of(&d, &steep);
+  expect(frame.forward, 0.5, 0.5 * sqrt(3.0), 0.0);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(level_ground_has_the_axes_of_the_world),
@@ -166,6 +207,7 @@ int main(void) {
       cmocka_unit_test(normals_lean_at_most_sixty_degrees),
       cmocka_unit_test(places_differ_in_any_number),
       cmocka_unit_test(one_contact_off_the_plane_is_enough),
-      cmocka_unit_test(a_swing_passes_the_edge_of_a_step)};
+      cmocka_unit_test(a_swing_passes_the_edge_of_a_step),
+      cmocka_unit_test(walls_have_up_for_forward)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,14 @@
 /* Contacts beyond the ends: a step of 0.5 s that travels 0.6 m and rises 0.2 m. */
 #include "gait/contact_image.h"
-#include "support/walker_fixture.h"
+#include "support/patched_walker.h"
 
 static const ambulo_contact contacts[] = {
-    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0.0, -0.1, 0.0}, {0.1, 0.2, 1.0}, 0.3},
-    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.3, 0.4, {0.0, -0.1, 0.0}, {0.1, 0.2, 1.0}, 0.3},
-    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.35, 0.5, {0.6, 0.1, 0.2}, {0, 0, 0}, 0.0}};
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.3, .place = {0.0, -0.1, 0.0},
+     .normal = {0.1, 0.2, 1.0}, .heading = 0.3},
+    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.3, 0.4, .place = {0.0, -0.1, 0.0},
+     .normal = {0.1, 0.2, 1.0}, .heading = 0.3},
+    {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.35, 0.5, .place = {0.6, 0.1, 0.2}, .normal = {0, 0, 0},
+     .heading = 0.0}};
 
 static ambulo_problem_definition definition_of(ambulo_model *model, ambulo_ends ends) {
   ambulo_problem_definition d = ambulo_problem_definition_default();
@@ -54,7 +57,7 @@ static void odd_periods_of_mirrored_ends_are_the_other_foot(void **state) {
     assert_close(c.heading, 0.3 * side, 0.0);
     ambulo__span span = ambulo__image_span(&d, 1, period);
     assert_close(span.to, c.to, 0.0);
-    assert_int_equal(ambulo__image_foot(&d, 1, period), c.foot);
+    assert_int_equal(ambulo__image_effector(&d, 1, period), c.foot);
   }
   ambulo_model_free(model);
 }
@@ -89,10 +92,38 @@ static void touching_contacts_of_chosen_modes_are_one_span(void **state) {
   ambulo_model_free(model);
 }
 
+/* a hand of one side is the other one a mirrored step later; a seat is itself, and spans join */
+static void odd_periods_of_mirrored_ends_are_the_other_patch(void **state) {
+  (void)state;
+  ambulo_model *model = patched_walker(0);
+  ambulo_problem_definition d = definition_of(model, AMBULO_ENDS_MIRRORED);
+  const ambulo_contact hands[] = {OF_PATCH(HAND_R, 0.2, 0.5, {0.4, -0.25, 1.2}),
+                                  OF_PATCH(HAND_L, 0.0, 0.1, {0.4, 0.25, 1.2}),
+                                  OF_PATCH(SEAT, 0.0, 0.5, {0.0, 0.0, 0.4})};
+  d.contacts = hands;
+  for (int period = -2; period <= 2; period++) {
+    int odd = period % 2 != 0;
+    ambulo_contact hand = ambulo__contact_image(&d, 0, period);
+    assert_int_equal(hand.foot, -1);
+    assert_int_equal(hand.mode, AMBULO_CONTACT_PATCH);
+    assert_int_equal(hand.patch, odd ? HAND_L : HAND_R);
+    assert_close(hand.place[1], odd ? 0.25 : -0.25, 0.0);
+    assert_int_equal(ambulo__contact_image(&d, 2, period).patch, SEAT);
+    assert_int_equal(ambulo__image_effector(&d, 0, period), 2 + (odd ? HAND_L : HAND_R));
+  }
+  ambulo__span right =
+      ambulo__uninterrupted(&d, 2 + HAND_R, AMBULO__ANY_MODE, (ambulo__span){0.2, 0.5, 0, 0});
+  assert_close(right.from, 0.2, 1e-15);
+  assert_close(right.to, 0.6, 1e-15); /* the left one's image */
+  assert_int_equal(right.ends, 1);
+  ambulo_model_free(model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(periods_move_on),
       cmocka_unit_test(odd_periods_of_mirrored_ends_are_the_other_foot),
-      cmocka_unit_test(touching_contacts_of_chosen_modes_are_one_span)};
+      cmocka_unit_test(touching_contacts_of_chosen_modes_are_one_span),
+      cmocka_unit_test(odd_periods_of_mirrored_ends_are_the_other_patch)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

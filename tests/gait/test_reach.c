@@ -59,10 +59,34 @@ static void the_message_says_where_and_how_far(void **state) {
   ambulo_diagnostics_free(list);
 }
 
+/* on its toes a foot is held by them, ahead of its foothold by its length of 0.22 m */
+static void toes_are_held_ahead_of_the_foothold(void **state) {
+  (void)state;
+  double reach = 0.42 + 2.0 * hypot(0.42, 0.09) + 0.42 + hypot(0.08, 0.05) + hypot(0.08, 0.17);
+  for (int beyond = 0; beyond < 2; beyond++) {
+    row_fixture f;
+    row_fixture_open(&f, 0);
+    const ambulo_contact contacts[] = {
+        {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.0, 0.6, .place = {0.0, 0.0}},
+        {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.4, 1.0,
+         .place = {0.22 + reach + (beyond ? 1e-6 : -1e-6), 0.0}}};
+    f.definition.contacts = contacts;
+    f.definition.contact_count = 2;
+    f.definition.foot_strike = 1;
+    int active[2 * ROW_NODES];
+    assert_int_equal(ambulo__schedule_fill(&f.definition, f.times, ROW_NODES, active, NULL),
+                     AMBULO_OK);
+    assert_int_equal(ambulo__schedule_check_reach(&f.definition, f.times, ROW_NODES, active, NULL),
+                     beyond ? AMBULO_E_PROBLEM : AMBULO_OK);
+    row_fixture_close(&f);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_limit_is_the_length_of_the_legs),
                                      cmocka_unit_test(feet_that_hand_over_are_compared),
                                      cmocka_unit_test(a_tolerance_shortens_the_way),
-                                     cmocka_unit_test(the_message_says_where_and_how_far)};
+                                     cmocka_unit_test(the_message_says_where_and_how_far),
+                                     cmocka_unit_test(toes_are_held_ahead_of_the_foothold)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,6 @@
 /* The schedule: membership of nodes, and every contradiction with its message. */
+#include "gait/loading.h"
+#include "support/patched_walker.h"
 #include "support/row_fixture.h"
 
 static const double times[] = {0.0, 0.25, 0.5, 0.75, 1.0};
@@ -66,8 +68,8 @@ static void contradictions_are_named(void **state) {
   bad.foot = 5;
   expect_refusal(&bad, 1, "contacts[0]: no foot 5; the model 'walker' has 2");
   bad = good;
-  bad.mode = (ambulo_contact_mode)3;
-  expect_refusal(&bad, 1, "contacts[0]: foot 'left' in unknown mode 3");
+  bad.mode = (ambulo_contact_mode)4;
+  expect_refusal(&bad, 1, "contacts[0]: foot 'left' in unknown mode 4");
   bad = good;
   bad.place[1] = NAN;
   expect_refusal(&bad, 1, "expected finite lengths");
@@ -98,10 +100,61 @@ static void rows_without_contact_need_no_support(void **state) {
   row_fixture_close(&f);
 }
 
+static void expect_refusal_of_patches(const ambulo_contact *contacts, int count, int zmp,
+                                      const char *phrase) {
+  row_fixture f;
+  row_fixture_open(&f, 0);
+  ambulo_model_free(f.model);
+  f.model = patched_walker(0);
+  f.definition.model = f.model;
+  f.definition.foot_strike = 1;
+  f.definition.contacts = contacts;
+  f.definition.contact_count = count;
+  if (zmp) f.definition.support = AMBULO_SUPPORT_HULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  int active[10];
+  assert_int_equal(ambulo__schedule_fill(&f.definition, times, 5, active, list),
+                   phrase ? AMBULO_E_PROBLEM : AMBULO_OK);
+  if (phrase) expect_message(list, phrase);
+  for (int i = 0; i < 10 && !phrase; i++) assert_int_equal(active[i], -1);
+  ambulo_diagnostics_free(list);
+  row_fixture_close(&f);
+}
+
+/* a patch carries the body as feet do; it points anywhere, but it has to be there */
+static void patches_are_checked_too(void **state) {
+  (void)state;
+  ambulo_contact seat[] = {OF_PATCH(SEAT, 0.0, 0.6, {0.0}), OF_PATCH(SEAT, 0.6, 1.0, {0.0})};
+  seat[0].normal[0] = -1.0;
+  expect_refusal_of_patches(seat, 2, 0, NULL);
+  expect_refusal_of_patches(seat, 2, 1,
+                            "contacts[0]: patch 'seat' does not go with "
+                            "constraints.zmp; expected feet alone");
+  expect_refusal_of_patches(seat, 1, 0,
+                            "no foot and no patch touches the ground from 0.6 s to 1 s");
+  seat[1].from = 0.5;
+  expect_refusal_of_patches(seat, 2, 0, "contacts[0] and contacts[1] overlap on patch 'seat'");
+  ambulo_contact bad = OF_PATCH(7, 0.0, 1.0, {0.0});
+  expect_refusal_of_patches(&bad, 1, 0, "contacts[0]: no patch 7; the model 'walker' has 3");
+  bad.patch = HAND_R;
+  bad.foot = 0;
+  expect_refusal_of_patches(&bad, 1, 0, "contacts[0]: foot 0 in mode patch; expected foot -1");
+  bad.foot = -1;
+  bad.place[2] = NAN;
+  expect_refusal_of_patches(&bad, 1, 0, "contacts[0]: patch 'hand_r' has the place (0, 0, nan) m");
+  bad.place[2] = 0.0;
+  bad.normal[1] = INFINITY;
+  expect_refusal_of_patches(&bad, 1, 0, "expected a finite normal, and a finite angle");
+  bad.normal[1] = 0.0;
+  bad.to = 2.0;
+  expect_refusal_of_patches(&bad, 1, 0, "patch 'hand_r' from 0 s to 2 s; expected times in 0 to 1");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_belong_to_half_open_spans),
                                      cmocka_unit_test(nodes_on_events_know_what_was_before),
                                      cmocka_unit_test(contradictions_are_named),
-                                     cmocka_unit_test(rows_without_contact_need_no_support)};
+                                     cmocka_unit_test(rows_without_contact_need_no_support),
+                                     cmocka_unit_test(patches_are_checked_too)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

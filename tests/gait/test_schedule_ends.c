@@ -3,6 +3,7 @@
 #include "gait/gait.h"
 
 #include "support/messages.h"
+#include "support/patched_walker.h"
 #include "support/test.h"
 
 #include "ambulo/ambulo.h"
@@ -163,12 +164,42 @@ static void footholds_of_any_kind_go_on_as_they_began(void **state) {
   }
 }
 
+/* a seat that goes on stands where it stood, moved on; of a mirrored motion on the other side */
+static void patches_go_on_too(void **state) {
+  (void)state;
+  static const double place[2][2] = {{0.5, 0.2}, {0.5, -0.2}};
+  for (int mirrored = 0; mirrored < 2; mirrored++) {
+    for (int off = 0; off < 4; off++) {
+      const ambulo_contact contacts[] = {OF_PATCH(HAND_R, 0.0, 0.4, {0.0, 0.2, 1.0}),
+                                         OF_PATCH(HAND_R, 0.7, 1.0, {0.5, 0.2, 1.0})};
+      fixture f = {.model = patched_walker(0)};
+      memcpy(f.contacts, contacts, sizeof contacts);
+      f.definition = ambulo_problem_definition_default();
+      f.definition.model = f.model;
+      f.definition.foot_strike = 1;
+      f.definition.contacts = f.contacts;
+      f.definition.contact_count = 2;
+      f.definition.travel = 0.5;
+      f.definition.ends = mirrored ? AMBULO_ENDS_MIRRORED : AMBULO_ENDS_PERIODIC;
+      memcpy(f.contacts[1].place, place[mirrored], sizeof place[mirrored]);
+      if (mirrored) f.contacts[1].patch = HAND_L;
+      if (off == 1) f.contacts[1].place[0] += 0.1;
+      if (off == 2) f.contacts[1].place[2] += 0.1;
+      if (off == 3) f.contacts[1].normal[0] = -1.0;
+      static const char *const said[] = {NULL, "ends.travel: patch 'hand_",
+                                         "ends.rise: patch 'hand_", "contacts: patch 'hand_"};
+      expect(&f, said[off]);
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(odd_steps_mirrored_even_steps_periodic),
                                      cmocka_unit_test(the_message_has_both_places),
                                      cmocka_unit_test(the_walk_straddles_the_mirror_plane),
                                      cmocka_unit_test(unlike_steps_repeat_after_two),
                                      cmocka_unit_test(only_where_places_are_rows),
-                                     cmocka_unit_test(footholds_of_any_kind_go_on_as_they_began)};
+                                     cmocka_unit_test(footholds_of_any_kind_go_on_as_they_began),
+                                     cmocka_unit_test(patches_go_on_too)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

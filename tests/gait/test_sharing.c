@@ -6,6 +6,7 @@
  * foothold. World: x forward, y up, z right. */
 #include "gait/sharing.h"
 #include "gait/contact_load.h"
+#include "support/patched_walker.h"
 #include "support/row_fixture.h"
 
 static const ambulo_contact level[] = {
@@ -120,7 +121,8 @@ static void rows_are_about_the_axes_of_the_surface(void **state) {
   (void)state;
   static const ambulo_contact leaning[] = {
       {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.0, 0.5, .place = {0.0, -0.1}},
-      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, {0.5, 0.1, 0.2}, {-0.3, 0.2, 1.0}, 0.5}};
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.5, 0.1, 0.2},
+       .normal = {-0.3, 0.2, 1.0}, .heading = 0.5}};
   row_fixture f;
   prepare(&f, 0, leaning, 2);
   ambulo__sharing_rows(&f.context, &f.table);
@@ -214,6 +216,41 @@ static void bounds_can_be_off(void **state) {
   row_fixture_close(&f);
 }
 
+/* a hand that pushes the wall ahead: the normal is backward, its forward is up */
+static void patches_have_rows_of_their_size(void **state) {
+  (void)state;
+  ambulo_contact wall = OF_PATCH(HAND_R, 0.0, 1.0, {0.4, -0.25, 1.2});
+  wall.normal[0] = -1.0;
+  const ambulo_contact with_hand[] = {level[0], level[1], wall};
+  row_fixture f;
+  prepare(&f, 0, with_hand, 3);
+  ambulo_model_free(f.model);
+  f.model = patched_walker(0);
+  f.definition.model = f.model;
+  f.context.model = f.model;
+  f.context.channels.points = f.model->point_count;
+  f.context.channels.slots = 3;
+  free(f.channel);
+  f.channel =
+      calloc((size_t)(ROW_NODES * ambulo__channel_count(&f.context.channels)), sizeof(double));
+  ambulo__sharing_rows(&f.context, &f.table);
+  /* 0.1 of the weight, 0.03 m up and 0.01 m to the left (-z) of its middle, a little upward:
+   * (0, 0.03, -0.01) x (-0.1, 0.02, 0) = (0.0002, 0.001, 0.003) and a free moment about -x */
+  const double force[3] = {-0.1, 0.02, 0.0}, moment[3] = {0.0002 - 0.0005, 0.001, 0.003};
+  load(&f, 1, 2, force, moment);
+  expect(&f, "normal_force", "hand_r", "pulls", 0.25, 0.1);
+  expect(&f, "friction", "hand_r", "forward", 0.25, 0.05 - 0.02);
+  expect(&f, "friction", "hand_r", "backward", 0.25, 0.05 + 0.02);
+  expect(&f, "friction", "hand_r", "to the left", 0.25, 0.05);
+  expect(&f, "pressure", "hand_r", "front", 0.25, allowed + 0.1 * (0.04 - 0.03));
+  expect(&f, "pressure", "hand_r", "back", 0.25, allowed + 0.1 * (0.04 + 0.03));
+  expect(&f, "pressure", "hand_r", "left", 0.25, allowed + 0.1 * (0.02 - 0.01));
+  expect(&f, "pressure", "hand_r", "right", 0.25, allowed + 0.1 * (0.02 + 0.01));
+  expect(&f, "free_moment", "hand_r", "to the left", 0.25, 0.02 - (0.0005 - 0.0002));
+  assert_int_equal(row_count(&f, "normal_force", "seat", "pulls", 0.25), 0);
+  row_fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(contacts_push_and_are_loaded_at_a_rate),
                                      cmocka_unit_test(each_contact_has_its_friction),
@@ -223,6 +260,7 @@ int main(void) {
                                      cmocka_unit_test(contacts_without_weight_have_no_rows),
                                      cmocka_unit_test(events_have_both_boxes),
                                      cmocka_unit_test(planar_bodies_have_forward_rows_only),
-                                     cmocka_unit_test(bounds_can_be_off)};
+                                     cmocka_unit_test(bounds_can_be_off),
+                                     cmocka_unit_test(patches_have_rows_of_their_size)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,10 +3,14 @@
 #include "support/walker_fixture.h"
 
 static const ambulo_contact contacts[] = {
-    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.2, {0.0, -0.1, 0.0}, {0, 0, 0}, 0.1},
-    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.2, 0.3, {0.0, -0.1, 0.0}, {0, 0, 0}, 0.1},
-    {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.8, 1.0, {0.9, -0.1, 0.3}, {-0.1, 0.2, 1.0}, 0.2},
-    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.7, {0.5, 0.1, 0.15}, {0, 0, 0}, 0.0}};
+    {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.2, .place = {0.0, -0.1, 0.0}, .normal = {0, 0, 0},
+     .heading = 0.1},
+    {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.2, 0.3, .place = {0.0, -0.1, 0.0}, .normal = {0, 0, 0},
+     .heading = 0.1},
+    {WALKER_RIGHT, AMBULO_CONTACT_HEEL, 0.8, 1.0, .place = {0.9, -0.1, 0.3},
+     .normal = {-0.1, 0.2, 1.0}, .heading = 0.2},
+    {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.2, 0.7, .place = {0.5, 0.1, 0.15}, .normal = {0, 0, 0},
+     .heading = 0.0}};
 
 static ambulo_problem_definition definition_of(ambulo_model *model, ambulo_ends ends) {
   ambulo_problem_definition d = ambulo_problem_definition_default();

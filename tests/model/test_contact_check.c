@@ -95,9 +95,83 @@ static void feet(void **state) {
   ambulo_model_free(chain_good(&c));
 }
 
+static void patches(void **state) {
+  (void)state;
+  static const struct {
+    ambulo_patch patch;
+    const char *said;
+  } bad[] = {
+      {{"hand", 2, {0.1, 0.1}, -1},
+       "point of patch 'hand' does not exist (got index 2); expected 0 to 1"},
+      {{"hand", 0, {0.0, 0.1}, -1},
+       "half the length of patch 'hand' is out of range (got 0 m); expected more than 0"},
+      {{"hand", 0, {0.1, INFINITY}, -1}, "half the width of patch 'hand' is out of range"},
+      {{"foot", 0, {0.1, 0.1}, -1}, "a patch and a foot are both named 'foot'"},
+      {{"other", 0, {0.1, 0.1}, -1}, "two patches are named 'other'"},
+      {{"ha nd", 0, {0.1, 0.1}, -1}, "patch name is not allowed (got 'ha nd')"},
+      {{"hand", 0, {0.1, 0.1}, 2}, "mirror image of patch 'hand' does not exist (got index 2)"},
+      {{"hand", 0, {0.1, 0.1}, 1},
+       "mirror image of patch 'hand' has another mirror image itself; expected a pair"},
+  };
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    chain c;
+    chain_make(&c);
+    ambulo_patch two[] = {bad[i].patch, {"other", 1, {0.1, 0.1}, -1}};
+    c.definition.patches = two;
+    c.definition.patch_count = 2;
+    chain_bad(&c, AMBULO_E_MODEL, bad[i].said);
+  }
+}
+
+/* names and sizes are the model's own; a copy under other conditions has them too */
+static void patches_are_kept(void **state) {
+  (void)state;
+  chain c;
+  chain_make(&c);
+  char name[] = "palm";
+  ambulo_patch two[] = {{name, 1, {0.1, 0.2}, 1}, {"back", 0, {0.3, 0.4}, 0}};
+  c.definition.patches = two;
+  c.definition.patch_count = 2;
+  ambulo_model *model = chain_good(&c), *adapted = NULL;
+  name[0] = 'x';
+  two[0].size[0] = 9.0;
+  ambulo_conditions load = ambulo_conditions_default();
+  load.load_link = 2;
+  load.load_mass = 1.0;
+  assert_int_equal(ambulo_model_adapt(model, &load, NULL, NULL, &adapted), AMBULO_OK);
+  for (int i = 0; i < 2; i++) {
+    const ambulo_model *m = i ? adapted : model;
+    assert_int_equal(ambulo_model_patch_count(m), 2);
+    const ambulo_patch *palm = ambulo_model_patch(m, 0);
+    assert_string_equal(palm->name, "palm");
+    assert_int_equal(palm->point, 1);
+    assert_close(palm->size[0], 0.1, 0.0);
+    assert_close(palm->size[1], 0.2, 0.0);
+    assert_int_equal(palm->mirror, 1);
+    assert_int_equal(ambulo_model_find_patch(m, "back"), 1);
+    assert_int_equal(ambulo_model_find_patch(m, "foot"), -1);
+    assert_int_equal(ambulo_model_find_patch(m, NULL), -1);
+    assert_null(ambulo_model_patch(m, 2));
+    assert_null(ambulo_model_patch(m, -1));
+  }
+  assert_int_equal(ambulo_model_patch_count(NULL), 0);
+  assert_null(ambulo_model_patch(NULL, 0));
+  ambulo_model_free(adapted);
+  ambulo_model_free(model);
+  c.definition.patches = NULL;
+  chain_bad(&c, AMBULO_E_ARGUMENT, NULL);
+  c.definition.patches = two;
+  c.definition.patch_count = 65;
+  chain_bad(&c, AMBULO_E_LIMIT, "too many patches (got 65); expected at most 64");
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(intervals), cmocka_unit_test(mirror_pairs),
-                                     cmocka_unit_test(unlike_pairs), cmocka_unit_test(points),
-                                     cmocka_unit_test(feet)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(intervals),
+                                     cmocka_unit_test(mirror_pairs),
+                                     cmocka_unit_test(unlike_pairs),
+                                     cmocka_unit_test(points),
+                                     cmocka_unit_test(feet),
+                                     cmocka_unit_test(patches),
+                                     cmocka_unit_test(patches_are_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

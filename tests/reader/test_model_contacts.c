@@ -70,8 +70,51 @@ static void faults(void **state) {
             "t.yaml:14:30: error[E_SCHEMA]: unknown key 'tow'");
 }
 
+static void patches(void **state) {
+  (void)state;
+  model_case c = model_good(MODEL_HEAD MODEL_ROD POINTS
+                            "patches:\n"
+                            "  - {name: hand_r, point: h1, size: [0.05, 0.04], mirror: hand_l}\n"
+                            "  - {name: hand_l, point: h2, size: [0.05, 0.04], mirror: hand_r}\n"
+                            "  - {name: seat, point: hc, size: [0.1, 0.2]}\n");
+  const ambulo_patch *hand = ambulo_model_patch(c.model, 0);
+  const ambulo_patch *seat = ambulo_model_patch(c.model, 2);
+  assert_int_equal(ambulo_model_patch_count(c.model), 3);
+  assert_string_equal(hand->name, "hand_r");
+  assert_int_equal(hand->point, 0);
+  assert_int_equal(hand->mirror, 1);
+  assert_close(seat->size[0] / seat->size[1], 0.5, 1e-15);
+  assert_close(hand->size[0] / seat->size[0], 0.5, 1e-15);
+  assert_int_equal(seat->point, 4);
+  assert_int_equal(seat->mirror, 2);
+  model_shut(&c);
+}
+
+#define PATCH(text) MODEL_HEAD MODEL_ROD POINTS "patches:\n  - {name: hand, " text "}\n"
+
+static void faults_of_patches(void **state) {
+  (void)state;
+  model_bad(PATCH("point: h3, size: [1, 1]"), AMBULO_E_MODEL,
+            "t.yaml:14:25: error[E_MODEL]: unknown point (got 'h3'); expected the name of a point");
+  model_bad(PATCH("point: h1"), AMBULO_E_SCHEMA,
+            "t.yaml:14:5: error[E_SCHEMA]: missing required key 'size' in patches[0] ('hand')");
+  model_bad(PATCH("point: h1, size: [1]"), AMBULO_E_SCHEMA,
+            "t.yaml:14:35: error[E_SCHEMA]: got a sequence of 1; expected a sequence of 2");
+  model_bad(PATCH("point: h1, size: [1, -1]"), AMBULO_E_MODEL,
+            "t.yaml:14:5: error[E_MODEL]: half the width of patch 'hand' is out of range (got -1 "
+            "m)");
+  model_bad(PATCH("point: h1, size: [1, 1], mirror: hnd"), AMBULO_E_MODEL,
+            "t.yaml:14:51: error[E_MODEL]: unknown patch (got 'hnd'); expected the name of a patch "
+            "of this model\n  hint: did "
+            "you mean 'hand'?");
+  model_bad(PATCH("point: h1, size: [1, 1], sise: 1"), AMBULO_E_SCHEMA,
+            "t.yaml:14:43: error[E_SCHEMA]: unknown key 'sise' in patches[0] ('hand')\n  hint: did "
+            "you mean 'size'?");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(spatial_feet), cmocka_unit_test(planar_foot),
-                                     cmocka_unit_test(faults)};
+                                     cmocka_unit_test(faults), cmocka_unit_test(patches),
+                                     cmocka_unit_test(faults_of_patches)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -165,6 +165,28 @@ static void expanded_contradictions_point_at_the_gait(void **state) {
                  AMBULO_E_PROBLEM, "p.yaml:7:");
 }
 
+static void contacts_of_patches_are_read(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of(
+      "ambulo: 1\nkind: problem\nmodel: lower_body_18_rigid.yaml\nobjective: none\n"
+      "angles: degrees\ntime: {duration: 1, intervals: 4}\n"
+      "contacts:\n"
+      "  - {foot: left, mode: flat, from: 0, to: 1, place: [0, 0.1]}\n"
+      "  - {patch: seat, from: 0.2, to: 0.7, place: [-0.2, 0.01, 0.45], normal: [-1, 0, 0],\n"
+      "     heading: 90}\n");
+  const ambulo_contact *c = ambulo_problem_contact(p, 1);
+  assert_int_equal(ambulo_problem_contact(p, 0)->foot, ambulo_model_find_foot(p->model, "left"));
+  assert_int_equal(c->foot, -1);
+  assert_int_equal(c->mode, AMBULO_CONTACT_PATCH);
+  assert_int_equal(c->patch, ambulo_model_find_patch(p->model, "seat"));
+  assert_close(c->from, 0.2, 0.0);
+  assert_close(c->to, 0.7, 0.0);
+  assert_close(c->place[2], 0.45, 0.0);
+  assert_close(c->normal[0], -1.0, 0.0);
+  assert_close(c->heading, 1.5707963267948966, 1e-15);
+  ambulo_problem_free(p);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(contacts_are_read),
                                      cmocka_unit_test(step_times_are_completed),
@@ -173,6 +195,7 @@ int main(void) {
                                      cmocka_unit_test(a_speed_alone_and_unlike_steps),
                                      cmocka_unit_test(a_speed_and_a_time_make_the_length),
                                      cmocka_unit_test(faults_are_placed),
-                                     cmocka_unit_test(expanded_contradictions_point_at_the_gait)};
+                                     cmocka_unit_test(expanded_contradictions_point_at_the_gait),
+                                     cmocka_unit_test(contacts_of_patches_are_read)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* support/shared_fixture.h - contacts that share the load, at points of no meaning: a walk with
- * mirrored ends (kind 0), one on feet with a joint of the toes (1), and one on footholds of any
- * height, slope and heading (2). */
+ * mirrored ends (kind 0), one on feet with a joint of the toes (1), one on footholds of any height,
+ * slope and heading (2), and that with a seat and a hand besides (3). */
 #ifndef AMBULO_TESTS_SHARED_FIXTURE_H
 #define AMBULO_TESTS_SHARED_FIXTURE_H
 
@@ -9,7 +9,7 @@
 #include "nlp/nlp.h"
 #include "support/toed_body.h"
 
-enum { KINDS = 3 };
+enum { KINDS = 4, EFFECTORS = 4 /* at most */ };
 
 typedef struct fixture {
   ambulo_model *model;
@@ -40,12 +40,63 @@ static inline int regular(const ambulo_model *model, ambulo_problem_definition *
 /* up a turning stair of leaning treads */
 static inline int irregular(ambulo_problem_definition *d, ambulo_contact *contacts) {
   static const ambulo_contact list[] = {
-      {0, AMBULO_CONTACT_FLAT, 0.0, 0.3, {0.0, -0.1, 0.0}, {-0.1, 0.05, 1.0}, 0.0},
-      {0, AMBULO_CONTACT_TOE, 0.3, 0.4, {0.0, -0.1, 0.0}, {-0.1, 0.05, 1.0}, 0.0},
-      {1, AMBULO_CONTACT_FLAT, 0.2, 0.8, {0.3, 0.1, 0.15}, {0.1, -0.2, 2.0}, 0.3},
-      {0, AMBULO_CONTACT_HEEL, 0.65, 0.75, {0.6, 0.1, 0.3}, {0, 0, 0}, 0.5},
-      {0, AMBULO_CONTACT_FLAT, 0.75, 1.0, {0.6, 0.1, 0.3}, {0, 0, 0}, 0.5}};
+      {0, AMBULO_CONTACT_FLAT, 0.0, 0.3, .place = {0.0, -0.1, 0.0}, .normal = {-0.1, 0.05, 1.0},
+       .heading = 0.0},
+      {0, AMBULO_CONTACT_TOE, 0.3, 0.4, .place = {0.0, -0.1, 0.0}, .normal = {-0.1, 0.05, 1.0},
+       .heading = 0.0},
+      {1, AMBULO_CONTACT_FLAT, 0.2, 0.8, .place = {0.3, 0.1, 0.15}, .normal = {0.1, -0.2, 2.0},
+       .heading = 0.3},
+      {0, AMBULO_CONTACT_HEEL, 0.65, 0.75, .place = {0.6, 0.1, 0.3}, .normal = {0, 0, 0},
+       .heading = 0.5},
+      {0, AMBULO_CONTACT_FLAT, 0.75, 1.0, .place = {0.6, 0.1, 0.3}, .normal = {0, 0, 0},
+       .heading = 0.5}};
   d->duration = 1.0;
+  memcpy(contacts, list, sizeof list);
+  return (int)(sizeof list / sizeof *list);
+}
+
+/* the body with two patches more: a seat on the pelvis, a hand that is the top of the head */
+static inline ambulo_model *with_patches(void) {
+  ambulo_model *body = NULL, *model = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &body),
+                   AMBULO_OK);
+  const ambulo_patch patches[] = {
+      {"seat", ambulo_model_find_point(body, "pelvis"), {0.1, 0.15}, -1},
+      {"hand", ambulo_model_find_point(body, "head_top"), {0.02, 0.04}, -1}};
+  ambulo_model_definition d = ambulo_model_definition_default();
+  d.name = body->name;
+  d.links = body->links;
+  d.link_count = body->link_count;
+  d.coordinates = body->coordinates;
+  d.coordinate_count = body->coordinate_count;
+  d.points = body->points;
+  d.point_count = body->point_count;
+  d.feet = body->feet;
+  d.foot_count = body->foot_count;
+  d.patches = patches;
+  d.patch_count = 2;
+  assert_int_equal(ambulo_model_create(&d, NULL, NULL, &model), AMBULO_OK);
+  ambulo_model_free(body);
+  return model;
+}
+
+/* a seat that is left, and a wall ahead that is leant on by and by */
+static inline int seat_and_hand(ambulo_contact *contacts) {
+  static const ambulo_contact list[] = {{.foot = -1,
+                                         .mode = AMBULO_CONTACT_PATCH,
+                                         .patch = 0,
+                                         .from = 0.05,
+                                         .to = 0.5,
+                                         .place = {-0.2, 0.0, 0.5},
+                                         .normal = {0.1, -0.1, 1.0}},
+                                        {.foot = -1,
+                                         .mode = AMBULO_CONTACT_PATCH,
+                                         .patch = 1,
+                                         .from = 0.25,
+                                         .to = 1.0,
+                                         .place = {0.3, -0.1, 1.0},
+                                         .normal = {-1.0, 0.2, 0.1},
+                                         .heading = 0.1}};
   memcpy(contacts, list, sizeof list);
   return (int)(sizeof list / sizeof *list);
 }
@@ -57,6 +108,8 @@ static inline void fixture_open(fixture *f, int kind) {
                          ambulo_term_default(AMBULO_FORCE_RATE)};
   if (kind == 1) {
     f->model = toed_body();
+  } else if (kind == 3) {
+    f->model = with_patches();
   } else {
     assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &f->model),
                      AMBULO_OK);
@@ -66,7 +119,8 @@ static inline void fixture_open(fixture *f, int kind) {
   terms[0].scale = scale;
   d.model = f->model;
   d.contacts = contacts;
-  d.contact_count = kind == 2 ? irregular(&d, contacts) : regular(f->model, &d, contacts);
+  d.contact_count = kind >= 2 ? irregular(&d, contacts) : regular(f->model, &d, contacts);
+  if (kind == 3) d.contact_count += seat_and_hand(contacts + d.contact_count);
   d.intervals = 40;
   d.spline_intervals = 12;
   d.degree = 4;
@@ -98,6 +152,35 @@ static inline void fixture_close(fixture *f) {
   ambulo_workspace_free(f->workspace);
   ambulo_problem_free(f->problem);
   ambulo_model_free(f->model);
+}
+
+/* forces [count][EFFECTORS][3], places and free moments of feet and patches at `count` times */
+static inline void effectors_at(const fixture *f, const double *times, int count, double *force,
+                                double *cop, double *free_moment, double *wrench) {
+  const ambulo_model *m = f->model;
+  size_t n = (size_t)count, feet = (size_t)m->foot_count, patches = (size_t)m->patch_count;
+  double *block = calloc(7 * n * (feet + patches), sizeof *block);
+  ambulo_motion motion = {.wrench = wrench,
+                          .grf = block,
+                          .cop = block + 3 * n * feet,
+                          .free_moment = block + 6 * n * feet};
+  double *of_patches = block + 7 * n * feet;
+  motion.patch_force = of_patches;
+  motion.patch_cop = of_patches + 3 * n * patches;
+  motion.patch_free_moment = of_patches + 6 * n * patches;
+  assert_int_equal(ambulo_problem_motion(f->problem, f->workspace, f->x, count, times, &motion),
+                   AMBULO_OK);
+  for (size_t k = 0; k < n; k++) {
+    for (size_t e = 0; e < feet + patches; e++) {
+      size_t at = k * EFFECTORS + e, own = e < feet ? k * feet + e : k * patches + e - feet;
+      memcpy(force + 3 * at, (e < feet ? motion.grf : motion.patch_force) + 3 * own,
+             3 * sizeof(double));
+      memcpy(cop + 3 * at, (e < feet ? motion.cop : motion.patch_cop) + 3 * own,
+             3 * sizeof(double));
+      free_moment[at] = (e < feet ? motion.free_moment : motion.patch_free_moment)[own];
+    }
+  }
+  free(block);
 }
 
 static inline double channel(const fixture *f, int node, int index) {

@@ -1,5 +1,6 @@
 /* Contacts that share the load, in whole problems (support/shared_fixture.h). What the kernels give
  * is compared with mechanics by other routes. */
+#include "gait/effector.h"
 #include "gait/stance.h"
 #include "mechanics/pose.h"
 #include "stride/impulse.h"
@@ -93,7 +94,7 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
     fixture f;
     fixture_open(&f, kind);
     const ambulo__channels *c = &f.problem->channels;
-    ambulo__slots slots = ambulo__slots_of(f.model);
+    ambulo__slots slots = ambulo__slots_of(&f.problem->definition);
     ambulo__pose pose;
     int n = c->coordinates;
     double q[TOED_COORDINATES], qd[TOED_COORDINATES], qdd[TOED_COORDINATES];
@@ -124,45 +125,46 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
   }
 }
 
-/* forces, places and free moments of feet, as results have them, carry the root wrench: on level
- * ground and of feet in two parts */
-static void what_results_say_of_feet_is_all_there_is(void **state) {
+/* forces, places and free moments of feet and patches, as results have them, carry the root wrench:
+ * on level ground, of feet in two parts, beside walls */
+static void what_results_say_of_contacts_is_all_there_is(void **state) {
   (void)state;
   for (int kind = 0; kind < KINDS; kind++) {
     fixture f;
     fixture_open(&f, kind);
     enum { TIMES = 23 };
-    double times[TIMES], wrench[6 * TIMES], grf[6 * TIMES], cop[6 * TIMES], twist[2 * TIMES];
+    double times[TIMES], wrench[6 * TIMES], force[3 * EFFECTORS * TIMES];
+    double cop[3 * EFFECTORS * TIMES], twist[EFFECTORS * TIMES];
+    int effectors = ambulo__effector_count(f.model), both = 0;
     for (int k = 0; k < TIMES; k++)
       times[k] = f.problem->definition.duration * (k + 0.5) / (TIMES + 1);
-    ambulo_motion motion = {.wrench = wrench, .grf = grf, .cop = cop, .free_moment = twist};
-    assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, TIMES, times, &motion),
-                     AMBULO_OK);
-    int both = 0;
+    effectors_at(&f, times, TIMES, force, cop, twist, wrench);
     for (int k = 0; k < TIMES; k++) {
       double sum[6] = {0};
       int pressing = 0, finite = 1;
-      for (int foot = 0; foot < 2; foot++) {
-        const double *force = grf + 6 * k + 3 * foot, *place = cop + 6 * k + 3 * foot;
-        int index = ambulo_problem_contact_at(f.problem, foot, times[k]);
+      for (int e = 0; e < effectors; e++) {
+        int at = k * EFFECTORS + e, patch = ambulo__effector_patch(f.model, e);
+        const double *push = force + 3 * at, *place = cop + 3 * at;
+        int index = patch < 0 ? ambulo_problem_contact_at(f.problem, e, times[k])
+                              : ambulo_problem_patch_contact_at(f.problem, patch, times[k]);
         if (index < 0) {
-          assert_true(isnan(place[0]) && force[0] == 0.0 && twist[2 * k + foot] == 0.0);
+          assert_true(isnan(place[0]) && push[0] == 0.0 && twist[at] == 0.0);
           continue;
         }
         ambulo__contact_frame frame = ambulo__contact_frame_of(
             &f.problem->definition, ambulo_problem_contact(f.problem, index));
         double lever[3];
-        cross(place, force, lever);
+        cross(place, push, lever);
         pressing += !isnan(place[0]);
         finite &= !isnan(place[0]);
         if (isnan(place[0])) continue;
         assert_close(ambulo__contact_frame_along(&frame, frame.up, place), 0.0, 1e-9);
         for (int i = 0; i < 3; i++) {
-          sum[i] += lever[i] + twist[2 * k + foot] * frame.up[i];
-          sum[3 + i] += force[i];
+          sum[i] += lever[i] + twist[at] * frame.up[i];
+          sum[3 + i] += push[i];
         }
       }
-      both += pressing == 2;
+      both += pressing >= 2 && finite;
       for (int i = 0; i < 6 && finite; i++)
         assert_close(sum[i] / f.weight, wrench[6 * k + i] / f.weight, 1e-9);
     }
@@ -171,34 +173,36 @@ static void what_results_say_of_feet_is_all_there_is(void **state) {
   }
 }
 
-/* force on a foot at its contacts' first and last instants, beside another one */
+/* force on a foot or a patch at its contacts' first and last instants, beside another one */
 static void a_force_begins_and_ends_at_zero(void **state) {
   (void)state;
   for (int kind = 0; kind < KINDS; kind++) {
     fixture f;
     fixture_open(&f, kind);
-    int compared = 0;
+    int compared = 0, patches = 0;
     double duration = f.problem->definition.duration;
     for (int i = 0; i < f.problem->definition.contact_count; i++) {
       const ambulo_contact *c = ambulo_problem_contact(f.problem, i);
       ambulo__stance stance = ambulo__stance_of(&f.problem->definition, c);
-      double times[2] = {stance.from + 1e-7, stance.to - 1e-7}, grf[12];
+      double times[2] = {stance.from + 1e-7, stance.to - 1e-7}, force[3 * EFFECTORS];
+      double cop[3 * EFFECTORS], twist[EFFECTORS];
+      int e = ambulo__effector_of(f.model, c);
       for (int k = 0; k < 2; k++) {
-        ambulo_motion motion = {.grf = grf};
         if (!(times[k] > 0.0 && times[k] < duration)) continue;
-        assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 1, &times[k], &motion),
-                         AMBULO_OK);
+        effectors_at(&f, &times[k], 1, force, cop, twist, NULL);
         for (int axis = 0; axis < 3; axis++)
-          assert_true(fabs(grf[3 * c->foot + axis]) < 1e-8 * f.weight);
+          assert_true(fabs(force[3 * e + axis]) < 1e-8 * f.weight);
         compared++;
+        patches += c->foot < 0;
       }
     }
     assert_true(compared >= 2);
+    assert_int_equal(patches, kind == 3 ? 3 : 0);
     fixture_close(&f);
   }
 }
 
-/* no jump of the force on any part of a foot, at events neither */
+/* no jump of the force on any part of a foot or on a patch, at events neither */
 static void forces_are_continuous(void **state) {
   (void)state;
   for (int kind = 0; kind < KINDS; kind++) {
@@ -206,13 +210,16 @@ static void forces_are_continuous(void **state) {
     fixture_open(&f, kind);
     for (int i = 0; i < f.problem->definition.contact_count; i++) {
       const ambulo_contact *c = ambulo_problem_contact(f.problem, i);
-      double grf[12], tau[2 * TOED_COORDINATES], times[2] = {c->from - 1e-8, c->from + 1e-8};
+      double force[6 * EFFECTORS], cop[6 * EFFECTORS], twist[2 * EFFECTORS];
+      double tau[2 * TOED_COORDINATES], times[2] = {c->from - 1e-8, c->from + 1e-8};
       if (times[0] < 0.0 || times[1] > f.problem->definition.duration) continue;
-      ambulo_motion motion = {.grf = grf, .tau = tau};
+      ambulo_motion motion = {.tau = tau};
+      effectors_at(&f, times, 2, force, cop, twist, NULL);
       assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 2, times, &motion),
                        AMBULO_OK);
-      int n = f.problem->coordinates;
-      for (int k = 0; k < 6; k++) assert_close(grf[k] / f.weight, grf[6 + k] / f.weight, 1e-5);
+      int n = f.problem->coordinates, numbers = 3 * ambulo__effector_count(f.model);
+      for (int k = 0; k < numbers; k++)
+        assert_close(force[k] / f.weight, force[3 * EFFECTORS + k] / f.weight, 1e-5);
       for (int k = 0; k < n; k++) assert_close(tau[k] / f.weight, tau[n + k] / f.weight, 1e-5);
     }
     fixture_close(&f);
@@ -242,14 +249,14 @@ static void velocity_at(const fixture *f, int node, double velocity[3]) {
   ambulo__pose_free(&pose);
 }
 
-/* what the feet give and gravity takes is what the body's momentum changes by; of a mirrored step
- * impulses are those of a stride, whose second half has the same forward and upward ones */
+/* what the contacts give and gravity takes is what the body's momentum changes by; of a mirrored
+ * step impulses are those of a stride, whose second half has the same forward and upward ones */
 static void momentum_is_balanced(void **state) {
   (void)state;
   for (int kind = 0; kind < KINDS; kind++) {
     fixture f;
     fixture_open(&f, kind);
-    double impulse[6], velocity[2][3], duration = f.problem->definition.duration;
+    double impulse[3 * EFFECTORS], velocity[2][3], duration = f.problem->definition.duration;
     double steps = f.problem->definition.ends == AMBULO_ENDS_MIRRORED ? 2.0 : 1.0;
     const double *axes[2] = {f.model->forward, f.model->up};
     assert_int_equal(ambulo__impulses(f.problem, f.x, NULL, impulse), AMBULO_OK);
@@ -259,7 +266,8 @@ static void momentum_is_balanced(void **state) {
       double given = 0.0, gained = 0.0;
       for (int i = 0; i < 3; i++) {
         double change = velocity[1][i] - velocity[0][i] - f.model->gravity[i] * duration;
-        given += axes[k][i] * (impulse[i] + impulse[3 + i]) / steps;
+        for (int e = 0; e < ambulo__effector_count(f.model); e++)
+          given += axes[k][i] * impulse[3 * e + i] / steps;
         gained += axes[k][i] * f.model->mass * change;
       }
       assert_close(given / (f.weight * duration), gained / (f.weight * duration), 1e-7);
@@ -296,7 +304,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(contacts_carry_the_body),
       cmocka_unit_test(torques_are_those_of_a_body_that_is_pushed_there),
-      cmocka_unit_test(what_results_say_of_feet_is_all_there_is),
+      cmocka_unit_test(what_results_say_of_contacts_is_all_there_is),
       cmocka_unit_test(a_force_begins_and_ends_at_zero),
       cmocka_unit_test(forces_are_continuous),
       cmocka_unit_test(momentum_is_balanced),
