@@ -193,7 +193,7 @@ static void patches_are_about_the_centre(void **state) {
   close_it(&f);
 }
 
-/* rate 15 / s that sets in over 10 ms, from either end of the stance of 0.6 s */
+/* rate 15 / s that sets in over 6.5 ms, from either end of the stance of 0.6 s */
 static void the_load_comes_and_goes_at_a_rate(void **state) {
   (void)state;
   fixture f;
@@ -202,12 +202,12 @@ static void the_load_comes_and_goes_at_a_rate(void **state) {
   for (int i = 0; i < 6; i++) {
     double s = fmin(time[i], 0.6 - time[i]), h = 1e-6;
     ambulo__contact_load load = load_at(&f, WALKER_LEFT, time[i]);
-    assert_close(load.most, 15.0 * (s - 0.01 * (1.0 - exp(-s / 0.01))), 1e-12);
+    assert_close(load.most, 15.0 * (s - 0.0065 * (1.0 - exp(-s / 0.0065))), 1e-12);
     assert_close(load.since, time[i], 1e-12);
     assert_close(load.until, 0.6 - time[i], 1e-12);
     /* all times h longer */
     double longer = s * (1.0 + h);
-    double more = 15.0 * (longer - 0.01 * (1.0 - exp(-longer / 0.01)));
+    double more = 15.0 * (longer - 0.0065 * (1.0 - exp(-longer / 0.0065)));
     assert_close(load.most_by_time, (more - load.most) / h, 1e-5);
   }
   f.definition.ground_reaction.loading_rate = -1.0;
@@ -389,7 +389,7 @@ static void patches_ramp_as_feet_do(void **state) {
     assert_close(seat.side, 0.15, 0.0);
     assert_int_equal(seat.arc, -1);
     double s = 0.5 - t;
-    assert_close(seat.most, 15.0 * (s - 0.01 * (1.0 - exp(-s / 0.01))), 1e-12);
+    assert_close(seat.most, 15.0 * (s - 0.0065 * (1.0 - exp(-s / 0.0065))), 1e-12);
   }
   ambulo_model_free(model);
 }

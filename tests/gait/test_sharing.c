@@ -60,7 +60,7 @@ static void contacts_push_and_are_loaded_at_a_rate(void **state) {
   load(&f, 1, WALKER_RIGHT, force, none);
   expect(&f, "normal_force", "right", "pulls", 0.25, 0.6);
   /* leaves 0.25 s later; did not come down */
-  double most = 15.0 * (0.25 - 0.01 * (1.0 - exp(-25.0)));
+  double most = 15.0 * (0.25 - 0.0065 * (1.0 - exp(-0.25 / 0.0065)));
   expect(&f, "normal_force", "right", "loaded too fast", 0.25, most - 0.6);
   /* neither came down nor leaves */
   assert_int_equal(row_count(&f, "normal_force", "left", "loaded too fast", 0.25), 0);

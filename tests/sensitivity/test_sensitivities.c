@@ -116,24 +116,26 @@ static void phases_solved_anew(void **state) {
 
 #define SHARED_ON_EVENTS                                                                           \
   "angles=degrees", "constraints.zmp=off",                                                         \
-      "ground_reaction={kind: shared, friction: 0.8, pressure: {heel: [-0.04, 0.05], flat: "       \
+      "ground_reaction={kind: shared, loading_rate: off, friction: 0.8, pressure: {heel: [-0.04, " \
+      "0.05], flat: "                                                                              \
       "[-0.04, 0.05], toe: [-0.05, 0.05], width: 0.05}}",                                          \
       "time.grid=events", "trajectory.knots=events", "trajectory.intervals=15",                    \
       "trajectory.degree=5", "time.intervals=30", "constraints.foot_strike=false",                 \
       "constraints.ground_penetration=false", "constraints.contact_tolerance=0.005"
 
+/* the price of phases is a sum of large forces, which are known to a hundredth here */
 static void contacts_that_share_solved_anew(void **state) {
   (void)state;
   static const char *const base[] = {SHARED_ON_EVENTS};
-  static const char *const names[] = {"gait.phases.heel_strike",
-                                      "gait.phases.foot_flat",
-                                      "gait.step_length",
+  static const char *const phases[] = {"gait.phases.heel_strike", "gait.phases.foot_flat", NULL};
+  static const char *const names[] = {"gait.step_length",
                                       "ground_reaction.moment_arm",
                                       "ground_reaction.slant",
                                       "subject.mass",
                                       "gait.speed",
                                       NULL};
-  compare("models/walker_2d_step.yaml", base, 11, names, 5e-3, 3e-4);
+  compare("models/walker_2d_step.yaml", base, 11, phases, 1e-3, 1e-2);
+  compare("models/walker_2d_step.yaml", base, 11, names, 2e-3, 1e-3);
 }
 
 /* onto a slope, all of a stance at once, times that contacts of both feet share */
@@ -146,7 +148,7 @@ static void a_step_up_solved_anew(void **state) {
       "time.duration=0.5",
       "objective=[{term: torque_squared, scale: {default: 0.01}}, {term: acceleration, weight: "
       "1e-3}]",
-      "time.intervals=32",
+      "time.intervals=36",
       "trajectory.intervals=13",
       "contacts=[{foot: right, mode: flat, from: 0, to: 0.31, place: [0, 0, 0]}, "
       "{foot: right, mode: toe, from: 0.31, to: 0.42, place: [0, 0, 0]}, "

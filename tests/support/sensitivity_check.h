@@ -67,7 +67,7 @@ static inline int compare(const setting *c, int count, const ambulo_problem *pro
   if (!(fabs(further - s->travel) <= 1e-8 * (1.0 + fabs(s->travel))))
     fail_msg("%s: %s carries by %.12g, %.12g by differences", c->file, s->name, s->travel, further);
   /* what rounding leaves of a difference of two values of this size */
-  double slack = 1e-7 * fabs(s->derivative) + 4e-15 * (fabs(value[0]) + 1.0) / by;
+  double slack = 1e-7 * fabs(s->derivative) + 1e-14 * (fabs(value[0]) + 1.0) / by;
   if (fabs(difference - s->derivative) <= slack) return 1;
   fail_msg("%s: %s is %.12g by hand, %.12g by differences (+- %.1g)", c->file, s->name,
            s->derivative, difference, slack);

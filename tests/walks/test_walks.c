@@ -185,6 +185,38 @@ static void compare_with_people(const char *walk, const char *scratch, const bou
   ambulo_problem_free(problem);
 }
 
+/* of the vertical force, at 0, 2 ... 12 % of the stride; people: Winter, The Biomechanics and Motor
+ * Control of Human Gait, 1991 */
+static void the_front_foot_takes_over_as_peoples_does(void **state) {
+  (void)state;
+  static const double people[] = {0.06, 0.25, 0.44, 0.62, 0.78, 0.90, 0.97};
+  enum { TIMES = sizeof people / sizeof *people };
+  double times[TIMES], force[TIMES * 2 * 3];
+  ambulo_problem *problem = load_walk("walk_normal");
+  ambulo_result *result = solve_from_zero(problem);
+  ambulo_motion motion = {.grf = force};
+  for (int i = 0; i < TIMES; i++) times[i] = 0.02 * i * 2.0 * 0.54;
+  ambulo_workspace *workspace = NULL;
+  assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
+      AMBULO_OK);
+  const ambulo_model *model = ambulo_problem_model(problem);
+  int left = ambulo_model_foot(model, 0)->name[0] == 'l' ? 0 : 1; /* it strikes first */
+  for (int i = 0; i < TIMES; i++) {
+    const double *up = ambulo_model_up(model);
+    double load[2] = {0.0, 0.0};
+    for (int k = 0; k < 6; k++) load[k / 3] += up[k % 3] * force[6 * i + k];
+    double share = load[left] / (load[0] + load[1]);
+    if (!(fabs(share - people[i]) <= 0.08))
+      print_error("%d %% of the stride: %.3f, people %.2f\n", 2 * i, share, people[i]);
+    assert_true(fabs(share - people[i]) <= 0.08);
+  }
+  ambulo_workspace_free(workspace);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 static void the_body_with_18_coordinates_walks_as_people_do(void **state) {
   compare_with_people("walk_normal", *state, angles_18, loads_18, 2.0);
 }
@@ -197,6 +229,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(measured_curves_are_followed),
       cmocka_unit_test(every_walk_is_solved_from_zero),
+      cmocka_unit_test(the_front_foot_takes_over_as_peoples_does),
       cmocka_unit_test_setup_teardown(the_body_with_18_coordinates_walks_as_people_do, scratch_open,
                                       scratch_close),
       cmocka_unit_test_setup_teardown(the_body_with_a_lumbar_joint_walks_as_people_do, scratch_open,
