@@ -2,7 +2,6 @@
 #include "gait/apart.h"
 #include "base/vector.h"
 
-#include <float.h>
 #include <math.h>
 
 /* what is level of the vector from one point to another */
@@ -19,7 +18,7 @@ double ambulo__apart_value(const ambulo__apart *apart, const double *y, int stri
   level(apart, y, stride, apart->from, apart->to, along);
   level(apart, y, stride, apart->from, apart->point, e);
   double length = ambulo__dot(along, along), s = ambulo__dot(e, along);
-  s = fmin(1.0, fmax(0.0, s / fmax(length, DBL_MIN)));
+  s = length > 0.0 ? fmin(1.0, fmax(0.0, s / length)) : 0.0;
   for (int i = 0; i < 3; i++) e[i] -= s * along[i];
   for (int i = 0; slope && i < 3; i++) {
     slope[apart->point + i] += e[i] / apart->distance;

@@ -1,7 +1,7 @@
 /* gait/apart.h - a point stays away from a segment, seen from above: rows that are not linear.
  *
- * With the vertical n, x_ = x - (n . x) n what is level of a vector x, the point p, the segment from
- * a to b, and the distance D to keep,
+ * With the vertical n, x_ = x - (n . x) n what is level of a vector x, the point p, the segment
+ * from a to b, and the distance D to keep,
  *
  *     s = (p - a)_ . (b - a)_ / |(b - a)_|^2,   at least 0, at most 1
  *     e = (p - a)_ - s (b - a)_                  from the nearest point of the segment, m

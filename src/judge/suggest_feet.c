@@ -226,12 +226,16 @@ static void widen_track(const ambulo__advice *a) {
 }
 
 static void narrow_gap(const ambulo__advice *a) {
-  double gap = a->problem->definition.clearance.feet, enough = ambulo__outward(gap - a->room, 0);
-  if (gap < a->room) {
-    ambulo__advice_say(a,
-                       "%s comes %.4g m too near to the other foot at t = %.4g s: put the footholds "
-                       "further apart, or let feet in the air leave their track further outward",
-                       a->row->subject, a->give, a->row->time);
+  const ambulo__curved *row = ambulo__row_curved_of(&a->problem->table, a->row);
+  double gap = a->problem->definition.clearance.feet, kept = row->of.apart.distance;
+  double missed = kept - sqrt(fmax(0.0, kept * (kept - 2.0 * a->room))); /* D - |e|, gait/apart.h */
+  double enough = ambulo__outward(gap - missed, 0);
+  if (gap < missed) {
+    ambulo__advice_say(
+        a,
+        "%s comes %.4g m too near to the other foot at t = %.4g s: put the footholds "
+        "further apart, or let feet in the air leave their track further outward",
+        a->row->subject, a->give, a->row->time);
     return;
   }
   ambulo__advice_say(a, "let feet pass each other %.4g m apart instead of %.4g m (%s, t = %.4g s)",

@@ -17,7 +17,8 @@
  *
  * and a = part(s), half of it of the heel, has times: dc/ds = -H part'(s), s along the swing, with
  * which the surface below goes on as well. Edges of steps: step_rows.c. Gaps between feet are on no
- * surface (gait/feet_apart.c): dc/dgap = -1 - c / D (gait/apart.h).
+ * surface (gait/feet_apart.c): dc/dgap = dc/dD = -1 - c / D (gait/apart.h), and D has a part that
+ * goes with the duration.
  */
 #include "sensitivity/surface.h"
 #include "base/vector.h"
@@ -179,7 +180,10 @@ static int add_gap(const place_row *p, ambulo__partials *partials) {
   const ambulo__curved *curved = ambulo__row_curved_of(&problem->table, p->row);
   if (!curved || curved->is_arc) return 0;
   double value = p->s->workspace->row_value[p->row - problem->table.rows];
-  partials->clearance.feet -= p->pull * (1.0 + value / curved->of.apart.distance);
+  double by_distance = -p->pull * (1.0 + value / curved->of.apart.distance);
+  partials->clearance.feet += by_distance;
+  partials->duration += by_distance * ambulo__feet_apart_allowance(&problem->definition) /
+                        problem->definition.duration;
   return 1;
 }
 
