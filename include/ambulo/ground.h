@@ -65,6 +65,9 @@ typedef struct ambulo_clearance {
   double ceiling;         /* none of them higher, m */
   double turn;            /* sine of yaw and roll of the foot, at most */
   double outward, inward; /* how far the heel may leave its track, m */
+  double feet;            /* gap, seen from above, between it and every other foot, at least, m;
+                             feet are the line from heel to toe centre and half their largest width
+                             around it. Negative: no such rows; planar feet have none */
 } ambulo_clearance;
 
 #ifdef __cplusplus

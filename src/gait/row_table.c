@@ -14,7 +14,7 @@ void ambulo__row_table_clear(ambulo__row_table *table) {
   if (!table) return;
   ambulo__free(&table->allocator, table->rows);
   ambulo__free(&table->allocator, table->terms);
-  ambulo__free(&table->allocator, table->arcs);
+  ambulo__free(&table->allocator, table->curved);
   ambulo__free(&table->allocator, table->group_row);
   ambulo__row_table_init(table, &table->allocator);
 }
@@ -101,12 +101,13 @@ void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int
   append(table, row);
 }
 
-void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
-                     const char *detail, int node, double time, const ambulo__arc *arc) {
-  void *arcs = table->arcs;
+static void append_curved(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                          const char *detail, int node, double time, const ambulo__curved *row) {
+  void *curved = table->curved;
   if (table->status) return;
-  int grown = grow(&table->allocator, &arcs, table->arc_count, &table->arc_capacity, sizeof *arc);
-  table->arcs = arcs;
+  int grown =
+      grow(&table->allocator, &curved, table->curved_count, &table->curved_capacity, sizeof *row);
+  table->curved = curved;
   if (!grown) {
     table->status = AMBULO_E_MEMORY;
     return;
@@ -114,8 +115,20 @@ void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char
   ambulo__row_begin(table, kind, subject, detail, AMBULO__METRES, AMBULO_NOT_NEGATIVE, node, time,
                     0.0);
   if (table->status) return;
-  table->arcs[table->arc_count] = *arc;
-  table->rows[table->row_count - 1].user = table->arc_count++;
+  table->curved[table->curved_count] = *row;
+  table->rows[table->row_count - 1].user = table->curved_count++;
+}
+
+void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                     const char *detail, int node, double time, const ambulo__arc *arc) {
+  ambulo__curved row = {.is_arc = 1, .of.arc = *arc};
+  append_curved(table, kind, subject, detail, node, time, &row);
+}
+
+void ambulo__row_apart(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                       const char *detail, int node, double time, const ambulo__apart *apart) {
+  ambulo__curved row = {.is_arc = 0, .of.apart = *apart};
+  append_curved(table, kind, subject, detail, node, time, &row);
 }
 
 double ambulo__row_missed(const ambulo__table_row *row, double value) {

@@ -4,8 +4,8 @@
  *
  * Every row of the gait problem has this form once the moment equation of the ZMP is
  * written without the division (Eq. 17'). A term may instead stand on one unknown
- * (node = -1, channel = index into x): control-point bounds. Rows of arcs that roll (gait/arc.h)
- * and of the caller are functions of one node's channels.
+ * (node = -1, channel = index into x): control-point bounds. Curved rows (gait/curved.h)
+ * and those of the caller are functions of one node's channels.
  *
  * Modules append rows here, in physical units; nlp gives them numbers.
  */
@@ -14,7 +14,7 @@
 
 #include "ambulo/problem.h"
 #include "base/alloc.h"
-#include "gait/arc.h"
+#include "gait/curved.h"
 #include "gait/row_kind.h"
 
 typedef struct ambulo__row_term {
@@ -34,7 +34,8 @@ typedef struct ambulo__table_row {
   int group;            /* rows of one family have the same; 0 .. group_count - 1 */
   int node;             /* the node whose channels it uses; -1: several, or none */
   int user;             /* value and coefficients come from a function at every evaluation: index of
-                           the caller's user row, of the table's arc, by kind; -1: linear, as above */
+                           the caller's user row, of the table's curved row, by kind; -1: linear, as
+                           above */
   double time;
   double constant;
   double size; /* in unit: what counts as one; violations are judged relative to it */
@@ -47,8 +48,8 @@ typedef struct ambulo__row_table {
   int row_count, row_capacity;
   ambulo__row_term *terms;
   int term_count, term_capacity;
-  ambulo__arc *arcs;
-  int arc_count, arc_capacity;
+  ambulo__curved *curved;
+  int curved_count, curved_capacity;
   int *group_row; /* the first row of each group, in the order in which groups begin */
   int group_count, group_capacity;
   int before;           /* what rows begun from now on have of that name; 0 after init */
@@ -67,13 +68,22 @@ void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const ch
  * be those of the table: the row is of AMBULO__KIND_USER all the same. */
 void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int index, int node,
                       double time);
-/* Adds a row at a node, not negative, that is a function of an arc. */
+/* Adds a row at a node, not negative, in m, that is a function of an arc; of a point and a segment.
+ */
 void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                      const char *detail, int node, double time, const ambulo__arc *arc);
+void ambulo__row_apart(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                       const char *detail, int node, double time, const ambulo__apart *apart);
+/* What a curved row is a function of; NULL: the row is linear, or the caller's. */
+static inline const ambulo__curved *ambulo__row_curved_of(const ambulo__row_table *table,
+                                                          const ambulo__table_row *row) {
+  return row->user >= 0 && row->kind != AMBULO__KIND_USER ? &table->curved[row->user] : NULL;
+}
 /* The arc of a row; NULL: it has none. */
 static inline const ambulo__arc *ambulo__row_arc_of(const ambulo__row_table *table,
                                                     const ambulo__table_row *row) {
-  return row->user >= 0 && row->kind != AMBULO__KIND_USER ? &table->arcs[row->user] : NULL;
+  const ambulo__curved *curved = ambulo__row_curved_of(table, row);
+  return curved && curved->is_arc ? &curved->of.arc : NULL;
 }
 /* Adds a term to the row begun last. Zero coefficients are skipped. */
 void ambulo__row_term_add(ambulo__row_table *table, int node, int channel, double coefficient);

@@ -69,15 +69,15 @@ static ambulo_status create_fine(const ambulo_problem *p, double shift,
   return status;
 }
 
-/* rows of arcs that roll */
-static void arc_values(const ambulo_problem *p, ambulo__dense *dense) {
+/* rows that are not linear */
+static void curved_values(const ambulo_problem *p, ambulo__dense *dense) {
   int channels = ambulo__channel_count(&p->channels);
   for (int o = 0; o < p->row_runs.odd_count; o++) {
     int r = p->row_runs.odd[o];
-    const ambulo__arc *arc = ambulo__row_arc_of(&p->table, &p->table.rows[r]);
+    const ambulo__curved *row = ambulo__row_curved_of(&p->table, &p->table.rows[r]);
     const double *y =
-        dense->channel + (arc ? ambulo__lane_index(p->table.rows[r].node, channels, 0) : 0);
-    if (arc) dense->row_value[r] = ambulo__arc_value(arc, y, AMBULO__LANES, NULL);
+        dense->channel + (row ? ambulo__lane_index(p->table.rows[r].node, channels, 0) : 0);
+    if (row) dense->row_value[r] = ambulo__curved_value(row, y, AMBULO__LANES, NULL);
   }
 }
 
@@ -99,7 +99,7 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
                           c + 3 * d8, scratch);
     }
     ambulo__row_runs_values(&p->row_runs, dense->channel, dense->row_value);
-    arc_values(p, dense);
+    curved_values(p, dense);
     status = AMBULO_OK;
   }
   ambulo__free_aligned(a, scratch);

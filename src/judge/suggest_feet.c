@@ -226,6 +226,24 @@ static void widen_track(const ambulo__advice *a) {
     widen_clearance(a, "the way outward", "outward", c->outward, 10.0);
 }
 
+static void narrow_gap(const ambulo__advice *a) {
+  const ambulo__curved *row = ambulo__row_curved_of(&a->problem->table, a->row);
+  double gap = a->problem->definition.clearance.feet, kept = row->of.apart.distance;
+  double missed = kept - sqrt(fmax(0.0, kept * (kept - 2.0 * a->room))); /* D - |e|, gait/apart.h */
+  double enough = ambulo__outward(gap - missed, 0);
+  if (gap < missed) {
+    ambulo__advice_say(
+        a,
+        "%s comes %.4g m too near to the other foot at t = %.4g s: put the footholds "
+        "further apart, or let feet in the air leave their track further outward",
+        a->row->subject, a->give, a->row->time);
+    return;
+  }
+  ambulo__advice_say(a, "let feet pass each other %.4g m apart instead of %.4g m (%s, t = %.4g s)",
+                     enough, gap, a->row->subject, a->row->time);
+  ambulo__advice_set(a, "constraints.clearance.feet=%.6g", enough);
+}
+
 static void clearance(const ambulo__advice *a) {
   const ambulo_clearance *c = &a->problem->definition.clearance;
   const char *detail = a->row->detail;
@@ -233,6 +251,8 @@ static void clearance(const ambulo__advice *a) {
     lower_clearance(a);
   } else if (!strcmp(detail, "high")) {
     widen_clearance(a, "the height", "ceiling", c->ceiling, 10.0);
+  } else if (!strncmp(detail, "near", 4)) {
+    narrow_gap(a);
   } else if (!strncmp(detail, "to the", 6)) {
     widen_track(a);
   } else {

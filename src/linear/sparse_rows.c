@@ -87,9 +87,9 @@ static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, int 
   int from, to;
   window_of(p, host, &from, &to);
   memset(mark + from, 0, (size_t)(to - from) * sizeof *mark);
-  const ambulo__arc *arc = ambulo__row_arc_of(&p->table, row);
-  if (arc) {
-    int channel[AMBULO__ARC_CHANNELS], count = ambulo__arc_channels(arc, channel);
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
+  if (curved) {
+    int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(curved, channel);
     for (int k = 0; k < count; k++) mark_channel(p, row->node, channel[k], mark);
     return;
   }

@@ -77,6 +77,7 @@ static ambulo_status check_clearance(const ambulo_clearance *c, ambulo_diagnosti
       {"constraints.clearance.turn", "", &c->turn, 1, 0.0, everything},
       {"constraints.clearance.outward", "m", &c->outward, 1, 0.0, everything},
       {"constraints.clearance.inward", "m", &c->inward, 1, 0.0, everything},
+      {"constraints.clearance.feet", "m", &c->feet, 1, -longest, longest},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }

@@ -115,13 +115,13 @@ static double evaluate_terms(ambulo_workspace *workspace) {
 static double user_row_value(ambulo_workspace *workspace, int row) {
   const ambulo_problem *p = workspace->problem;
   const ambulo__table_row *r = &p->table.rows[row];
-  const ambulo__arc *arc = ambulo__row_arc_of(&p->table, r);
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, r);
   double *slope = workspace->user_gradient +
                   (size_t)workspace->user_slot[row] * (size_t)workspace->channel_count;
   memset(slope, 0, (size_t)workspace->channel_count * sizeof *slope);
-  if (arc)
-    return ambulo__arc_value(
-        arc, workspace->channel + ambulo__lane_index(r->node, workspace->channel_count, 0),
+  if (curved)
+    return ambulo__curved_value(
+        curved, workspace->channel + ambulo__lane_index(r->node, workspace->channel_count, 0),
         AMBULO__LANES, slope);
   const ambulo_user_row *user = &p->definition.user_rows[r->user];
   ambulo__node_state_fill(workspace, r->node, workspace->node_state);

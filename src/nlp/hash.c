@@ -62,10 +62,15 @@ static hash add_terms(hash h, const ambulo_problem *p) {
   return h;
 }
 
-static hash add_arc(hash h, const ambulo__arc *arc) {
-  double number[] = {arc->sign, arc->room, arc->radius, arc->length, arc->flat, arc->along};
-  int channel[AMBULO__ARC_CHANNELS], count = ambulo__arc_channels(arc, channel);
+static hash add_curved(hash h, const ambulo__curved *row) {
+  const ambulo__arc *arc = &row->of.arc;
+  int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(row, channel);
   for (int i = 0; i < count; i++) h = add_integer(h, channel[i]);
+  if (!row->is_arc) {
+    h = add_numbers(h, &row->of.apart.distance, 1);
+    return add_numbers(h, row->of.apart.up, 3);
+  }
+  double number[] = {arc->sign, arc->room, arc->radius, arc->length, arc->flat, arc->along};
   h = add_numbers(h, number, sizeof number / sizeof *number);
   return add_numbers(add_numbers(h, arc->forward, 3), arc->up, 3);
 }
@@ -74,9 +79,9 @@ static hash add_rows(hash h, const ambulo_problem *p) {
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
     h = add_text(add_text(add_text(h, row->family), row->subject), row->detail);
-    const ambulo__arc *arc = ambulo__row_arc_of(&p->table, row);
+    const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
     h = add_numbers(add_integer(h, (int)row->relation), &row->constant, 1);
-    if (arc) h = add_arc(h, arc);
+    if (curved) h = add_curved(h, curved);
     for (int t = 0; t < row->term_count; t++) {
       const ambulo__row_term *term = &p->table.terms[row->first_term + t];
       h = add_integer(add_integer(h, term->node), term->channel);

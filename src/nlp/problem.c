@@ -29,7 +29,7 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
       .degree = 3,
       .minimum_force = -1.0,
       .orientation_tolerance = 0.01,
-      .clearance = {-1.0, 0.3, 0.35, 0.2, 0.06, 0.03},
+      .clearance = {-1.0, 0.3, 0.35, 0.2, 0.06, 0.03, -1.0},
       .ground_reaction = {.kind = AMBULO_REACTION_NONE,
                           .transfer = AMBULO_TRANSFER_EARLY,
                           .exponent = 1.4,
@@ -139,7 +139,10 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
     ambulo__foot_strike_rows(&context, &p->table);
   }
   if (d->contact_tolerance > 0.0 || d->foot_strike) ambulo__patch_rows(&context, &p->table);
-  if (d->clearance.height >= 0.0) ambulo__clearance_rows(&context, &p->table);
+  if (d->clearance.height >= 0.0) {
+    ambulo__clearance_rows(&context, &p->table);
+    ambulo__feet_apart_rows(&context, &p->table);
+  }
   status = ambulo__zmp_rows(&context, &p->table, diagnostics);
   if (status) return status;
   if (d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP)

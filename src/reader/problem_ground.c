@@ -182,5 +182,6 @@ void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yam
   c->turn = ambulo__yaml_number_in(ambulo__yaml_get(node, "turn"), 1e-3, 1.0, c->turn);
   c->outward = ambulo__yaml_number_in(ambulo__yaml_get(node, "outward"), 0.0, 10.0, c->outward);
   c->inward = ambulo__yaml_number_in(ambulo__yaml_get(node, "inward"), 0.0, 10.0, c->inward);
+  c->feet = ambulo__yaml_number_in(ambulo__yaml_get(node, "feet"), 0.0, 1.0, c->feet);
   ambulo__yaml_close(node);
 }

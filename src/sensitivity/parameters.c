@@ -26,6 +26,9 @@ static void add_clearance(ambulo__parameters *p) {
                         "outward room of swinging feet", "constraints.clearance.outward");
   ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->inward, by->inward,
                         "inward room of swinging feet", "constraints.clearance.inward");
+  if (c->feet < 0.0) return;
+  ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->feet, by->feet, "gap between the feet",
+                        "constraints.clearance.feet");
 }
 
 static void add_contact_rows(ambulo__parameters *p) {

@@ -16,7 +16,9 @@
  *     clearance height H, of a point due at a low = a H   -a
  *
  * and a = part(s), half of it of the heel, has times: dc/ds = -H part'(s), s along the swing, with
- * which the surface below goes on as well. Edges of steps: step_rows.c.
+ * which the surface below goes on as well. Edges of steps: step_rows.c. Gaps between feet are on no
+ * surface (gait/feet_apart.c): dc/dgap = dc/dD = -1 - c / D (gait/apart.h), and D has a part that
+ * goes with the duration.
  */
 #include "sensitivity/surface.h"
 #include "base/vector.h"
@@ -172,6 +174,19 @@ static double add_way(place_row *p, const ambulo__span *air, double s, ambulo__p
   return ambulo__surface_between(p->s, &from, &to, s, &by, partials) + add_room(p, s, partials);
 }
 
+/* 1 if the row is one of a gap between feet */
+static int add_gap(const place_row *p, ambulo__partials *partials) {
+  const ambulo_problem *problem = p->s->problem;
+  const ambulo__curved *curved = ambulo__row_curved_of(&problem->table, p->row);
+  if (!curved || curved->is_arc) return 0;
+  double value = p->s->workspace->row_value[p->row - problem->table.rows];
+  double by_distance = -p->pull * (1.0 + value / curved->of.apart.distance);
+  partials->clearance.feet += by_distance;
+  partials->duration += by_distance * ambulo__feet_apart_allowance(&problem->definition) /
+                        problem->definition.duration;
+  return 1;
+}
+
 /* the surface under the swing, as gait/clearance.c has it */
 static void add_clearance(place_row *p, ambulo__partials *partials) {
   const ambulo_problem_definition *d = &p->s->problem->definition;
@@ -276,7 +291,7 @@ void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *p
     int kind = p.row->kind;
     int holds = kind == AMBULO__KIND_GROUND_PENETRATION || kind == AMBULO__KIND_FOOT_STRIKE ||
                 kind == AMBULO__KIND_CONTACT || kind == AMBULO__KIND_CLEARANCE;
-    if (!holds || p.pull == 0.0 || !read_row(&p)) continue;
+    if (!holds || p.pull == 0.0 || add_gap(&p, partials) || !read_row(&p)) continue;
     if (kind == AMBULO__KIND_CLEARANCE) {
       add_clearance(&p, partials);
       continue;

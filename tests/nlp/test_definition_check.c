@@ -80,6 +80,14 @@ static void what_is_built_is_legal(void **state) {
   ambulo_model_free(b.model);
 }
 
+static void expect_range(built *b, double *number, const char *name, int may_be_infinite) {
+  expect_refused(b, number, NAN, name);
+  if (may_be_infinite) return;
+  expect_refused(b, number, INFINITY, name);
+  expect_refused(b, number, -INFINITY, name);
+  expect_refused(b, number, 1e300, name);
+}
+
 static void numbers_have_ranges(void **state) {
   (void)state;
   built b;
@@ -106,6 +114,7 @@ static void numbers_have_ranges(void **state) {
       {&c->turn, "clearance.turn", 1},
       {&c->outward, "clearance.outward", 1},
       {&c->inward, "clearance.inward", 1},
+      {&c->feet, "clearance.feet", 0},
       {&r->exponent, "ground_reaction.exponent", 0},
       {&r->shear, "ground_reaction.shear", 0},
       {&r->friction, "ground_reaction.friction", 0},
@@ -132,11 +141,7 @@ static void numbers_have_ranges(void **state) {
       {&b.row.to, "user row 0", 1},
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-    expect_refused(&b, all[i].number, NAN, all[i].name);
-    if (all[i].may_be_infinite) continue;
-    expect_refused(&b, all[i].number, INFINITY, all[i].name);
-    expect_refused(&b, all[i].number, -INFINITY, all[i].name);
-    expect_refused(&b, all[i].number, 1e300, all[i].name);
+    expect_range(&b, all[i].number, all[i].name, all[i].may_be_infinite);
   }
   ambulo_model_free(b.model);
 }

@@ -174,6 +174,45 @@ static void rows_on_unknowns_and_terms_on_one_channel(void **state) {
   fixture_close(&f);
 }
 
+/* by row, by the reverse sweep and by central differences; any body pose */
+static void feet_that_pass_agree_with_central_differences(void **state) {
+  (void)state;
+  static const char *const settings[] = {"constraints.clearance.feet=0.01", "time.intervals=16",
+                                         "trajectory.intervals=6"};
+  fixture f = {.model = NULL};
+  assert_int_equal(
+      ambulo_problem_load("models/walk_normal.yaml", settings, 3, NULL, NULL, &f.problem),
+      AMBULO_OK);
+  f.n = f.problem->variables;
+  f.m = f.problem->rows;
+  assert_int_equal(ambulo_workspace_create(f.problem, NULL, &f.workspace), AMBULO_OK);
+  f.x = calloc((size_t)f.n, sizeof *f.x);
+  double *row = calloc((size_t)f.n, sizeof *row), *sum = calloc((size_t)f.n, sizeof *sum);
+  double *weights = calloc((size_t)f.m, sizeof *weights);
+  for (int j = 0; j < f.n; j++) f.x[j] = 0.2 * sin(3.0 * j);
+  double error = worst_error(&f, "clearance");
+  if (!(error < 1e-7)) print_error("worst relative error %.3g\n", error);
+  assert_true(error >= 0.0 && error < 1e-7);
+  int gaps = 0;
+  for (int r = 0; r < f.m; r++) {
+    const ambulo__curved *curved =
+        ambulo__row_curved_of(&f.problem->table, &f.problem->table.rows[r]);
+    if (!curved || curved->is_arc) continue;
+    weights[r] = cos(gaps++);
+    assert_int_equal(ambulo_problem_row_gradient(f.problem, f.workspace, f.x, r, row), 0);
+    for (int j = 0; j < f.n; j++) sum[j] += weights[r] * row[j];
+  }
+  assert_true(gaps > 20);
+  f.gradient = calloc((size_t)f.n, sizeof *f.gradient);
+  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.0, weights, f.gradient),
+                   0);
+  for (int j = 0; j < f.n; j++) assert_close(f.gradient[j], sum[j], 1e-10);
+  free(weights);
+  free(row);
+  free(sum);
+  fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_family_and_term_agrees_with_central_differences),
@@ -181,6 +220,7 @@ int main(void) {
       cmocka_unit_test(other_bases_have_right_gradients_too),
       cmocka_unit_test(weights_combine_objective_and_rows),
       cmocka_unit_test(rows_on_unknowns_and_terms_on_one_channel),
+      cmocka_unit_test(feet_that_pass_agree_with_central_differences),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,6 +184,24 @@ static void the_hash_sees_where_arcs_roll(void **state) {
   ambulo_model_free(model);
 }
 
+/* of feet that pass each other it sees the gap */
+static void the_hash_sees_how_far_feet_are_apart(void **state) {
+  (void)state;
+  static const char *const gaps[] = {"constraints.clearance.feet=0.01",
+                                     "constraints.clearance.feet=0.01",
+                                     "constraints.clearance.feet=0.011"};
+  unsigned long long hashes[3];
+  for (int i = 0; i < 3; i++) {
+    ambulo_problem *problem = NULL;
+    assert_int_equal(
+        ambulo_problem_load("models/walk_normal.yaml", &gaps[i], 1, NULL, NULL, &problem),
+        AMBULO_OK);
+    hashes[i] = ambulo_problem_hash(problem);
+    ambulo_problem_free(problem);
+  }
+  assert_true(hashes[0] == hashes[1] && hashes[0] != hashes[2]);
+}
+
 /* a mirrored step of the planar walker whose left knee is stiffer than its right one */
 static void limits_are_those_of_both_halves(void **state) {
   (void)state;
@@ -245,6 +263,7 @@ int main(void) {
       cmocka_unit_test(every_allocation_may_fail),
       cmocka_unit_test(the_hash_sees_every_change),
       cmocka_unit_test(the_hash_sees_where_arcs_roll),
+      cmocka_unit_test(the_hash_sees_how_far_feet_are_apart),
       cmocka_unit_test(limits_are_those_of_both_halves),
       cmocka_unit_test(a_mirrored_problem_survives_failed_allocations),
   };

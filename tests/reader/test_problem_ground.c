@@ -35,6 +35,7 @@ static void expect_contacts(const ambulo_problem_definition *d) {
   assert_close(d->clearance.turn, 0.1, 1e-15);
   assert_close(d->clearance.outward, 0.05, 1e-15);
   assert_close(d->clearance.inward, 0.02, 1e-15);
+  assert_close(d->clearance.feet, 0.015, 1e-15);
 }
 
 static void everything_is_read(void **state) {
@@ -47,7 +48,7 @@ static void everything_is_read(void **state) {
       "0.02], roll: 0.05, flat: [0.01, 0.03], toe: [-0.03, 0.04], width: 0.03}}\n"
       "constraints: {contact_tolerance: 0.003, orientation_tolerance: 0.02, strike_pitch: "
       "[10, 20], clearance: {height: 0.01, tip_from: 0.4, ceiling: 0.3, turn: 0.1, "
-      "outward: 0.05, inward: 0.02}}\n");
+      "outward: 0.05, inward: 0.02, feet: 0.015}}\n");
   expect_reaction(ambulo_problem_ground_reaction(p));
   expect_contacts(&p->definition);
   ambulo_problem_free(p);
@@ -61,6 +62,7 @@ static void defaults(void **state) {
   assert_int_equal(r->pressure, 0);
   assert_close(p->definition.minimum_force, 0.2, 0.0);
   assert_true(p->definition.clearance.height < 0.0);
+  assert_true(p->definition.clearance.feet < 0.0);
   assert_close(p->definition.contact_tolerance, 0.0, 0.0);
   ambulo_problem_free(p);
   p = problem_of(HEAD REST);

@@ -82,11 +82,13 @@ static void a_walk_under_load(void **state) {
       "tests/two_step/walk_loaded.yaml",
       {"ground_reaction.pressure={heel: [-0.02, 0.03], flat: [-0.005, 0.02], toe: [-0.02, 0.055], "
        "roll: 0.04, width: 0.035}",
-       "ground={slope: 3}", "constraints.torque_limits=true", "ground_reaction.shear=0.8"},
+       "ground={slope: 3}", "constraints.torque_limits=true", "ground_reaction.shear=0.8",
+       "constraints.clearance.feet=0.01"},
       {"load.mass", "subject.mass", "ground.slope", "gait.step_width",
        "ground_reaction.pressure.roll", "ground_reaction.pressure.flat[1]",
        "ground_reaction.pressure.width", "ground_reaction.friction", "ground_reaction.free_moment",
-       "constraints.clearance.inward", "constraints.strike_pitch[0]", "time.duration"}};
+       "constraints.clearance.inward", "constraints.clearance.feet", "constraints.strike_pitch[0]",
+       "time.duration"}};
   check(&c, NULL);
 }
 

@@ -82,9 +82,9 @@ static inline double *row_channel(row_fixture *f, int node, int channel) {
 
 static inline double row_value(row_fixture *f, int row) {
   const ambulo__table_row *r = &f->table.rows[row];
-  const ambulo__arc *arc = ambulo__row_arc_of(&f->table, r);
+  const ambulo__curved *curved = ambulo__row_curved_of(&f->table, r);
   double value = r->constant;
-  if (arc) return ambulo__arc_value(arc, row_channel(f, r->node, 0), 1, NULL);
+  if (curved) return ambulo__curved_value(curved, row_channel(f, r->node, 0), 1, NULL);
   for (int t = r->first_term; t < r->first_term + r->term_count; t++) {
     const ambulo__row_term *term = &f->table.terms[t];
     assert_true(term->node >= 0);
