@@ -197,6 +197,9 @@ typedef struct ambulo_term {
   const double *strength;        /* [d][2][3]: for positive, then negative torque: peak (N m), c2
                                     (1/rad), c3 (rad) of peak cos(c2 (q - c3)); peak 0: strength 1;
                                     NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
+  int strength_is_limits;        /* 1: the strength of each coordinate is its torque limit in the
+                                    model, of positive and of negative torque; `strength` NULL,
+                                    scale then is a price (AMBULO_TORQUE_POWER) */
   int point[2];                  /* model points of AMBULO_UPRIGHT, on one link */
   double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */

@@ -23,7 +23,7 @@
  * a roll from heel to toes without a flat foot is a jump.
  *
  * Centre, ahead of the heel's foothold, with L from heel to toe centre (ball): r (L + a),
- * a = 0.02 m. What a single contact carries does not depend on its centre.
+ * a = 0.02 m for 1.75 m. What a single contact carries does not depend on its centre.
  *
  * A foot with a joint between heel and ball has two contacts, which share its weight w: the rear
  * one has w until the foot rolls on from flat to the toes, and passes it away by that S; its centre
@@ -36,7 +36,7 @@
  *
  *     g(min(t - b, e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
  *
- * [b, e] now the time that the contact is down, with the loading rate rho and tau = 6.5 ms over
+ * [b, e] now the time that the contact is down, with the loading rate rho and tau = 6.5 ms (for 1.75 m) over
  * which it sets in: a force that began with its full rate would have a corner, which nodes do not
  * follow and which rings.
  */
@@ -50,7 +50,6 @@
 
 #include <math.h>
 
-static const double beyond_ball = AMBULO__BEYOND_BALL; /* m: a */
 static const double loading_onset =
     0.0065; /* s: tau; from 0 rms above 15 Hz doubles; with .01 a front foot has .15 of the load at
                2 % of the stride, people .25 */
@@ -174,8 +173,9 @@ static int modes_of(ambulo__slot_part part) {
 }
 
 /* weight, centre and box of the foot become those of the part; returns the centre */
-static double narrow(ambulo__slot_part part, roll at, double length, ambulo__contact_load *load) {
-  double ahead = length + beyond_ball, *box = load->box;
+static double narrow(ambulo__slot_part part, roll at, double length, double size,
+                     ambulo__contact_load *load) {
+  double ahead = length + AMBULO__BEYOND_BALL * size, *box = load->box;
   if (part == AMBULO__WHOLE_FOOT) return at.along * ahead;
   load->weight *= part == AMBULO__REAR_FOOT ? at.rear : at.fore;
   int end = part == AMBULO__REAR_FOOT; /* the one beside the joint */
@@ -185,13 +185,13 @@ static double narrow(ambulo__slot_part part, roll at, double length, ambulo__con
 }
 
 /* g, and s dg/ds */
-static double most_after(double rate, double time, double *by_time) {
+static double most_after(double rate, double onset_time, double time, double *by_time) {
   *by_time = 0.0;
   if (rate < 0.0 || isinf(time)) return INFINITY;
   time = fmax(0.0, time);
-  double onset = expm1(-time / loading_onset);
+  double onset = expm1(-time / onset_time);
   *by_time = -rate * onset * time;
-  return rate * (time + loading_onset * onset);
+  return rate * (time + onset_time * onset);
 }
 
 /* region, centre and arc of a foot's contact; its weight goes to the part */
@@ -201,7 +201,8 @@ static void load_foot(const ambulo_problem_definition *d, const ambulo__foot_out
   const ambulo_ground_reaction *r = &d->ground_reaction;
   load->rolled = rolled(contact, stance, time);
   box_of(r, contact, outline->length, load->rolled, load->box);
-  double center = narrow(part, roll_of(contact, stance, time), outline->length, load);
+  double center = narrow(part, roll_of(contact, stance, time), outline->length,
+                         ambulo__model_size(d->model), load);
   for (int i = 0; i < 3; i++) load->center[i] += center * load->frame.forward[i];
   load->box[0] -= center;
   load->box[1] -= center;
@@ -236,6 +237,7 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
   load.since = time - down.from;
   load.until = down.to - time;
   load.most =
-      most_after(d->ground_reaction.loading_rate, fmin(load.since, load.until), &load.most_by_time);
+      most_after(d->ground_reaction.loading_rate, loading_onset * sqrt(ambulo__model_size(d->model)),
+                 fmin(load.since, load.until), &load.most_by_time);
   return load;
 }

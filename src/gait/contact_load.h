@@ -11,7 +11,7 @@
 
 enum { AMBULO__MOST_SLOTS = 6 };
 
-/* How far ahead of the ball the centre under the toes is, m. */
+/* How far ahead of the ball the centre under the toes is, m of a body of 1.75 m. */
 #define AMBULO__BEYOND_BALL 0.02
 /* Of the time that a foot is flat: the least over which that centre comes there, and goes on. */
 #define AMBULO__SHORTEST_GLIDE (1.0 / 16.0)

@@ -30,7 +30,7 @@ static double half_width(const ambulo__foot_outline *outline) {
 }
 
 double ambulo__feet_apart_allowance(const ambulo_problem_definition *d) {
-  return passing * d->duration / d->intervals;
+  return passing * sqrt(ambulo__model_size(d->model)) * d->duration / d->intervals;
 }
 
 /* D; 0 of feet that move in one plane */

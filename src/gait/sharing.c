@@ -9,7 +9,7 @@
  *     mu n.f -+ e.f >= 0,  e = f, l     body weights
  *     back n.f <= -l.m <= front n.f     m, divided by W: -l.m / n.f is how far the centre of
  *     -side n.f <= f.m <= side n.f      pressure is ahead of p, f.m / n.f how far to the left;
- *                                       all with an allowance a of 2e-4 m
+ *                                       all with an allowance a of 2e-4 m at 1.75 m
  *     |n.m| <= bound W                  m, divided by W
  *
  * Of an arc that rolls, the centre of pressure is within 4.5 mm of under its centre (gait/arc.h).
@@ -69,7 +69,7 @@ static void friction_rows(const one *c, const double direction[3], const char *l
 /* axis . m - edge n . f >= 0, both times `sign` */
 static void pressure_row(const one *c, const double axis[3], double sign, double edge,
                          const char *side) {
-  ambulo__linear form = {.constant = allowance};
+  ambulo__linear form = {.constant = allowance * ambulo__model_size(c->context->model)};
   ambulo__linear_add(&form, c->moment, axis, sign / c->weight);
   ambulo__linear_add(&form, c->force, c->load.frame.up, -edge / c->weight);
   bounded(c, AMBULO__KIND_PRESSURE, side, side, AMBULO__METRES, &form, 0.0, INFINITY);
@@ -79,12 +79,12 @@ static void pressure_row(const one *c, const double axis[3], double sign, double
 static void arc_rows(const one *c) {
   const ambulo__gait_context *context = c->context;
   const ambulo__contact_load *load = &c->load;
-  ambulo__arc arc = {.room = under_arc,
+  ambulo__arc arc = {.room = under_arc * ambulo__model_size(context->model),
                      .center = ambulo__channel_point(&context->channels, load->arc, 0),
                      .force = c->force,
                      .moment = c->moment,
                      .weight = c->weight,
-                     .slack = allowance};
+                     .slack = allowance * ambulo__model_size(context->model)};
   for (int i = 0; i < 3; i++) {
     arc.forward[i] = load->frame.forward[i];
     arc.left[i] = load->frame.left[i];

@@ -59,6 +59,8 @@ ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_model **model);
 
+/* Stature by 1.75 m, the body for which lengths of the engine are stated; 1: stature unknown. */
+double ambulo__model_size(const ambulo_model *model);
 /* The body weight m |g|, N: what forces are measured by. */
 double ambulo__model_weight(const ambulo_model *model);
 

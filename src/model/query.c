@@ -92,6 +92,10 @@ double ambulo__model_weight(const ambulo_model *model) {
   return model->mass * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
+double ambulo__model_size(const ambulo_model *model) {
+  return model->stature > 0.0 ? model->stature / 1.75 : 1.0;
+}
+
 double ambulo_model_stature(const ambulo_model *model) {
   return model ? model->stature : 0;
 }

@@ -209,6 +209,26 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
   return AMBULO_OK;
 }
 
+/* both of a priced coordinate's limits, for strength that is limits */
+static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
+                                  ambulo_diagnostics *list) {
+  const ambulo_term *term = &d->terms[t];
+  if (!term->strength_is_limits) return AMBULO_OK;
+  if (term->kind != AMBULO_TORQUE_POWER || term->strength)
+    return REFUSE(list, "objective[%d]: strength is limits; expected torque_power without a "
+                        "strength of its own", t);
+  for (int i = 0; i < ambulo_model_coordinate_count(d->model); i++) {
+    const ambulo_coordinate *c = ambulo_model_coordinate(d->model, i);
+    if (ambulo__term_scale(term, i) == 0.0) continue;
+    if (isfinite(c->torque[0]) && isfinite(c->torque[1]) && c->torque[0] < 0.0 &&
+        c->torque[1] > 0.0)
+      continue;
+    return REFUSE(list, "objective[%d]: strength is limits, and %s has none in the model; expected "
+                        "torque limits on both sides of 0, or a scale of 0", t, c->name);
+  }
+  return AMBULO_OK;
+}
+
 static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t,
                                        ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
@@ -236,6 +256,7 @@ static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diag
   for (int t = 0; t < d->term_count; t++) {
     ambulo_status one = check_term(d, t, list);
     if (!one) one = check_term_arrays(d, t, list);
+    if (!one) one = check_limits(d, t, list);
     if (one) status = one;
     total += d->terms[t].weight;
   }

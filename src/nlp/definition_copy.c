@@ -1,6 +1,7 @@
 /* nlp/definition_copy.c - a problem owns every array of its definition. */
 #include "nlp/problem.h"
 
+#include <math.h>
 #include <string.h>
 
 /* a copy of count * size bytes; NULL stays NULL; sets *failed when memory runs out */
@@ -23,6 +24,20 @@ static char *copy_text(const ambulo_allocator *a, const char *text, int *failed)
   return copy;
 }
 
+/* [d][2][3]: torque limits that do not depend on the angle; 0 of those without, which stand for 1 */
+static double *limits_as_strength(const ambulo_allocator *a, const ambulo_model *model,
+                                  int *failed) {
+  size_t count = (size_t)ambulo_model_coordinate_count(model);
+  double *curves = ambulo__alloc(a, 6 * count, sizeof *curves);
+  if (!curves) *failed = 1;
+  for (size_t i = 0; curves && i < count; i++) {
+    const double *torque = ambulo_model_coordinate(model, (int)i)->torque;
+    if (isfinite(torque[1])) curves[6 * i] = torque[1];
+    if (isfinite(torque[0])) curves[6 * i + 3] = -torque[0];
+  }
+  return curves;
+}
+
 static void copy_terms(const ambulo_problem_definition *from, const ambulo_allocator *a,
                        ambulo_problem_definition *to, int *failed) {
   size_t d = (size_t)ambulo_model_coordinate_count(from->model);
@@ -42,7 +57,9 @@ static void copy_terms(const ambulo_problem_definition *from, const ambulo_alloc
     terms[t].scale = copy_array(a, source->scale, d, sizeof(double), failed);
     terms[t].offset = copy_array(a, source->offset, d, sizeof(double), failed);
     terms[t].passive = copy_array(a, source->passive, 4 * d, sizeof(double), failed);
-    terms[t].strength = copy_array(a, source->strength, 6 * d, sizeof(double), failed);
+    terms[t].strength = source->strength_is_limits
+                            ? limits_as_strength(a, from->model, failed)
+                            : copy_array(a, source->strength, 6 * d, sizeof(double), failed);
     terms[t].reference = copy_array(a, source->reference, nodes * d, sizeof(double), failed);
   }
 }

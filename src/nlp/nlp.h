@@ -22,6 +22,14 @@
 #include "trajectory/basis.h"
 #include "trajectory/lane_map.h"
 
+#define AMBULO__COMFORTABLE_NUMBER 0.31 /* v / sqrt(g H): 1.28 m/s for 1.75 m */
+enum { AMBULO__PHASES = 4 }; /* heel_strike, foot_flat, heel_off, toe_off of a gait */
+typedef enum ambulo__phase_kind {
+  AMBULO__PHASE_SHARE,    /* of the stride, at any speed */
+  AMBULO__PHASE_FUNCTION, /* of the speed, as the file has it */
+  AMBULO__PHASE_OF_PEOPLE /* of the speed, the program's own */
+} ambulo__phase_kind;
+
 /* Which keys the problem's file has, for advice in its words; all 0: the problem was made from C.
  */
 typedef struct ambulo__problem_keys {
@@ -37,7 +45,13 @@ typedef struct ambulo__problem_keys {
   int times;        /* as a list */
   int duration;     /* time.duration is there */
   ambulo_gait walk; /* what the keys of the gait come to */
+  ambulo__phase_kind by_speed[AMBULO__PHASES];
+  double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
+  double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */
+  double speed_unit;                  /* sqrt(g H), m/s */
   double radians;   /* per unit of `angles`; 0: not stated */
+  int written_for;  /* numbers of the file are those of another body (reader/problem_written_for.c) */
+  double longer, heavier; /* than that body: ratios of statures and masses; 1 without */
 } ambulo__problem_keys;
 
 struct ambulo__free_section;

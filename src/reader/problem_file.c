@@ -24,8 +24,9 @@ enum { FORMAT_VERSION = 1 };
 static ambulo_status add_section(ambulo__yaml *document, const char *path) {
   static const char *const sections[] = {"subject", "time",        "trajectory",
                                          "gait",    "constraints", "ends",
-                                         "solver",  "ground",      "ground_reaction"};
-  for (int i = 0; i < 9; i++) {
+                                         "solver",  "ground",      "ground_reaction",
+                                         "written_for"};
+  for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
     size_t length = strlen(sections[i]);
     if (strncmp(path, sections[i], length) != 0 || path[length] != '.') continue;
     if (ambulo__yaml_get(ambulo__yaml_root(document), sections[i])) return AMBULO_OK;
@@ -122,6 +123,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return;
   read_header(reader, root);
   read_model(reader, root);
+  ambulo__read_written_for(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
   ambulo__read_constraints(reader, ambulo__reader_section(root, "constraints"));
   static const char *const others[] = {"trajectory", "contacts", "ends",           "objective",
@@ -136,6 +138,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
     ambulo__read_trajectory(reader, root);
     ambulo__read_ends(reader, ambulo__reader_section(root, "ends"));
     ambulo__read_objective(reader, ambulo__yaml_require(root, "objective"));
+    ambulo__scale_to_subject(reader);
   }
   ambulo__yaml_expect(root, "free"); /* once there is a problem */
   ambulo__yaml_close(root);

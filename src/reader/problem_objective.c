@@ -67,7 +67,7 @@ static double *read_offset(ambulo__problem_reader *reader, const ambulo__yaml_no
     if (!value) continue;
     const char *text = ambulo__yaml_text(value);
     if (strcmp(text, "body_weight") == 0) {
-      offset[i] = body_weight_on(reader, value, i);
+      offset[i] = body_weight_on(reader, value, i) / reader->keys.heavier; /* the subject's own */
     } else if (text[0]) {
       offset[i] = ambulo__yaml_number(value, 0.0);
     }
@@ -89,6 +89,17 @@ static double *read_curves(ambulo__problem_reader *reader, const ambulo__yaml_no
   }
   ambulo__yaml_close(node);
   return curves;
+}
+
+/* curves, or the word `limits` */
+static void read_strength(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          ambulo_term *term) {
+  static const char *const words[] = {"limits"};
+  if (node && !ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    term->strength_is_limits = ambulo__yaml_choice(node, words, 1, -1) == 0;
+  } else {
+    term->strength = read_curves(reader, node, 6);
+  }
 }
 
 /* `points: [from, to]`, names of the model's points */
@@ -136,7 +147,7 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_TORQUE_POWER:
     term->power = ambulo__yaml_number_in(ambulo__yaml_get(node, "power"), 2.0, 8.0, term->power);
     term->passive = read_curves(reader, ambulo__yaml_get(node, "passive"), 4);
-    term->strength = read_curves(reader, ambulo__yaml_get(node, "strength"), 6);
+    read_strength(reader, ambulo__yaml_get(node, "strength"), term);
     term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
     break;
   case AMBULO_TORQUE_SQUARED:

@@ -67,7 +67,14 @@ double ambulo__read_coordinate_value(ambulo__problem_reader *reader, const ambul
 void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `gait:` or `contacts:`; after the time, which it may complete. */
 void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `gait.phases`: heel_strike, foot_flat, heel_off, toe_off of a walk at `speed`, m/s, and in
+ * reader->keys how they go with it. 0 after an error. */
+int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
+                        double value[AMBULO__PHASES]);
 void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `written_for`, before all that it scales; and what it scales, once all is read. */
+void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+void ambulo__scale_to_subject(ambulo__problem_reader *reader);
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* The rows' tolerances and the clearance, keys of `constraints`. */
 void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yaml_node *section);

@@ -5,7 +5,8 @@
  * What is missing is computed; what is given must agree. A speed and a time make the length: so a
  * cadence is varied at a given speed. Of a speed alone follow both: people keep
  * the walk ratio of step length and cadence when they walk slower or faster (Sekiya et al. 1996;
- * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute:
+ * down to about 1 m/s: Murakami & Otaka 2017), here W = 0.0035 of the stature per step a minute at
+ * H = 1.75 m, and as H^1.5, so that bodies of one speed number v / sqrt(g H) make alike steps:
  *     v = L C / 60,   L = W C      =>      L = sqrt(60 v W)
  * Two unlike steps: lists of two lengths, of two times.
  */
@@ -214,22 +215,22 @@ static double read_step_time(const ambulo__problem_reader *reader, const ambulo_
   return time ? by_time : by_speed;
 }
 
-/* Phases of a stride when the file says nothing: textbook timing of normal walking (foot
- * flat at about 8 %, heel rise after 38 %, toe-off at 62 %; Perry, Gait Analysis, 1992). */
-static void read_phases(const ambulo__yaml_node *section, ambulo_gait *gait) {
-  const ambulo__yaml_node *phases = ambulo__reader_section(section, "phases");
-  gait->heel_strike =
-      ambulo__yaml_number_in(ambulo__yaml_get(phases, "heel_strike"), -0.49, 0.49, 0.0);
-  gait->foot_flat = ambulo__yaml_number_in(ambulo__yaml_get(phases, "foot_flat"), -0.49, 1.0, 0.08);
-  gait->heel_off = ambulo__yaml_number_in(ambulo__yaml_get(phases, "heel_off"), -0.49, 1.0, 0.38);
-  gait->toe_off = ambulo__yaml_number_in(ambulo__yaml_get(phases, "toe_off"), -0.49, 1.0, 0.62);
-  if (!phases) return;
-  ambulo__yaml_close(phases);
-  if (gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
-      gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0) {
-    return;
-  }
-  (void)ambulo__yaml_error(phases, AMBULO_E_PROBLEM, NULL,
+static int phases_are_in_order(const ambulo_gait *gait) {
+  return gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
+         gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
+}
+
+static void read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                        ambulo_gait *gait) {
+  const ambulo__yaml_node *node = ambulo__yaml_get(section, "phases");
+  double speed = ambulo__gait_place(gait, gait->steps) / ambulo__gait_strike(gait, gait->steps);
+  double *const phase[AMBULO__PHASES] = {&gait->heel_strike, &gait->foot_flat, &gait->heel_off,
+                                         &gait->toe_off};
+  double value[AMBULO__PHASES];
+  if (!ambulo__read_phases(reader, node, speed, value)) return;
+  for (int i = 0; i < AMBULO__PHASES; i++) *phase[i] = value[i];
+  if (!node || phases_are_in_order(gait)) return;
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
                            "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
                            "foot_flat <= heel_off <= toe_off < heel_strike + 1",
                            gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off);
@@ -291,7 +292,7 @@ static double given_step_time(const ambulo__problem_reader *reader, const walkin
 static void read_step_lengths(const ambulo__problem_reader *reader,
                               const ambulo__yaml_node *section, const walking_pace *pace,
                               ambulo_gait *gait) {
-  const double walk_ratio = 0.0035; /* statures per (step / min) */
+  const double walk_ratio = 0.0035, usual = 1.75; /* statures per (step / min) at m */
   const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
   double stature = ambulo_model_stature(reader->model);
   double by_time = pace->speed * given_step_time(reader, pace, gait->steps);
@@ -304,7 +305,7 @@ static void read_step_lengths(const ambulo__problem_reader *reader,
     gait->step_length = by_time;
   } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
     double speed = isnan(pace->speed) ? 1.0 : pace->speed;
-    gait->step_length = sqrt(60.0 * speed * walk_ratio * stature);
+    gait->step_length = sqrt(60.0 * speed * walk_ratio * stature * sqrt(stature / usual));
   } else {
     gait->step_length =
         ambulo__yaml_number_in(ambulo__yaml_require(section, "step_length"), -10.0, 10.0, 0.0);
@@ -322,12 +323,13 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
   const walking_pace pace = read_pace(section);
   read_step_lengths(reader, section, &pace, &gait);
-  gait.step_width = ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0, 10.0,
-                                           neutral_width(reader->model));
+  double longer = reader->keys.longer > 0.0 ? reader->keys.longer : 1.0;
+  gait.step_width = longer * ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0,
+                                                    10.0, neutral_width(reader->model) / longer);
   gait.start = ambulo__yaml_number_in(ambulo__yaml_get(section, "start"), -1e3, 1e3, 0.0);
-  read_phases(section, &gait);
   if (!read_two_times(reader, section, &pace, &gait))
     gait.step_time = read_step_time(reader, section, &pace, &gait);
+  read_phases(reader, section, &gait);
   ambulo__yaml_close(section);
   if (!reader->has_duration) reader->definition.duration = ambulo__gait_strike(&gait, gait.steps);
   reader->definition.travel = ambulo__gait_place(&gait, gait.steps);

@@ -3,6 +3,7 @@
 
 #include "model/model.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -41,12 +42,33 @@ void ambulo__parameter_with(ambulo__parameters *p, double sign, const char *name
   if ((size_t)(comma + length) >= room) p->count--;
 }
 
+/* what a file's number is multiplied by where it is written for another body; 0: not known */
+static double size_of(const ambulo__problem_keys *keys, const char *name) {
+  static const char *const lengths[] = {"gait.step_width",
+                                        "constraints.contact_tolerance",
+                                        "constraints.zmp_margin",
+                                        "constraints.clearance.height",
+                                        "constraints.clearance.ceiling",
+                                        "constraints.clearance.outward",
+                                        "constraints.clearance.inward",
+                                        "constraints.clearance.feet",
+                                        "ground_reaction.moment_arm",
+                                        "ground_reaction.free_moment",
+                                        "ground_reaction.pressure."};
+  if (!keys->written_for) return 1.0;
+  if (strncmp(name, "objective[", 10) == 0) return 0.0;
+  if (strcmp(name, "ground_reaction.loading_rate") == 0) return 1.0 / sqrt(keys->longer);
+  for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
+    if (strncmp(name, lengths[i], strlen(lengths[i])) == 0) return keys->longer;
+  return 1.0;
+}
+
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *p) {
   const ambulo__model_units *units = &problem->model->units;
   int of_model = strncmp(p->name, "model.", 6) == 0;
   int turns = p->quantity == AMBULO__ANGLE || p->quantity == AMBULO__TURNING_SPEED ||
               p->quantity == AMBULO__TURNING_JOLT;
-  if (!of_model) return turns ? problem->keys.radians : 1.0;
+  if (!of_model) return size_of(&problem->keys, p->name) * (turns ? problem->keys.radians : 1.0);
   if (turns) return units->angle;
   if (p->quantity == AMBULO__TORQUE) return units->moment;
   return p->quantity == AMBULO__FORCE ? units->force : units->length;

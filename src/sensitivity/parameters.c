@@ -155,6 +155,32 @@ static double by_strength(const ambulo_problem *problem, const ambulo__partials 
   return sum;
 }
 
+/* d/d ln M of terms that are written for another body (reader/problem_written_for.c); NaN: not known
+ */
+static double by_written_for(const ambulo__parameters *p) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  const ambulo__partials *by = p->partials;
+  double sum = 0.0;
+  for (int t = 0; p->problem->keys.written_for && t < d->term_count; t++) {
+    const ambulo_term *term = &d->terms[t];
+    int priced = term->kind == AMBULO_TORQUE_POWER && term->strength;
+    int counts = term->kind == AMBULO_TORQUE_POWER || term->kind == AMBULO_TORQUE_SQUARED ||
+                 term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_TORQUE_RATE;
+    if (!counts) continue;
+    if (term->passive) return (double)NAN;
+    for (int i = 0; i < p->problem->coordinates; i++) {
+      size_t at = (size_t)t * (size_t)p->problem->coordinates + (size_t)i;
+      if (!priced && ambulo__term_scale(term, i) != 0.0)
+        sum -= by->scale[at] * ambulo__term_scale(term, i);
+      if (term->offset) sum += by->offset[at] * term->offset[i];
+      if (!priced || term->strength_is_limits) continue;
+      sum += by->strength[2 * at] * term->strength[6 * i];
+      sum += by->strength[2 * at + 1] * term->strength[6 * i + 3];
+    }
+  }
+  return sum;
+}
+
 static void add_body(ambulo__parameters *p) {
   const ambulo_model *model = p->problem->model;
   const double *g = model->gravity;
@@ -164,10 +190,10 @@ static void add_body(ambulo__parameters *p) {
     along[1] -= g[i] * model->forward[i];
   }
   if (mass == 0.0) mass = model->mass - model->load.mass; /* made from C */
-  if (mass > 0.0 && model->units.mass != 1.0)
-    ambulo__parameter_add(p, AMBULO__MASS, mass,
-                          (p->partials->body + by_strength(p->problem, p->partials)) / mass,
-                          "body mass", "subject.mass");
+  double by_mass =
+      p->partials->body + by_strength(p->problem, p->partials) + by_written_for(p);
+  if (mass > 0.0 && model->units.mass != 1.0 && isfinite(by_mass))
+    ambulo__parameter_add(p, AMBULO__MASS, mass, by_mass / mass, "body mass", "subject.mass");
   if (model->load.mass > 0.0)
     ambulo__parameter_add(p, AMBULO__MASS, model->load.mass, p->partials->load, "load",
                           "load.mass");

@@ -82,6 +82,8 @@ void ambulo__parameters_of_footholds(ambulo__parameters *parameters);
  */
 int ambulo__footholds_meet(const ambulo_problem_definition *definition);
 void ambulo__parameters_of_events(ambulo__parameters *parameters);
+/* dL/dv through phases that are functions of the speed v; 0: none is; NaN: they have none. */
+double ambulo__phases_by_speed(const ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);
 
 /* ambulo_sensitivities of a point that may not be optimal: as good as it is. */

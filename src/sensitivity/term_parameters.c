@@ -104,7 +104,7 @@ static void add_coordinate(const term_keys *t, int i) {
   if (t->term->kind != AMBULO_ACCELERATION && t->term->kind != AMBULO_TRACKING &&
       t->term->kind != AMBULO_MECHANICAL_POWER && t->term->kind != AMBULO_TORQUE_RATE)
     add_offset(t, i);
-  if (t->term->strength) add_strength(t, i);
+  if (t->term->strength && !t->term->strength_is_limits) add_strength(t, i);
 }
 
 void ambulo__parameters_of_terms(ambulo__parameters *p) {

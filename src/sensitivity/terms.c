@@ -105,7 +105,13 @@ static void strength_form(const term_sum *t, int i, const ambulo__form *form, do
   if (!t->term->strength) return;
   int down = form->u < 0.0;
   double peak = t->term->strength[6 * i + 3 * down];
-  if (peak > 0.0) t->partials->strength[2 * at + (size_t)down] -= slope * form->u / peak;
+  if (!(peak > 0.0)) return;
+  if (t->term->strength_is_limits) {
+    int limit = AMBULO_LIMITED_TORQUE * t->s->problem->coordinates + i;
+    t->partials->limit[2 * limit + !down] -= (down ? -1.0 : 1.0) * slope * form->u / peak;
+  } else {
+    t->partials->strength[2 * at + (size_t)down] -= slope * form->u / peak;
+  }
 }
 
 static void clearance_form(const term_sum *t, const ambulo__term_context *context, int node, int j,

@@ -9,6 +9,9 @@
  * of another phase, or 0 or T, is at the same time, so that nodes come or go (ends of listed
  * contacts at one time move together); nor for what stays in seconds while nodes move: references,
  * tubes, functions of the caller.
+ *
+ * A phase by speed, f = comfortable + slope (v / sqrt(g H) - 0.31), has df/dcomfortable = 1, and
+ * brings dL/dv = dL/df slope / sqrt(g H) to all that changes the speed.
  */
 #include "sensitivity/parameters.h"
 
@@ -19,7 +22,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { PHASES = 4, FIRST_STEP = -3 }; /* steps that reach into the motion: gait/expand.c */
+enum { PHASES = AMBULO__PHASES, FIRST_STEP = -3 }; /* steps that reach into the motion: gait/expand.c */
 
 typedef struct stride {
   const ambulo__parameters *p;
@@ -62,20 +65,46 @@ static double pull_of(const stride *s, int phase) {
   return sum;
 }
 
+static stride stride_of(const ambulo__parameters *p) {
+  const ambulo_gait *gait = &p->problem->keys.walk;
+  return (stride){p,
+                  gait,
+                  {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off},
+                  ambulo__gait_strike(gait, 2)};
+}
+
+/* something stays in seconds while nodes move, or they do not move */
+static int stays(const ambulo__parameters *p) {
+  const ambulo_problem_definition *d = &p->problem->definition;
+  int some = d->user_row_count > 0 || d->tube_count > 0 || p->partials->events == 0;
+  for (int t = 0; t < d->term_count; t++) some |= d->terms[t].function || d->terms[t].reference;
+  return some;
+}
+
+double ambulo__phases_by_speed(const ambulo__parameters *p) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  const stride s = stride_of(p);
+  double sum = 0.0;
+  for (int phase = 0; phase < PHASES; phase++) {
+    if (!keys->by_speed[phase] || keys->phase_slope[phase] == 0.0) continue;
+    sum += stays(p) ? (double)NAN : pull_of(&s, phase) * keys->phase_slope[phase];
+  }
+  return sum == 0.0 ? 0.0 : sum / keys->speed_unit;
+}
+
 /* (S.14) S sum dL/de */
 static void add_phases(ambulo__parameters *p) {
   static const char *const keys[PHASES] = {"heel_strike", "foot_flat", "heel_off", "toe_off"};
   static const char *const words[PHASES] = {"heel strike", "foot flat", "heel off", "toe-off"};
-  const ambulo_gait *gait = &p->problem->keys.walk;
-  const stride s = {p,
-                    gait,
-                    {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off},
-                    ambulo__gait_strike(gait, 2)};
+  const ambulo__problem_keys *of = &p->problem->keys;
+  const stride s = stride_of(p);
   for (int phase = 0; phase < PHASES; phase++) {
-    double pull = pull_of(&s, phase);
-    if (isfinite(pull))
-      ambulo__parameter_add(p, AMBULO__STRIDE_SHARE, s.phase[phase], pull, words[phase],
-                            "gait.phases.%s", keys[phase]);
+    double pull = pull_of(&s, phase), beyond = of->speed_number - AMBULO__COMFORTABLE_NUMBER;
+    if (!isfinite(pull) || of->by_speed[phase] == AMBULO__PHASE_OF_PEOPLE) continue;
+    double value = s.phase[phase] - of->phase_slope[phase] * beyond;
+    ambulo__parameter_add(p, AMBULO__STRIDE_SHARE, of->by_speed[phase] ? value : s.phase[phase],
+                          pull, words[phase], "gait.phases.%s%s", keys[phase],
+                          of->by_speed[phase] ? ".comfortable" : "");
   }
 }
 
@@ -117,9 +146,7 @@ static void add_contact_time(ambulo__parameters *p, int first) {
 
 void ambulo__parameters_of_events(ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
-  int stays = d->user_row_count > 0 || d->tube_count > 0 || p->partials->events == 0;
-  for (int t = 0; t < d->term_count; t++) stays |= d->terms[t].function || d->terms[t].reference;
-  if (stays) return;
+  if (stays(p)) return;
   if (p->problem->keys.gait) {
     add_phases(p);
     return;

@@ -11,6 +11,9 @@
  * sqrt(v): dT/dv = -T / (2 v), and dL/dL L / (2 v); where it follows from it and a time, dL/dL S
  * alone step width W     sum dL/dplace_l place_l / W
  *
+ * Each of them but the width adds dL/dv dv/dp through phases by speed (time_parameters.c), where
+ * v = x_steps / T: dv/dp = (dx_steps/dp - v dT/dp) / T; without those dL/dv it is left out.
+ *
  * T has no partial where other times stay in seconds: contacts that are listed, breakpoints, steps
  * of two times, references, functions of the caller.
  */
@@ -69,6 +72,16 @@ static int length_follows(const ambulo__problem_keys *keys) {
   return keys->speed && !keys->length && (keys->duration || keys->step_time || keys->times);
 }
 
+/* df*_dp with what phases by speed bring; NaN: there is none. `longer` dT/dp, `further` dx/dp */
+static double with_phases(const ambulo__parameters *p, double by, double longer, double further) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  double duration = p->problem->definition.duration;
+  if (!keys->gait) return by;
+  double speed = ambulo__gait_place(&keys->walk, keys->walk.steps) / duration;
+  double faster = (further - speed * longer) / duration;
+  return fabs(faster) <= 1e-12 ? by : by + faster * ambulo__phases_by_speed(p);
+}
+
 static void add_time(ambulo__parameters *p, double by_length) {
   const ambulo__problem_keys *keys = &p->problem->keys;
   const ambulo_gait *gait = &keys->walk;
@@ -76,6 +89,8 @@ static void add_time(ambulo__parameters *p, double by_length) {
   double speed = length_follows(keys) ? ambulo__gait_place(gait, gait->steps) / duration : 0.0;
   int in_steps = keys->gait && !keys->duration;
   double by = p->partials->duration + (speed > 0.0 ? by_length * speed / steps : 0.0);
+  by = with_phases(p, by, 1.0, speed);
+  if (!isfinite(by)) return;
   if (in_steps) {
     ambulo__parameter_add(p, AMBULO__TIME, gait->step_time, steps * by, "step time",
                           "gait.step_time");
@@ -96,7 +111,9 @@ static void add_speed(ambulo__parameters *p, double by_length) {
     length = keys->length ? 0.0 : gait->step_length / (2.0 * speed);
     by = -(keys->length ? 1.0 : 0.5) * p->partials->duration * duration / speed;
   }
-  ambulo__parameter_add(p, AMBULO__SPEED, speed, by + length * by_length, "speed", "gait.speed");
+  by += length * by_length + ambulo__phases_by_speed(p);
+  if (!isfinite(by)) return;
+  ambulo__parameter_add(p, AMBULO__SPEED, speed, by, "speed", "gait.speed");
   ambulo__parameter_travels(p, length * steps);
 }
 
@@ -119,16 +136,18 @@ static void add_lengths(ambulo__parameters *p, const double by[2]) {
     slower = p->partials->duration * p->problem->definition.duration /
              ambulo__gait_place(gait, gait->steps);
   count_steps(gait->steps, count);
+  double faster = with_phases(p, 0.0, 0.0, follows_speed ? 0.0 : 1.0); /* of 1 m of the walk */
+  if (!isfinite(faster)) return;
   if (!keys->lengths) {
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length,
-                          by[0] + by[1] + slower * gait->steps, "step length", "gait.step_length");
+                          by[0] + by[1] + (slower + faster) * gait->steps, "step length", "gait.step_length");
     ambulo__parameter_travels(p, gait->steps);
     return;
   }
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length, by[0] + slower * count[0],
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length, by[0] + (slower + faster) * count[0],
                         "length of odd steps", "gait.step_length[0]");
   ambulo__parameter_travels(p, count[0]);
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->other_step_length, by[1] + slower * count[1],
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->other_step_length, by[1] + (slower + faster) * count[1],
                         "length of even steps", "gait.step_length[1]");
   ambulo__parameter_travels(p, count[1]);
 }

@@ -38,6 +38,27 @@ static void bounds_are_read_in_units_of_the_file(void **state) {
   ambulo_problem_free(p);
 }
 
+/* lengths of a file that is written for another body are in its metres */
+static void bounds_are_those_of_the_body_that_is_written_for(void **state) {
+  (void)state;
+#define LARGE                                                                                \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 20}\n"            \
+  "subject: {mass: 75, stature: 2.1}\nwritten_for: {mass: 75, stature: 1.75}\n"              \
+  "objective: [{term: torque_squared}]\nends: {kind: mirrored}\n"                           \
+  "gait: {steps: 1, first_foot: left, speed: 1.4, step_width: 0.1}\n"
+  ambulo_problem *p = problem_of(LARGE "free: {gait.step_width: [0.05, 0.2]}\n"), *at = NULL;
+  ambulo_parameters free = ambulo_problem_parameters(p);
+  assert_close(free.items[0].lower, 0.06, 1e-15);
+  assert_close(free.items[0].upper, 0.24, 1e-15);
+  const double wide = 0.18;
+  assert_int_equal(ambulo_problem_at(p, &wide, NULL, NULL, &at), AMBULO_OK);
+  assert_close(at->keys.walk.step_width, 0.18, 1e-15);
+  ambulo_problem_free(at);
+  ambulo_problem_free(p);
+  expect_refusal(LARGE "free: {\"objective[torque_squared].weight\": [0.5, 2]}\n", AMBULO_E_SCHEMA,
+                 "cannot be free in a file that is written for another body");
+}
+
 /* what is free, and between which bounds, is another problem to a batch */
 static void the_hash_sees_what_is_free(void **state) {
   (void)state;
@@ -184,6 +205,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bounds_are_read_in_units_of_the_file),
+      cmocka_unit_test(bounds_are_those_of_the_body_that_is_written_for),
       cmocka_unit_test(the_hash_sees_what_is_free),
       cmocka_unit_test(the_file_is_read_again),
       cmocka_unit_test(others_go_along),

@@ -60,8 +60,35 @@ static void faults_are_placed(void **state) {
   expect_refusal(WALKER TIME "objective: [{term: tracking}]\n", AMBULO_E_SCHEMA, "'reference'");
 }
 
+/* [d][2][3]: the model's torque limits, at any angle */
+static void limits_are_strength(void **state) {
+  (void)state;
+#define WITH(strength)                                                                     \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n" \
+  "objective:\n  - {term: torque_power, scale: {default: 0, ankle_angle_r: 0.7}" strength "}\n"
+  ambulo_problem *p = problem_of(WITH(", strength: limits"));
+  const ambulo_term *term = &p->definition.terms[0];
+  int ankle = ambulo_model_find_coordinate(p->model, "ankle_angle_r");
+  const double *limit = ambulo_model_coordinate(p->model, ankle)->torque;
+  assert_true(limit[0] < -100.0 && limit[1] > 20.0 && limit[1] < 100.0);
+  assert_close(term->strength[6 * ankle], limit[1], 0.0);
+  assert_close(term->strength[6 * ankle + 3], -limit[0], 0.0);
+  for (int k = 1; k < 6; k += 1 + (k == 2))
+    assert_close(term->strength[6 * ankle + k], 0.0, 0.0); /* c2, c3 */
+  ambulo_problem *without = problem_of(WITH(""));
+  assert_true(ambulo_problem_hash(p) != ambulo_problem_hash(without));
+  ambulo_problem_free(without);
+  ambulo_problem_free(p);
+  expect_refusal(WITH(", strength: limit"), AMBULO_E_SCHEMA, "limits");
+  expect_refusal("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
+                 "time: {intervals: 6, duration: 1}\n"
+                 "objective: [{term: torque_power, strength: limits}]\n",
+                 AMBULO_E_PROBLEM, "pelvis_tx has none in the model");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(terms_are_read),
+                                     cmocka_unit_test(limits_are_strength),
                                      cmocka_unit_test(faults_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

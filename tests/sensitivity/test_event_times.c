@@ -4,6 +4,52 @@
 
 #define ON_EVENTS "time.grid=events", "trajectory.knots=events"
 
+#define BY_SPEED "time.duration=null", "gait.step_length=null", "gait.speed=1.4"
+
+/* what changes the speed moves the phases along */
+static void phases_by_speed(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_normal.yaml",
+      {BY_SPEED, "gait.phases={foot_flat: {slope: 0.05}, toe_off: {comfortable: 0.61, slope: -0.3}}",
+       "written_for={mass: 60, stature: 1.6}", "trajectory.knots=events"},
+      {"gait.speed", "gait.phases.foot_flat.comfortable", "gait.phases.toe_off.comfortable",
+       "gait.phases.heel_off", "gait.step_width", "subject.mass", "constraints.contact_tolerance",
+       "ground_reaction.moment_arm", "constraints.orientation_tolerance",
+       "constraints.clearance.height"}};
+  check(&c, "gait.phases.toe_off");
+  static const setting time = {
+      "models/walk_normal.yaml",
+      {"time.duration=null", "gait.step_time=0.5", "gait.phases=by_speed"},
+      {"gait.step_time", "gait.step_length"}};
+  check(&time, "gait.phases.toe_off.comfortable");
+}
+
+/* without nodes on events phases have no derivative, and then the speed has none either */
+static void phases_by_speed_between_nodes(void **state) {
+  (void)state;
+  static const setting c = {
+      "tests/two_step/walk_fast.yaml", {"gait.phases=by_speed"}, {"gait.step_width"}};
+  expect_absent(&c, (const char *const[]){"gait.speed", NULL});
+  static const setting fixed = {"tests/two_step/walk_fast.yaml", {NULL}, {"gait.speed"}};
+  check(&fixed, NULL);
+}
+
+/* torques counted in shares of the model's limits, which have the price then */
+static void limits_as_strength(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_normal.yaml",
+      {"objective[torque_power].strength=limits",
+       "objective[torque_power].scale={default: 0, hip_flexion_r: 1, hip_flexion_l: 1, "
+       "ankle_angle_r: 2, ankle_angle_l: 2, hip_adduction_r: 1, hip_adduction_l: 1}",
+       "written_for={mass: 60, stature: 1.6}"},
+      {"subject.mass", "model.links[talus_r].coordinate.torque[0]",
+       "model.links[talus_r].coordinate.torque[1]",
+       "model.links[hip_flexion_r].coordinate.torque[0]"}};
+  check(&c, "objective[torque_power].strength.ankle_angle_r[0]");
+}
+
 /* a node on an event has rows of both contacts, and half an interval of either length */
 static void a_planar_step_on_events(void **state) {
   (void)state;
@@ -153,6 +199,9 @@ static void node_times_have_no_duration(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(phases_by_speed),
+      cmocka_unit_test(phases_by_speed_between_nodes),
+      cmocka_unit_test(limits_as_strength),
       cmocka_unit_test(a_planar_step_on_events),
       cmocka_unit_test(four_steps_on_hulls_on_events),
       cmocka_unit_test(contacts_one_by_one_on_events),

@@ -10,6 +10,17 @@
 
 enum { MOST_WITH = 6 };
 
+/* ... where the file is written for another body; NAN: of terms, whose units are many */
+static inline double size_in_file(const ambulo_problem *problem, const ambulo_sensitivity *s) {
+  const ambulo__problem_keys *keys = &problem->keys;
+  int of_task = strncmp(s->name, "gait.step_l", 11) == 0 || strstr(s->name, "ground_height") ||
+                strncmp(s->name, "ends.", 5) == 0 || strstr(s->name, "tubes");
+  if (!keys->written_for) return 1.0;
+  if (strncmp(s->name, "objective[", 10) == 0) return (double)NAN;
+  if (strcmp(s->unit, "body weights/s") == 0) return 1.0 / sqrt(keys->longer);
+  return strcmp(s->unit, "m") == 0 && !of_task ? keys->longer : 1.0;
+}
+
 /* SI units and radians per unit of the file */
 static inline double unit_in_file(const ambulo_problem *problem, const ambulo_sensitivity *s) {
   static const char *const cosines[] = {"constraints.orientation_tolerance",
@@ -19,7 +30,9 @@ static inline double unit_in_file(const ambulo_problem *problem, const ambulo_se
   int turns = strncmp(s->unit, "rad", 3) == 0;
   for (int i = 0; i < 2; i++)
     if (strcmp(s->name, cosines[i]) == 0) return 1.0;
-  if (!of_model) return turns && problem->keys.radians > 0.0 ? problem->keys.radians : 1.0;
+  if (!of_model)
+    return size_in_file(problem, s) *
+           (turns && problem->keys.radians > 0.0 ? problem->keys.radians : 1.0);
   if (turns) return units->angle;
   if (strcmp(s->unit, "N m") == 0) return units->moment;
   if (strcmp(s->unit, "N") == 0) return units->force;

@@ -1,0 +1,108 @@
+/* `gait.phases`: shares of the stride, or functions of the speed. */
+#include "reader/problem_text.h"
+
+#define WALK                                                                            \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\nobjective: none\n"              \
+  "time: {intervals: 20, grid: events}\ntrajectory: {knots: events}\n"                  \
+  "ends: {kind: mirrored}\ngait: {steps: 1, first_foot: left, step_width: 0.1, "
+
+#define YARDSTICK                                                       \
+  "ambulo: 1\nkind: problem\nmodel: yardstick_body.yaml\nobjective: none\n" \
+  "time: {intervals: 20}\ngait: {steps: 1, first_foot: left, "
+
+static ambulo_gait walk_of(const char *rest) {
+  char text[1024];
+  (void)snprintf(text, sizeof text, WALK "%s}\n", rest);
+  ambulo_problem *problem = problem_of(text);
+  ambulo_gait walk = problem->keys.walk;
+  ambulo_problem_free(problem);
+  return walk;
+}
+
+static void expect_phases(const ambulo_gait *walk, double flat, double heel, double toe) {
+  assert_close(walk->heel_strike, 0.0, 0.0);
+  assert_close(walk->foot_flat, flat, 1e-14);
+  assert_close(walk->heel_off, heel, 1e-14);
+  assert_close(walk->toe_off, toe, 1e-14);
+}
+
+/* of 1.75 m and 9.81 m/s^2 */
+static double number_of(double speed) {
+  return speed / sqrt(9.81 * 1.75);
+}
+
+static void textbook_timing_is_the_default_at_every_speed(void **state) {
+  (void)state;
+  ambulo_gait slow = walk_of("speed: 0.8"), fast = walk_of("speed: 1.9");
+  expect_phases(&slow, 0.08, 0.38, 0.62);
+  expect_phases(&fast, 0.08, 0.38, 0.62);
+}
+
+static void people_stand_for_less_of_a_fast_stride(void **state) {
+  (void)state;
+  static const double speeds[] = {0.6, 1.28, 2.2};
+  for (int i = 0; i < 3; i++) {
+    char text[64];
+    (void)snprintf(text, sizeof text, "speed: %g, phases: by_speed", speeds[i]);
+    ambulo_gait walk = walk_of(text);
+    double beyond = number_of(speeds[i]) - 0.31;
+    expect_phases(&walk, 0.08, 0.38 - 0.145 * beyond, 0.62 - 0.145 * beyond);
+  }
+  /* Kirtley et al. (1985): 3.5 % of the stride for 1 m/s */
+  ambulo_gait one = walk_of("speed: 1, phases: by_speed");
+  ambulo_gait two = walk_of("speed: 2, phases: by_speed");
+  assert_close(one.toe_off - two.toe_off, 0.035, 2e-4);
+}
+
+static void functions_are_read(void **state) {
+  (void)state;
+  ambulo_gait walk = walk_of("speed: 1.6, phases: {foot_flat: 0.09, heel_off: {slope: 0.1}, "
+                             "toe_off: {comfortable: 0.6, slope: -0.3}}");
+  double beyond = number_of(1.6) - 0.31;
+  expect_phases(&walk, 0.09, 0.38 + 0.1 * beyond, 0.6 - 0.3 * beyond);
+}
+
+/* a stature of 1.4 m at the speed that has the same number */
+static void phases_follow_the_number_and_not_the_speed(void **state) {
+  (void)state;
+  char text[160];
+  (void)snprintf(text, sizeof text, "speed: %.17g, phases: by_speed}\nsubject: {stature: 1.4",
+                 1.6 * sqrt(1.4 / 1.75));
+  ambulo_gait large = walk_of("speed: 1.6, phases: by_speed"), small = walk_of(text);
+  expect_phases(&small, large.foot_flat, large.heel_off, large.toe_off);
+}
+
+/* the speed that a step's length and time make */
+static void lengths_and_times_make_the_speed(void **state) {
+  (void)state;
+  ambulo_gait walk = walk_of("step_length: 0.7, step_time: 0.5, phases: by_speed");
+  expect_phases(&walk, 0.08, 0.38 - 0.145 * (number_of(1.4) - 0.31),
+                0.62 - 0.145 * (number_of(1.4) - 0.31));
+}
+
+static void faults_are_named(void **state) {
+  (void)state;
+  expect_refusal(WALK "speed: 1, phases: by_sped}\n", AMBULO_E_SCHEMA, "by_speed");
+  expect_refusal(WALK "speed: 1, phases: [0, 1]}\n", AMBULO_E_SCHEMA, "'phases' is a list");
+  expect_refusal(WALK "speed: 1, phases: {toe_off: {slop: 1}}}\n", AMBULO_E_SCHEMA, "slop");
+  expect_refusal(WALK "speed: 2, phases: {heel_strike: {slope: 9}}}\n", AMBULO_E_PROBLEM,
+                 "heel_strike is at 1.5");
+  expect_refusal(WALK "speed: 2, phases: {toe_off: {slope: -2}}}\n", AMBULO_E_PROBLEM,
+                 "expected heel_strike <= foot_flat <= heel_off <= toe_off");
+  expect_refusal(YARDSTICK "step_length: 0.6, step_time: 0.5, phases: by_speed}\n",
+                 AMBULO_E_PROBLEM, "phases by speed of a model without stature");
+  expect_refusal(YARDSTICK "step_length: 0.6, step_time: 0.5, phases: {toe_off: {slope: 0}}}\n",
+                 AMBULO_E_PROBLEM, "a phase by speed of a model without stature");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(textbook_timing_is_the_default_at_every_speed),
+      cmocka_unit_test(people_stand_for_less_of_a_fast_stride),
+      cmocka_unit_test(functions_are_read),
+      cmocka_unit_test(phases_follow_the_number_and_not_the_speed),
+      cmocka_unit_test(lengths_and_times_make_the_speed),
+      cmocka_unit_test(faults_are_named),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
