@@ -200,6 +200,8 @@ typedef struct ambulo_term {
   int strength_is_limits;        /* 1: the strength of each coordinate is its torque limit in the
                                     model, of positive and of negative torque; `strength` NULL,
                                     scale then is a price (AMBULO_TORQUE_POWER) */
+  const double *price;           /* [d][2]: with strength_is_limits what scale is multiplied by for
+                                    negative, for positive torque, > 0; NULL: 1 */
   int point[2];                  /* model points of AMBULO_UPRIGHT, on one link */
   double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */

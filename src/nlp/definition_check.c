@@ -213,6 +213,8 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
 static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
                                   ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
+  if (!term->strength_is_limits && term->price)
+    return REFUSE(list, "objective[%d]: prices without strength: limits", t);
   if (!term->strength_is_limits) return AMBULO_OK;
   if (term->kind != AMBULO_TORQUE_POWER || term->strength)
     return REFUSE(list, "objective[%d]: strength is limits; expected torque_power without a "
@@ -220,6 +222,12 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
   for (int i = 0; i < ambulo_model_coordinate_count(d->model); i++) {
     const ambulo_coordinate *c = ambulo_model_coordinate(d->model, i);
     if (ambulo__term_scale(term, i) == 0.0) continue;
+    for (int side = 0; side < 2 && term->price; side++) {
+      double price = term->price[2 * i + side];
+      if (!(price > 0.0 && price <= largest))
+        return REFUSE(list, "objective[%d]: a price of %g for %s; expected a positive one", t, price,
+                      c->name);
+    }
     if (isfinite(c->torque[0]) && isfinite(c->torque[1]) && c->torque[0] < 0.0 &&
         c->torque[1] > 0.0)
       continue;

@@ -24,16 +24,16 @@ static char *copy_text(const ambulo_allocator *a, const char *text, int *failed)
   return copy;
 }
 
-/* [d][2][3]: torque limits that do not depend on the angle; 0 of those without, which stand for 1 */
+/* [d][2][3]: torque limits by their prices, which do not depend on the angle; 0 of those without, which stand for 1 */
 static double *limits_as_strength(const ambulo_allocator *a, const ambulo_model *model,
-                                  int *failed) {
+                                  const double *price, int *failed) {
   size_t count = (size_t)ambulo_model_coordinate_count(model);
   double *curves = ambulo__alloc(a, 6 * count, sizeof *curves);
   if (!curves) *failed = 1;
   for (size_t i = 0; curves && i < count; i++) {
     const double *torque = ambulo_model_coordinate(model, (int)i)->torque;
-    if (isfinite(torque[1])) curves[6 * i] = torque[1];
-    if (isfinite(torque[0])) curves[6 * i + 3] = -torque[0];
+    if (isfinite(torque[1])) curves[6 * i] = torque[1] / (price ? price[2 * i + 1] : 1.0);
+    if (isfinite(torque[0])) curves[6 * i + 3] = -torque[0] / (price ? price[2 * i] : 1.0);
   }
   return curves;
 }
@@ -58,8 +58,9 @@ static void copy_terms(const ambulo_problem_definition *from, const ambulo_alloc
     terms[t].offset = copy_array(a, source->offset, d, sizeof(double), failed);
     terms[t].passive = copy_array(a, source->passive, 4 * d, sizeof(double), failed);
     terms[t].strength = source->strength_is_limits
-                            ? limits_as_strength(a, from->model, failed)
+                            ? limits_as_strength(a, from->model, source->price, failed)
                             : copy_array(a, source->strength, 6 * d, sizeof(double), failed);
+    terms[t].price = copy_array(a, source->price, 2 * d, sizeof(double), failed);
     terms[t].reference = copy_array(a, source->reference, nodes * d, sizeof(double), failed);
   }
 }
@@ -141,6 +142,7 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->terms[t].offset);
     release(a, d->terms[t].passive);
     release(a, d->terms[t].strength);
+    release(a, d->terms[t].price);
     release(a, d->terms[t].reference);
   }
   for (int t = 0; t < d->tube_count; t++) {

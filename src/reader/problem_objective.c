@@ -16,8 +16,10 @@ static double *coordinate_array(ambulo__problem_reader *reader, double value) {
   return array;
 }
 
-/* a number for all coordinates, or a mapping with `default` for those it does not name */
-static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+/* a number for all coordinates, or a mapping with `default` for those it does not name; a pair of
+ * prices (read_prices) is 1 here */
+static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                          int may_be_pairs) {
   if (!node) return coordinate_array(reader, 1.0);
   if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     return coordinate_array(reader, ambulo__yaml_number_in(node, 0.0, 1e12, 1.0));
@@ -27,7 +29,10 @@ static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_nod
   for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
     const ambulo__yaml_node *value =
         ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
+    if (may_be_pairs && ambulo__yaml_is(value, AMBULO__YAML_SEQUENCE))
+      scale[i] = 1.0;
+    else
+      scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
   }
   ambulo__yaml_close(node);
   return scale;
@@ -91,12 +96,29 @@ static double *read_curves(ambulo__problem_reader *reader, const ambulo__yaml_no
   return curves;
 }
 
+/* prices in `scale: {coordinate: [negative, positive]}` of strength that is limits; NULL: none */
+static double *read_prices(ambulo__problem_reader *reader, const ambulo__yaml_node *scale) {
+  int count = ambulo_model_coordinate_count(reader->model), some = 0;
+  if (!ambulo__yaml_is(scale, AMBULO__YAML_MAPPING)) return NULL;
+  double *price = ambulo__reader_alloc(reader, 2 * (size_t)count, sizeof *price);
+  for (int i = 0; price && i < count; i++) {
+    const ambulo__yaml_node *pair =
+        ambulo__yaml_get(scale, ambulo_model_coordinate(reader->model, i)->name);
+    price[2 * i] = price[2 * i + 1] = 1.0;
+    if (!ambulo__yaml_is(pair, AMBULO__YAML_SEQUENCE)) continue;
+    (void)ambulo__yaml_numbers(pair, 2, price + 2 * i);
+    some = 1;
+  }
+  return some ? price : NULL;
+}
+
 /* curves, or the word `limits` */
 static void read_strength(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                          ambulo_term *term) {
+                          const ambulo__yaml_node *scale, ambulo_term *term) {
   static const char *const words[] = {"limits"};
   if (node && !ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     term->strength_is_limits = ambulo__yaml_choice(node, words, 1, -1) == 0;
+    term->price = read_prices(reader, scale);
   } else {
     term->strength = read_curves(reader, node, 6);
   }
@@ -147,7 +169,8 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_TORQUE_POWER:
     term->power = ambulo__yaml_number_in(ambulo__yaml_get(node, "power"), 2.0, 8.0, term->power);
     term->passive = read_curves(reader, ambulo__yaml_get(node, "passive"), 4);
-    read_strength(reader, ambulo__yaml_get(node, "strength"), term);
+    read_strength(reader, ambulo__yaml_get(node, "strength"), ambulo__yaml_get(node, "scale"),
+                  term);
     term->offset = read_offset(reader, ambulo__yaml_get(node, "offset"));
     break;
   case AMBULO_TORQUE_SQUARED:
@@ -215,7 +238,9 @@ static void read_term(ambulo__problem_reader *reader, const ambulo__yaml_node *n
   if (name) term->name = ambulo__yaml_name(name);
   term->weight = ambulo__yaml_number_in(ambulo__yaml_get(node, "weight"), 0.0, 1e12, 1.0);
   double *scale = NULL;
-  if (has_scale(term->kind)) scale = read_scale(reader, ambulo__yaml_get(node, "scale"));
+  int priced = term->kind == AMBULO_TORQUE_POWER &&
+               ambulo__yaml_is(ambulo__yaml_get(node, "strength"), AMBULO__YAML_SCALAR);
+  if (has_scale(term->kind)) scale = read_scale(reader, ambulo__yaml_get(node, "scale"), priced);
   if (term->kind == AMBULO_POSTURE)
     scale = read_posture_scale(reader, ambulo__yaml_require(node, "scale"));
   term->scale = scale;

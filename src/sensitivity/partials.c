@@ -19,6 +19,7 @@ ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__poo
   partials->scale = ambulo__pool_doubles(pool, terms * n);
   partials->offset = ambulo__pool_doubles(pool, terms * n);
   partials->strength = ambulo__pool_doubles(pool, 2 * terms * n);
+  partials->price = ambulo__pool_doubles(pool, 2 * terms * n);
   partials->node_time = ambulo__pool_doubles(pool, (size_t)problem->nodes);
   partials->contact_time = ambulo__pool_doubles(pool, 2 * (size_t)d->contact_count);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;

@@ -96,11 +96,40 @@ static void add_strength(const term_keys *t, int i) {
   }
 }
 
+static int has_prices(const term_keys *t, int i) {
+  const double *price = t->term->price;
+  return price && (price[2 * i] != 1.0 || price[2 * i + 1] != 1.0);
+}
+
+static void add_prices(const term_keys *t, int i) {
+  static const char *const words[] = {"price of negative torque", "price of positive torque"};
+  const ambulo_model *model = t->p->problem->model;
+  const double *by = t->p->partials->price + 2 * t->first;
+  double sign;
+  int m = partner_of(t, i, &sign);
+  for (int up = 0; up < 2; up++) {
+    int other = sign < 0.0 ? !up : up;
+    if (m == i && up) continue;
+    char label[AMBULO__PARAMETER_TEXT];
+    (void)snprintf(label, sizeof label, "%s of %s%s in %s", words[up], model->coordinates[i].name,
+                   m >= 0 ? AMBULO__BOTH_OF_A_PAIR : "", t->name);
+    ambulo__parameter_add(t->p, AMBULO__RATIO, t->term->price[2 * i + up],
+                          by[2 * i + up] + (m >= 0 ? by[2 * m + other] : 0.0), label,
+                          "objective[%s].scale.%s[%d]", t->item, model->coordinates[i].name, up);
+    if (m >= 0)
+      ambulo__parameter_with(t->p, 1.0, "objective[%s].scale.%s[%d]", t->item,
+                             model->coordinates[m].name, other);
+  }
+}
+
 static void add_coordinate(const term_keys *t, int i) {
   double sign;
   int m = partner_of(t, i, &sign);
   if (ambulo__term_scale(t->term, i) == 0.0 || (m >= 0 && m < i)) return; /* or said before */
-  if (t->term->scale) add_scale(t, i);
+  if (has_prices(t, i))
+    add_prices(t, i);
+  else if (t->term->scale)
+    add_scale(t, i);
   if (t->term->kind != AMBULO_ACCELERATION && t->term->kind != AMBULO_TRACKING &&
       t->term->kind != AMBULO_MECHANICAL_POWER && t->term->kind != AMBULO_TORQUE_RATE)
     add_offset(t, i);

@@ -6,7 +6,9 @@
  *
  *     u = scale (y - offset)          du/dscale = y - offset,   du/doffset = -scale
  *     torque over strength            du/dscale = u / scale,    du/doffset = -du/dtau,
- *                                     du/dpeak = -u / peak of the direction that acts
+ *                                     du/dpeak = -u / peak of the direction that acts; of a
+ *                                     limit by its price, peak = limit / price, du/dlimit =
+ *                                     -u / limit, du/dprice = u / price
  *     mechanical power, torque rate   du/dscale = u / scale
  *     power tau qd / m                du/d ln m = -u
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
@@ -108,7 +110,9 @@ static void strength_form(const term_sum *t, int i, const ambulo__form *form, do
   if (!(peak > 0.0)) return;
   if (t->term->strength_is_limits) {
     int limit = AMBULO_LIMITED_TORQUE * t->s->problem->coordinates + i;
-    t->partials->limit[2 * limit + !down] -= (down ? -1.0 : 1.0) * slope * form->u / peak;
+    double price = t->term->price ? t->term->price[2 * i + !down] : 1.0;
+    t->partials->limit[2 * limit + !down] -= (down ? -1.0 : 1.0) * slope * form->u / (peak * price);
+    t->partials->price[2 * at + (size_t)!down] += slope * form->u / price;
   } else {
     t->partials->strength[2 * at + (size_t)down] -= slope * form->u / peak;
   }

@@ -80,6 +80,21 @@ static void limits_are_strength(void **state) {
   ambulo_problem_free(without);
   ambulo_problem_free(p);
   expect_refusal(WITH(", strength: limit"), AMBULO_E_SCHEMA, "limits");
+#define PRICED(pair, strength)                                                             \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n" \
+  "objective:\n  - {term: torque_power, scale: {default: 0, ankle_angle_r: " pair "}" strength "}\n"
+  p = problem_of(PRICED("[0.5, 4]", ", strength: limits"));
+  term = &p->definition.terms[0];
+  limit = ambulo_model_coordinate(p->model, ankle)->torque;
+  assert_close(term->scale[ankle], 1.0, 0.0);
+  assert_close(term->strength[6 * ankle], limit[1] / 4.0, 1e-12);
+  assert_close(term->strength[6 * ankle + 3], -limit[0] / 0.5, 1e-12);
+  ambulo_problem_free(p);
+  expect_refusal(PRICED("[0.5, 4]", ""), AMBULO_E_SCHEMA, "got a sequence of 2; expected a number");
+  expect_refusal(PRICED("[0.5, 0]", ", strength: limits"), AMBULO_E_PROBLEM,
+                 "a price of 0 for ankle_angle_r; expected a positive one");
+  expect_refusal(PRICED("[0.5, 1, 2]", ", strength: limits"), AMBULO_E_SCHEMA,
+                 "expected a sequence of 2 numbers");
   expect_refusal("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
                  "time: {intervals: 6, duration: 1}\n"
                  "objective: [{term: torque_power, strength: limits}]\n",

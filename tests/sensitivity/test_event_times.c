@@ -42,12 +42,21 @@ static void limits_as_strength(void **state) {
       "models/walk_normal.yaml",
       {"objective[torque_power].strength=limits",
        "objective[torque_power].scale={default: 0, hip_flexion_r: 1, hip_flexion_l: 1, "
-       "ankle_angle_r: 2, ankle_angle_l: 2, hip_adduction_r: 1, hip_adduction_l: 1}",
-       "written_for={mass: 60, stature: 1.6}"},
-      {"subject.mass", "model.links[talus_r].coordinate.torque[0]",
+       "ankle_angle_r: [2, 3], ankle_angle_l: [2, 3], hip_adduction_r: 1, hip_adduction_l: 1, "
+       "pelvis_list: 0}"},
+      {"subject.mass", "objective[torque_power].scale.ankle_angle_r[0]",
+       "objective[torque_power].scale.ankle_angle_r[1]",
+       "objective[torque_power].scale.hip_flexion_r", "model.links[talus_r].coordinate.torque[0]",
        "model.links[talus_r].coordinate.torque[1]",
        "model.links[hip_flexion_r].coordinate.torque[0]"}};
   check(&c, "objective[torque_power].strength.ankle_angle_r[0]");
+  static const setting of_another = {
+      "models/walk_normal.yaml",
+      {"objective[torque_power].strength=limits",
+       "objective[torque_power].scale={default: 0, ankle_angle_r: [2, 3], ankle_angle_l: [2, 3]}",
+       "written_for={mass: 60, stature: 1.6}"},
+      {"subject.mass", "model.links[talus_r].coordinate.torque[0]"}};
+  check(&of_another, NULL);
 }
 
 /* a node on an event has rows of both contacts, and half an interval of either length */
