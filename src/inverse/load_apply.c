@@ -9,16 +9,6 @@
 
 /* -------------------------------------------------------------------- poses */
 
-/* centre of mass of the body in the pose */
-static void find_center(const ambulo__pose *pose, const ambulo_model *model, double center[3]) {
-  for (int i = 0; i < 3; i++) center[i] = 0.0;
-  for (int link = 0; link < model->link_count; link++) {
-    double at[3], mass = model->links[link].mass;
-    ambulo__pose_point(pose, link, model->links[link].com, at);
-    for (int i = 0; i < 3; i++) center[i] += mass / model->mass * at[i];
-  }
-}
-
 static void find_foot(const ambulo__pose *pose, const ambulo_model *model, int foot,
                       double middle[3]) {
   const ambulo_point *ends[2] = {&model->points[model->feet[foot].heel_center],
@@ -40,7 +30,7 @@ ambulo_status ambulo__load_poses_fill(const ambulo_model *model, const double *q
   size_t d = (size_t)model->coordinate_count, feet = (size_t)model->foot_count;
   for (size_t k = 0; k < (size_t)rows; k++) {
     ambulo__pose_at(&pose, q + k * d);
-    find_center(&pose, model, poses->center + 3 * k);
+    ambulo__pose_center_of_mass(&pose, poses->center + 3 * k);
     for (size_t foot = 0; foot < feet; foot++)
       find_foot(&pose, model, (int)foot, poses->foot + 3 * (k * feet + foot));
   }

@@ -50,6 +50,16 @@ void ambulo__pose_point(const ambulo__pose *pose, int link, const double local[3
         f[4 * r] * local[0] + f[4 * r + 1] * local[1] + f[4 * r + 2] * local[2] + f[4 * r + 3];
 }
 
+void ambulo__pose_center_of_mass(const ambulo__pose *pose, double center[3]) {
+  const ambulo_model *model = pose->model;
+  for (int i = 0; i < 3; i++) center[i] = 0.0;
+  for (int link = 0; link < model->link_count; link++) {
+    double at[3], mass = model->links[link].mass;
+    ambulo__pose_point(pose, link, model->links[link].com, at);
+    for (int i = 0; i < 3; i++) center[i] += mass / model->mass * at[i];
+  }
+}
+
 ambulo_status ambulo__pose_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                   ambulo__pose *pose) {
   ambulo__pose p = {.allocator = ambulo__allocator_or_default(allocator), .model = model};

@@ -23,4 +23,7 @@ void ambulo__pose_at(ambulo__pose *pose, const double *q);
 /* World position of a point of a link (-1: the world). */
 void ambulo__pose_point(const ambulo__pose *pose, int link, const double local[3], double world[3]);
 
+/* Centre of mass of the body, world, m. */
+void ambulo__pose_center_of_mass(const ambulo__pose *pose, double center[3]);
+
 #endif

@@ -1,0 +1,13 @@
+/* report/economy_json.h - "work" and "center_of_mass" of summary.json. */
+#ifndef AMBULO_REPORT_ECONOMY_JSON_H
+#define AMBULO_REPORT_ECONOMY_JSON_H
+
+#include "format/json_text.h"
+#include "nlp/nlp.h"
+
+/* The members; without ground reaction no work, whose torques are not those of joints. Errors:
+ * E_MEMORY. */
+ambulo_status ambulo__economy_json(ambulo__json *json, const ambulo_problem *problem,
+                                   const ambulo_result *result);
+
+#endif

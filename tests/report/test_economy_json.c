@@ -1,0 +1,74 @@
+/* "work" and "center_of_mass" of summary.json. */
+#include "report/economy_json.h"
+#include "stride/economy.h"
+#include "support/test.h"
+#include "support/wellformed.h"
+
+#include "ambulo/ambulo.h"
+
+#include <string.h>
+
+/* {...} of a problem's point of zeros */
+static void write(const char *file, ambulo__text_buffer *text) {
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  ambulo_allocator own = ambulo__allocator_or_default(NULL);
+  assert_int_equal(ambulo_problem_load(file, NULL, 0, NULL, NULL, &problem), AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(problem);
+  options.maximum_iterations = 2;
+  assert_int_equal(ambulo_solve(problem, &options, NULL, NULL, NULL, &result), AMBULO_OK);
+  ambulo__text_init(text, &own);
+  ambulo__json json = {.text = text};
+  ambulo__json_open(&json, NULL, '{');
+  assert_int_equal(ambulo__economy_json(&json, problem, result), AMBULO_OK);
+  ambulo__json_close(&json, '}');
+  assert_true(is_json(ambulo__text_data(text)));
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
+static double number(const char *json, const char *key) {
+  const char *at = strstr(json, key);
+  assert_non_null(at);
+  return strtod(at + strlen(key), NULL);
+}
+
+static void a_walk_says_what_it_costs(void **state) {
+  (void)state;
+  ambulo__text_buffer text;
+  write("models/walk_normal.yaml", &text);
+  const char *json = ambulo__text_data(&text);
+  double positive = number(json, "\"positive\": "), negative = number(json, "\"negative\": ");
+  double distance = number(json, "\"distance\": ");
+  assert_true(positive > 0.0 && negative < 0.0);
+  assert_close(number(json, "\"metabolic\": "), positive / 0.25 - negative / 1.2,
+               1e-9 * positive);
+  assert_close(number(json, "\"positive_per_kg_metre\": "), positive / (75.0 * distance),
+               1e-9 * positive);
+  assert_close(number(json, "\"metabolic_per_kg_metre\": ") * 75.0 * distance,
+               number(json, "\"metabolic\": "), 1e-9 * positive);
+  assert_non_null(strstr(json, "\"ankle_angle_r\": {"));
+  assert_null(strstr(json, "pelvis_tilt"));
+  assert_true(number(json, "\"rise\": ") > 0.0 && number(json, "\"sway\": ") > 0.0);
+  ambulo__text_free(&text);
+}
+
+/* without ground reaction torques are not those of joints; standing there is no metre */
+static void what_there_is_not_is_not_said(void **state) {
+  (void)state;
+  ambulo__text_buffer text;
+  write("models/walk_without_reaction.yaml", &text);
+  assert_null(strstr(ambulo__text_data(&text), "\"work\""));
+  assert_non_null(strstr(ambulo__text_data(&text), "\"center_of_mass\": {"));
+  ambulo__text_free(&text);
+  write("models/stand_quietly.yaml", &text);
+  assert_non_null(strstr(ambulo__text_data(&text), "\"work\": {"));
+  assert_null(strstr(ambulo__text_data(&text), "per_kg_metre"));
+  ambulo__text_free(&text);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_walk_says_what_it_costs),
+                                     cmocka_unit_test(what_there_is_not_is_not_said)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
