@@ -20,35 +20,24 @@ import json, math, os, re, subprocess, sys, tempfile
 import numpy
 
 SAMPLES = 2001
-SETTINGS = [
-    ("uniform 25, K 17 cubic", []),
-    ("uniform 25, K 12 degree 4", ["trajectory.degree=4", "trajectory.intervals=12"]),
-    ("events 25, K 17 cubic", ["time.grid=events"]),
-    ("events 25, K 17 cubic, knots on events", ["time.grid=events", "trajectory.knots=events"]),
-    ("events 25, K 12 degree 4", ["time.grid=events", "trajectory.degree=4",
-                                  "trajectory.intervals=12"]),
-    ("events 25, K 12 degree 4, knots on events",
-     ["time.grid=events", "trajectory.degree=4", "trajectory.intervals=12",
-      "trajectory.knots=events"]),
-    ("events 25, K 14 degree 4, knots on events",
-     ["time.grid=events", "trajectory.degree=4", "trajectory.intervals=14",
-      "trajectory.knots=events"]),
-    ("events 36, K 12 degree 4, knots on events",
-     ["time.grid=events", "time.intervals=36", "trajectory.degree=4", "trajectory.intervals=12",
-      "trajectory.knots=events"]),
-    ("events 36, K 17 cubic, knots on events",
-     ["time.grid=events", "time.intervals=36", "trajectory.knots=events"]),
-    ("events 36, K 17 degree 4, knots on events",
-     ["time.grid=events", "time.intervals=36", "trajectory.degree=4", "trajectory.knots=events"]),
-    ("events 50, K 12 degree 4, knots on events",
-     ["time.grid=events", "time.intervals=50", "trajectory.degree=4", "trajectory.intervals=12",
-      "trajectory.knots=events"]),
-    ("events 50, K 17 cubic, knots on events",
-     ["time.grid=events", "time.intervals=50", "trajectory.knots=events"]),
-]
-FINE = ["time.grid=events", "trajectory.degree=4", "trajectory.intervals=48",
-        "trajectory.knots=events", "time.intervals=100"]
-FINEST = FINE[:-1] + ["time.intervals=400"]
+
+
+def grid(nodes, pieces, degree, uniform=False, knots=False):
+    """label and settings of a grid"""
+    label = "%s %d, K %d %s%s" % ("uniform" if uniform else "events", nodes, pieces,
+                                  "cubic" if degree == 3 else "degree %d" % degree,
+                                  ", knots on events" if knots else "")
+    return label, ["time.grid=" + ("uniform" if uniform else "events"), "time.intervals=%d" % nodes,
+                   "trajectory.degree=%d" % degree, "trajectory.intervals=%d" % pieces,
+                   "trajectory.knots=" + ("events" if knots else "uniform")]
+
+
+SETTINGS = [grid(25, 17, 3, uniform=True), grid(25, 12, 4, uniform=True),
+            grid(25, 17, 3), grid(25, 17, 3, knots=True),
+            grid(25, 12, 4), grid(25, 12, 4, knots=True), grid(25, 14, 4, knots=True),
+            grid(36, 12, 4, knots=True), grid(36, 17, 3, knots=True), grid(36, 17, 4, knots=True),
+            grid(50, 12, 4, knots=True), grid(50, 17, 3, knots=True)]
+FINE, FINEST = grid(100, 48, 4, knots=True), grid(400, 48, 4, knots=True)
 
 
 def solve(program, problem, settings, folder):
@@ -102,23 +91,15 @@ def curves(folder, mass):
 
 
 def row(program, problem, settings, folder):
-    seconds = []
-    for _ in range(5):
-        summary = solve(program, problem, settings, folder)
-        seconds.append(summary["seconds"]["total"] if isinstance(summary["seconds"], dict)
-                       else summary["seconds"])
-    objective = summary["objective"]
-    objective = objective["total"] if isinstance(objective, dict) else objective
-    mass = summary["body"]["mass"]
-    worst = {}
-    for family in summary["between_nodes"]["families"]:
-        worst[(family["family"], family["unit"])] = family["worst"]
-    turns, rms = curves(folder, mass)
-    return summary["verdict"], objective, worst, turns, rms, min(seconds)
+    summaries = [solve(program, problem, settings, folder) for _ in range(5)]
+    summary, seconds = summaries[-1], min(s["seconds"]["total"] for s in summaries)
+    worst = {(f["family"], f["unit"]): f["worst"] for f in summary["between_nodes"]["families"]}
+    turns, rms = curves(folder, summary["body"]["mass"])
+    return summary["verdict"], objective_of(summary), worst, turns, rms, seconds
 
 
 def objective_of(summary):
-    return summary["objective"]["total"] if isinstance(summary["objective"], dict) else summary["objective"]
+    return summary["objective"]["total"]
 
 
 def shipped(program, models, names):
@@ -163,10 +144,9 @@ def main():
         for name in names:
             problem = os.path.join(models, name + ".yaml")
             fine = finest = None
-            for label, settings in [("events 400, K 48 degree 4, knots on events", FINEST),
-                                    ("events 100, K 48 degree 4, knots on events", FINE)] + SETTINGS:
+            for label, settings in [FINEST, FINE] + SETTINGS:
                 verdict, f, worst, turns, rms, seconds = row(program, problem, settings, folder)
-                finest, fine = finest or f, f if settings is FINE else fine or f
+                finest, fine = finest or f, f if settings is FINE[1] else fine or f
                 get = lambda family, unit, factor=1.0: worst.get((family, unit), 0.0) * factor
                 print(f"| {name} | {label} | {f:.5f} | {100.0 * (f / fine - 1.0):+.1f} | {100.0 * (f / finest - 1.0):+.1f}"
                       f" | {get('slip', 'm', 1e3):.2f} | {get('contact', 'm', 1e3):.2f}"

@@ -226,9 +226,9 @@
  * yardstick_72 +18 %. 0 (none): +12 % iterations, +41 % CPU. T: pipeline (0); refine. */
 #define AMBULO__COARSE_INTERVALS 24
 #define AMBULO__COARSEST_INTERVALS 8
-/* intervals of a coarse grid for each knot interval that its trajectory keeps. Over 29 shipped
- * problems: 3: +4 % CPU; 1.6: +20 %; in proportion: +60 %, walk_stop takes 280 iterations, not 40.
- * T: refine. */
+/* intervals of a coarse grid for each knot interval that its trajectory keeps. Over 33 problems,
+ * those of tests/two_step among them, 1030 iterations; 1: +30 %; 3: +4 %; in proportion: +62 %
+ * (sit_to_stand 509 for 52, walk_stop 112 for 42). T: refine. */
 #define AMBULO__COARSE_NODES_A_KNOT 2
 
 /* -------------------------------------------------------------------- rough starts (smooth.c) */

@@ -49,33 +49,39 @@ static void exchange(double *a, double *b, int count) {
   }
 }
 
-static void mirror_one(const ambulo__stride *s, double *force, double *cop, double *free_moment) {
-  mirror_vector(s->model, force);
-  ambulo__stride_mirror_place(s, cop);
-  *free_moment = -*free_moment;
+/* what feet or patches carry at one time */
+typedef struct carried {
+  double *force, *cop, *free_moment;
+} carried;
+
+static void mirror_all(const ambulo__stride *s, const carried *c, int count) {
+  for (int i = 0; i < count; i++) {
+    mirror_vector(s->model, c->force + 3 * i);
+    ambulo__stride_mirror_place(s, c->cop + 3 * i);
+    c->free_moment[i] = -c->free_moment[i];
+  }
+}
+
+/* i takes the place of m, its mirror image, and m that of i */
+static void exchange_sides(const carried *c, int i, int m) {
+  if (m <= i) return;
+  exchange(c->force + 3 * i, c->force + 3 * m, 3);
+  exchange(c->cop + 3 * i, c->cop + 3 * m, 3);
+  exchange(c->free_moment + i, c->free_moment + m, 1);
 }
 
 void ambulo__stride_feet_mirror(ambulo__stride *s, int k) {
-  size_t first = (size_t)k * (size_t)s->feet, patch = (size_t)k * (size_t)s->patches;
-  for (size_t at = first; at < first + (size_t)s->feet; at++)
-    mirror_one(s, s->grf + 3 * at, s->cop + 3 * at, s->free_moment + at);
-  for (size_t at = patch; at < patch + (size_t)s->patches; at++)
-    mirror_one(s, s->patch_force + 3 * at, s->patch_cop + 3 * at, s->patch_free_moment + at);
-  for (int i = 0; i < s->feet; i++) {
-    int m = s->model->feet[i].mirror;
-    if (m <= i) continue;
-    size_t a = first + (size_t)i, b = first + (size_t)m;
-    exchange(s->grf + 3 * a, s->grf + 3 * b, 3);
-    exchange(s->cop + 3 * a, s->cop + 3 * b, 3);
-    exchange(s->free_moment + a, s->free_moment + b, 1);
+  size_t foot = (size_t)k * (size_t)s->feet, patch = (size_t)k * (size_t)s->patches;
+  if (s->feet > 0) {
+    carried feet = {s->grf + 3 * foot, s->cop + 3 * foot, s->free_moment + foot};
+    mirror_all(s, &feet, s->feet);
+    for (int i = 0; i < s->feet; i++) exchange_sides(&feet, i, s->model->feet[i].mirror);
   }
-  for (int i = 0; i < s->patches; i++) {
-    int m = s->model->patches[i].mirror;
-    if (m <= i) continue;
-    size_t a = patch + (size_t)i, b = patch + (size_t)m;
-    exchange(s->patch_force + 3 * a, s->patch_force + 3 * b, 3);
-    exchange(s->patch_cop + 3 * a, s->patch_cop + 3 * b, 3);
-    exchange(s->patch_free_moment + a, s->patch_free_moment + b, 1);
+  if (s->patches > 0) {
+    carried patches = {s->patch_force + 3 * patch, s->patch_cop + 3 * patch,
+                       s->patch_free_moment + patch};
+    mirror_all(s, &patches, s->patches);
+    for (int i = 0; i < s->patches; i++) exchange_sides(&patches, i, s->model->patches[i].mirror);
   }
 }
 

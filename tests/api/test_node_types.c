@@ -117,6 +117,8 @@ static void sum_up(const reading *r, mutation_places *places) {
                 r->refused);
   mutation_places_free(places);
   assert_int_equal(r->faults, 0);
+  assert_true(r->refused > 10 &&
+              r->refused < r->tried); /* it did look, and not everything is wrong */
 }
 
 /* ------------------------------------------------------------------- models */

@@ -39,6 +39,30 @@ static double worst_error(fixture *f, const char *family) {
   return worst;
 }
 
+/* rows of a family, or of all and the terms (NULL), by hand and by differences */
+static void expect_agreement(fixture *f, const char *family) {
+  double error = worst_error(f, family);
+  if (!(error < 1e-7)) print_error("worst relative error %.3g\n", error);
+  assert_true(error >= 0.0 && error < 1e-7);
+}
+
+/* the reverse sweep over weighted rows is the sum of their own gradients */
+static void expect_sum_of_rows(fixture *f, double objective, const double *weights) {
+  double *row = calloc((size_t)f->n, sizeof *row), *sum = calloc((size_t)f->n, sizeof *sum);
+  assert_int_equal(ambulo_problem_gradient(f->problem, f->workspace, f->x, objective, NULL, sum),
+                   0);
+  for (int r = 0; r < f->m; r++) {
+    if (weights[r] == 0.0) continue;
+    assert_int_equal(ambulo_problem_row_gradient(f->problem, f->workspace, f->x, r, row), 0);
+    for (int j = 0; j < f->n; j++) sum[j] += weights[r] * row[j];
+  }
+  assert_int_equal(
+      ambulo_problem_gradient(f->problem, f->workspace, f->x, objective, weights, f->gradient), 0);
+  for (int j = 0; j < f->n; j++) assert_close(f->gradient[j], sum[j], 1e-10);
+  free(row);
+  free(sum);
+}
+
 static void every_family_and_term_agrees_with_central_differences(void **state) {
   (void)state;
   static double factor = 0.8;
@@ -73,10 +97,8 @@ static void every_family_and_term_agrees_with_central_differences(void **state) 
   definition.ends_order = 2;
   definition.end_value_count = 4; /* those at the start: others would contradict the period */
   fixture_open(&f, &definition);
-  double error = worst_error(&f, NULL);
-  if (!(error < 1e-7)) print_error("worst relative error %.3g\n", error);
-  assert_true(error >= 0.0 && error < 1e-7);
-  assert_true(worst_error(&f, "hand") >= 0.0);
+  expect_agreement(&f, NULL);
+  expect_agreement(&f, "hand");
   fixture_close(&f);
 }
 
@@ -90,7 +112,7 @@ static void a_wrong_callback_is_found(void **state) {
   definition.user_row_count = 1;
   fixture_open(&f, &definition);
   assert_true(worst_error(&f, "hand") > 1e-4);
-  assert_true(worst_error(&f, "torque_limit") < 1e-7);
+  expect_agreement(&f, "torque_limit");
   fixture_close(&f);
 }
 
@@ -102,7 +124,7 @@ static void other_bases_have_right_gradients_too(void **state) {
     definition.discretization = (ambulo_discretization)basis;
     definition.degree = 5;
     fixture_open(&f, &definition);
-    assert_true(worst_error(&f, NULL) < 1e-7);
+    expect_agreement(&f, NULL);
     fixture_close(&f);
   }
 }
@@ -112,21 +134,10 @@ static void weights_combine_objective_and_rows(void **state) {
   fixture f = {.model = arm_create()};
   ambulo_problem_definition definition = arm_definition(f.model);
   fixture_open(&f, &definition);
-  double *weights = calloc((size_t)f.m, sizeof *weights), *row = calloc((size_t)f.n, sizeof *row);
-  double *sum = calloc((size_t)f.n, sizeof *sum);
+  double *weights = calloc((size_t)f.m, sizeof *weights);
   for (int r = 0; r < f.m; r++) weights[r] = r % 3 ? 0.0 : cos(r);
-  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.5, NULL, sum), 0);
-  for (int r = 0; r < f.m; r++) {
-    if (weights[r] == 0.0) continue;
-    assert_int_equal(ambulo_problem_row_gradient(f.problem, f.workspace, f.x, r, row), 0);
-    for (int j = 0; j < f.n; j++) sum[j] += weights[r] * row[j];
-  }
-  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.5, weights, f.gradient),
-                   0);
-  for (int j = 0; j < f.n; j++) assert_close(f.gradient[j], sum[j], 1e-10);
+  expect_sum_of_rows(&f, 0.5, weights);
   free(weights);
-  free(row);
-  free(sum);
   fixture_close(&f);
 }
 
@@ -142,7 +153,7 @@ static void rows_on_unknowns_and_terms_on_one_channel(void **state) {
   fixture_open(&f, &definition);
   double *weights = calloc((size_t)f.m, sizeof *weights);
   double *rows = calloc((size_t)f.m, sizeof *rows);
-  assert_true(worst_error(&f, NULL) < 1e-7);
+  expect_agreement(&f, NULL);
   for (int r = 0; r < f.m; r++) weights[r] = cos(r);
   assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.7, weights, f.gradient),
                    0);
@@ -187,29 +198,20 @@ static void feet_that_pass_agree_with_central_differences(void **state) {
   f.m = f.problem->rows;
   assert_int_equal(ambulo_workspace_create(f.problem, NULL, &f.workspace), AMBULO_OK);
   f.x = calloc((size_t)f.n, sizeof *f.x);
-  double *row = calloc((size_t)f.n, sizeof *row), *sum = calloc((size_t)f.n, sizeof *sum);
+  f.gradient = calloc((size_t)f.n, sizeof *f.gradient);
   double *weights = calloc((size_t)f.m, sizeof *weights);
   for (int j = 0; j < f.n; j++) f.x[j] = 0.2 * sin(3.0 * j);
-  double error = worst_error(&f, "clearance");
-  if (!(error < 1e-7)) print_error("worst relative error %.3g\n", error);
-  assert_true(error >= 0.0 && error < 1e-7);
+  expect_agreement(&f, "clearance");
   int gaps = 0;
   for (int r = 0; r < f.m; r++) {
     const ambulo__curved *curved =
         ambulo__row_curved_of(&f.problem->table, &f.problem->table.rows[r]);
     if (!curved || curved->is_arc) continue;
     weights[r] = cos(gaps++);
-    assert_int_equal(ambulo_problem_row_gradient(f.problem, f.workspace, f.x, r, row), 0);
-    for (int j = 0; j < f.n; j++) sum[j] += weights[r] * row[j];
   }
   assert_true(gaps > 20);
-  f.gradient = calloc((size_t)f.n, sizeof *f.gradient);
-  assert_int_equal(ambulo_problem_gradient(f.problem, f.workspace, f.x, 0.0, weights, f.gradient),
-                   0);
-  for (int j = 0; j < f.n; j++) assert_close(f.gradient[j], sum[j], 1e-10);
+  expect_sum_of_rows(&f, 0.0, weights);
   free(weights);
-  free(row);
-  free(sum);
   fixture_close(&f);
 }
 

@@ -74,50 +74,58 @@ static inline int compare(const setting *c, int count, const ambulo_problem *pro
   return 1;
 }
 
+/* a setting with its numbers at a scattered point */
+typedef struct listed {
+  int count; /* of overrides */
+  ambulo_problem *problem;
+  ambulo_result *result;
+  ambulo_sensitivity_list *list;
+} listed;
+
+static inline listed list_open(const setting *c) {
+  listed l = {0};
+  while (l.count < MOST_OVERRIDES && c->overrides[l.count]) l.count++;
+  assert_int_equal(ambulo_problem_load(c->file, c->overrides, l.count, NULL, NULL, &l.problem),
+                   AMBULO_OK);
+  l.result = scattered(l.problem);
+  assert_int_equal(ambulo_sensitivities(l.problem, l.result, NULL, &l.list), AMBULO_OK);
+  assert_true(l.list->count > 6);
+  return l;
+}
+
+static inline void list_close(listed *l) {
+  ambulo_sensitivities_free(l->list);
+  ambulo_result_free(l->result);
+  ambulo_problem_free(l->problem);
+}
+
+static inline void expect_no_number(const listed *l, const char *name) {
+  for (int i = 0; i < l->list->count; i++) assert_string_not_equal(name, l->list->items[i].name);
+}
+
 /* `unwanted`: a name that has no derivative; NULL */
 static inline void check(const setting *c, const char *unwanted) {
-  int count = 0, compared = 0;
-  ambulo_problem *problem = NULL;
-  ambulo_sensitivity_list *list = NULL;
-  while (count < MOST_OVERRIDES && c->overrides[count]) count++;
-  assert_int_equal(ambulo_problem_load(c->file, c->overrides, count, NULL, NULL, &problem),
-                   AMBULO_OK);
-  ambulo_result *result = scattered(problem);
-  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
-  int found[MOST_WANTED] = {0};
-  for (int i = 0; i < list->count; i++) {
-    int did = compare(c, count, problem, result, &list->items[i]);
+  listed l = list_open(c);
+  int compared = 0, found[MOST_WANTED] = {0};
+  for (int i = 0; i < l.list->count; i++) {
+    const ambulo_sensitivity *s = &l.list->items[i];
+    int did = compare(c, l.count, l.problem, l.result, s);
     compared += did;
     for (int k = 0; k < MOST_WANTED && c->wanted[k]; k++)
-      found[k] |=
-          did && list->items[i].derivative != 0.0 && strcmp(c->wanted[k], list->items[i].name) == 0;
+      found[k] |= did && s->derivative != 0.0 && strcmp(c->wanted[k], s->name) == 0;
   }
   for (int k = 0; k < MOST_WANTED && c->wanted[k]; k++)
     if (!found[k]) fail_msg("%s: %s was not compared", c->file, c->wanted[k]);
-  for (int i = 0; unwanted && i < list->count; i++)
-    assert_string_not_equal(unwanted, list->items[i].name);
+  if (unwanted) expect_no_number(&l, unwanted);
   assert_true(compared > 6);
-  ambulo_sensitivities_free(list);
-  ambulo_result_free(result);
-  ambulo_problem_free(problem);
+  list_close(&l);
 }
 
 /* no number has one of these names; the last is NULL */
 static inline void expect_absent(const setting *c, const char *const *names) {
-  int count = 0;
-  ambulo_problem *problem = NULL;
-  ambulo_sensitivity_list *list = NULL;
-  while (count < MOST_OVERRIDES && c->overrides[count]) count++;
-  assert_int_equal(ambulo_problem_load(c->file, c->overrides, count, NULL, NULL, &problem),
-                   AMBULO_OK);
-  ambulo_result *result = scattered(problem);
-  assert_int_equal(ambulo_sensitivities(problem, result, NULL, &list), AMBULO_OK);
-  assert_true(list->count > 6);
-  for (; *names; names++)
-    for (int i = 0; i < list->count; i++) assert_string_not_equal(*names, list->items[i].name);
-  ambulo_sensitivities_free(list);
-  ambulo_result_free(result);
-  ambulo_problem_free(problem);
+  listed l = list_open(c);
+  for (; *names; names++) expect_no_number(&l, *names);
+  list_close(&l);
 }
 
 #endif
