@@ -92,6 +92,7 @@ typedef struct ambulo_curve_score {
   double within_2sd;      /* share of the points, 0 to 1; NaN: the reference has no deviation */
   double peak, peak_time; /* largest value where the reference is, and percent of the cycle */
   double reference_peak, reference_peak_time;
+  const char *source; /* the people, as the reference's line "# source: ..." names them; or NULL */
 } ambulo_curve_score;
 
 /* A number that gait tables quote: "knee swing peak", "vertical force valley". */
@@ -113,6 +114,13 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(const char *directory,
                                                          const ambulo_allocator *allocator,
                                                          ambulo_diagnostics *diagnostics,
                                                          ambulo_comparison **comparison);
+/* The same against the shipped curves of people in the folder `norms` (models/norms): angles of its
+ * young_adults.csv, moments and forces of its normal_cadence.csv. The motion has to be a walk:
+ * E_SCHEMA for one in which no foot strikes. E_ARGUMENT with a map of the options. */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_compare_norms(const char *directory, const char *norms,
+                     const ambulo_compare_options *options, const ambulo_allocator *allocator,
+                     ambulo_diagnostics *diagnostics, ambulo_comparison **comparison);
 AMBULO_API void ambulo_comparison_free(ambulo_comparison *comparison); /* accepts NULL */
 AMBULO_API int ambulo_comparison_curve_count(const ambulo_comparison *comparison);
 AMBULO_API const ambulo_curve_score *ambulo_comparison_curve(const ambulo_comparison *comparison,
@@ -120,8 +128,8 @@ AMBULO_API const ambulo_curve_score *ambulo_comparison_curve(const ambulo_compar
 AMBULO_API int ambulo_comparison_landmark_count(const ambulo_comparison *comparison);
 AMBULO_API const ambulo_landmark *ambulo_comparison_landmark(const ambulo_comparison *comparison,
                                                              int index);
-/* {"curves": {name: {"rmse", "r", "within_2sd", "peak", "peak_time"}}}; free with
- * ambulo_text_free. */
+/* {"curves": {name: {"rmse", "r", "within_2sd", "peak", "peak_time", "source"}}}, the last where
+ * there is one; free with ambulo_text_free. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_comparison_json(
     const ambulo_comparison *comparison, const ambulo_allocator *allocator, char **text);
 

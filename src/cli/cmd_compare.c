@@ -1,9 +1,10 @@
-/* cli/cmd_compare.c - ambulo compare: a result folder against normative curves. */
+/* cli/cmd_compare.c - ambulo compare: a result folder against curves of people. */
 #include <math.h>
 #include <stdio.h>
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 
 static const double radians_per_degree = 0.017453292519943295;
 
@@ -55,6 +56,22 @@ static void print_curves(const ambulo_comparison *comparison) {
   }
 }
 
+/* who the people are, once for all curves that are theirs */
+static void print_sources(const ambulo_comparison *comparison) {
+  const char *last = NULL;
+  for (int i = 0; i < ambulo_comparison_curve_count(comparison); i++) {
+    const ambulo_curve_score *s = ambulo_comparison_curve(comparison, i);
+    if (!s->source) continue;
+    if (s->source == last) {
+      printf(", %s", s->name);
+    } else {
+      printf("\npeople: %s\n  %s", s->source, s->name);
+    }
+    last = s->source;
+  }
+  if (last) printf("\n");
+}
+
 static void print_landmarks(const ambulo_comparison *comparison) {
   int count = ambulo_comparison_landmark_count(comparison);
   if (count > 0) printf("\n%-28s %-7s %9s %9s\n", "landmark", "unit", "value", "at %");
@@ -67,22 +84,37 @@ static void print_landmarks(const ambulo_comparison *comparison) {
   }
 }
 
+/* against the table that was named, or else the shipped norms */
+static ambulo_status compare(const ambulo__cli_input *input, const ambulo_compare_options *options,
+                             ambulo_diagnostics *diagnostics, ambulo_comparison **comparison) {
+  if (input->argument_count > 1)
+    return ambulo_compare(input->arguments[0], input->arguments[1], options, NULL, diagnostics,
+                          comparison);
+  char folder[4096];
+  int found = ambulo__cli_shipped_file("norms", folder, sizeof folder);
+  return ambulo_compare_norms(input->arguments[0], found ? folder : "norms", options, NULL,
+                              diagnostics, comparison);
+}
+
 static int run(const ambulo__cli_input *input) {
   ambulo_compare_options options = ambulo_compare_options_default();
   int code = read_options(input, &options);
   if (code) return code;
+  if (options.map && input->argument_count < 2)
+    return ambulo__cli_usage_error("compare", NULL,
+                                   "--map names the curves of a table; expected DIR REFERENCE.csv");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo_comparison *comparison = NULL;
   char *text = NULL;
-  ambulo_status status = ambulo_compare(input->arguments[0], input->arguments[1], &options, NULL,
-                                        diagnostics, &comparison);
+  ambulo_status status = compare(input, &options, diagnostics, &comparison);
   if (!status && ambulo__cli_flag(input, "json"))
     status = ambulo_comparison_json(comparison, NULL, &text);
-  code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[1]);
+  code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[input->argument_count - 1]);
   if (text) {
     fputs(text, stdout);
   } else if (!status) {
     print_curves(comparison);
+    print_sources(comparison);
     print_landmarks(comparison);
   }
   ambulo_text_free(text, NULL);
@@ -103,16 +135,19 @@ static const ambulo__cli_option options[] = {
 
 const ambulo__cli_command ambulo__cli_compare = {
     .name = "compare",
-    .arguments = "DIR REFERENCE.csv",
-    .summary = "scores a result folder against normative curves",
+    .arguments = "DIR [REFERENCE.csv]",
+    .summary = "scores a result folder against curves of people",
     .description =
         "Per curve: root mean square error, Pearson's r, share of the cycle within two standard\n"
         "deviations, peak and its time in percent of the cycle from heel strike to heel strike;\n"
-        "then the landmarks that gait tables quote. Layouts and conventions: docs/compare.md.",
-    .example = "ambulo compare walk adults.csv",
+        "then the landmarks that gait tables quote. Without REFERENCE.csv the people are the "
+        "shipped\n"
+        "ones (models/norms): angles of 24 young adults, moments and forces of normal cadence.\n"
+        "Layouts and conventions: docs/compare.md.",
+    .example = "ambulo compare walk\nambulo compare walk adults.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
-    .minimum = 2,
+    .minimum = 1,
     .maximum = 2,
     .run = run,
 };

@@ -123,6 +123,8 @@ static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
   if (body) read_body(c, body);
   const ambulo__yaml_node *strikes = ambulo__yaml_get(root, "strikes");
   if (strikes) read_strikes(c, strikes, have);
+  c->told_strikes = have[0] + have[1];
+  c->told_gait = ambulo__yaml_get(root, "gait") != NULL;
   status = ambulo__yaml_finish(document);
   ambulo__yaml_free(document);
   return status;

@@ -23,6 +23,7 @@ typedef struct ambulo__cycle {
   double mass, gravity;        /* kg, m/s^2; mass 0: not known */
   double up[3], forward[3];
   int warned_open;
+  int told_strikes, told_gait; /* by the summary: how many strikes; 1: the motion is a gait */
 } ambulo__cycle;
 
 /* Reads motion.csv and summary.json of a folder and finds the strikes: the option, else what the

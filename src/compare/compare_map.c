@@ -11,8 +11,13 @@
 
 /* curve, reference, result, factor, opposite, tilted, unit */
 static const ambulo__map_entry band[] = {
+    {"pelvis_anterior_tilt", "pelvic_tilt", "q.pelvis_tilt", -1, 0, 1, AMBULO__UNIT_ANGLE},
+    {"pelvis_up_obliquity", "pelvic_obliquity", "q.pelvis_list", 1, 1, 0, AMBULO__UNIT_ANGLE},
+    {"pelvis_internal_rotation", "pelvic_rotation", "q.pelvis_rotation", -1, 1, 0,
+     AMBULO__UNIT_ANGLE},
     {"hip_flexion", "hip_flexion", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE},
     {"hip_adduction", "hip_adduction", "q.hip_adduction_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
+    {"hip_internal_rotation", "hip_rotation", "q.hip_rotation_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
     {"knee_flexion", "knee_flexion", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
     {"ankle_dorsiflexion", "ankle_dorsiflexion", "q.ankle_angle_{side}", 1, 0, 0,
      AMBULO__UNIT_ANGLE},

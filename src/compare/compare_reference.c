@@ -107,7 +107,7 @@ static ambulo_status read_point(const curve_reader *r, int line, ambulo__referen
   return AMBULO_OK;
 }
 
-static void free_curve(const ambulo_allocator *a, ambulo__reference_curve *c) {
+void ambulo__reference_curve_free(const ambulo_allocator *a, ambulo__reference_curve *c) {
   ambulo__free(a, c->percent);
   ambulo__free(a, c->mean);
   ambulo__free(a, c->sd);
@@ -146,7 +146,7 @@ static ambulo_status read_curve(curve_reader *r, const ambulo__map_entry *entry,
         r->diagnostics, AMBULO_E_SCHEMA, ambulo__sheet_place(r->sheet, r->header, 0), NULL,
         "'%s' has %d points; expected at least %d", entry->reference, c.points, FEWEST);
   if (status) {
-    free_curve(r->allocator, &c);
+    ambulo__reference_curve_free(r->allocator, &c);
     return status;
   }
   *curve = c;
@@ -191,6 +191,6 @@ ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__refer
 
 void ambulo__reference_free(ambulo__reference *reference) {
   for (int i = 0; i < reference->count; i++)
-    free_curve(&reference->allocator, &reference->curves[i]);
+    ambulo__reference_curve_free(&reference->allocator, &reference->curves[i]);
   ambulo__free(&reference->allocator, reference->curves);
 }
