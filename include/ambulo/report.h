@@ -13,9 +13,11 @@ extern "C" {
 #endif
 
 typedef struct ambulo_report_options {
-  int cookie;    /* set by ambulo_report_options_default() */
-  int samples;   /* times in motion.csv; 0: the nodes */
-  int overwrite; /* 1: replace an existing result folder */
+  int cookie;        /* set by ambulo_report_options_default() */
+  int samples;       /* times in motion.csv; 0: the nodes */
+  int overwrite;     /* 1: replace an existing result folder */
+  const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
+                        a walk in gait.svg; NULL: none */
 } ambulo_report_options;
 AMBULO_API ambulo_report_options ambulo_report_options_default(void);
 
