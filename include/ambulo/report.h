@@ -81,6 +81,16 @@ typedef struct ambulo_compare_options {
                          pelvis is tilted; 11.4 degrees */
   double strike;      /* s, heel strike of `foot` (left when NULL); NaN: from the folder */
   double mass;        /* kg; 0: from the folder */
+
+  /* Of a person's own motion, a file in place of the folder: its ground forces (NULL: none), whose
+   * columns are on which foot ("left=NAME,right=NAME"; NULL: by their names), and when heels strike
+   * ("left=0.1,1.2;right=0.6,1.7"; NULL, or a side left out: found). */
+  const char *forces, *force_columns, *strikes;
+  /* File for the curves over the cycle, mean and deviation of the strides, in a layout of
+   * references; NULL: none. Of files that are there only ambulo's own are replaced, with
+   * `overwrite` all. */
+  const char *cycles;
+  int overwrite;
 } ambulo_compare_options;
 AMBULO_API ambulo_compare_options ambulo_compare_options_default(void);
 
@@ -106,10 +116,11 @@ typedef struct ambulo_landmark {
 
 typedef struct ambulo_comparison ambulo_comparison;
 
-/* Scores motion.csv of a result folder against a CSV of normative curves. `options` (NULL: the
- * defaults), `allocator` and `diagnostics` may be NULL. Curves that only one
- * of the two has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line
- * and column; also when no curve is left), E_LIMIT, E_MEMORY. */
+/* Scores motion.csv of a result folder, or (`directory` is a file) a person's own motion, CSV, STO
+ * or MOT with columns of OpenSim or Plug-in Gait, against a CSV of normative curves. `options`
+ * (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Curves that only one of the two
+ * has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line and column; also
+ * when no curve is left), E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(const char *directory,
                                                          const char *reference,
                                                          const ambulo_compare_options *options,

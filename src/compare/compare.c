@@ -1,9 +1,13 @@
-/* compare/compare.c - ambulo_compare(): a result folder against normative curves.
+/* compare/compare.c - ambulo_compare(): a result folder, or a person's own motion, against curves
+ * of people.
  *
  * Reading order: compare_reference.h, compare_map.h, compare_people.h, compare_cycle.h,
- * compare_samples.c, compare_score.h, compare.c, compare_doubt.h.
+ * compare_samples.c, compare_subject.h, compare_columns.c, compare_strikes.c, compare_forces.c,
+ * compare_subject.c, compare_curve.h, compare_score.h, compare.c, compare_doubt.h,
+ * compare_cycles.h.
  */
-#include "compare/compare_cycle.h"
+#include "compare/compare_curve.h"
+#include "compare/compare_cycles.h"
 #include "compare/compare_doubt.h"
 #include "compare/compare_people.h"
 #include "compare/compare_score.h"
@@ -13,8 +17,6 @@
 #include <string.h>
 
 enum { OPTIONS_COOKIE = 0x616d6263 };
-/* sides further apart than this share of the range are not averaged */
-static const double alike = 0.1;
 
 typedef char curve_name[AMBULO__CURVE_NAME];
 
@@ -33,9 +35,9 @@ typedef struct comparing {
   ambulo_diagnostics *diagnostics;
   ambulo__cycle cycle;
   ambulo__people people;
-  double *percents, *left, *right; /* [most points] */
-  int warned_sides;
-  int angles_alone; /* torques without the ground's forces are not those of people */
+  ambulo__sampler sampler;
+  double *percents, *values; /* [most points] */
+  int angles_alone;          /* torques without the ground's forces are not those of people */
   ambulo_comparison *result;
 } comparing;
 
@@ -53,58 +55,10 @@ static int options_valid(const ambulo_compare_options *o) {
 
 /* ---------------------------------------------------------------- one curve */
 
-/* how far two curves are apart, as a share of the first one's range */
-static double difference(const double *a, const double *b, int count) {
-  double least = a[0], most = a[0], squares = 0.0;
-  for (int i = 0; i < count; i++) {
-    least = fmin(least, a[i]);
-    most = fmax(most, a[i]);
-    squares += (a[i] - b[i]) * (a[i] - b[i]);
-  }
-  double rms = sqrt(squares / (double)count);
-  return rms == 0.0 ? 0.0 : rms / (most - least);
-}
-
-static void tell_sides_apart(comparing *c, const char *curve) {
-  if (c->warned_sides) return;
-  ambulo__place place = {.file = c->cycle.motion_path};
-  ambulo__note(c->diagnostics, place,
-               "'%s' differs between the sides; such curves are those of the left foot alone",
-               curve);
-  c->warned_sides = 1;
-}
-
-/* values[count] of the wanted foot, or of both */
-static ambulo_status sample(comparing *c, const ambulo__map_entry *entry, const double *percents,
-                            int count, double *values, int *found) {
-  const char *foot = c->options->foot;
-  ambulo__cycle_side first = foot && foot[0] == 'r' ? AMBULO__CYCLE_RIGHT : AMBULO__CYCLE_LEFT;
-  double *other = c->right;
-  int both = 0;
-  ambulo_status status =
-      ambulo__cycle_curve(&c->cycle, entry, first, percents, count, values, found);
-  if (status || !*found) return status;
-  if (!foot) {
-    status =
-        ambulo__cycle_curve(&c->cycle, entry, AMBULO__CYCLE_RIGHT, percents, count, other, &both);
-    if (status) return status;
-  }
-  if (both && difference(values, other, count) > alike) {
-    tell_sides_apart(c, entry->curve);
-    both = 0;
-  }
-  double shift = entry->tilted ? c->options->pelvic_tilt * 57.295779513082321 : 0.0;
-  for (int i = 0; i < count; i++) {
-    if (both) values[i] = 0.5 * (values[i] + other[i]);
-    values[i] += shift;
-  }
-  return AMBULO_OK;
-}
-
 static ambulo_status sample_fine(comparing *c, const ambulo__map_entry *entry, double *fine,
-                                 int *found) {
+                                 int *strides) {
   for (int i = 0; i < AMBULO__FINE; i++) c->percents[i] = 0.5 * (double)i;
-  return sample(c, entry, c->percents, AMBULO__FINE, fine, found);
+  return ambulo__sample_curve(&c->sampler, entry, c->percents, AMBULO__FINE, fine, NULL, strides);
 }
 
 static ambulo_status score_one(comparing *c, const ambulo__people_file *people, int index,
@@ -113,7 +67,8 @@ static ambulo_status score_one(comparing *c, const ambulo__people_file *people, 
   ambulo_comparison *result = c->result;
   double fine[AMBULO__FINE];
   int found = 0;
-  ambulo_status status = sample(c, curve->entry, curve->percent, curve->points, c->left, &found);
+  ambulo_status status = ambulo__sample_curve(&c->sampler, curve->entry, curve->percent,
+                                              curve->points, c->values, NULL, &found);
   if (!status && found) status = sample_fine(c, curve->entry, fine, &found);
   if (status || !found) return status;
   *doubted = *doubted || ambulo__curve_doubt(curve, fine, people->path, c->diagnostics);
@@ -122,7 +77,7 @@ static ambulo_status score_one(comparing *c, const ambulo__people_file *people, 
   score->name = result->names[result->score_count++];
   score->unit = ambulo__curve_unit_name(curve->entry->unit);
   score->source = source;
-  ambulo__score_curve(curve, c->left, fine, score);
+  ambulo__score_curve(curve, c->values, fine, score);
   return AMBULO_OK;
 }
 
@@ -196,11 +151,12 @@ static ambulo_status allocate(comparing *c) {
     }
   }
   c->percents = ambulo__alloc(a, (size_t)most, sizeof(double));
-  c->left = ambulo__alloc(a, (size_t)most, sizeof(double));
-  c->right = ambulo__alloc(a, (size_t)most, sizeof(double));
+  c->values = ambulo__alloc(a, (size_t)most, sizeof(double));
   c->result = ambulo__alloc(a, 1, sizeof *c->result);
   if (c->result) c->result->allocator = *a;
-  if (!c->percents || !c->left || !c->right || !c->result) return AMBULO_E_MEMORY;
+  if (!c->percents || !c->values || !c->result) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__sampler_create(&c->cycle, c->options, most, &c->sampler);
+  if (status) return status;
   c->result->scores = ambulo__alloc(a, (size_t)curves, sizeof(ambulo_curve_score));
   c->result->names = ambulo__alloc(a, (size_t)curves, sizeof(curve_name));
   for (int f = 0; f < c->people.count; f++) {
@@ -239,6 +195,7 @@ static ambulo_status compare_with(comparing *c) {
   if (!status) status = allocate(c);
   if (!status) status = score_all(c);
   if (!status) status = add_landmarks(c, &fallback);
+  if (!status && c->options->cycles) status = ambulo__cycles_write(&c->sampler);
   ambulo__map_free(&fallback);
   return status;
 }
@@ -254,7 +211,8 @@ static ambulo_status compare(const char *directory, const char *people, int are_
   if (are_norms && options->map) return AMBULO_E_ARGUMENT;
   comparing c = {.options = options, .diagnostics = diagnostics};
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = ambulo__cycle_open(directory, options, allocator, diagnostics, &c.cycle);
+  ambulo_status status = ambulo__cycles_check(directory, people, options, diagnostics);
+  if (!status) status = ambulo__cycle_open(directory, options, allocator, diagnostics, &c.cycle);
   if (status) return ambulo__conclude(diagnostics, errors, status, directory);
   ambulo_allocator a = c.cycle.allocator;
   if (are_norms) {
@@ -270,8 +228,8 @@ static ambulo_status compare(const char *directory, const char *people, int are_
   }
   ambulo_comparison_free(c.result);
   ambulo__free(&a, c.percents);
-  ambulo__free(&a, c.left);
-  ambulo__free(&a, c.right);
+  ambulo__free(&a, c.values);
+  ambulo__sampler_free(&c.sampler);
   ambulo__people_free(&c.people);
   ambulo__cycle_close(&c.cycle);
   return ambulo__conclude(diagnostics, errors, status, people);

@@ -68,6 +68,24 @@ static const ambulo__map_entry wide[] = {
      AMBULO__UNIT_MOMENT},
 };
 
+/* what a table of cycles calls its columns: the names of the curves (compare_cycles.h) */
+static const ambulo__map_entry wide_forces[] = {
+    {"grf_forward", "grf_forward", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE},
+    {"grf_vertical", "grf_vertical", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE},
+};
+enum {
+  OWN_COUNT = sizeof quantity / sizeof *quantity,
+  FORCE_COUNT = sizeof wide_forces / sizeof *wide_forces
+};
+
+static void add_own_names(ambulo__map *map) {
+  ambulo__map_entry *to = map->entries + map->count;
+  memcpy(to, quantity, sizeof quantity);
+  for (int i = 0; i < OWN_COUNT; i++) memcpy(to[i].reference, to[i].curve, sizeof to[i].curve);
+  memcpy(to + OWN_COUNT, wide_forces, sizeof wide_forces);
+  map->count += OWN_COUNT + FORCE_COUNT;
+}
+
 static const struct {
   const ambulo__map_entry *entries;
   size_t count;
@@ -88,9 +106,11 @@ ambulo_status ambulo__map_default(ambulo__reference_layout layout,
                                   const ambulo_allocator *allocator, ambulo__map *map) {
   ambulo__map m = {.allocator = ambulo__allocator_or_default(allocator),
                    .count = (int)builtin[layout].count};
-  m.entries = ambulo__alloc(&m.allocator, builtin[layout].count, sizeof *m.entries);
+  size_t room = builtin[layout].count + OWN_COUNT + FORCE_COUNT;
+  m.entries = ambulo__alloc(&m.allocator, room, sizeof *m.entries);
   if (!m.entries) return AMBULO_E_MEMORY;
   memcpy(m.entries, builtin[layout].entries, builtin[layout].count * sizeof *m.entries);
+  if (layout == AMBULO__LAYOUT_WIDE) add_own_names(&m);
   *map = m;
   return AMBULO_OK;
 }

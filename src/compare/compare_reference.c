@@ -153,6 +153,13 @@ static ambulo_status read_curve(curve_reader *r, const ambulo__map_entry *entry,
   return AMBULO_OK;
 }
 
+static int has_curve(const ambulo__reference *reference, const char *curve) {
+  for (int i = 0; i < reference->count; i++) {
+    if (strcmp(reference->curves[i].entry->curve, curve) == 0) return 1;
+  }
+  return 0;
+}
+
 ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__reference_layout layout,
                                        int header, const ambulo__map *map,
                                        ambulo_diagnostics *diagnostics,
@@ -173,6 +180,7 @@ ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__refer
   if (!f.curves) return AMBULO_E_MEMORY;
   ambulo_status status = AMBULO_OK;
   for (int i = 0; !status && i < map->count; i++) {
+    if (has_curve(&f, map->entries[i].curve)) continue; /* a table has it under one name */
     status = read_curve(&r, &map->entries[i], &f.curves[f.count]);
     if (!status && f.curves[f.count].points > 0) f.count++;
   }

@@ -2,6 +2,7 @@
 #include "picture/gait_people.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "ambulo/report.h"
@@ -97,11 +98,10 @@ void ambulo__gait_people_free(ambulo__gait_people *gait) {
 /* 1 if `pattern`, with the side in place of {side} or {foot}, reads first.second[.third] */
 static int reads(const char *pattern, ambulo__side side, const char *const part[3]) {
   char text[2 * AMBULO__CURVE_NAME + 192] = "";
-  for (int i = 0; i < 3 && part[i]; i++) {
-    if (strlen(text) + strlen(part[i]) + 2 > sizeof text) return 0;
-    if (i > 0) strcat(text, ".");
-    strcat(text, part[i]);
-  }
+  size_t used = 0;
+  for (int i = 0; i < 3 && part[i] && used < sizeof text; i++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i ? "." : "", part[i]);
+  if (used >= sizeof text) return 0;
   const char *at = text;
   for (const char *c = pattern; *c;) {
     const char *word = strncmp(c, "{side}", 6) == 0   ? side_letter[side]
