@@ -292,7 +292,7 @@ lint-leftovers:
 
 # ----------------------------------------------------------------- install
 
-MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' 2>/dev/null)
+MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' -o -name '*.md' 2>/dev/null)
 TARGET = $(DESTDIR)$(PREFIX)
 
 # where the loader does not look by itself, programs are told where the library is

@@ -13,9 +13,11 @@ extern "C" {
 #endif
 
 typedef struct ambulo_report_options {
-  int cookie;    /* set by ambulo_report_options_default() */
-  int samples;   /* times in motion.csv; 0: the nodes */
-  int overwrite; /* 1: replace an existing result folder */
+  int cookie;        /* set by ambulo_report_options_default() */
+  int samples;       /* times in motion.csv; 0: the nodes */
+  int overwrite;     /* 1: replace an existing result folder */
+  const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
+                        a walk in gait.svg; NULL: none */
 } ambulo_report_options;
 AMBULO_API ambulo_report_options ambulo_report_options_default(void);
 
@@ -79,6 +81,16 @@ typedef struct ambulo_compare_options {
                          pelvis is tilted; 11.4 degrees */
   double strike;      /* s, heel strike of `foot` (left when NULL); NaN: from the folder */
   double mass;        /* kg; 0: from the folder */
+
+  /* Of a person's own motion, a file in place of the folder: its ground forces (NULL: none), whose
+   * columns are on which foot ("left=NAME,right=NAME"; NULL: by their names), and when heels strike
+   * ("left=0.1,1.2;right=0.6,1.7"; NULL, or a side left out: found). */
+  const char *forces, *force_columns, *strikes;
+  /* File for the curves over the cycle, mean and deviation of the strides, in a layout of
+   * references; NULL: none. Of files that are there only ambulo's own are replaced, with
+   * `overwrite` all. */
+  const char *cycles;
+  int overwrite;
 } ambulo_compare_options;
 AMBULO_API ambulo_compare_options ambulo_compare_options_default(void);
 
@@ -92,6 +104,7 @@ typedef struct ambulo_curve_score {
   double within_2sd;      /* share of the points, 0 to 1; NaN: the reference has no deviation */
   double peak, peak_time; /* largest value where the reference is, and percent of the cycle */
   double reference_peak, reference_peak_time;
+  const char *source; /* the people, as the reference's line "# source: ..." names them; or NULL */
 } ambulo_curve_score;
 
 /* A number that gait tables quote: "knee swing peak", "vertical force valley". */
@@ -103,16 +116,24 @@ typedef struct ambulo_landmark {
 
 typedef struct ambulo_comparison ambulo_comparison;
 
-/* Scores motion.csv of a result folder against a CSV of normative curves. `options` (NULL: the
- * defaults), `allocator` and `diagnostics` may be NULL. Curves that only one
- * of the two has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line
- * and column; also when no curve is left), E_LIMIT, E_MEMORY. */
+/* Scores motion.csv of a result folder, or (`directory` is a file) a person's own motion, CSV, STO
+ * or MOT with columns of OpenSim or Plug-in Gait, against a CSV of normative curves. `options`
+ * (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Curves that only one of the two
+ * has are left out. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA (with file, line and column; also
+ * when no curve is left), E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_compare(const char *directory,
                                                          const char *reference,
                                                          const ambulo_compare_options *options,
                                                          const ambulo_allocator *allocator,
                                                          ambulo_diagnostics *diagnostics,
                                                          ambulo_comparison **comparison);
+/* The same against the shipped curves of people in the folder `norms` (models/norms): angles of its
+ * young_adults.csv, moments and forces of its normal_cadence.csv. The motion has to be a walk:
+ * E_SCHEMA for one in which no foot strikes. E_ARGUMENT with a map of the options. */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_compare_norms(const char *directory, const char *norms,
+                     const ambulo_compare_options *options, const ambulo_allocator *allocator,
+                     ambulo_diagnostics *diagnostics, ambulo_comparison **comparison);
 AMBULO_API void ambulo_comparison_free(ambulo_comparison *comparison); /* accepts NULL */
 AMBULO_API int ambulo_comparison_curve_count(const ambulo_comparison *comparison);
 AMBULO_API const ambulo_curve_score *ambulo_comparison_curve(const ambulo_comparison *comparison,
@@ -120,8 +141,8 @@ AMBULO_API const ambulo_curve_score *ambulo_comparison_curve(const ambulo_compar
 AMBULO_API int ambulo_comparison_landmark_count(const ambulo_comparison *comparison);
 AMBULO_API const ambulo_landmark *ambulo_comparison_landmark(const ambulo_comparison *comparison,
                                                              int index);
-/* {"curves": {name: {"rmse", "r", "within_2sd", "peak", "peak_time"}}}; free with
- * ambulo_text_free. */
+/* {"curves": {name: {"rmse", "r", "within_2sd", "peak", "peak_time", "source"}}}, the last where
+ * there is one; free with ambulo_text_free. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_comparison_json(
     const ambulo_comparison *comparison, const ambulo_allocator *allocator, char **text);
 

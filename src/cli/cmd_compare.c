@@ -1,19 +1,48 @@
-/* cli/cmd_compare.c - ambulo compare: a result folder against normative curves. */
+/* cli/cmd_compare.c - ambulo compare: a result folder against curves of people. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "cli/commands.h"
+#include "cli/format.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 
 static const double radians_per_degree = 0.017453292519943295;
 
+/* "left=0.1,1.2" of each --strike, separated by ';', into text[size]; a plain number stays alone */
+static int read_strikes(const ambulo__cli_input *input, ambulo_compare_options *options, char *text,
+                        size_t size) {
+  const char *last = ambulo__cli_value(input, "strike");
+  if (!last || !strchr(last, '='))
+    return ambulo__cli_number(input, "strike", -1e6, 1e6, &options->strike) ? 0 : 2;
+  const char **values = calloc((size_t)input->given_count, sizeof *values);
+  if (!values) return ambulo_status_exit_code(AMBULO_E_MEMORY);
+  int count = ambulo__cli_values(input, "strike", values), fits = 1;
+  text[0] = '\0';
+  for (int i = 0; i < count; i++) {
+    size_t used = strlen(text);
+    fits = fits && used + strlen(values[i]) + 2 < size;
+    if (fits) ambulo__cli_format(text + used, size - used, "%s%s", i > 0 ? ";" : "", values[i]);
+  }
+  free(values);
+  options->strikes = text;
+  return fits ? 0
+              : ambulo__cli_usage_error("compare", NULL, "--strike has more than %zu characters",
+                                        size - 1);
+}
+
 static int read_options(const ambulo__cli_input *input, ambulo_compare_options *options) {
   double tilt = options->pelvic_tilt / radians_per_degree;
+  options->forces = ambulo__cli_value(input, "forces");
+  options->force_columns = ambulo__cli_value(input, "force-columns");
+  options->cycles = ambulo__cli_value(input, "cycles");
+  options->overwrite = ambulo__cli_flag(input, "force");
   options->map = ambulo__cli_value(input, "map");
   options->curves = ambulo__cli_value(input, "columns");
   options->foot = ambulo__cli_value(input, "foot");
   if (!ambulo__cli_number(input, "pelvic-tilt", -90.0, 90.0, &tilt) ||
-      !ambulo__cli_number(input, "strike", -1e6, 1e6, &options->strike) ||
       !ambulo__cli_number(input, "mass", 1e-3, 1e6, &options->mass))
     return 2;
   options->pelvic_tilt = tilt * radians_per_degree;
@@ -55,6 +84,22 @@ static void print_curves(const ambulo_comparison *comparison) {
   }
 }
 
+/* who the people are, once for all curves that are theirs */
+static void print_sources(const ambulo_comparison *comparison) {
+  const char *last = NULL;
+  for (int i = 0; i < ambulo_comparison_curve_count(comparison); i++) {
+    const ambulo_curve_score *s = ambulo_comparison_curve(comparison, i);
+    if (!s->source) continue;
+    if (s->source == last) {
+      printf(", %s", s->name);
+    } else {
+      printf("\npeople: %s\n  %s", s->source, s->name);
+    }
+    last = s->source;
+  }
+  if (last) printf("\n");
+}
+
 static void print_landmarks(const ambulo_comparison *comparison) {
   int count = ambulo_comparison_landmark_count(comparison);
   if (count > 0) printf("\n%-28s %-7s %9s %9s\n", "landmark", "unit", "value", "at %");
@@ -67,22 +112,39 @@ static void print_landmarks(const ambulo_comparison *comparison) {
   }
 }
 
+/* against the table that was named, or else the shipped norms */
+static ambulo_status compare(const ambulo__cli_input *input, const ambulo_compare_options *options,
+                             ambulo_diagnostics *diagnostics, ambulo_comparison **comparison) {
+  if (input->argument_count > 1)
+    return ambulo_compare(input->arguments[0], input->arguments[1], options, NULL, diagnostics,
+                          comparison);
+  char folder[4096];
+  int found = ambulo__cli_shipped_file("norms", folder, sizeof folder);
+  return ambulo_compare_norms(input->arguments[0], found ? folder : "norms", options, NULL,
+                              diagnostics, comparison);
+}
+
 static int run(const ambulo__cli_input *input) {
   ambulo_compare_options options = ambulo_compare_options_default();
+  char strikes[8192];
   int code = read_options(input, &options);
+  if (!code) code = read_strikes(input, &options, strikes, sizeof strikes);
   if (code) return code;
+  if (options.map && input->argument_count < 2)
+    return ambulo__cli_usage_error("compare", NULL,
+                                   "--map names the curves of a table; expected DIR REFERENCE.csv");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo_comparison *comparison = NULL;
   char *text = NULL;
-  ambulo_status status = ambulo_compare(input->arguments[0], input->arguments[1], &options, NULL,
-                                        diagnostics, &comparison);
+  ambulo_status status = compare(input, &options, diagnostics, &comparison);
   if (!status && ambulo__cli_flag(input, "json"))
     status = ambulo_comparison_json(comparison, NULL, &text);
-  code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[1]);
+  code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[input->argument_count - 1]);
   if (text) {
     fputs(text, stdout);
   } else if (!status) {
     print_curves(comparison);
+    print_sources(comparison);
     print_landmarks(comparison);
   }
   ambulo_text_free(text, NULL);
@@ -97,22 +159,33 @@ static const ambulo__cli_option options[] = {
     {"columns", 0, "NAMES", "only these curves, separated by commas"},
     {"foot", 0, "left|right", "one foot alone (default: the mean of both where alike)"},
     {"pelvic-tilt", 0, "DEG", "anterior tilt of the reference's pelvis (default 11.4)"},
-    {"strike", 0, "S", "time of heel strike (default: from the folder)"},
+    {"strike", 0, "S|SIDE=S,S,...",
+     "time of heel strike (default: from the folder); of a motion, the\ntimes at which the heels "
+     "strike, left=0.1,1.2 (default: found)"},
+    {"forces", 0, "FILE", "ground forces beside a motion (CSV, STO, MOT)"},
+    {"force-columns", 0, "MAP", "whose they are: left=NAME,right=NAME (default: by the names)"},
+    {"cycles", 0, "OUT.csv", "write the curves over the cycle, mean and deviation of the strides"},
+    {"force", 0, NULL, "write OUT.csv over any file"},
     {"mass", 0, "KG", "body mass (default: from the folder)"},
 };
 
 const ambulo__cli_command ambulo__cli_compare = {
     .name = "compare",
-    .arguments = "DIR REFERENCE.csv",
-    .summary = "scores a result folder against normative curves",
+    .arguments = "DIR|MOTION [REFERENCE.csv]",
+    .summary = "scores a result, or a person's own motion, against curves of people",
     .description =
         "Per curve: root mean square error, Pearson's r, share of the cycle within two standard\n"
         "deviations, peak and its time in percent of the cycle from heel strike to heel strike;\n"
-        "then the landmarks that gait tables quote. Layouts and conventions: docs/compare.md.",
-    .example = "ambulo compare walk adults.csv",
+        "then the landmarks that gait tables quote. Without REFERENCE.csv the people are the "
+        "shipped\n"
+        "ones (models/norms): angles of 24 young adults, moments and forces of normal cadence.\n"
+        "MOTION is a person's own, CSV, STO or MOT with columns of OpenSim or Plug-in Gait; "
+        "several\n"
+        "strides are averaged. Layouts and conventions: docs/compare.md.",
+    .example = "ambulo compare walk\nambulo compare walk adults.csv",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
-    .minimum = 2,
+    .minimum = 1,
     .maximum = 2,
     .run = run,
 };

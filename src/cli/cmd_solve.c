@@ -15,6 +15,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 #include "cli/summary.h"
 #include "cli/worker.h"
 
@@ -62,7 +63,8 @@ typedef struct job {
   ambulo_ends repeat; /* the start is one period of the motion; free: it is all of it */
   double time_limit;  /* s; < 0: as in the file */
   ambulo_diagnostics *diagnostics;
-  int terminal; /* 1: show progress */
+  int terminal;     /* 1: show progress */
+  char norms[4096]; /* the folder of report.norms */
 } job;
 
 /* "solve 3 (best 0.0921): " of a run over free parameters */
@@ -127,6 +129,7 @@ static int read_options(job *j) {
   const char *directory = ambulo__cli_value(input, "output");
   j->report = ambulo_report_options_default();
   j->report.overwrite = ambulo__cli_flag(input, "force");
+  if (ambulo__cli_shipped_file("norms", j->norms, sizeof j->norms)) j->report.norms = j->norms;
   j->time_limit = -1.0;
   if (!ambulo__cli_number(input, "time-limit", 0.0, 1e9, &j->time_limit) ||
       !ambulo__cli_integer(input, "samples", 2, 1000000, &j->report.samples))

@@ -47,6 +47,15 @@ int ambulo__cli_shipped_folder(char *buffer, size_t size) {
   return 0;
 }
 
+int ambulo__cli_shipped_file(const char *name, char *buffer, size_t size) {
+  char folder[PATH], path[2 * PATH];
+  if (!ambulo__cli_shipped_folder(folder, sizeof folder)) return 0;
+  ambulo__cli_format(path, sizeof path, "%s/%s", folder, name);
+  int fits = is_there(path) && strlen(path) < size;
+  if (fits) ambulo__cli_format(buffer, size, "%s", path);
+  return fits;
+}
+
 void ambulo__cli_shipped_hint(const char *file) {
   char folder[PATH], path[2 * PATH];
   const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;

@@ -1,10 +1,15 @@
-/* compare/compare.c - ambulo_compare(): a result folder against normative curves.
+/* compare/compare.c - ambulo_compare(): a result folder, or a person's own motion, against curves
+ * of people.
  *
- * Reading order: compare_reference.h, compare_map.h, compare_cycle.h, compare_samples.c,
- * compare_score.h, compare.c, compare_doubt.h.
+ * Reading order: compare_reference.h, compare_map.h, compare_people.h, compare_cycle.h,
+ * compare_samples.c, compare_subject.h, compare_columns.c, compare_strikes.c, compare_forces.c,
+ * compare_subject.c, compare_curve.h, compare_score.h, compare.c, compare_doubt.h,
+ * compare_cycles.h.
  */
-#include "compare/compare_cycle.h"
+#include "compare/compare_curve.h"
+#include "compare/compare_cycles.h"
 #include "compare/compare_doubt.h"
+#include "compare/compare_people.h"
 #include "compare/compare_score.h"
 #include "format/json_text.h"
 
@@ -12,8 +17,6 @@
 #include <string.h>
 
 enum { OPTIONS_COOKIE = 0x616d6263 };
-/* sides further apart than this share of the range are not averaged */
-static const double alike = 0.1;
 
 typedef char curve_name[AMBULO__CURVE_NAME];
 
@@ -21,6 +24,7 @@ struct ambulo_comparison {
   ambulo_allocator allocator;
   ambulo_curve_score *scores;
   curve_name *names; /* [capacity] */
+  char *sources[AMBULO__PEOPLE_FILES];
   int score_count;
   ambulo_landmark landmarks[AMBULO__MAX_LANDMARKS];
   int landmark_count;
@@ -30,10 +34,10 @@ typedef struct comparing {
   const ambulo_compare_options *options;
   ambulo_diagnostics *diagnostics;
   ambulo__cycle cycle;
-  ambulo__map map;
-  ambulo__reference reference;
-  double *percents, *left, *right; /* [most points] */
-  int warned_sides;
+  ambulo__people people;
+  ambulo__sampler sampler;
+  double *percents, *values; /* [most points] */
+  int angles_alone;          /* torques without the ground's forces are not those of people */
   ambulo_comparison *result;
 } comparing;
 
@@ -51,87 +55,54 @@ static int options_valid(const ambulo_compare_options *o) {
 
 /* ---------------------------------------------------------------- one curve */
 
-/* how far two curves are apart, as a share of the first one's range */
-static double difference(const double *a, const double *b, int count) {
-  double least = a[0], most = a[0], squares = 0.0;
-  for (int i = 0; i < count; i++) {
-    least = fmin(least, a[i]);
-    most = fmax(most, a[i]);
-    squares += (a[i] - b[i]) * (a[i] - b[i]);
-  }
-  double rms = sqrt(squares / (double)count);
-  return rms == 0.0 ? 0.0 : rms / (most - least);
+static ambulo_status sample_fine(comparing *c, const ambulo__map_entry *entry, double *fine,
+                                 int *strides) {
+  for (int i = 0; i < AMBULO__FINE; i++) c->percents[i] = 0.5 * (double)i;
+  return ambulo__sample_curve(&c->sampler, entry, c->percents, AMBULO__FINE, fine, NULL, strides);
 }
 
-static void tell_sides_apart(comparing *c, const char *curve) {
-  if (c->warned_sides) return;
-  ambulo__place place = {.file = c->cycle.motion_path};
-  ambulo__note(c->diagnostics, place,
-               "'%s' differs between the sides; such curves are those of the left foot alone",
-               curve);
-  c->warned_sides = 1;
-}
-
-/* values[count] of the wanted foot, or of both */
-static ambulo_status sample(comparing *c, const ambulo__map_entry *entry, const double *percents,
-                            int count, double *values, int *found) {
-  const char *foot = c->options->foot;
-  ambulo__cycle_side first = foot && foot[0] == 'r' ? AMBULO__CYCLE_RIGHT : AMBULO__CYCLE_LEFT;
-  double *other = c->right;
-  int both = 0;
-  ambulo_status status =
-      ambulo__cycle_curve(&c->cycle, entry, first, percents, count, values, found);
-  if (status || !*found) return status;
-  if (!foot) {
-    status =
-        ambulo__cycle_curve(&c->cycle, entry, AMBULO__CYCLE_RIGHT, percents, count, other, &both);
-    if (status) return status;
-  }
-  if (both && difference(values, other, count) > alike) {
-    tell_sides_apart(c, entry->curve);
-    both = 0;
-  }
-  double shift = entry->tilted ? c->options->pelvic_tilt * 57.295779513082321 : 0.0;
-  for (int i = 0; i < count; i++) {
-    if (both) values[i] = 0.5 * (values[i] + other[i]);
-    values[i] += shift;
-  }
+static ambulo_status score_one(comparing *c, const ambulo__people_file *people, int index,
+                               const char *source, int *doubted) {
+  const ambulo__reference_curve *curve = &people->reference.curves[index];
+  ambulo_comparison *result = c->result;
+  double fine[AMBULO__FINE];
+  int found = 0;
+  ambulo_status status = ambulo__sample_curve(&c->sampler, curve->entry, curve->percent,
+                                              curve->points, c->values, NULL, &found);
+  if (!status && found) status = sample_fine(c, curve->entry, fine, &found);
+  if (status || !found) return status;
+  *doubted = *doubted || ambulo__curve_doubt(curve, fine, people->path, c->diagnostics);
+  ambulo_curve_score *score = &result->scores[result->score_count];
+  memcpy(result->names[result->score_count], curve->entry->curve, sizeof(curve_name));
+  score->name = result->names[result->score_count++];
+  score->unit = ambulo__curve_unit_name(curve->entry->unit);
+  score->source = source;
+  ambulo__score_curve(curve, c->values, fine, score);
   return AMBULO_OK;
 }
 
-static ambulo_status sample_fine(comparing *c, const ambulo__map_entry *entry, double *fine,
-                                 int *found) {
-  for (int i = 0; i < AMBULO__FINE; i++) c->percents[i] = 0.5 * (double)i;
-  return sample(c, entry, c->percents, AMBULO__FINE, fine, found);
-}
-
-static ambulo_status score_all(comparing *c, const char *reference) {
-  ambulo_comparison *result = c->result;
-  double fine[AMBULO__FINE];
+static ambulo_status score_all(comparing *c) {
   int doubted = 0; /* once is enough */
-  for (int i = 0; i < c->reference.count; i++) {
-    const ambulo__reference_curve *curve = &c->reference.curves[i];
-    int found = 0;
-    if (!ambulo__curve_is_listed(c->options->curves, curve->entry->curve)) continue;
-    ambulo_status status = sample(c, curve->entry, curve->percent, curve->points, c->left, &found);
-    if (!status && found) status = sample_fine(c, curve->entry, fine, &found);
-    if (status) return status;
-    if (!found) continue;
-    doubted = doubted || ambulo__curve_doubt(curve, fine, reference, c->diagnostics);
-    ambulo_curve_score *score = &result->scores[result->score_count];
-    memcpy(result->names[result->score_count], curve->entry->curve, sizeof(curve_name));
-    score->name = result->names[result->score_count++];
-    score->unit = ambulo__curve_unit_name(curve->entry->unit);
-    ambulo__score_curve(curve, c->left, fine, score);
+  for (int f = 0; f < c->people.count; f++) {
+    const ambulo__people_file *people = &c->people.files[f];
+    for (int i = 0; i < people->reference.count; i++) {
+      const ambulo__map_entry *entry = people->reference.curves[i].entry;
+      if (!ambulo__curve_is_listed(c->options->curves, entry->curve)) continue;
+      if (c->angles_alone && entry->unit != AMBULO__UNIT_ANGLE) continue;
+      ambulo_status status = score_one(c, people, i, c->result->sources[f], &doubted);
+      if (status) return status;
+    }
   }
   ambulo__place place = {.file = c->cycle.motion_path};
-  if (result->score_count > 0) return AMBULO_OK;
+  const ambulo__people_file *people = &c->people.files[0];
+  if (c->result->score_count > 0) return AMBULO_OK;
   return ambulo__error(
       c->diagnostics, AMBULO_E_SCHEMA, place,
       c->cycle.mass > 0.0 ? NULL : "moments and forces need the body mass: summary.json, or --mass",
       "no curve of '%s' can be made from these columns; the first would be '%s' "
       "from '%s'",
-      reference, c->reference.curves[0].entry->curve, c->reference.curves[0].entry->result);
+      people->path, people->reference.curves[0].entry->curve,
+      people->reference.curves[0].entry->result);
 }
 
 /* ---------------------------------------------------------------- landmarks */
@@ -149,8 +120,10 @@ static ambulo_status add_landmarks(comparing *c, const ambulo__map *fallback) {
   ambulo_comparison *to = c->result;
   double fine[AMBULO__FINE];
   for (int i = 0; i < 4; i++) {
-    const ambulo__map_entry *entry = find_entry(&c->map, curves[i]);
+    const ambulo__map_entry *entry = NULL;
     int found = 0;
+    for (int f = 0; !entry && f < c->people.count; f++)
+      entry = find_entry(&c->people.files[f].map, curves[i]);
     if (!entry) entry = find_entry(fallback, curves[i]);
     ambulo_status status = sample_fine(c, entry, fine, &found);
     if (status) return status;
@@ -167,70 +140,114 @@ static ambulo_status add_landmarks(comparing *c, const ambulo__map *fallback) {
 
 /* -------------------------------------------------------------- entry points */
 
-static ambulo_status read_reference(comparing *c, const char *path, ambulo__sheet *sheet) {
-  const ambulo_allocator *a = &c->cycle.allocator;
-  ambulo__reference_layout layout = AMBULO__LAYOUT_WIDE;
-  int header = 0;
-  ambulo_status status = ambulo__sheet_read(path, a, c->diagnostics, sheet);
-  if (!status) status = ambulo__reference_layout_of(sheet, c->diagnostics, &layout, &header);
-  if (!status)
-    status = c->options->map ? ambulo__map_read(c->options->map, a, c->diagnostics, &c->map)
-                             : ambulo__map_default(layout, a, &c->map);
-  if (status) return status;
-  return ambulo__reference_curves(sheet, layout, header, &c->map, c->diagnostics, &c->reference);
-}
-
 static ambulo_status allocate(comparing *c) {
   const ambulo_allocator *a = &c->cycle.allocator;
-  int most = AMBULO__FINE;
-  for (int i = 0; i < c->reference.count; i++) {
-    if (c->reference.curves[i].points > most) most = c->reference.curves[i].points;
+  int most = AMBULO__FINE, curves = 0;
+  for (int f = 0; f < c->people.count; f++) {
+    const ambulo__reference *reference = &c->people.files[f].reference;
+    curves += reference->count;
+    for (int i = 0; i < reference->count; i++) {
+      if (reference->curves[i].points > most) most = reference->curves[i].points;
+    }
   }
   c->percents = ambulo__alloc(a, (size_t)most, sizeof(double));
-  c->left = ambulo__alloc(a, (size_t)most, sizeof(double));
-  c->right = ambulo__alloc(a, (size_t)most, sizeof(double));
+  c->values = ambulo__alloc(a, (size_t)most, sizeof(double));
   c->result = ambulo__alloc(a, 1, sizeof *c->result);
   if (c->result) c->result->allocator = *a;
-  if (!c->percents || !c->left || !c->right || !c->result) return AMBULO_E_MEMORY;
-  c->result->scores = ambulo__alloc(a, (size_t)c->reference.count, sizeof(ambulo_curve_score));
-  c->result->names = ambulo__alloc(a, (size_t)c->reference.count, sizeof(curve_name));
+  if (!c->percents || !c->values || !c->result) return AMBULO_E_MEMORY;
+  ambulo_status status = ambulo__sampler_create(&c->cycle, c->options, most, &c->sampler);
+  if (status) return status;
+  c->result->scores = ambulo__alloc(a, (size_t)curves, sizeof(ambulo_curve_score));
+  c->result->names = ambulo__alloc(a, (size_t)curves, sizeof(curve_name));
+  for (int f = 0; f < c->people.count; f++) {
+    const char *source = c->people.files[f].source;
+    c->result->sources[f] = source ? ambulo__strdup(a, source) : NULL;
+    if (source && !c->result->sources[f]) return AMBULO_E_MEMORY;
+  }
   return c->result->scores && c->result->names ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
-ambulo_status ambulo_compare(const char *directory, const char *reference,
+/* norms are those of a walk: of a motion without strikes there is nothing to compare */
+static ambulo_status expect_walk(comparing *c) {
+  ambulo__place place = {.file = c->cycle.summary_path};
+  if (c->cycle.told_strikes == 0)
+    return ambulo__error(
+        c->diagnostics, AMBULO_E_SCHEMA, place,
+        "ambulo compare DIR REFERENCE.csv takes curves of another motion",
+        "no foot strikes in this motion; expected a walk, whose curves the shipped "
+        "ones of people are");
+  if (!c->cycle.told_gait)
+    ambulo__warning(c->diagnostics, place, NULL,
+                    "no 'gait' in this summary: the shipped curves are those of people who walk "
+                    "steadily on level ground");
+  int loaded = 0;
+  ambulo_status status = ambulo__cycle_samples(&c->cycle, "grf.{foot}.up", AMBULO__CYCLE_LEFT,
+                                               c->cycle.scratch, &loaded);
+  c->angles_alone = !loaded;
+  return status;
+}
+
+/* against what c->people already holds */
+static ambulo_status compare_with(comparing *c) {
+  ambulo__map fallback = {.entries = NULL};
+  ambulo_status status = ambulo__map_default(AMBULO__LAYOUT_WIDE, &c->cycle.allocator, &fallback);
+  if (!status) status = ambulo__curves_check(c->options->curves, &c->people, c->diagnostics);
+  if (!status) status = allocate(c);
+  if (!status) status = score_all(c);
+  if (!status) status = add_landmarks(c, &fallback);
+  if (!status && c->options->cycles) status = ambulo__cycles_write(&c->sampler);
+  ambulo__map_free(&fallback);
+  return status;
+}
+
+/* `people`: a file, or the folder of the norms */
+static ambulo_status compare(const char *directory, const char *people, int are_norms,
                              const ambulo_compare_options *options,
                              const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                              ambulo_comparison **comparison) {
   ambulo_compare_options defaults = ambulo_compare_options_default();
   if (!options) options = &defaults;
-  if (!directory || !reference || !comparison || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  if (!directory || !people || !comparison || !options_valid(options)) return AMBULO_E_ARGUMENT;
+  if (are_norms && options->map) return AMBULO_E_ARGUMENT;
   comparing c = {.options = options, .diagnostics = diagnostics};
-  ambulo__sheet sheet = {.text = NULL};
-  ambulo__map fallback = {.entries = NULL};
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = ambulo__cycle_open(directory, options, allocator, diagnostics, &c.cycle);
+  ambulo_status status = ambulo__cycles_check(directory, people, options, diagnostics);
+  if (!status) status = ambulo__cycle_open(directory, options, allocator, diagnostics, &c.cycle);
   if (status) return ambulo__conclude(diagnostics, errors, status, directory);
   ambulo_allocator a = c.cycle.allocator;
-  status = read_reference(&c, reference, &sheet);
-  if (!status) status = ambulo__map_default(AMBULO__LAYOUT_WIDE, &a, &fallback);
-  if (!status) status = ambulo__curves_check(options->curves, &c.reference, reference, diagnostics);
-  if (!status) status = allocate(&c);
-  if (!status) status = score_all(&c, reference);
-  if (!status) status = add_landmarks(&c, &fallback);
+  if (are_norms) {
+    status = expect_walk(&c);
+    if (!status) status = ambulo__norms_read(people, &a, diagnostics, &c.people);
+  } else {
+    status = ambulo__people_read(people, options->map, &a, diagnostics, &c.people);
+  }
+  if (!status) status = compare_with(&c);
   if (!status) {
     *comparison = c.result;
     c.result = NULL;
   }
   ambulo_comparison_free(c.result);
   ambulo__free(&a, c.percents);
-  ambulo__free(&a, c.left);
-  ambulo__free(&a, c.right);
-  ambulo__reference_free(&c.reference);
-  ambulo__map_free(&c.map);
-  ambulo__map_free(&fallback);
-  ambulo__sheet_free(&sheet);
+  ambulo__free(&a, c.values);
+  ambulo__sampler_free(&c.sampler);
+  ambulo__people_free(&c.people);
   ambulo__cycle_close(&c.cycle);
-  return ambulo__conclude(diagnostics, errors, status, reference);
+  return ambulo__conclude(diagnostics, errors, status, people);
+}
+
+ambulo_status ambulo_compare(const char *directory, const char *reference,
+                             const ambulo_compare_options *options,
+                             const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                             ambulo_comparison **comparison) {
+  return compare(directory, reference, 0, options, allocator, diagnostics, comparison);
+}
+
+ambulo_status ambulo_compare_norms(const char *directory, const char *norms,
+                                   const ambulo_compare_options *options,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics,
+                                   ambulo_comparison **comparison) {
+  return compare(directory, norms, 1, options, allocator, diagnostics, comparison);
 }
 
 void ambulo_comparison_free(ambulo_comparison *comparison) {
@@ -238,6 +255,7 @@ void ambulo_comparison_free(ambulo_comparison *comparison) {
   ambulo_allocator a = comparison->allocator;
   ambulo__free(&a, comparison->scores);
   ambulo__free(&a, comparison->names);
+  for (int f = 0; f < AMBULO__PEOPLE_FILES; f++) ambulo__free(&a, comparison->sources[f]);
   ambulo__free(&a, comparison);
 }
 
@@ -273,6 +291,7 @@ ambulo_status ambulo_comparison_json(const ambulo_comparison *comparison,
     ambulo__json_number(&json, "within_2sd", score->within_2sd);
     ambulo__json_number(&json, "peak", score->peak);
     ambulo__json_number(&json, "peak_time", score->peak_time);
+    if (score->source) ambulo__json_text(&json, "source", score->source);
     ambulo__json_close(&json, '}');
   }
   ambulo__json_close(&json, '}');

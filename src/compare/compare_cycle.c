@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/file_steps.h"
 #include "format/yaml_node.h"
@@ -123,9 +124,26 @@ static ambulo_status read_summary(ambulo__cycle *c, int have[2]) {
   if (body) read_body(c, body);
   const ambulo__yaml_node *strikes = ambulo__yaml_get(root, "strikes");
   if (strikes) read_strikes(c, strikes, have);
+  c->told_strikes = have[0] + have[1];
+  c->told_gait = ambulo__yaml_get(root, "gait") != NULL;
   status = ambulo__yaml_finish(document);
   ambulo__yaml_free(document);
   return status;
+}
+
+static int is_file(const char *path) {
+  struct stat info;
+  return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+static ambulo_status refuse_options_of_a_subject(const char *directory,
+                                                 const ambulo_compare_options *options,
+                                                 ambulo_diagnostics *diagnostics) {
+  ambulo__place place = {.file = directory};
+  if (!options->forces && !options->force_columns && !options->strikes) return AMBULO_OK;
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, place, NULL,
+                       "forces and strikes by foot are those of a person's own motion; expected a "
+                       "file, or a result folder alone");
 }
 
 /* -------------------------------------------------------------- foot strikes */
@@ -175,6 +193,37 @@ static ambulo_status find_strikes(ambulo__cycle *c, const ambulo_compare_options
   return AMBULO_OK;
 }
 
+ambulo_status ambulo__cycle_open_subject(const char *file, const ambulo_compare_options *options,
+                                         const ambulo_allocator *allocator,
+                                         ambulo_diagnostics *diagnostics, ambulo__cycle *cycle) {
+  ambulo__cycle c = {.allocator = ambulo__allocator_or_default(allocator),
+                     .diagnostics = diagnostics,
+                     .gravity = 9.81,
+                     .mass = options->mass,
+                     .up = {0.0, 1.0, 0.0},
+                     .told_gait = 1};
+  c.subject = ambulo__alloc(&c.allocator, 1, sizeof *c.subject);
+  c.motion_path = ambulo__strdup(&c.allocator, file);
+  c.summary_path = ambulo__strdup(&c.allocator, file);
+  ambulo_status status = c.subject && c.motion_path && c.summary_path ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) status = ambulo__subject_open(file, options, &c.allocator, diagnostics, c.subject);
+  if (!status) {
+    c.rows = c.subject->table->rows;
+    c.forward[0] = c.subject->backward ? -1.0 : 1.0;
+    c.told_strikes = c.subject->count[0] + c.subject->count[1];
+    c.time = ambulo__alloc(&c.allocator, (size_t)c.rows, sizeof *c.time);
+    c.scratch = ambulo__alloc(&c.allocator, 4 * (size_t)c.rows, sizeof *c.scratch);
+    if (!c.time || !c.scratch) status = AMBULO_E_MEMORY;
+  }
+  if (status) {
+    ambulo__cycle_close(&c);
+    return status;
+  }
+  memcpy(c.time, c.subject->table->time, (size_t)c.rows * sizeof *c.time);
+  *cycle = c;
+  return AMBULO_OK;
+}
+
 ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_options *options,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  ambulo__cycle *cycle) {
@@ -185,6 +234,10 @@ ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_opt
                      .forward = {1.0, 0.0, 0.0}};
   int have[2] = {0, 0};
   ambulo_status status = ambulo__expect_path(directory, "result folder", diagnostics);
+  if (status) return status;
+  if (is_file(directory))
+    return ambulo__cycle_open_subject(directory, options, allocator, diagnostics, cycle);
+  status = refuse_options_of_a_subject(directory, options, diagnostics);
   if (status) return status;
   c.motion_path = join(&c.allocator, directory, "motion.csv");
   c.summary_path = join(&c.allocator, directory, "summary.json");
@@ -203,6 +256,8 @@ ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_opt
 }
 
 void ambulo__cycle_close(ambulo__cycle *c) {
+  if (c->subject) ambulo__subject_free(c->subject);
+  ambulo__free(&c->allocator, c->subject);
   ambulo__sheet_free(&c->sheet);
   ambulo__free(&c->allocator, c->motion_path);
   ambulo__free(&c->allocator, c->summary_path);
@@ -212,11 +267,14 @@ void ambulo__cycle_close(ambulo__cycle *c) {
 
 /* ------------------------------------------------------------- interpolation */
 
-/* slope at t[k] of the parabola through the samples k-1, k, k+1 of a periodic curve */
+/* slope at t[k] of the parabola through the samples k-1, k, k+1; of a result, whose curves are
+ * periodic, also at the ends, where those of a person's own motion go on straight */
 static void fill_slopes(const ambulo__cycle *c, const double *y, double *slope) {
   int n = c->rows - 1; /* the last sample is the first of the next cycle */
   for (int k = 0; k <= n; k++) {
     int last = k == n ? 0 : k, before = k == 0 ? n - 1 : k - 1;
+    if (c->subject && k == n) last = n - 1;
+    if (c->subject && k == 0) before = 0;
     double left = c->time[before + 1] - c->time[before], right = c->time[last + 1] - c->time[last];
     double rise_left = (y[before + 1] - y[before]) / left;
     double rise_right = (y[last + 1] - y[last]) / right;
@@ -254,24 +312,62 @@ static void warn_if_open(ambulo__cycle *c, const double *y, const char *curve) {
   c->warned_open = 1;
 }
 
+/* one stride from `strike` on: adds values / strides, and their squares */
+static void add_stride(const ambulo__cycle *c, const double *y, const double *slope, double factor,
+                       double strike, double length, const double *percents, int count, int strides,
+                       double *values, double *squares) {
+  double start = c->time[0], whole = c->time[c->rows - 1] - start;
+  for (int i = 0; i < count; i++) {
+    double t = strike + 0.01 * percents[i] * length - start;
+    if (!c->subject) t -= whole * floor(t / whole);
+    double value = factor * interpolate(c, y, slope, start + t);
+    values[i] += value / (double)strides;
+    if (squares) squares[i] += value * value / (double)strides;
+  }
+}
+
+/* strides of a person's own motion that count for a unit */
+static int count_strides(const ambulo__cycle *c, ambulo__cycle_side side, int is_angle) {
+  int count = 0;
+  if (!c->subject) return 1;
+  for (int i = 0; i + 1 < c->subject->count[side]; i++)
+    count += is_angle || c->subject->loaded[side][i];
+  return count;
+}
+
+ambulo_status ambulo__cycle_spread(ambulo__cycle *c, const ambulo__map_entry *entry,
+                                   ambulo__cycle_side side, const double *percents, int count,
+                                   double *values, double *squares, int *strides) {
+  double *y = c->scratch + c->rows, *slope = y + c->rows;
+  int found = 0, is_angle = entry->unit == AMBULO__UNIT_ANGLE;
+  *strides = 0;
+  ambulo_status status = ambulo__cycle_samples(c, entry->result, side, y, &found);
+  if (status || !found || (!is_angle && !(c->mass > 0.0))) return status;
+  if (!c->subject) warn_if_open(c, y, entry->curve);
+  double factor = entry->factor * (is_angle ? 57.295779513082321 : 1.0 / c->mass);
+  if (entry->opposite && side == AMBULO__CYCLE_RIGHT) factor = -factor;
+  int n = *strides = count_strides(c, side, is_angle);
+  if (n == 0) return AMBULO_OK;
+  memset(values, 0, (size_t)count * sizeof *values);
+  if (squares) memset(squares, 0, (size_t)count * sizeof *squares);
+  fill_slopes(c, y, slope);
+  if (!c->subject)
+    add_stride(c, y, slope, factor, c->strike[side], c->length[side], percents, count, n, values,
+               squares);
+  for (int i = 0; c->subject && i + 1 < c->subject->count[side]; i++) {
+    const double *t = c->subject->strikes[side] + i;
+    if (is_angle || c->subject->loaded[side][i])
+      add_stride(c, y, slope, factor, t[0], t[1] - t[0], percents, count, n, values, squares);
+  }
+  return AMBULO_OK;
+}
+
 ambulo_status ambulo__cycle_curve(ambulo__cycle *c, const ambulo__map_entry *entry,
                                   ambulo__cycle_side side, const double *percents, int count,
                                   double *values, int *found) {
-  double *y = c->scratch + c->rows, *slope = y + c->rows;
-  ambulo_status status = ambulo__cycle_samples(c, entry->result, side, y, found);
-  if (status) return status;
-  int is_angle = entry->unit == AMBULO__UNIT_ANGLE;
-  if (!is_angle && !(c->mass > 0.0)) *found = 0;
-  if (!*found) return AMBULO_OK;
-  warn_if_open(c, y, entry->curve);
-  double factor = entry->factor * (is_angle ? 57.295779513082321 : 1.0 / c->mass);
-  if (entry->opposite && side == AMBULO__CYCLE_RIGHT) factor = -factor;
-  double start = c->time[0], whole = c->time[c->rows - 1] - start;
-  fill_slopes(c, y, slope);
-  for (int i = 0; i < count; i++) {
-    double t = c->strike[side] + 0.01 * percents[i] * c->length[side] - start;
-    t -= whole * floor(t / whole);
-    values[i] = factor * interpolate(c, y, slope, start + t);
-  }
-  return AMBULO_OK;
+  int strides = 0;
+  ambulo_status status =
+      ambulo__cycle_spread(c, entry, side, percents, count, values, NULL, &strides);
+  *found = strides > 0;
+  return status;
 }

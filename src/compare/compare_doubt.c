@@ -23,27 +23,37 @@ int ambulo__curve_is_listed(const char *list, const char *curve) {
   return 0;
 }
 
-static int is_known(const ambulo__reference *reference, const char *name, size_t size) {
-  for (int i = 0; i < reference->count; i++) {
-    const char *curve = reference->curves[i].entry->curve;
+/* the curves of all files, one after the other; NULL at the end */
+static const char *curve_at(const ambulo__people *people, int index) {
+  for (int f = 0; f < people->count; f++) {
+    const ambulo__reference *reference = &people->files[f].reference;
+    if (index < reference->count) return reference->curves[index].entry->curve;
+    index -= reference->count;
+  }
+  return NULL;
+}
+
+static int is_known(const ambulo__people *people, const char *name, size_t size) {
+  const char *curve;
+  for (int i = 0; (curve = curve_at(people, i)) != NULL; i++) {
     if (strlen(curve) == size && memcmp(curve, name, size) == 0) return 1;
   }
   return 0;
 }
 
-ambulo_status ambulo__curves_check(const char *list, const ambulo__reference *reference,
-                                   const char *file, ambulo_diagnostics *diagnostics) {
-  ambulo__place place = {.file = file};
+ambulo_status ambulo__curves_check(const char *list, const ambulo__people *people,
+                                   ambulo_diagnostics *diagnostics) {
+  ambulo__place place = {.file = people->files[0].path};
   for (const char *at = list; at;) {
     char known[400] = "";
+    const char *curve;
     size_t used = 0, size = strcspn(at, ",");
-    if (is_known(reference, at, size)) {
+    if (is_known(people, at, size)) {
       at = at[size] ? at + size + 1 : NULL;
       continue;
     }
-    for (int i = 0; i < reference->count && used < sizeof known; i++)
-      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-                               reference->curves[i].entry->curve);
+    for (int i = 0; used < sizeof known && (curve = curve_at(people, i)) != NULL; i++)
+      used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", curve);
     return ambulo__error(diagnostics, AMBULO_E_SCHEMA, place, NULL,
                          "--columns: the reference has no curve '%.*s'; expected some of %s",
                          (int)(size < 100 ? size : 100), at, known);

@@ -11,8 +11,13 @@
 
 /* curve, reference, result, factor, opposite, tilted, unit */
 static const ambulo__map_entry band[] = {
+    {"pelvis_anterior_tilt", "pelvic_tilt", "q.pelvis_tilt", -1, 0, 1, AMBULO__UNIT_ANGLE},
+    {"pelvis_up_obliquity", "pelvic_obliquity", "q.pelvis_list", 1, 1, 0, AMBULO__UNIT_ANGLE},
+    {"pelvis_internal_rotation", "pelvic_rotation", "q.pelvis_rotation", -1, 1, 0,
+     AMBULO__UNIT_ANGLE},
     {"hip_flexion", "hip_flexion", "q.hip_flexion_{side}", 1, 0, 1, AMBULO__UNIT_ANGLE},
     {"hip_adduction", "hip_adduction", "q.hip_adduction_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
+    {"hip_internal_rotation", "hip_rotation", "q.hip_rotation_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
     {"knee_flexion", "knee_flexion", "q.knee_angle_{side}", 1, 0, 0, AMBULO__UNIT_ANGLE},
     {"ankle_dorsiflexion", "ankle_dorsiflexion", "q.ankle_angle_{side}", 1, 0, 0,
      AMBULO__UNIT_ANGLE},
@@ -63,6 +68,24 @@ static const ambulo__map_entry wide[] = {
      AMBULO__UNIT_MOMENT},
 };
 
+/* what a table of cycles calls its columns: the names of the curves (compare_cycles.h) */
+static const ambulo__map_entry wide_forces[] = {
+    {"grf_forward", "grf_forward", "grf.{foot}.forward", 1, 0, 0, AMBULO__UNIT_FORCE},
+    {"grf_vertical", "grf_vertical", "grf.{foot}.up", 1, 0, 0, AMBULO__UNIT_FORCE},
+};
+enum {
+  OWN_COUNT = sizeof quantity / sizeof *quantity,
+  FORCE_COUNT = sizeof wide_forces / sizeof *wide_forces
+};
+
+static void add_own_names(ambulo__map *map) {
+  ambulo__map_entry *to = map->entries + map->count;
+  memcpy(to, quantity, sizeof quantity);
+  for (int i = 0; i < OWN_COUNT; i++) memcpy(to[i].reference, to[i].curve, sizeof to[i].curve);
+  memcpy(to + OWN_COUNT, wide_forces, sizeof wide_forces);
+  map->count += OWN_COUNT + FORCE_COUNT;
+}
+
 static const struct {
   const ambulo__map_entry *entries;
   size_t count;
@@ -83,9 +106,11 @@ ambulo_status ambulo__map_default(ambulo__reference_layout layout,
                                   const ambulo_allocator *allocator, ambulo__map *map) {
   ambulo__map m = {.allocator = ambulo__allocator_or_default(allocator),
                    .count = (int)builtin[layout].count};
-  m.entries = ambulo__alloc(&m.allocator, builtin[layout].count, sizeof *m.entries);
+  size_t room = builtin[layout].count + OWN_COUNT + FORCE_COUNT;
+  m.entries = ambulo__alloc(&m.allocator, room, sizeof *m.entries);
   if (!m.entries) return AMBULO_E_MEMORY;
   memcpy(m.entries, builtin[layout].entries, builtin[layout].count * sizeof *m.entries);
+  if (layout == AMBULO__LAYOUT_WIDE) add_own_names(&m);
   *map = m;
   return AMBULO_OK;
 }

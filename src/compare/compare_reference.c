@@ -107,7 +107,7 @@ static ambulo_status read_point(const curve_reader *r, int line, ambulo__referen
   return AMBULO_OK;
 }
 
-static void free_curve(const ambulo_allocator *a, ambulo__reference_curve *c) {
+void ambulo__reference_curve_free(const ambulo_allocator *a, ambulo__reference_curve *c) {
   ambulo__free(a, c->percent);
   ambulo__free(a, c->mean);
   ambulo__free(a, c->sd);
@@ -146,11 +146,18 @@ static ambulo_status read_curve(curve_reader *r, const ambulo__map_entry *entry,
         r->diagnostics, AMBULO_E_SCHEMA, ambulo__sheet_place(r->sheet, r->header, 0), NULL,
         "'%s' has %d points; expected at least %d", entry->reference, c.points, FEWEST);
   if (status) {
-    free_curve(r->allocator, &c);
+    ambulo__reference_curve_free(r->allocator, &c);
     return status;
   }
   *curve = c;
   return AMBULO_OK;
+}
+
+static int has_curve(const ambulo__reference *reference, const char *curve) {
+  for (int i = 0; i < reference->count; i++) {
+    if (strcmp(reference->curves[i].entry->curve, curve) == 0) return 1;
+  }
+  return 0;
 }
 
 ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__reference_layout layout,
@@ -173,6 +180,7 @@ ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__refer
   if (!f.curves) return AMBULO_E_MEMORY;
   ambulo_status status = AMBULO_OK;
   for (int i = 0; !status && i < map->count; i++) {
+    if (has_curve(&f, map->entries[i].curve)) continue; /* a table has it under one name */
     status = read_curve(&r, &map->entries[i], &f.curves[f.count]);
     if (!status && f.curves[f.count].points > 0) f.count++;
   }
@@ -191,6 +199,6 @@ ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__refer
 
 void ambulo__reference_free(ambulo__reference *reference) {
   for (int i = 0; i < reference->count; i++)
-    free_curve(&reference->allocator, &reference->curves[i]);
+    ambulo__reference_curve_free(&reference->allocator, &reference->curves[i]);
   ambulo__free(&reference->allocator, reference->curves);
 }

@@ -29,6 +29,8 @@ ambulo_status ambulo__reference_curves(const ambulo__sheet *sheet, ambulo__refer
                                        int header, const ambulo__map *map,
                                        ambulo_diagnostics *diagnostics,
                                        ambulo__reference *reference);
+void ambulo__reference_curve_free(const ambulo_allocator *allocator,
+                                  ambulo__reference_curve *curve);
 void ambulo__reference_free(ambulo__reference *reference); /* accepts a zero-filled one */
 
 #endif

@@ -31,10 +31,25 @@ static int expand(const char *from, size_t length, ambulo__cycle_side side, char
   return 1;
 }
 
+/* the same of a person's own motion */
+static void take_of_subject(const ambulo__motion *table, const char *name, double factor,
+                            int product, double *values, int *found) {
+  int column = ambulo__motion_column(table, name);
+  *found = column >= 0;
+  for (int k = 0; *found && k < table->rows; k++) {
+    double value = table->values[(size_t)k * (size_t)table->columns + (size_t)column];
+    values[k] = product ? values[k] * value : values[k] + factor * value;
+  }
+}
+
 /* values += factor * column (or *= when product); 0 in *found if there is no such column */
 static ambulo_status take_column(ambulo__cycle *c, const char *name, double factor, int product,
                                  double *values, int *found) {
   int column = -1;
+  if (c->subject) {
+    take_of_subject(c->subject->table, name, factor, product, values, found);
+    return AMBULO_OK;
+  }
   ambulo_status status = ambulo__sheet_find_one(&c->sheet, 0, name, c->diagnostics, &column);
   if (status) return status;
   *found = column >= 0;

@@ -1,4 +1,4 @@
-/* picture/gait_chart.c - one small panel: range, grid, curves (gait_chart.h). */
+/* picture/gait_chart.c - one small panel: range, grid, curves, people (gait_chart.h). */
 #include "picture/gait_chart.h"
 
 #include <math.h>
@@ -19,6 +19,15 @@ void ambulo__chart_range(ambulo__gait_chart *c, const int *columns, int count) {
   if (high - low < 1e-9) high = low + 1.0;
   c->low = low;
   c->high = high;
+}
+
+void ambulo__chart_widen(ambulo__gait_chart *c, const ambulo__people_curve *people) {
+  for (int k = 0; k < c->stride->samples; k++) {
+    double mean, band;
+    if (!ambulo__people_at(people, k, &mean, &band)) continue;
+    c->low = fmin(c->low, mean - band);
+    c->high = fmax(c->high, mean + band);
+  }
 }
 
 static double chart_y(const ambulo__gait_chart *c, double value) {
@@ -61,6 +70,40 @@ void ambulo__chart_curve(const ambulo__gait_chart *c, int column, ambulo__side s
       ambulo__svg_path_move(text, x, chart_y(c, value));
       pen_down = 1;
     }
+  }
+  ambulo__svg_path_end(text);
+}
+
+/* mean + factor * band at the samples from, from + step, ..., before `to` */
+static void trace_people(const ambulo__gait_chart *c, const ambulo__people_curve *people, int from,
+                         int to, int step, double factor, ambulo__text_buffer *text) {
+  for (int k = from; k != to; k += step) {
+    double mean, band, x = ambulo__panel_time(&c->box, c->stride->times[k]);
+    (void)ambulo__people_at(people, k, &mean, &band);
+    double y = chart_y(c, mean + factor * band);
+    if (k == from && step > 0) {
+      ambulo__svg_path_move(text, x, y);
+    } else {
+      ambulo__svg_path_line(text, x, y);
+    }
+  }
+}
+
+void ambulo__chart_people(const ambulo__gait_chart *c, const ambulo__people_curve *people,
+                          ambulo__text_buffer *text) {
+  static const char *const bands[] = {"", "left-people", "right-people"};
+  static const char *const lines[] = {"", "left people", "right people"};
+  int samples = c->stride->samples;
+  if (!people->curve) return;
+  int has_band = people->curve->sd != NULL;
+  ambulo__svg_path_begin(text, (has_band ? bands : lines)[people->side]);
+  for (int from = 0; from < samples; from++) {
+    double mean, band;
+    int to = from;
+    while (to < samples && ambulo__people_at(people, to, &mean, &band)) to++;
+    if (to > from) trace_people(c, people, from, to, 1, has_band, text);
+    if (to > from && has_band) trace_people(c, people, to - 1, from - 1, -1, -1.0, text);
+    from = to;
   }
   ambulo__svg_path_end(text);
 }

@@ -2,6 +2,7 @@
 #ifndef AMBULO_PICTURE_GAIT_CHART_H
 #define AMBULO_PICTURE_GAIT_CHART_H
 
+#include "picture/gait_people.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
 
@@ -16,10 +17,16 @@ typedef struct ambulo__gait_chart {
 
 /* Sets low and high so that zero and the columns fit. */
 void ambulo__chart_range(ambulo__gait_chart *chart, const int *columns, int count);
+/* Widens them for a curve of people and its band. */
+void ambulo__chart_widen(ambulo__gait_chart *chart, const ambulo__people_curve *people);
 /* Horizontal grid with numbers; the range grows to whole steps. */
 void ambulo__chart_grid(ambulo__gait_chart *chart, ambulo__text_buffer *text);
 /* One column in the colour of a side; gaps where it is not finite. */
 void ambulo__chart_curve(const ambulo__gait_chart *chart, int column, ambulo__side side,
                          ambulo__text_buffer *text);
+/* A curve of people in the same colours: a pale band where there are deviations, a dashed line
+ * elsewhere. */
+void ambulo__chart_people(const ambulo__gait_chart *chart, const ambulo__people_curve *people,
+                          ambulo__text_buffer *text);
 
 #endif

@@ -1,7 +1,8 @@
 /* picture/gait_curves.c - small panels: joint angles (degrees) above, torques (N m) below.
  *
  * A panel shows one coordinate or a left-right pair. Shown are hip flexion, knee and ankle if
- * the model has them, then the coordinates with the largest torques. */
+ * the model has them, then the coordinates with the largest torques; behind them, for a walk, the
+ * curves of people. */
 #include <math.h>
 #include <string.h>
 
@@ -84,18 +85,28 @@ static void pretty_name(const ambulo_model *model, int i, ambulo__text_buffer *o
 /* ------------------------------------------------------------------- drawing */
 
 static void draw_chart(ambulo__gait_chart *c, int coordinate, const char *quantity,
+                       const char *title_end, ambulo__gait_people *people,
                        ambulo__text_buffer *text) {
   const ambulo_model *model = c->stride->model;
+  ambulo__people_curve beside[2];
   int pair[2] = {coordinate, model->coordinates[coordinate].mirror};
   int count = pair[1] == coordinate ? 1 : 2;
   ambulo__text_buffer title;
   ambulo__text_init_part(&title, text);
   pretty_name(model, coordinate, &title);
-  ambulo__text_append(&title, quantity);
+  ambulo__text_append(&title, title_end);
   ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0, ambulo__text_data(&title));
   ambulo__text_free(&title);
   ambulo__chart_range(c, pair, count);
+  for (int j = 0; j < count; j++) {
+    beside[j] = ambulo__people_coordinate(people, quantity, pair[j]);
+    ambulo__chart_widen(c, &beside[j]);
+  }
   ambulo__chart_grid(c, text);
+  for (int j = count - 1; j >= 0; j--) {
+    ambulo__chart_people(c, &beside[j], text);
+    people->shown[beside[j].file] |= beside[j].curve != NULL;
+  }
   for (int j = count - 1; j >= 0; j--)
     ambulo__chart_curve(c, pair[j], ambulo__coordinate_side(model, pair[j]), text);
   ambulo__panel axis = c->box;
@@ -104,7 +115,7 @@ static void draw_chart(ambulo__gait_chart *c, int coordinate, const char *quanti
 }
 
 void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
-                         ambulo__text_buffer *text) {
+                         ambulo__gait_people *people, ambulo__text_buffer *text) {
   const double label_room = 44.0, gap = 30.0, row_room = 74.0;
   int chosen[MOST_COLUMNS];
   int count = choose(stride, chosen);
@@ -123,7 +134,7 @@ void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *pane
     lower.box.y += height + row_room;
     lower.values = stride->tau;
     lower.factor = 1.0;
-    draw_chart(&upper, chosen[j], revolute ? ", degrees" : ", m", text);
-    draw_chart(&lower, chosen[j], revolute ? " torque, N m" : " force, N", text);
+    draw_chart(&upper, chosen[j], "q", revolute ? ", degrees" : ", m", people, text);
+    draw_chart(&lower, chosen[j], "tau", revolute ? " torque, N m" : " force, N", people, text);
   }
 }

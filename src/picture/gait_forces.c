@@ -4,6 +4,7 @@
  * A foot's side is that of its heel at q = 0: of two left where it stands further along left.
  */
 #include <math.h>
+#include <string.h>
 
 #include "base/vector.h"
 #include "gait/effector.h"
@@ -51,16 +52,33 @@ static double force_along(const ambulo__stride *s, int k, int effector, const do
          ambulo__model_weight(s->model);
 }
 
-static void draw_force(ambulo__gait_chart *c, const curves *all, const double direction[3],
-                       double *values, const char *title, ambulo__text_buffer *text) {
+/* the people's, behind the two feet */
+static void draw_people(ambulo__gait_chart *c, const char *name, ambulo__gait_people *people,
+                        ambulo__text_buffer *text) {
+  ambulo__people_curve right = ambulo__people_force(people, name, AMBULO__RIGHT);
+  ambulo__people_curve left = ambulo__people_force(people, name, AMBULO__LEFT);
+  ambulo__chart_widen(c, &right);
+  ambulo__chart_widen(c, &left);
+  ambulo__chart_grid(c, text);
+  ambulo__chart_people(c, &right, text);
+  ambulo__chart_people(c, &left, text);
+  people->shown[left.file] |= left.curve != NULL;
+}
+
+static void draw_force(ambulo__gait_chart *c, const curves *all, const char *name, double *values,
+                       ambulo__gait_people *people, ambulo__text_buffer *text) {
   const ambulo__stride *s = c->stride;
+  int upward = strcmp(name, "up") == 0;
+  const double *direction = upward ? s->model->up : s->model->forward;
   for (int k = 0; k < s->samples; k++) {
     for (int i = 0; i < all->count; i++)
       values[k * all->count + i] = force_along(s, k, all->effector[i], direction);
   }
-  ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0, title);
+  ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0,
+                    upward ? "Ground reaction upward, body weights"
+                           : "Ground reaction forward, body weights");
   ambulo__chart_range(c, all->column, all->count);
-  ambulo__chart_grid(c, text);
+  draw_people(c, name, people, text);
   for (int i = all->count - 1; i >= 0; i--) ambulo__chart_curve(c, i, all->side[i], text);
   ambulo__panel axis = c->box;
   axis.y += c->box.height;
@@ -68,7 +86,7 @@ static void draw_force(ambulo__gait_chart *c, const curves *all, const double di
 }
 
 ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
-                                  ambulo__text_buffer *text) {
+                                  ambulo__gait_people *people, ambulo__text_buffer *text) {
   const double label_room = 44.0, gap = 30.0;
   curves all = curves_of(stride);
   if (all.count == 0) return AMBULO_OK;
@@ -84,9 +102,8 @@ ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__pa
       .factor = 1.0};
   ambulo__gait_chart ahead = up;
   ahead.box.x += width + label_room + gap;
-  draw_force(&up, &all, stride->model->up, values, "Ground reaction upward, body weights", text);
-  draw_force(&ahead, &all, stride->model->forward, values, "Ground reaction forward, body weights",
-             text);
+  draw_force(&up, &all, "up", values, people, text);
+  draw_force(&ahead, &all, "forward", values, people, text);
   ambulo__free(&text->allocator, values);
   return AMBULO_OK;
 }

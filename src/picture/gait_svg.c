@@ -1,7 +1,7 @@
 /* picture/gait_svg.c - the page: title, strip, bars, time axis, curves, legend.
  *
  * Reading order: svg.h, skeleton.h, gait_svg.h, gait_svg.c, gait_strip.c, gait_bars.c,
- * gait_chart.h, gait_curves.c, gait_forces.c.
+ * gait_people.h, gait_chart.h, gait_curves.c, gait_forces.c.
  */
 #include "picture/gait_svg.h"
 #include "gait/effector.h"
@@ -81,6 +81,30 @@ static void heading(const ambulo_problem *problem, const ambulo_result *result, 
   ambulo__svg_label(text, "right-text", right - 40.0, 46.0, "right");
 }
 
+void ambulo__people_legend(const ambulo__gait_people *people, const ambulo__panel *panel,
+                           ambulo__text_buffer *text) {
+  double y = panel->y, x = panel->x + 44.0;
+  for (int f = 0; f < AMBULO__PEOPLE_FILES; f++) {
+    if (!people->shown[f]) continue;
+    const ambulo__people_file *file = &people->people->files[f];
+    int has_band = file->reference.curves[0].sd != NULL;
+    ambulo__text_buffer line;
+    ambulo__text_init_part(&line, text);
+    if (has_band) {
+      ambulo__svg_rectangle(text, "left-people", x, y - 10.0, 20.0, 12.0);
+      ambulo__svg_rectangle(text, "right-people", x + 24.0, y - 10.0, 20.0, 12.0);
+    } else {
+      ambulo__svg_line(text, "left people", x, y - 4.0, x + 20.0, y - 4.0);
+      ambulo__svg_line(text, "right people", x + 24.0, y - 4.0, x + 44.0, y - 4.0);
+    }
+    ambulo__text_append(&line, has_band ? "people, mean \xc2\xb1 2 SD: " : "people, mean: ");
+    ambulo__text_append(&line, file->source ? file->source : file->path);
+    ambulo__svg_label(text, "legend", x + 54.0, y, ambulo__text_data(&line));
+    ambulo__text_free(&line);
+    y += 19.0;
+  }
+}
+
 static int has_sides(const ambulo_model *model) {
   for (int i = 0; i < model->coordinate_count; i++) {
     if (model->coordinates[i].mirror != i) return 1;
@@ -90,11 +114,12 @@ static int has_sides(const ambulo_model *model) {
 
 /* picture below the heading; the height is known before anything is drawn */
 typedef struct layout {
-  ambulo__panel strip, bars, axis, curves, forces;
+  ambulo__panel strip, bars, axis, curves, forces, people;
   double height;
 } layout;
 
-static ambulo_status arrange(const ambulo__stride *stride, const double *x, layout *page) {
+static ambulo_status arrange(const ambulo__stride *stride, const double *x, int people,
+                             layout *page) {
   int lanes = 0, forces = stride->feet + stride->patches > 0;
   for (int e = 0; e < ambulo__effector_count(stride->model); e++)
     lanes += ambulo_problem_contact_count(stride->problem) && ambulo__gait_shows(stride, e);
@@ -112,15 +137,18 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x, layo
   page->forces = curves;
   page->forces.y = curves.y + curves.height + 66.0;
   page->forces.height = forces ? 178.0 : 0.0;
-  page->height = curves.y + curves.height + 46.0 + (forces ? 244.0 : 0.0);
+  page->people = curves;
+  page->people.y = curves.y + curves.height + 54.0 + (forces ? 244.0 : 0.0);
+  page->height = page->people.y - 8.0 + (people ? 44.0 : 0.0);
   return status;
 }
 
 static ambulo_status draw_page(const ambulo_problem *problem, const ambulo_result *result,
-                               const ambulo__stride *stride, ambulo__text_buffer *text) {
+                               const ambulo__stride *stride, ambulo__gait_people *people,
+                               ambulo__text_buffer *text) {
   layout page;
   const double *x = ambulo_result_x(result);
-  ambulo_status status = arrange(stride, x, &page);
+  ambulo_status status = arrange(stride, x, people->people != NULL, &page);
   if (status) return status;
   const char *name = ambulo_problem_name(problem);
   ambulo__svg_begin(text, page_width, page.height, name ? name : "motion");
@@ -128,19 +156,23 @@ static ambulo_status draw_page(const ambulo_problem *problem, const ambulo_resul
   status = ambulo__gait_strip(problem, x, &page.strip, text);
   ambulo__gait_bars(stride, &page.bars, text);
   ambulo__time_axis(&page.axis, 9, "s", text);
-  ambulo__gait_curves(stride, &page.curves, text);
-  if (!status) status = ambulo__gait_forces(stride, &page.forces, text);
+  ambulo__gait_curves(stride, &page.curves, people, text);
+  if (!status) status = ambulo__gait_forces(stride, &page.forces, people, text);
+  ambulo__people_legend(people, &page.people, text);
   ambulo__svg_end(text);
   return status ? status : ambulo__text_status(text);
 }
 
 ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
-                               ambulo__text_buffer *text) {
+                               const ambulo__people *people, ambulo__text_buffer *text) {
   ambulo__stride stride = {.samples = 0};
+  ambulo__gait_people behind = {.people = NULL};
   ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result), CURVE_SAMPLES,
                                                &text->allocator, &stride);
   if (status) return status;
-  status = draw_page(problem, result, &stride, text);
+  status = ambulo__gait_people_create(&stride, people, &text->allocator, &behind);
+  if (!status) status = draw_page(problem, result, &stride, &behind, text);
+  ambulo__gait_people_free(&behind);
   ambulo__stride_free(&stride);
   return status;
 }

@@ -7,12 +7,14 @@
 
 #include "ambulo/report.h"
 #include "base/text_buffer.h"
+#include "picture/gait_people.h"
 #include "picture/skeleton.h"
 #include "stride/stride.h"
 
-/* Appends the whole picture. Errors: E_MEMORY. */
+/* Appends the whole picture; `people` (NULL: none) are drawn behind the curves of a walk
+ * (picture/gait_people.h). Errors: E_MEMORY. */
 ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
-                               ambulo__text_buffer *text);
+                               const ambulo__people *people, ambulo__text_buffer *text);
 
 /* ---------------------------------------------- its parts, each in its file */
 
@@ -48,11 +50,15 @@ void ambulo__time_axis(const ambulo__panel *panel, int parts, const char *unit,
 
 /* Curves of up to three coordinates (pairs left and right): angles above, torques below. */
 void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
-                         ambulo__text_buffer *text);
+                         ambulo__gait_people *people, ambulo__text_buffer *text);
 
 /* Forces on feet and patches, upward and forward, side by side; nothing without ground reaction.
  * Errors: E_MEMORY. */
 ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
-                                  ambulo__text_buffer *text);
+                                  ambulo__gait_people *people, ambulo__text_buffer *text);
+
+/* Who the people are whose curves were drawn, a line each, from y = panel->y down. */
+void ambulo__people_legend(const ambulo__gait_people *people, const ambulo__panel *panel,
+                           ambulo__text_buffer *text);
 
 #endif

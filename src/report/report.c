@@ -104,18 +104,37 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
   return status;
 }
 
+/* the picture; no result is lost over curves of people that cannot be read */
+static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *result,
+                          const char *norms, ambulo__text_buffer *text,
+                          ambulo_diagnostics *diagnostics) {
+  ambulo__people people = {.count = 0};
+  ambulo_status status = AMBULO_OK;
+  int wanted = norms && ambulo__gait_is_walk(problem);
+  if (wanted) status = ambulo__norms_read(norms, &text->allocator, NULL, &people);
+  if (status == AMBULO_E_MEMORY) return status;
+  if (status) {
+    ambulo__place place = {.file = norms};
+    ambulo__warning(diagnostics, place, NULL,
+                    "the curves of people cannot be read; gait.svg is without them");
+  }
+  status = ambulo__gait_svg(problem, result, wanted && !status ? &people : NULL, text);
+  ambulo__people_free(&people);
+  return status;
+}
+
 static ambulo_status write_all(const ambulo_problem *problem, const ambulo_result *result,
-                               int samples, ambulo__folder *folder, ambulo__text_buffer *text,
-                               ambulo_diagnostics *diagnostics) {
+                               const ambulo_report_options *options, ambulo__folder *folder,
+                               ambulo__text_buffer *text, ambulo_diagnostics *diagnostics) {
   ambulo__summary_json(problem, result, text);
   ambulo_status status = write_text(folder, summary_name, text, diagnostics);
   if (status) return status;
   ambulo__solution_yaml(problem, result, text);
   status = write_text(folder, "solution.yaml", text, diagnostics);
   if (status) return status;
-  status = write_motion(problem, result, samples, folder, text, diagnostics);
+  status = write_motion(problem, result, options->samples, folder, text, diagnostics);
   if (status) return status;
-  status = ambulo__gait_svg(problem, result, text);
+  status = draw(problem, result, options->norms, text, diagnostics);
   return status ? status : write_text(folder, "gait.svg", text, diagnostics);
 }
 
@@ -131,7 +150,7 @@ ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_re
   if (status) return status;
   ambulo__text_buffer text;
   ambulo__text_init(&text, allocator);
-  status = write_all(problem, result, own.samples, folder, &text, diagnostics);
+  status = write_all(problem, result, &own, folder, &text, diagnostics);
   ambulo__text_free(&text);
   if (status) {
     ambulo__folder_abort(folder);

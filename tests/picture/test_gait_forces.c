@@ -14,7 +14,7 @@ static void panels_of_ground_reaction(void **state) {
   assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  assert_int_equal(ambulo__gait_svg(problem, result, &text), AMBULO_OK);
+  assert_int_equal(ambulo__gait_svg(problem, result, NULL, &text), AMBULO_OK);
   const char *svg = ambulo__text_data(&text);
   assert_true(is_xml(svg));
   assert_non_null(strstr(svg, "Ground reaction upward, body weights"));

@@ -11,7 +11,7 @@ static void test_walk(void **state) {
   walk_open(&w, 12);
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
   const char *svg = ambulo__text_data(&text);
   assert_true(is_xml(svg));
   int figures = occurrences(svg, "<g class=\"figure\">");
@@ -39,7 +39,7 @@ static void test_not_finite(void **state) {
   for (int i = 0; i < n; i++) w.result->x[i] = i % 2 ? (double)NAN : 1e200;
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
   assert_true(is_xml(ambulo__text_data(&text)));
   assert_null(strstr(ambulo__text_data(&text), "nan"));
   assert_null(strstr(ambulo__text_data(&text), "inf"));
@@ -60,7 +60,7 @@ static void test_arm(void **state) {
   arm_point(result->x, ambulo_problem_variable_count(problem), 0.7);
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  assert_int_equal(ambulo__gait_svg(problem, result, &text), AMBULO_OK);
+  assert_int_equal(ambulo__gait_svg(problem, result, NULL, &text), AMBULO_OK);
   const char *svg = ambulo__text_data(&text);
   assert_true(is_xml(svg));
   assert_non_null(strstr(svg, "a &lt;swing&gt; &amp; more"));
@@ -81,12 +81,12 @@ static void test_slope(void **state) {
   walk_open(&w, 12);
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
-  assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
   assert_null(strstr(ambulo__text_data(&text), "hill"));
   ambulo__text_clear(&text);
   ambulo_model *model = w.model;
   ambulo__model_tilt(model, 5.0 / 57.295779513082321);
-  assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+  assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
   assert_non_null(strstr(ambulo__text_data(&text), "uphill 5\xc2\xb0 (drawn level)"));
   ambulo__text_free(&text);
   walk_close(&w);
@@ -101,7 +101,7 @@ static void test_stairs(void **state) {
     w.problem->definition.rise = rises ? 0.17 : 0.0;
     ambulo__text_buffer text;
     ambulo__text_init(&text, NULL);
-    assert_int_equal(ambulo__gait_svg(w.problem, w.result, &text), AMBULO_OK);
+    assert_int_equal(ambulo__gait_svg(w.problem, w.result, NULL, &text), AMBULO_OK);
     const char *svg = ambulo__text_data(&text);
     int figures = occurrences(svg, "<g class=\"figure\">");
     assert_true(is_xml(svg));

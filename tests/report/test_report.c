@@ -7,6 +7,10 @@
 #include <signal.h>
 #include <sys/resource.h>
 
+#ifndef AMBULO_SOURCE_DIR
+#define AMBULO_SOURCE_DIR "."
+#endif
+
 static const char *const files[] = {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
                                     "gait.svg"};
 
@@ -33,6 +37,27 @@ static void test_complete(void **state) {
   }
   assert_int_equal(entries_in(folder), 5);
   assert_int_equal(entries_in(*state), 1);
+  walk_close(&w);
+}
+
+/* people stand behind the curves where their folder is given; no result is lost over them */
+static void test_people(void **state) {
+  walk w;
+  walk_open(&w, 12);
+  ambulo_report_options options = ambulo_report_options_default();
+  for (int readable = 0; readable < 2; readable++) {
+    const char *folder = scratch_path(state, readable ? "with" : "without");
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    options.norms = readable ? AMBULO_SOURCE_DIR "/models/norms" : "/no/such/norms";
+    assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, list),
+                     AMBULO_OK);
+    assert_int_equal(ambulo_diagnostics_count(list), readable ? 0 : 1);
+    if (!readable) assert_message(list, 0, "warning: the curves of people cannot be read");
+    char *svg = read_text(inside(folder, "gait.svg"));
+    assert_int_equal(strstr(svg, "left-people\"") != NULL, readable);
+    free(svg);
+    ambulo_diagnostics_free(list);
+  }
   walk_close(&w);
 }
 
@@ -166,6 +191,7 @@ static void test_out_of_memory(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {SCRATCH_TEST(test_complete),
+                                     SCRATCH_TEST(test_people),
                                      SCRATCH_TEST(test_replaced_only_on_request),
                                      SCRATCH_TEST(test_a_folder_of_others_is_kept),
                                      SCRATCH_TEST(test_what_others_add_is_kept),
