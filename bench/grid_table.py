@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a time grid and a trajectory cost and give: the table of docs/performance.md.
 
-    python3 bench/grid_table.py build/ambulo models shipped walk_normal walk_fast walk_slow
+    python3 bench/grid_table.py build/ambulo models shipped walk walk_normal walk_loaded
     python3 bench/grid_table.py build/ambulo tests/two_step walk_normal walk_fast walk_slow
 
 shipped: each walk as its file says, and how far its objective is from that of four times the

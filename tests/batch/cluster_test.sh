@@ -86,7 +86,7 @@ done_in() { "$AMBULO" batch --status "$1" 2>/dev/null | awk '/^done/ { print $2 
 
 # cancelled in the middle, as at its time limit, and submitted again; walks, so that there is one
 cancel_and_resume() {
-  printf '%s\n' 'ambulo: 1' 'kind: sweep' 'name: walks' "base: $here/../../models/walk_slow.yaml" \
+  printf '%s\n' 'ambulo: 1' 'kind: sweep' 'name: walks' "base: $here/../../models/walk.yaml" \
     'axes:' '  - {key: subject.mass, name: mass, range: [56, 78, 1]}' 'outputs: [objective]' \
     >"$scratch/walks.yaml"
   SWEEP=$scratch/walks.yaml
