@@ -24,7 +24,7 @@ void ambulo__sampler_free(ambulo__sampler *sampler); /* accepts a zero-filled on
 
 /* values[count] at percents[count], in the unit of the entry, with the pelvic tilt where it has
  * one. deviations [count] may be NULL; they are NaN for one stride. *strides: how many; 0 when the
- * motion has no such curve. Errors: as ambulo__cycle_curve. */
+ * motion has no such curve. Errors: as ambulo__cycle_spread. */
 ambulo_status ambulo__sample_curve(ambulo__sampler *sampler, const ambulo__map_entry *entry,
                                    const double *percents, int count, double *values,
                                    double *deviations, int *strides);

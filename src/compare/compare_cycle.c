@@ -361,13 +361,3 @@ ambulo_status ambulo__cycle_spread(ambulo__cycle *c, const ambulo__map_entry *en
   }
   return AMBULO_OK;
 }
-
-ambulo_status ambulo__cycle_curve(ambulo__cycle *c, const ambulo__map_entry *entry,
-                                  ambulo__cycle_side side, const double *percents, int count,
-                                  double *values, int *found) {
-  int strides = 0;
-  ambulo_status status =
-      ambulo__cycle_spread(c, entry, side, percents, count, values, NULL, &strides);
-  *found = strides > 0;
-  return status;
-}

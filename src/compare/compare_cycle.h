@@ -42,16 +42,11 @@ ambulo_status ambulo__cycle_open_subject(const char *file, const ambulo_compare_
                                          ambulo_diagnostics *diagnostics, ambulo__cycle *cycle);
 void ambulo__cycle_close(ambulo__cycle *cycle); /* accepts a zero-filled one */
 
-/* The curve of one side at percents[count], in the unit of the entry, without the pelvic tilt.
- * *found = 0 (values untouched) when the motion has no such column, or the mass is not known but
+/* The curve of one side at percents[count], in the unit of the entry, without the pelvic tilt: the
+ * mean over the strides, and of their squares in squares[count] (NULL: not wanted). *strides: one
+ * of a result, those between strikes of a person's own motion, and of its forces those that are
+ * loaded; 0 (values untouched) when the motion has no such column, or the mass is not known but
  * needed. Errors: E_SCHEMA (a cell is no number). */
-ambulo_status ambulo__cycle_curve(ambulo__cycle *cycle, const ambulo__map_entry *entry,
-                                  ambulo__cycle_side side, const double *percents, int count,
-                                  double *values, int *found);
-
-/* The same with the mean of squares over the strides, squares[count] (NULL: not wanted), and how
- * many strides there are: one of a result, those between strikes of a person's own motion, and of
- * its forces those that begin with one. 0: no such curve. */
 ambulo_status ambulo__cycle_spread(ambulo__cycle *cycle, const ambulo__map_entry *entry,
                                    ambulo__cycle_side side, const double *percents, int count,
                                    double *values, double *squares, int *strides);

@@ -59,9 +59,9 @@ static void curves_are_interpolated_around_the_end(void **state) {
   assert_int_equal(open_cycle(state, (double)NAN, NULL, &c), AMBULO_OK);
   for (int i = 0; i <= 100; i++) percents[i] = i;
   for (int side = 0; side < 2; side++) {
-    assert_int_equal(
-        ambulo__cycle_curve(&c, &hip, (ambulo__cycle_side)side, percents, 101, values, &found),
-        AMBULO_OK);
+    assert_int_equal(ambulo__cycle_spread(&c, &hip, (ambulo__cycle_side)side, percents, 101, values,
+                                          NULL, &found),
+                     AMBULO_OK);
     assert_int_equal(found, 1);
     for (int i = 0; i <= 100; i++) assert_close(values[i], gait_hip(0.01 * i), 2e-3);
   }
@@ -72,15 +72,17 @@ static void curves_are_interpolated_around_the_end(void **state) {
   moment.opposite = 1;
   percents[0] = 0.0;
   assert_int_equal(
-      ambulo__cycle_curve(&c, &moment, AMBULO__CYCLE_LEFT, percents, 1, values, &found), AMBULO_OK);
+      ambulo__cycle_spread(&c, &moment, AMBULO__CYCLE_LEFT, percents, 1, values, NULL, &found),
+      AMBULO_OK);
   assert_close(values[0], 80.0 / 70.0, 1e-9);
   assert_int_equal(
-      ambulo__cycle_curve(&c, &moment, AMBULO__CYCLE_RIGHT, percents, 1, values, &found),
+      ambulo__cycle_spread(&c, &moment, AMBULO__CYCLE_RIGHT, percents, 1, values, NULL, &found),
       AMBULO_OK);
   assert_close(values[0], -80.0 / 70.0, 1e-9);
   c.mass = 0.0;
   assert_int_equal(
-      ambulo__cycle_curve(&c, &moment, AMBULO__CYCLE_LEFT, percents, 1, values, &found), AMBULO_OK);
+      ambulo__cycle_spread(&c, &moment, AMBULO__CYCLE_LEFT, percents, 1, values, NULL, &found),
+      AMBULO_OK);
   assert_int_equal(found, 0);
   ambulo__cycle_close(&c);
 }

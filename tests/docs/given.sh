@@ -1,6 +1,6 @@
 #!/bin/sh
-# Writes into the present folder what the pages call files of your own: measured curves, and a
-# motion with forces as other programs write them. Both are made up from a predicted walk, and
+# Writes into the present folder what the pages call files of your own: measured curves, and
+# motions, one with forces, as other programs write them. All are made up from a predicted walk, and
 # serve to run the commands, not to judge anything. Needs ambulo on the PATH.
 set -e
 models=$(ambulo --models)
@@ -51,4 +51,13 @@ table() { # the columns whose names match $1, renamed by $2; angles (q.*) in deg
 }
 table '^q\.' q Coordinates >ik.mot
 table '^(grf|cop)\.' forces forces >grf.mot
+
+# three strides, one after the other, as a CSV
+awk -F '\t' -v OFS=, '
+  /^time/ { $1 = $1; print "# inDegrees=yes"; print; on = 1; next }
+  on { time[++n] = $1; $1 = ""; rest[n] = $0 }
+  END {
+    for (r = 0; r < 3; r++)
+      for (i = 1; i < n; i++) print time[i] + r * time[n] rest[i]
+  }' ik.mot >person.csv
 rm -r of_walk of_walk.csv

@@ -135,9 +135,9 @@ static void several_strides(void **state) {
     double mean, band;
     int k = (int)lround(strikes[i].time / s.stride.duration * (SAMPLES - 1));
     assert_true(ambulo__people_at(&hip, k, &mean, &band));
-    assert_close(mean, 30.48956 - tilt, 0.4);
+    assert_close(mean, 30.48956 - tilt, 0.02);
     assert_true(ambulo__people_at(&hip, (k + 27 * (SAMPLES - 1) / 100) % SAMPLES, &mean, &band));
-    assert_close(mean, -7.74633 - tilt, 0.6);
+    assert_close(mean, -7.74633 - tilt, 0.02);
   }
   scene_close(&s);
 }

@@ -2,10 +2,10 @@
  *
  * Six seconds at 100 Hz, strides of 1.2 s; the left foot strikes at 0.5 s + 1.2 n, the right one at
  * 1.1 s + 1.2 n. With s the share of a foot's cycle, in degrees:
- *   hip flexion 10 + 25 cos(2 pi (s + 0.11)), knee 30 + 28 cos(2 pi (s - 0.72)), hip adduction 5 cos(2 pi
- * s), hip rotation 3 sin(2 pi s), ankle 8 sin(2 pi s), pelvis (of the left cycle): own side up 4
- * cos(2 pi s), own side forward 6 cos(2 pi s), forward tilt 11 + 2 cos(4 pi s) and in N the
- * vertical force 700 sin(pi s / 0.6), forward -100 sin(2 pi s / 0.6) for s < 0.6. */
+ *   hip flexion 10 + 25 cos(2 pi (s + 0.11)), knee 30 + 28 cos(2 pi (s - 0.72)), hip adduction 5
+ * cos(2 pi s), hip rotation 3 sin(2 pi s), ankle 8 sin(2 pi s), pelvis (of the left cycle): own
+ * side up 4 cos(2 pi s), own side forward 6 cos(2 pi s), forward tilt 11 + 2 cos(4 pi s) and in N
+ * the vertical force 700 sin(pi s / 0.6), forward -100 sin(2 pi s / 0.6) for s < 0.6. */
 #ifndef AMBULO_TESTS_SUBJECT_MOTION_H
 #define AMBULO_TESTS_SUBJECT_MOTION_H
 
