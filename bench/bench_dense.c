@@ -9,12 +9,11 @@
 
 enum { MOST_SETTINGS = 6, TEXT = 512, GRIDS = 3, MOST_FAMILIES = 32 };
 
-static const char *const problems[] = {
-    "walk",           "walk_normal",
-    "walk_loaded",    "walk_uphill",           "walk_tracking",  "walk_asymmetric",
-    "walker_2d_step", "walk_without_reaction", "two_link_reach", "pendulum_swing",
-    "fig5a_feasible", "fig5b_torque",          "yardstick_12",   "yardstick_36",
-    "yardstick_72"};
+static const char *const problems[] = {"walk",           "walk_normal",           "walk_loaded",
+                                       "walk_uphill",    "walk_tracking",         "walk_asymmetric",
+                                       "walker_2d_step", "walk_without_reaction", "two_link_reach",
+                                       "pendulum_swing", "fig5a_feasible",        "fig5b_torque",
+                                       "yardstick_12",   "yardstick_36",          "yardstick_72"};
 enum { PROBLEMS = sizeof problems / sizeof *problems };
 
 typedef struct solved {

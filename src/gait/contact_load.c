@@ -36,9 +36,9 @@
  *
  *     g(min(t - b, e - t)),   g(s) = rho (s - tau (1 - exp(-s / tau)))
  *
- * [b, e] now the time that the contact is down, with the loading rate rho and tau = 6.5 ms (for 1.75 m) over
- * which it sets in: a force that began with its full rate would have a corner, which nodes do not
- * follow and which rings.
+ * [b, e] now the time that the contact is down, with the loading rate rho and tau = 6.5 ms
+ * (for 1.75 m) over which it sets in: a force that began with its full rate would have a corner,
+ * which nodes do not follow and which rings.
  */
 #include "gait/contact_load.h"
 #include "base/vector.h"
@@ -236,8 +236,8 @@ ambulo__contact_load ambulo__contact_load_at(const ambulo_problem_definition *d,
   }
   load.since = time - down.from;
   load.until = down.to - time;
-  load.most =
-      most_after(d->ground_reaction.loading_rate, loading_onset * sqrt(ambulo__model_size(d->model)),
-                 fmin(load.since, load.until), &load.most_by_time);
+  load.most = most_after(d->ground_reaction.loading_rate,
+                         loading_onset * sqrt(ambulo__model_size(d->model)),
+                         fmin(load.since, load.until), &load.most_by_time);
   return load;
 }

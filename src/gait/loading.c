@@ -126,7 +126,8 @@ static ambulo__load double_support(const ambulo_problem_definition *d,
   load.share[front] = share_of_front(&d->ground_reaction, u);
   load.share[rear] = 1.0 - load.share[front];
   double sign = front == 0 ? 1.0 : -1.0;
-  double rear_end = contact[rear]->place[0] + outlines[rear].length + rear_ahead * ambulo__model_size(d->model);
+  double rear_end =
+      contact[rear]->place[0] + outlines[rear].length + rear_ahead * ambulo__model_size(d->model);
   load.apart[0] = sign * (contact[front]->place[0] - rear_end);
   load.apart[1] = contact[0]->place[1] - contact[1]->place[1];
   return load;

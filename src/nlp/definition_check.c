@@ -217,22 +217,26 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
     return REFUSE(list, "objective[%d]: prices without strength: limits", t);
   if (!term->strength_is_limits) return AMBULO_OK;
   if (term->kind != AMBULO_TORQUE_POWER || term->strength)
-    return REFUSE(list, "objective[%d]: strength is limits; expected torque_power without a "
-                        "strength of its own", t);
+    return REFUSE(list,
+                  "objective[%d]: strength is limits; expected torque_power without a "
+                  "strength of its own",
+                  t);
   for (int i = 0; i < ambulo_model_coordinate_count(d->model); i++) {
     const ambulo_coordinate *c = ambulo_model_coordinate(d->model, i);
     if (ambulo__term_scale(term, i) == 0.0) continue;
     for (int side = 0; side < 2 && term->price; side++) {
       double price = term->price[2 * i + side];
       if (!(price > 0.0 && price <= largest))
-        return REFUSE(list, "objective[%d]: a price of %g for %s; expected a positive one", t, price,
-                      c->name);
+        return REFUSE(list, "objective[%d]: a price of %g for %s; expected a positive one", t,
+                      price, c->name);
     }
     if (isfinite(c->torque[0]) && isfinite(c->torque[1]) && c->torque[0] < 0.0 &&
         c->torque[1] > 0.0)
       continue;
-    return REFUSE(list, "objective[%d]: strength is limits, and %s has none in the model; expected "
-                        "torque limits on both sides of 0, or a scale of 0", t, c->name);
+    return REFUSE(list,
+                  "objective[%d]: strength is limits, and %s has none in the model; expected "
+                  "torque limits on both sides of 0, or a scale of 0",
+                  t, c->name);
   }
   return AMBULO_OK;
 }

@@ -24,7 +24,8 @@ static char *copy_text(const ambulo_allocator *a, const char *text, int *failed)
   return copy;
 }
 
-/* [d][2][3]: torque limits by their prices, which do not depend on the angle; 0 of those without, which stand for 1 */
+/* [d][2][3]: torque limits by their prices, which do not depend on the angle; 0 of those without,
+ * which stand for 1 */
 static double *limits_as_strength(const ambulo_allocator *a, const ambulo_model *model,
                                   const double *price, int *failed) {
   size_t count = (size_t)ambulo_model_coordinate_count(model);

@@ -23,7 +23,7 @@
 #include "trajectory/lane_map.h"
 
 #define AMBULO__COMFORTABLE_NUMBER 0.31 /* v / sqrt(g H): 1.28 m/s for 1.75 m */
-enum { AMBULO__PHASES = 4 }; /* heel_strike, foot_flat, heel_off, toe_off of a gait */
+enum { AMBULO__PHASES = 4 };            /* heel_strike, foot_flat, heel_off, toe_off of a gait */
 typedef enum ambulo__phase_kind {
   AMBULO__PHASE_SHARE,    /* of the stride, at any speed */
   AMBULO__PHASE_FUNCTION, /* of the speed, as the file has it */
@@ -49,8 +49,9 @@ typedef struct ambulo__problem_keys {
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
   double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */
   double speed_unit;                  /* sqrt(g H), m/s */
-  double radians;   /* per unit of `angles`; 0: not stated */
-  int written_for;  /* numbers of the file are those of another body (reader/problem_written_for.c) */
+  double radians;                     /* per unit of `angles`; 0: not stated */
+  int written_for; /* numbers of the file are those of another body (reader/problem_written_for.c)
+                    */
   double longer, heavier; /* than that body: ratios of statures and masses; 1 without */
 } ambulo__problem_keys;
 

@@ -22,10 +22,9 @@ enum { FORMAT_VERSION = 1 };
 
 /* "solver.algorithm=slsqp" must also work in a file without a section `solver`: adds it empty */
 static ambulo_status add_section(ambulo__yaml *document, const char *path) {
-  static const char *const sections[] = {"subject", "time",        "trajectory",
-                                         "gait",    "constraints", "ends",
-                                         "solver",  "ground",      "ground_reaction",
-                                         "written_for"};
+  static const char *const sections[] = {"subject",         "time",       "trajectory", "gait",
+                                         "constraints",     "ends",       "solver",     "ground",
+                                         "ground_reaction", "written_for"};
   for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
     size_t length = strlen(sections[i]);
     if (strncmp(path, sections[i], length) != 0 || path[length] != '.') continue;

@@ -48,7 +48,8 @@ static double read_phase(ambulo__problem_reader *reader, const ambulo__yaml_node
   if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING))
     return ambulo__yaml_number_in(node, least[i], most[i], people[i]);
   if (reader->keys.speed_unit > 0.0) return read_function(reader, node, i);
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, "give the model a stature, or the phase a number",
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM,
+                           "give the model a stature, or the phase a number",
                            "a phase by speed of a model without stature; expected a number");
   return people[i];
 }

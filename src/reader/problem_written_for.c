@@ -15,9 +15,9 @@
  *     rate of a force, weight in s^2 by its square             longer
  *     rest of a translation, m; its scale, 1/m                 longer; 1 / longer
  *
- * Left as they are: angles, ratios, forces in body weights, prices (strength: limits), and the task:
- * speed, lengths and times of steps, contacts, ground, load, ends, tubes, references. Integrals over
- * time come out sqrt(longer) times as large, all alike.
+ * Left as they are: angles, ratios, forces in body weights, prices (strength: limits), and the
+ * task: speed, lengths and times of steps, contacts, ground, load, ends, tubes, references.
+ * Integrals over time come out sqrt(longer) times as large, all alike.
  */
 #include "reader/problem_reader.h"
 
@@ -48,12 +48,23 @@ void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml
 static void scale_gaps(ambulo_problem_definition *d, double longer) {
   ambulo_clearance *c = &d->clearance;
   ambulo_ground_reaction *r = &d->ground_reaction;
-  double *lengths[] = {&d->contact_tolerance,  &d->support_margin,      &c->height,
-                       &c->ceiling,            &c->outward,             &c->inward,
-                       &c->feet,               &r->moment_arm,          &r->free_moment,
-                       &r->heel_pressure[0],   &r->heel_pressure[1],    &r->heel_roll,
-                       &r->flat_pressure[0],   &r->flat_pressure[1],    &r->toe_pressure[0],
-                       &r->toe_pressure[1],    &r->pressure_width};
+  double *lengths[] = {&d->contact_tolerance,
+                       &d->support_margin,
+                       &c->height,
+                       &c->ceiling,
+                       &c->outward,
+                       &c->inward,
+                       &c->feet,
+                       &r->moment_arm,
+                       &r->free_moment,
+                       &r->heel_pressure[0],
+                       &r->heel_pressure[1],
+                       &r->heel_roll,
+                       &r->flat_pressure[0],
+                       &r->flat_pressure[1],
+                       &r->toe_pressure[0],
+                       &r->toe_pressure[1],
+                       &r->pressure_width};
   for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) *lengths[i] *= longer;
   r->loading_rate /= sqrt(longer); /* negative ones, which say `off`, stay so */
 }

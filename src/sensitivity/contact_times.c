@@ -151,7 +151,9 @@ static double add_part(const timed *t, double pull) {
 static void add_center(const timed *t, double pull) {
   if (t->contact->mode != AMBULO_CONTACT_FLAT || t->part == AMBULO__FORE_FOOT) return;
   roll r = roll_of(t);
-  double reach = t->length + (t->part == AMBULO__WHOLE_FOOT ? AMBULO__BEYOND_BALL * ambulo__model_size(t->d->model) : 0.0);
+  double reach =
+      t->length +
+      (t->part == AMBULO__WHOLE_FOOT ? AMBULO__BEYOND_BALL * ambulo__model_size(t->d->model) : 0.0);
   double along = 0.5 - (0.5 - r.before) * (1.0 - r.on) + (r.after - 0.5) * r.off;
   if (t->part == AMBULO__REAR_FOOT && along >= 0.5) return;
   add_roll(t, &r, reach * pull * (0.5 - r.before), reach * pull * (r.after - 0.5));

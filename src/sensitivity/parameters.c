@@ -155,7 +155,8 @@ static double by_strength(const ambulo_problem *problem, const ambulo__partials 
   return sum;
 }
 
-/* d/d ln M of terms that are written for another body (reader/problem_written_for.c); NaN: not known
+/* d/d ln M of terms that are written for another body (reader/problem_written_for.c); NaN: not
+ * known
  */
 static double by_written_for(const ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
@@ -190,8 +191,7 @@ static void add_body(ambulo__parameters *p) {
     along[1] -= g[i] * model->forward[i];
   }
   if (mass == 0.0) mass = model->mass - model->load.mass; /* made from C */
-  double by_mass =
-      p->partials->body + by_strength(p->problem, p->partials) + by_written_for(p);
+  double by_mass = p->partials->body + by_strength(p->problem, p->partials) + by_written_for(p);
   if (mass > 0.0 && model->units.mass != 1.0 && isfinite(by_mass))
     ambulo__parameter_add(p, AMBULO__MASS, mass, by_mass / mass, "body mass", "subject.mass");
   if (model->load.mass > 0.0)

@@ -22,7 +22,10 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { PHASES = AMBULO__PHASES, FIRST_STEP = -3 }; /* steps that reach into the motion: gait/expand.c */
+enum {
+  PHASES = AMBULO__PHASES,
+  FIRST_STEP = -3
+}; /* steps that reach into the motion: gait/expand.c */
 
 typedef struct stride {
   const ambulo__parameters *p;

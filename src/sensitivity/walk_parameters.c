@@ -140,15 +140,18 @@ static void add_lengths(ambulo__parameters *p, const double by[2]) {
   if (!isfinite(faster)) return;
   if (!keys->lengths) {
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length,
-                          by[0] + by[1] + (slower + faster) * gait->steps, "step length", "gait.step_length");
+                          by[0] + by[1] + (slower + faster) * gait->steps, "step length",
+                          "gait.step_length");
     ambulo__parameter_travels(p, gait->steps);
     return;
   }
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length, by[0] + (slower + faster) * count[0],
-                        "length of odd steps", "gait.step_length[0]");
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length,
+                        by[0] + (slower + faster) * count[0], "length of odd steps",
+                        "gait.step_length[0]");
   ambulo__parameter_travels(p, count[0]);
-  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->other_step_length, by[1] + (slower + faster) * count[1],
-                        "length of even steps", "gait.step_length[1]");
+  ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->other_step_length,
+                        by[1] + (slower + faster) * count[1], "length of even steps",
+                        "gait.step_length[1]");
   ambulo__parameter_travels(p, count[1]);
 }
 

@@ -16,9 +16,9 @@
 
 typedef struct ambulo__economy {
   ambulo_allocator allocator;
-  double *positive, *negative;     /* [coordinates], J; 0 of those that are not actuated */
+  double *positive, *negative;       /* [coordinates], J; 0 of those that are not actuated */
   double positive_sum, negative_sum; /* J */
-  double distance;                 /* of the centre of mass along forward, m */
+  double distance;                   /* of the centre of mass along forward, m */
   double rise, sway; /* largest less smallest height above the mean path along up, and place along
                         left, m */
 } ambulo__economy;

@@ -41,10 +41,10 @@ static void bounds_are_read_in_units_of_the_file(void **state) {
 /* lengths of a file that is written for another body are in its metres */
 static void bounds_are_those_of_the_body_that_is_written_for(void **state) {
   (void)state;
-#define LARGE                                                                                \
-  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 20}\n"            \
-  "subject: {mass: 75, stature: 2.1}\nwritten_for: {mass: 75, stature: 1.75}\n"              \
-  "objective: [{term: torque_squared}]\nends: {kind: mirrored}\n"                           \
+#define LARGE                                                                                      \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 20}\n"                   \
+  "subject: {mass: 75, stature: 2.1}\nwritten_for: {mass: 75, stature: 1.75}\n"                    \
+  "objective: [{term: torque_squared}]\nends: {kind: mirrored}\n"                                  \
   "gait: {steps: 1, first_foot: left, speed: 1.4, step_width: 0.1}\n"
   ambulo_problem *p = problem_of(LARGE "free: {gait.step_width: [0.05, 0.2]}\n"), *at = NULL;
   ambulo_parameters free = ambulo_problem_parameters(p);

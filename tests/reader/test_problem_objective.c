@@ -63,8 +63,8 @@ static void faults_are_placed(void **state) {
 /* [d][2][3]: the model's torque limits, at any angle */
 static void limits_are_strength(void **state) {
   (void)state;
-#define WITH(strength)                                                                     \
-  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n" \
+#define WITH(strength)                                                                             \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n"       \
   "objective:\n  - {term: torque_power, scale: {default: 0, ankle_angle_r: 0.7}" strength "}\n"
   ambulo_problem *p = problem_of(WITH(", strength: limits"));
   const ambulo_term *term = &p->definition.terms[0];
@@ -80,9 +80,10 @@ static void limits_are_strength(void **state) {
   ambulo_problem_free(without);
   ambulo_problem_free(p);
   expect_refusal(WITH(", strength: limit"), AMBULO_E_SCHEMA, "limits");
-#define PRICED(pair, strength)                                                             \
-  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n" \
-  "objective:\n  - {term: torque_power, scale: {default: 0, ankle_angle_r: " pair "}" strength "}\n"
+#define PRICED(pair, strength)                                                                     \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n"       \
+  "objective:\n  - {term: torque_power, scale: {default: 0, ankle_angle_r: " pair "}" strength     \
+  "}\n"
   p = problem_of(PRICED("[0.5, 4]", ", strength: limits"));
   term = &p->definition.terms[0];
   limit = ambulo_model_coordinate(p->model, ankle)->torque;

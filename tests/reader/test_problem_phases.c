@@ -1,13 +1,13 @@
 /* `gait.phases`: shares of the stride, or functions of the speed. */
 #include "reader/problem_text.h"
 
-#define WALK                                                                            \
-  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\nobjective: none\n"              \
-  "time: {intervals: 20, grid: events}\ntrajectory: {knots: events}\n"                  \
+#define WALK                                                                                       \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\nobjective: none\n"                         \
+  "time: {intervals: 20, grid: events}\ntrajectory: {knots: events}\n"                             \
   "ends: {kind: mirrored}\ngait: {steps: 1, first_foot: left, step_width: 0.1, "
 
-#define YARDSTICK                                                       \
-  "ambulo: 1\nkind: problem\nmodel: yardstick_body.yaml\nobjective: none\n" \
+#define YARDSTICK                                                                                  \
+  "ambulo: 1\nkind: problem\nmodel: yardstick_body.yaml\nobjective: none\n"                        \
   "time: {intervals: 20}\ngait: {steps: 1, first_foot: left, "
 
 static ambulo_gait walk_of(const char *rest) {

@@ -1,30 +1,39 @@
-/* `written_for`: bodies of one shape, at one speed number, have one problem in units of the body. */
+/* `written_for`: bodies of one shape, at one speed number, have one problem in units of the body.
+ */
 #include "reader/problem_text.h"
 
-#define NUMBERS                                                                            \
-  "ambulo: 1\nkind: problem\nmodel: lower_body_21.yaml\nangles: degrees\n"                 \
-  "time: {intervals: 24, grid: events}\n"                                                  \
-  "trajectory: {degree: 4, intervals: 8, knots: events}\nends: {kind: mirrored, order: 2}\n" \
-  "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.3, free_moment: 0.03,\n"     \
-  "  pressure: {heel: [-0.03, 0.04], roll: 0.03, flat: [-0.01, 0.03], toe: [-0.03, 0.06], width: 0.04}}\n" \
+#define NUMBERS                                                                                    \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_21.yaml\nangles: degrees\n"                         \
+  "time: {intervals: 24, grid: events}\n"                                                          \
+  "trajectory: {degree: 4, intervals: 8, knots: events}\nends: {kind: mirrored, order: 2}\n"       \
+  "ground_reaction: {kind: shared, moment_arm: 0.06, slant: 0.3, free_moment: 0.03,\n"             \
+  "  pressure: {heel: [-0.03, 0.04], roll: 0.03, flat: [-0.01, 0.03], toe: [-0.03, 0.06], width: " \
+  "0.04}}\n"                                                                                       \
   "constraints: {contact_tolerance: 0.001, orientation_tolerance: 0.01, strike_pitch: [12, 23],\n" \
-  "  joint_limits: nodes, speed_limits: false, torque_limits: true,\n"                     \
-  "  clearance: {height: 0.03, ceiling: 0.4, outward: 0.05, inward: 0.02, feet: 0.01}}\n"  \
-  "objective:\n"                                                                           \
-  "  - {term: torque_power, weight: 1.1, power: 2.6, scale: {default: 0, hip_flexion_r: 0.01, hip_flexion_l: 0.01},\n" \
-  "     offset: {hip_flexion_r: 3, hip_flexion_l: 3}, passive: {hip_flexion_r: [-2, -5, 1, 4], hip_flexion_l: [-2, -5, 1, 4]}}\n" \
-  "  - {term: torque_power, name: curves, scale: {default: 0, knee_angle_r: 1, knee_angle_l: 1},\n" \
-  "     strength: {knee_angle_r: [100, 1, 0.5, 200, 0.9, 0.8], knee_angle_l: [100, 1, 0.5, 200, 0.9, 0.8]}}\n" \
-  "  - {term: torque_power, name: limits, strength: limits, scale: {default: 0, ankle_angle_r: 0.5, ankle_angle_l: 0.5}}\n" \
-  "  - {term: torque_squared, scale: {default: 0.01, pelvis_ty: 0.002}, offset: {pelvis_ty: body_weight, knee_angle_r: 2, knee_angle_l: 2}}\n" \
-  "  - {term: torque_absolute, scale: 0.01, smoothing: 0.1}\n"                             \
-  "  - {term: torque_rate, scale: 0.001}\n"                                                \
-  "  - {term: mechanical_power, weight: 0.02, smoothing: 0.05}\n"                          \
-  "  - {term: acceleration, weight: 1e-3, scale: {pelvis_tx: 5, default: 1}}\n"            \
-  "  - {term: posture, scale: {ankle_angle_r: 1, ankle_angle_l: 1, pelvis_ty: 3}, angles: {ankle_angle_r: 5, ankle_angle_l: 5, pelvis_ty: 0.05}}\n" \
-  "  - {term: upright, points: [lumbar, head_top]}\n"                                      \
-  "  - {term: clearance, height: 0.03}\n"                                                  \
-  "  - {term: ground_force, weight: 0.1}\n"                                                \
+  "  joint_limits: nodes, speed_limits: false, torque_limits: true,\n"                             \
+  "  clearance: {height: 0.03, ceiling: 0.4, outward: 0.05, inward: 0.02, feet: 0.01}}\n"          \
+  "objective:\n"                                                                                   \
+  "  - {term: torque_power, weight: 1.1, power: 2.6, scale: {default: 0, hip_flexion_r: 0.01, "    \
+  "hip_flexion_l: 0.01},\n"                                                                        \
+  "     offset: {hip_flexion_r: 3, hip_flexion_l: 3}, passive: {hip_flexion_r: [-2, -5, 1, 4], "   \
+  "hip_flexion_l: [-2, -5, 1, 4]}}\n"                                                              \
+  "  - {term: torque_power, name: curves, scale: {default: 0, knee_angle_r: 1, knee_angle_l: "     \
+  "1},\n"                                                                                          \
+  "     strength: {knee_angle_r: [100, 1, 0.5, 200, 0.9, 0.8], knee_angle_l: [100, 1, 0.5, 200, "  \
+  "0.9, 0.8]}}\n"                                                                                  \
+  "  - {term: torque_power, name: limits, strength: limits, scale: {default: 0, ankle_angle_r: "   \
+  "0.5, ankle_angle_l: 0.5}}\n"                                                                    \
+  "  - {term: torque_squared, scale: {default: 0.01, pelvis_ty: 0.002}, offset: {pelvis_ty: "      \
+  "body_weight, knee_angle_r: 2, knee_angle_l: 2}}\n"                                              \
+  "  - {term: torque_absolute, scale: 0.01, smoothing: 0.1}\n"                                     \
+  "  - {term: torque_rate, scale: 0.001}\n"                                                        \
+  "  - {term: mechanical_power, weight: 0.02, smoothing: 0.05}\n"                                  \
+  "  - {term: acceleration, weight: 1e-3, scale: {pelvis_tx: 5, default: 1}}\n"                    \
+  "  - {term: posture, scale: {ankle_angle_r: 1, ankle_angle_l: 1, pelvis_ty: 3}, angles: "        \
+  "{ankle_angle_r: 5, ankle_angle_l: 5, pelvis_ty: 0.05}}\n"                                       \
+  "  - {term: upright, points: [lumbar, head_top]}\n"                                              \
+  "  - {term: clearance, height: 0.03}\n"                                                          \
+  "  - {term: ground_force, weight: 0.1}\n"                                                        \
   "  - {term: force_rate, weight: 0.1}\n"
 
 enum { TERMS = 13, MOST_ROWS = 20000 };
@@ -124,13 +133,13 @@ static void without_it_numbers_are_si(void **state) {
   ambulo_problem_free(q);
 }
 
-
 static void faults_are_named(void **state) {
   (void)state;
 #define SMALL "ambulo: 1\nkind: problem\nobjective: none\ntime: {intervals: 4, duration: 1}\n"
   expect_refusal(SMALL "model: lower_body_18.yaml\nwritten_for: {mass: 75}\n", AMBULO_E_SCHEMA,
                  "stature");
-  expect_refusal(SMALL "model: lower_body_18.yaml\nwritten_for: {mass: 75, stature: 1.75, sex: male}\n",
+  expect_refusal(SMALL
+                 "model: lower_body_18.yaml\nwritten_for: {mass: 75, stature: 1.75, sex: male}\n",
                  AMBULO_E_SCHEMA, "sex");
   expect_refusal(SMALL "model: lower_body_18.yaml\nwritten_for: {mass: 75, stature: 17}\n",
                  AMBULO_E_SCHEMA, "17");

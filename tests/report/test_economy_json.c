@@ -41,8 +41,7 @@ static void a_walk_says_what_it_costs(void **state) {
   double positive = number(json, "\"positive\": "), negative = number(json, "\"negative\": ");
   double distance = number(json, "\"distance\": ");
   assert_true(positive > 0.0 && negative < 0.0);
-  assert_close(number(json, "\"metabolic\": "), positive / 0.25 - negative / 1.2,
-               1e-9 * positive);
+  assert_close(number(json, "\"metabolic\": "), positive / 0.25 - negative / 1.2, 1e-9 * positive);
   assert_close(number(json, "\"positive_per_kg_metre\": "), positive / (75.0 * distance),
                1e-9 * positive);
   assert_close(number(json, "\"metabolic_per_kg_metre\": ") * 75.0 * distance,

@@ -11,17 +11,17 @@ static void phases_by_speed(void **state) {
   (void)state;
   static const setting c = {
       "models/walk_normal.yaml",
-      {BY_SPEED, "gait.phases={foot_flat: {slope: 0.05}, toe_off: {comfortable: 0.61, slope: -0.3}}",
+      {BY_SPEED,
+       "gait.phases={foot_flat: {slope: 0.05}, toe_off: {comfortable: 0.61, slope: -0.3}}",
        "written_for={mass: 60, stature: 1.6}", "trajectory.knots=events"},
       {"gait.speed", "gait.phases.foot_flat.comfortable", "gait.phases.toe_off.comfortable",
        "gait.phases.heel_off", "gait.step_width", "subject.mass", "constraints.contact_tolerance",
        "ground_reaction.moment_arm", "constraints.orientation_tolerance",
        "constraints.clearance.height"}};
   check(&c, "gait.phases.toe_off");
-  static const setting time = {
-      "models/walk_normal.yaml",
-      {"time.duration=null", "gait.step_time=0.5", "gait.phases=by_speed"},
-      {"gait.step_time", "gait.step_length"}};
+  static const setting time = {"models/walk_normal.yaml",
+                               {"time.duration=null", "gait.step_time=0.5", "gait.phases=by_speed"},
+                               {"gait.step_time", "gait.step_length"}};
   check(&time, "gait.phases.toe_off.comfortable");
 }
 

@@ -43,7 +43,8 @@ static void work_lifts_a_pendulum(void **state) {
   release(&s);
 }
 
-/* m d2c/dt2 = F + m g at every sample: what the centre of mass does is what the ground makes it do */
+/* m d2c/dt2 = F + m g at every sample: what the centre of mass does is what the ground makes it do
+ */
 static void forces_move_the_center_of_mass(void **state) {
   (void)state;
   solved s = solve("models/walk_normal.yaml", 2001);
