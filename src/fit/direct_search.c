@@ -31,13 +31,17 @@ static double objective(unsigned n, const double *u, double *gradient, void *dat
   }
   double cost = s->trial->cost = ambulo__fit_cost(s->task, s->trial);
   ambulo__fit_step step = {.damping = (double)NAN, .accepted = "none"};
-  if (cost < s->best->cost) {
+  if (cost < s->best->cost) { /* also with the solutions that zero finds? */
+    s->status = s->task->refresh(s->task->user, s->trial);
+    cost = s->trial->cost = ambulo__fit_cost(s->task, s->trial);
+  }
+  if (!s->status && cost < s->best->cost) {
     ambulo__fit_trial_copy(&s->task->sizes, s->trial, s->best);
     step.accepted = "evaluation";
   }
   step.distance = s->best->distance;
   step.cost = s->best->cost;
-  s->status = s->task->note(s->task->user, &step, s->best);
+  if (!s->status) s->status = s->task->note(s->task->user, &step);
   if (s->status) (void)nlopt_force_stop(s->opt);
   return cost;
 }

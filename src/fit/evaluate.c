@@ -66,7 +66,7 @@ void ambulo__fit_runner_close(ambulo__fit_runner *r) {
 
 static int is_asked(const ambulo_fit *fit, ambulo__fit_scope scope, int condition) {
   int held_out = fit->condition[condition].held_out;
-  if (scope == AMBULO__FIT_FITTED) return !held_out;
+  if (scope == AMBULO__FIT_FITTED || scope == AMBULO__FIT_FRESH) return !held_out;
   return scope != AMBULO__FIT_HELD_OUT || held_out;
 }
 
@@ -74,7 +74,7 @@ static int is_asked(const ambulo_fit *fit, ambulo__fit_scope scope, int conditio
 static int start_of(const ambulo_fit *fit, ambulo__fit_scope scope, const ambulo__fit_trial *from,
                     const ambulo__fit_trial *t, int c) {
   int after = fit->condition[c].after;
-  if (scope == AMBULO__FIT_FROM_ZERO) return -1;
+  if (scope == AMBULO__FIT_FROM_ZERO || scope == AMBULO__FIT_FRESH) return -1;
   if (from) return from->index[c];
   return after >= 0 ? t->index[after] : -1;
 }

@@ -17,7 +17,8 @@ typedef enum ambulo__fit_scope {
   AMBULO__FIT_FITTED,   /* those that count */
   AMBULO__FIT_ALL,      /* the held-out ones too */
   AMBULO__FIT_HELD_OUT, /* those alone */
-  AMBULO__FIT_FROM_ZERO /* all, each by itself, as `ambulo solve` begins */
+  AMBULO__FIT_FROM_ZERO, /* all, each by itself, as `ambulo solve` begins */
+  AMBULO__FIT_FRESH      /* those that count, each by itself */
 } ambulo__fit_scope;
 
 typedef struct ambulo__fit_runner {
@@ -50,6 +51,11 @@ void ambulo__fit_runner_close(ambulo__fit_runner *runner);
 ambulo_status ambulo__fit_evaluate(ambulo__fit_runner *runner, ambulo__fit_scope scope,
                                    const ambulo__fit_trial *from, ambulo__fit_trial *trials,
                                    int count);
+/* Solves the conditions that count once more from zero, where the trial stands. One whose objective
+ * is less than that of the solution which the fit has followed there (or that has none) replaces
+ * it: a problem predicts its least objective, wherever the fit came from. Errors as above. */
+ambulo_status ambulo__fit_refresh(ambulo__fit_runner *runner, const ambulo__fit_sizes *sizes,
+                                  ambulo__fit_trial *trial);
 /* What the record of a solve says; "missing" where there is none. */
 ambulo_status ambulo__fit_state(const ambulo__fit_runner *runner, int index, char state[24]);
 

@@ -18,7 +18,7 @@
  * D + ridge |u|^2 / parameters.
  *
  * Reading order: fit.h, fit_file.c, fit_conditions.c, fit_distance.c, fit_keys.c, fit_overrides.c,
- * residual.h, trial.h, evaluate.h, evaluate.c, folder.h, damped_step.h, gauss_newton.h,
+ * residual.h, trial.h, evaluate.h, evaluate.c, refresh.c, folder.h, damped_step.h, gauss_newton.c,
  * direct_search.c, fit_run.c, fitted_problem.h, outcome.h.
  */
 #ifndef AMBULO_FIT_FIT_H

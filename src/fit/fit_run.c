@@ -57,9 +57,13 @@ static ambulo_status note_step(run *r, const ambulo__fit_step *step) {
   return AMBULO_OK;
 }
 
-static ambulo_status note(void *user, const ambulo__fit_step *step, const ambulo__fit_trial *best) {
-  (void)best;
+static ambulo_status note(void *user, const ambulo__fit_step *step) {
   return note_step(user, step);
+}
+
+static ambulo_status refresh(void *user, ambulo__fit_trial *best) {
+  run *r = user;
+  return ambulo__fit_refresh(&r->runner, &r->sizes, best);
 }
 
 static ambulo_status evaluate(void *user, const ambulo__fit_trial *from, ambulo__fit_trial *trials,
@@ -72,7 +76,7 @@ static ambulo_status evaluate(void *user, const ambulo__fit_trial *from, ambulo_
 static int expect(const ambulo_fit *fit) {
   int fitted = 0;
   for (int c = 0; c < fit->conditions; c++) fitted += !fit->condition[c].held_out;
-  int each = fit->method == AMBULO__FIT_GAUSS_NEWTON ? fit->parameters + CANDIDATES : 1;
+  int each = fit->method == AMBULO__FIT_GAUSS_NEWTON ? fit->parameters + CANDIDATES + 1 : 1;
   return 3 * fit->conditions - fitted + fit->iterations * each * fitted;
 }
 
@@ -130,6 +134,7 @@ static ambulo_status improve(run *r) {
                            .iterations = r->fit->iterations,
                            .allocator = &r->allocator,
                            .evaluate = evaluate,
+                           .refresh = refresh,
                            .note = note,
                            .user = r};
   ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *best = &o->trial[AMBULO__FIT_BEST];
@@ -243,7 +248,8 @@ static ambulo_status run_locked(run *r, char **report) {
     r->outcome.ending = AMBULO_FIT_INTERRUPTED;
     return AMBULO_OK;
   }
-  status = check_first(r, first);
+  status = ambulo__fit_refresh(&r->runner, &r->sizes, first);
+  if (!status) status = check_first(r, first);
   if (!status) status = improve(r);
   if (!status) status = judge(r);
   if (status) return status;

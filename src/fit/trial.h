@@ -50,8 +50,11 @@ typedef struct ambulo__fit_task {
    * `from`. A stop of the caller leaves some of them not complete. */
   ambulo_status (*evaluate)(void *user, const ambulo__fit_trial *from, ambulo__fit_trial *trials,
                             int count);
+  /* Looks, where the best trial stands, for solutions that are better than those it followed, and
+   * puts them into it; its distance may rise. */
+  ambulo_status (*refresh)(void *user, ambulo__fit_trial *best);
   /* After each iteration. */
-  ambulo_status (*note)(void *user, const ambulo__fit_step *step, const ambulo__fit_trial *best);
+  ambulo_status (*note)(void *user, const ambulo__fit_step *step);
   void *user;
 } ambulo__fit_task;
 
