@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double least_step = 0.005; /* of a step: less than an inner solve can tell */
+
 typedef struct search {
   const ambulo__fit_task *task;
   ambulo__fit_trial *best, *trial;
@@ -48,11 +50,14 @@ static double objective(unsigned n, const double *u, double *gradient, void *dat
 
 static nlopt_opt create(const search *s, ambulo__fit_method method) {
   const ambulo__fit_task *task = s->task;
+  double first[AMBULO__FIT_PARAMETERS]; /* BOBYQA wants twice of it between the bounds */
+  for (int i = 0; i < task->sizes.parameters; i++)
+    first[i] = fmin(1.0, 0.25 * (task->upper[i] - task->lower[i]));
   nlopt_opt opt = nlopt_create(method == AMBULO__FIT_BOBYQA ? NLOPT_LN_BOBYQA : NLOPT_LN_SBPLX,
                                (unsigned)task->sizes.parameters);
   int failed = !opt || nlopt_set_lower_bounds(opt, task->lower) < 0 ||
                nlopt_set_upper_bounds(opt, task->upper) < 0 ||
-               nlopt_set_initial_step1(opt, 1.0) < 0 || nlopt_set_xtol_abs1(opt, 0.02) < 0 ||
+               nlopt_set_initial_step(opt, first) < 0 || nlopt_set_xtol_abs1(opt, least_step) < 0 ||
                nlopt_set_ftol_rel(opt, 0.01 * task->tolerance) < 0 ||
                nlopt_set_maxeval(opt, task->iterations) < 0;
   if (!failed) return opt;
@@ -76,6 +81,7 @@ ambulo_status ambulo__fit_direct_search(const ambulo__fit_task *task, ambulo__fi
               : result == NLOPT_MAXEVAL_REACHED ? AMBULO_FIT_ITERATIONS
                                                 : AMBULO_FIT_CONVERGED;
     if (result == NLOPT_OUT_OF_MEMORY) s.status = AMBULO_E_MEMORY;
+    if (result == NLOPT_INVALID_ARGS) s.status = AMBULO_E_INTERNAL;
     status = s.status;
   }
   nlopt_destroy(s.opt);

@@ -28,6 +28,7 @@ static ambulo_status retell(const ambulo__yaml_node *node, ambulo_status status,
     m = ambulo_diagnostics_get(list, i);
     if (m->severity != AMBULO_ERROR) m = NULL;
   }
+  if (m && m->status == AMBULO_E_MEMORY) status = AMBULO_E_MEMORY;
   return ambulo__yaml_error(node, status, m ? m->hint : NULL, "%s: %s", lead,
                             m ? m->message : ambulo_status_text(status));
 }
@@ -89,7 +90,8 @@ static ambulo_status read_values(ambulo_fit *fit, int index) {
       ambulo_diagnostics_clear(list);
       int found = value_at(document, p->key[k], list, value);
       (void)snprintf(lead, sizeof lead, "key '%.120s' of the problem", p->key[k]);
-      if (!found && c) (void)retell(node, AMBULO_E_SCHEMA, lead, list);
+      ambulo_status told = found || !c ? AMBULO_OK : retell(node, AMBULO_E_SCHEMA, lead, list);
+      if (told == AMBULO_E_MEMORY) status = told;
       if (found && c) check_factor(p, node, k, *value);
     }
   }
