@@ -51,9 +51,13 @@ void ambulo__fit_runner_close(ambulo__fit_runner *runner);
 ambulo_status ambulo__fit_evaluate(ambulo__fit_runner *runner, ambulo__fit_scope scope,
                                    const ambulo__fit_trial *from, ambulo__fit_trial *trials,
                                    int count);
-/* Solves the conditions that count once more from zero, where the trial stands. One whose objective
- * is less than that of the solution which the fit has followed there (or that has none) replaces
- * it: a problem predicts its least objective, wherever the fit came from. Errors as above. */
+/* refresh.c: puts the solutions of `fresh`, of the same parameters, in place of those whose objective
+ * is greater, or that are none, in the conditions that both have. Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__fit_take_better(const ambulo__fit_runner *runner,
+                                      const ambulo__fit_sizes *sizes,
+                                      const ambulo__fit_trial *fresh, ambulo__fit_trial *trial);
+/* Solves the conditions that count once more from zero, where the trial stands, and takes what is
+ * better: a problem predicts its least objective, wherever the fit came from. Errors as above. */
 ambulo_status ambulo__fit_refresh(ambulo__fit_runner *runner, const ambulo__fit_sizes *sizes,
                                   ambulo__fit_trial *trial);
 /* What the record of a solve says; "missing" where there is none. */

@@ -149,7 +149,8 @@ static ambulo_status improve(run *r) {
   return ambulo__fit_direct_search(&task, r->fit->method, best, &o->ending);
 }
 
-/* held-out conditions at the best parameters, each from where it began; then all from zero */
+/* held-out conditions at the best parameters, each from where it began; then all from zero, which
+ * may be better for a held-out one, too */
 static ambulo_status judge(run *r) {
   ambulo__fit_outcome *o = &r->outcome;
   const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *best = &o->trial[AMBULO__FIT_BEST];
@@ -162,7 +163,8 @@ static ambulo_status judge(run *r) {
   ambulo_status status =
       ambulo__fit_evaluate(&r->runner, AMBULO__FIT_HELD_OUT, first, apart, 1);
   if (!status) status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_FROM_ZERO, NULL, cold, 1);
-  return status;
+  if (status || !cold->complete) return status;
+  return ambulo__fit_take_better(&r->runner, &r->sizes, cold, apart);
 }
 
 /* ---------------------------------------------------------------------- results */

@@ -36,7 +36,7 @@ typedef struct newton {
   ambulo__fit_trial *side, *other; /* [parameters] one and the other side */
   ambulo__fit_trial *candidate;    /* [DAMPINGS] */
   double *jacobian;                /* [parameters][residuals] */
-  double *h;                       /* [parameters] way to side; 0: cannot move */
+  double *h;                       /* [parameters] way to side; 0: dropped */
   unsigned char *is_free;          /* [parameters] */
   double *reach;                   /* [parameters] length of differences, in steps */
   double damping;
@@ -129,6 +129,12 @@ static void fill_between(newton *g, int i, const ambulo__fit_trial *a, const amb
   for (size_t k = 0; k < m; k++) column[k] = (a->residual[k] - b->residual[k]) / h;
 }
 
+/* no derivative is known: the column stays 0 */
+static void drop(newton *g, int i) {
+  g->h[i] = 0.0;
+  g->step.dropped++;
+}
+
 /* the other side of those that jumped; which[count]: their parameters */
 static ambulo_status try_others(newton *g, const int *which, int count) {
   double back[AMBULO__FIT_PARAMETERS];
@@ -138,7 +144,7 @@ static ambulo_status try_others(newton *g, const int *which, int count) {
     double u = g->best->u[i], to = u - copysign(g->reach[i], g->h[i]);
     double h = fmin(g->task->upper[i], fmax(g->task->lower[i], to)) - u;
     if (fabs(h) < 0.25 * g->reach[i]) {
-      g->step.dropped++;
+      drop(g, i);
       continue;
     }
     back[asked_count] = h;
@@ -153,7 +159,7 @@ static ambulo_status try_others(newton *g, const int *which, int count) {
     else if (is_steep(g, &g->side[i], &g->other[k]))
       fill_between(g, i, &g->side[i], &g->other[k], g->h[i] - back[k]);
     else
-      g->step.dropped++;
+      drop(g, i);
   }
   return status;
 }
@@ -286,7 +292,7 @@ static void measure(const newton *g, double *sensitivity) {
       double entry = g->jacobian[(size_t)i * m + k];
       squares += entry * entry;
     }
-    sensitivity[i] = sqrt(squares);
+    sensitivity[i] = g->h[i] != 0.0 ? sqrt(squares) : (double)NAN;
   }
 }
 

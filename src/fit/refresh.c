@@ -46,13 +46,26 @@ static void take(const ambulo__fit_runner *r, const ambulo__fit_trial *fresh, in
                  ambulo__fit_trial *trial) {
   const ambulo__fit_condition *condition = &r->fit->condition[c];
   size_t curves = (size_t)r->fit->curves, first = (size_t)condition->first;
-  memcpy(trial->residual + first, fresh->residual + first,
-         (size_t)condition->residuals * sizeof *trial->residual);
+  if (!condition->held_out)
+    memcpy(trial->residual + first, fresh->residual + first,
+           (size_t)condition->residuals * sizeof *trial->residual);
   memcpy(trial->score + (size_t)c * curves, fresh->score + (size_t)c * curves,
          curves * sizeof *trial->score);
   trial->apart[c] = fresh->apart[c];
   trial->index[c] = fresh->index[c];
   trial->solved[c] = fresh->solved[c];
+}
+
+ambulo_status ambulo__fit_take_better(const ambulo__fit_runner *r, const ambulo__fit_sizes *sizes,
+                                      const ambulo__fit_trial *fresh, ambulo__fit_trial *trial) {
+  ambulo_status status = AMBULO_OK;
+  for (int c = 0; c < sizes->conditions && !status; c++) {
+    int better = 0;
+    if (trial->index[c] < 0 || fresh->index[c] < 0) continue;
+    status = is_better(r, trial, fresh, c, &better);
+    if (better) take(r, fresh, c, trial);
+  }
+  return status;
 }
 
 ambulo_status ambulo__fit_refresh(ambulo__fit_runner *r, const ambulo__fit_sizes *sizes,
@@ -62,12 +75,7 @@ ambulo_status ambulo__fit_refresh(ambulo__fit_runner *r, const ambulo__fit_sizes
   memcpy(fresh->u, trial->u, (size_t)sizes->parameters * sizeof *fresh->u);
   memcpy(fresh->label, "from zero", sizeof "from zero");
   ambulo_status status = ambulo__fit_evaluate(r, AMBULO__FIT_FRESH, NULL, fresh, 1);
-  for (int c = 0; c < sizes->conditions && !status && fresh->complete; c++) {
-    int better = 0;
-    if (!r->fit->condition[c].held_out) status = is_better(r, trial, fresh, c, &better);
-    if (!better) continue;
-    take(r, fresh, c, trial);
-  }
+  if (!status && fresh->complete) status = ambulo__fit_take_better(r, sizes, fresh, trial);
   trial->distance = 0.0;
   for (int k = 0; k < sizes->residuals; k++)
     trial->distance += trial->residual[k] * trial->residual[k];
