@@ -24,6 +24,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_fit_load(const char *path,
                                                           ambulo_fit **fit);
 AMBULO_API void ambulo_fit_free(ambulo_fit *fit); /* accepts NULL */
 
+/* What was understood, as lines for people; free with ambulo_text_free. E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_fit_describe(const ambulo_fit *fit,
+                                                              const ambulo_allocator *allocator,
+                                                              char **text);
+
 /* State of a run, for progress. Distances: NaN while there is none. */
 typedef struct ambulo_fit_progress {
   int iteration, iterations; /* 0: where the parameters stand in the file */
@@ -64,10 +69,10 @@ typedef enum ambulo_fit_ending {
  * final state. AMBULO_OK for every ending. Errors, which leave no fit.json of this run: E_IO (the
  * folder holds other things, is locked, or cannot be written), E_PROBLEM (it was filled from other
  * inputs and force is 0; the first solves all fail; a motion lacks a curve), E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_fit_run(
-    const ambulo_fit *fit, const char *directory, const ambulo_fit_options *options,
-    const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_fit_progress *end,
-    ambulo_fit_ending *ending, char **report);
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_fit_run(const ambulo_fit *fit, const char *directory, const ambulo_fit_options *options,
+               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+               ambulo_fit_progress *end, ambulo_fit_ending *ending, char **report);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,5 @@
-/* cli/cmd_fit.c - ambulo fit: numbers of a problem by which its motions come closest to people's. */
+/* cli/cmd_fit.c - ambulo fit: numbers of a problem by which its motions come closest to people's.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,12 +31,12 @@ static int show(void *user, const ambulo_fit_progress *p) {
   if (p->seconds_left >= 0.0)
     ambulo__cli_format(left, sizeof left, ", about %.0f s left", p->seconds_left);
   if (!v->quiet && v->terminal) {
-    ambulo__cli_format(line, sizeof line,
-                       "iteration %d of %d, distance %s (from %s), solve %d of %d here, %d of about "
-                       "%d%s",
-                       p->iteration, p->iterations, distance_text(p->best, best),
-                       distance_text(p->first, first), p->round, p->rounds, p->solves, p->expected,
-                       left);
+    ambulo__cli_format(
+        line, sizeof line,
+        "iteration %d of %d, distance %s (from %s), solve %d of %d here, %d of about "
+        "%d%s",
+        p->iteration, p->iterations, distance_text(p->best, best), distance_text(p->first, first),
+        p->round, p->rounds, p->solves, p->expected, left);
     fprintf(stderr, "\r%.*s\033[K", ambulo__cli_line_room(), line);
     fflush(stderr);
   }
@@ -92,8 +93,18 @@ static int run_fit(const ambulo__cli_input *input, const ambulo_fit *fit, ambulo
   return ending == AMBULO_FIT_STUCK ? 1 : 0;
 }
 
+static int describe(const ambulo_fit *fit, ambulo_diagnostics *diagnostics) {
+  char *text = NULL;
+  ambulo_status status = ambulo_fit_describe(fit, NULL, &text);
+  int code = ambulo__cli_diagnostics(diagnostics, status, "fit");
+  if (text) fputs(text, stdout);
+  ambulo_text_free(text, NULL);
+  return code;
+}
+
 static int run(const ambulo__cli_input *input) {
-  if (!ambulo__cli_value(input, "output"))
+  int dry = ambulo__cli_flag(input, "dry-run");
+  if (!dry && !ambulo__cli_value(input, "output"))
     return ambulo__cli_usage_error("fit", NULL, "no folder given; expected -o DIR");
   ambulo_fit_options o;
   if (!read_options(input, &o)) return 2;
@@ -101,6 +112,7 @@ static int run(const ambulo__cli_input *input) {
   ambulo_fit *fit = NULL;
   ambulo_status status = ambulo_fit_load(input->arguments[0], NULL, diagnostics, &fit);
   int code = status ? ambulo__cli_diagnostics(diagnostics, status, input->arguments[0])
+             : dry  ? describe(fit, diagnostics)
                     : run_fit(input, fit, &o, diagnostics);
   ambulo_fit_free(fit);
   ambulo_diagnostics_free(diagnostics);
@@ -114,6 +126,7 @@ static const ambulo__cli_option options[] = {
     {"case-memory", 0, "MB", "address space of a solve"},
     {"grace", 0, "S", "what running solves get after Ctrl-C (default: 30)"},
     {"force", 0, NULL, "inputs changed: go on, and keep the solves that are the same"},
+    {"dry-run", 0, NULL, "check the files, print what was understood, solve nothing"},
     {"quiet", 'q', NULL, "no progress, no report"},
 };
 

@@ -1,7 +1,7 @@
 /* fit/damped_step.c - see damped_step.h.
  *
- * The sum of squares is written as one least-squares problem, J above two diagonal blocks, and solved
- * by QR: forming J'J would square its condition. */
+ * The sum of squares is written as one least-squares problem, J above two diagonal blocks, and
+ * solved by QR: forming J'J would square its condition. */
 #include "fit/damped_step.h"
 #include "base/lapack.h"
 

@@ -1,6 +1,7 @@
 /* fit/damped_step.h - the step of Gauss-Newton, damped and with a ridge.
  *
- * With J [residuals][parameters] (column-major), r [residuals], u [parameters], the d that minimizes
+ * With J [residuals][parameters] (column-major), r [residuals], u [parameters], the d that
+ * minimizes
  *
  *     |r + J d|^2 + ridge |u + d|^2 + damping trace(J'J) / parameters |d|^2
  *

@@ -1,6 +1,6 @@
-/* fit/direct_search.c - NLopt's BOBYQA or SBPLX on the cost alone (trial.h): for few parameters, or a
- * cost that is too rough for differences. One trial after the other; each starts from the solutions
- * of the best one so far, so that results depend on nothing but the course itself. */
+/* fit/direct_search.c - NLopt's BOBYQA or SBPLX on the cost alone (trial.h): for few parameters, or
+ * a cost that is too rough for differences. One trial after the other; each starts from the
+ * solutions of the best one so far, so that results depend on nothing but the course itself. */
 #include "fit/trial.h"
 
 #include <math.h>
@@ -77,7 +77,7 @@ ambulo_status ambulo__fit_direct_search(const ambulo__fit_task *task, ambulo__fi
     memcpy(u, best->u, n * sizeof *u);
     nlopt_set_min_objective(s.opt, objective, &s);
     nlopt_result result = nlopt_optimize(s.opt, u, &least);
-    *ending = s.stopped                        ? AMBULO_FIT_INTERRUPTED
+    *ending = s.stopped                         ? AMBULO_FIT_INTERRUPTED
               : result == NLOPT_MAXEVAL_REACHED ? AMBULO_FIT_ITERATIONS
                                                 : AMBULO_FIT_CONVERGED;
     if (result == NLOPT_OUT_OF_MEMORY) s.status = AMBULO_E_MEMORY;

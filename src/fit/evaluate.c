@@ -45,8 +45,8 @@ ambulo_status ambulo__fit_runner_open(const ambulo_fit *fit, const char *directo
   r->solves = ambulo__join_paths(allocator, directory, "solves", NULL);
   ambulo_status status = r->solves ? allocate(r) : AMBULO_E_MEMORY;
   if (status) return status;
-  status = ambulo__sweep_begin(fit->name, fit->path, fit->problem, allocator, diagnostics,
-                               &r->sweep);
+  status =
+      ambulo__sweep_begin(fit->name, fit->path, fit->problem, allocator, diagnostics, &r->sweep);
   if (status) return status;
   r->sweep->case_seconds = fit->case_seconds;
   r->sweep->case_megabytes = fit->case_megabytes;
@@ -131,6 +131,7 @@ static ambulo_status solve(ambulo__fit_runner *r) {
   o.force = 1; /* the list grows; whether the inputs are the same is known from the folder */
   o.progress = show;
   o.user = r;
+  r->sweep->trusted = r->before;
   ambulo_status status =
       ambulo_batch_run(r->sweep, r->solves, &o, r->allocator, r->diagnostics, &end);
   int fresh = end.done - end.resumed;

@@ -5,8 +5,8 @@
  *     its keys' own values times  exp(step_i u_i)    scale: log
  *     its keys' own values plus        step_i u_i    scale: linear
  *
- * so that u = 0 is the problem as it is, and one step changes a motion visibly. A key's own value is
- * that of the problem file, or what the condition sets it to.
+ * so that u = 0 is the problem as it is, and one step changes a motion visibly. A key's own value
+ * is that of the problem file, or what the condition sets it to.
  *
  * A condition c is a set of overrides with reference curves. Its targets j, in the order of the
  * distance's curves, each have a block of residuals (residual.h); those of all fitted conditions,
@@ -19,7 +19,7 @@
  *
  * Reading order: fit.h, fit_file.c, fit_conditions.c, fit_distance.c, fit_keys.c, fit_overrides.c,
  * residual.h, trial.h, evaluate.h, evaluate.c, refresh.c, folder.h, damped_step.h, gauss_newton.c,
- * direct_search.c, fit_run.c, fitted_problem.h, outcome.h.
+ * direct_search.c, fit_run.c, fitted_problem.h, outcome.h, fit_describe.c.
  */
 #ifndef AMBULO_FIT_FIT_H
 #define AMBULO_FIT_FIT_H
@@ -115,7 +115,7 @@ struct ambulo_fit {
   int conditions;
   ambulo__fit_curve *curve;
   int curves;
-  int residuals;                 /* of all fitted conditions */
+  int residuals; /* of all fitted conditions */
   double correlation, range_cost, cap;
   ambulo_compare_options compare;
   ambulo__fit_method method;
@@ -126,14 +126,14 @@ struct ambulo_fit {
   unsigned long long hash; /* of the fit file, the problem's text and the references */
 };
 
-/* fit_conditions.c, fit_distance.c: the sections of the file. The document knows the faults; E_MEMORY,
- * E_IO where a file cannot be read. */
+/* fit_conditions.c, fit_distance.c: the sections of the file. The document knows the faults;
+ * E_MEMORY, E_IO where a file cannot be read. */
 ambulo_status ambulo__fit_read_conditions(ambulo_fit *fit, const ambulo__yaml_node *node);
 ambulo_status ambulo__fit_read_distance(ambulo_fit *fit, const ambulo__yaml_node *node);
 /* fit_conditions.c: the references, once conditions and distance are known. */
 ambulo_status ambulo__fit_read_references(ambulo_fit *fit);
-/* fit_keys.c: what the keys are by themselves in each condition, and whether the problem can be read
- * with each condition and each bound. */
+/* fit_keys.c: what the keys are by themselves in each condition, and whether the problem can be
+ * read with each condition and each bound. */
 ambulo_status ambulo__fit_read_keys(ambulo_fit *fit);
 
 /* fit_overrides.c: the factor or addend at u, and a key's value with it, to nine digits. */

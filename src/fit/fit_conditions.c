@@ -221,9 +221,8 @@ ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
   }
   for (int i = 0; i < fit->conditions; i++) {
     ambulo__fit_condition *c = &fit->condition[i];
-    ambulo_status status =
-        ambulo__reference_read(c->reference, fit->compare.map, &fit->allocator, fit->diagnostics,
-                               &c->map, &c->curves);
+    ambulo_status status = ambulo__reference_read(c->reference, fit->compare.map, &fit->allocator,
+                                                  fit->diagnostics, &c->map, &c->curves);
     if (status == AMBULO_E_MEMORY) return status;
     if (status)
       return ambulo__yaml_error(c->reference_node, status, NULL,

@@ -124,8 +124,7 @@ static void read_method(ambulo_fit *fit, const ambulo__yaml_node *node) {
   fit->method = (ambulo__fit_method)ambulo__yaml_choice(kind, kinds, 3, 0);
   int is_direct = fit->method != AMBULO__FIT_GAUSS_NEWTON;
   if (is_direct)
-    fit->iterations =
-        ambulo__yaml_integer(ambulo__yaml_get(node, "evaluations"), 1, 100000, 100);
+    fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "evaluations"), 1, 100000, 100);
   else
     fit->iterations = ambulo__yaml_integer(ambulo__yaml_get(node, "iterations"), 0, 1000, 6);
   fit->ridge = ambulo__yaml_number_in(ambulo__yaml_get(node, "ridge"), 0.0, 1e6, fit->ridge);
@@ -153,15 +152,15 @@ static ambulo_status read_compare(ambulo_fit *fit, const ambulo__yaml_node *node
   static const char *const feet[] = {"left", "right"};
   fit->compare = ambulo_compare_options_default();
   if (!node) return AMBULO_OK;
-  const ambulo__yaml_node *map = ambulo__yaml_get(node, "map"), *foot = ambulo__yaml_get(node, "foot");
+  const ambulo__yaml_node *map = ambulo__yaml_get(node, "map"),
+                          *foot = ambulo__yaml_get(node, "foot");
   const ambulo__yaml_node *tilt = ambulo__yaml_get(node, "pelvic_tilt");
   if (foot) fit->compare.foot = feet[ambulo__yaml_choice(foot, feet, 2, 0)];
   if (tilt)
     fit->compare.pelvic_tilt = radians_per_degree * ambulo__yaml_number_in(tilt, -90.0, 90.0, 0.0);
   ambulo__yaml_close(node);
   if (!map) return AMBULO_OK;
-  fit->compare.map =
-      ambulo__sibling_path(&fit->allocator, fit->path, ambulo__yaml_file_name(map));
+  fit->compare.map = ambulo__sibling_path(&fit->allocator, fit->path, ambulo__yaml_file_name(map));
   return fit->compare.map ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 

@@ -103,8 +103,7 @@ static ambulo_status write_condition(const ambulo__fit_outcome *o, int index, am
   ambulo__json_number(json, "weight", o->fit->condition[index].weight);
   ambulo_status status = write_states(o, index, json);
   if (!status)
-    status =
-        ambulo__fit_overrides(o->fit, index, o->trial[AMBULO__FIT_BEST].u, &overrides, &count);
+    status = ambulo__fit_overrides(o->fit, index, o->trial[AMBULO__FIT_BEST].u, &overrides, &count);
   ambulo__json_open(json, "settings", '[');
   for (int i = 0; i < count; i++) ambulo__json_text(json, NULL, overrides[i]);
   ambulo__json_close(json, ']');
@@ -131,7 +130,8 @@ static void write_history(const ambulo__fit_outcome *o, ambulo__json *json) {
 }
 
 static void write_distance(const ambulo__fit_outcome *o, ambulo__json *json) {
-  const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *best = &o->trial[AMBULO__FIT_BEST];
+  const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST],
+                          *best = &o->trial[AMBULO__FIT_BEST];
   const ambulo__fit_trial *cold = &o->trial[AMBULO__FIT_COLD];
   ambulo__json_open(json, "distance", '{');
   ambulo__json_number(json, "before", first->distance);

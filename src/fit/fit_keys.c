@@ -1,5 +1,5 @@
-/* fit/fit_keys.c - what the keys of the parameters are by themselves, and whether the problem can be
- * read with what the fit will ask of it (fit.h). */
+/* fit/fit_keys.c - what the keys of the parameters are by themselves, and whether the problem can
+ * be read with what the fit will ask of it (fit.h). */
 #include "ambulo/problem.h"
 #include "base/numtext.h"
 #include "base/text_hash.h"

@@ -1,8 +1,8 @@
 /* fit/fit_run.c - ambulo_fit_run: folder, first solves, method, held-out conditions, results.
  *
- * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml` does:
- * a fit follows its solutions from neighbour to neighbour, and may have led them into a valley that
- * zero does not find. */
+ * At the end the best parameters are solved once more from zero, as `ambulo solve fitted.yaml`
+ * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
+ * valley that zero does not find. */
 #include "ambulo/report.h"
 #include "base/atomic_file.h"
 #include "base/clock.h"
@@ -17,7 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COOKIE = 0x66697421, TRIALS = 4, CANDIDATES = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
+enum { COOKIE = 0x66697421, TRIALS = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
 
 ambulo_fit_options ambulo_fit_options_default(void) {
   return (ambulo_fit_options){.cookie = COOKIE, .grace = 30.0};
@@ -72,21 +72,13 @@ static ambulo_status evaluate(void *user, const ambulo__fit_trial *from, ambulo_
   return ambulo__fit_evaluate(&r->runner, AMBULO__FIT_FITTED, from, trials, count);
 }
 
-/* about how many solves there will be */
-static int expect(const ambulo_fit *fit) {
-  int fitted = 0;
-  for (int c = 0; c < fit->conditions; c++) fitted += !fit->condition[c].held_out;
-  int each = fit->method == AMBULO__FIT_GAUSS_NEWTON ? fit->parameters + CANDIDATES + 1 : 1;
-  return 3 * fit->conditions - fitted + fit->iterations * each * fitted;
-}
-
 /* the first line of what a failed solve said; to be freed; NULL: nothing */
 static char *first_words(const run *r, int index) {
   char *text = NULL, *words = NULL;
   size_t length = 0;
   if (index < 0) return NULL;
-  char *path = ambulo__case_path(&r->allocator, r->runner.solves,
-                                 r->runner.sweep->cases[index].id, ".log");
+  char *path =
+      ambulo__case_path(&r->allocator, r->runner.solves, r->runner.sweep->cases[index].id, ".log");
   if (path && ambulo__read_file(path, MOST_LOG, &r->allocator, NULL, &text, &length)) text = NULL;
   if (text && text[0]) {
     text[strcspn(text, "\n")] = '\0';
@@ -101,7 +93,8 @@ static char *first_words(const run *r, int index) {
 static ambulo_status check_first(const run *r, const ambulo__fit_trial *first) {
   const ambulo_fit *fit = r->fit;
   int solved = 0;
-  for (int c = 0; c < fit->conditions; c++) solved += !fit->condition[c].held_out && first->solved[c];
+  for (int c = 0; c < fit->conditions; c++)
+    solved += !fit->condition[c].held_out && first->solved[c];
   for (int c = 0; c < fit->conditions; c++) {
     char state[24];
     ambulo__place place = ambulo__yaml_place(fit->condition[c].node);
@@ -153,15 +146,15 @@ static ambulo_status improve(run *r) {
  * may be better for a held-out one, too */
 static ambulo_status judge(run *r) {
   ambulo__fit_outcome *o = &r->outcome;
-  const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST], *best = &o->trial[AMBULO__FIT_BEST];
+  const ambulo__fit_trial *first = &o->trial[AMBULO__FIT_FIRST],
+                          *best = &o->trial[AMBULO__FIT_BEST];
   size_t bytes = (size_t)r->fit->parameters * sizeof *best->u;
   ambulo__fit_trial *apart = &o->trial[AMBULO__FIT_APART], *cold = &o->trial[AMBULO__FIT_COLD];
   memcpy(apart->u, best->u, bytes);
   memcpy(cold->u, best->u, bytes);
   (void)snprintf(apart->label, sizeof apart->label, "fitted");
   (void)snprintf(cold->label, sizeof cold->label, "fitted, from zero");
-  ambulo_status status =
-      ambulo__fit_evaluate(&r->runner, AMBULO__FIT_HELD_OUT, first, apart, 1);
+  ambulo_status status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_HELD_OUT, first, apart, 1);
   if (!status) status = ambulo__fit_evaluate(&r->runner, AMBULO__FIT_FROM_ZERO, NULL, cold, 1);
   if (status || !cold->complete) return status;
   return ambulo__fit_take_better(&r->runner, &r->sizes, cold, apart);
@@ -197,8 +190,7 @@ static ambulo_status write_results(run *r, char **report) {
   ambulo__text_init(&json, &r->allocator);
   ambulo__text_init(&table, &r->allocator);
   const double *u = r->outcome.trial[AMBULO__FIT_BEST].u;
-  ambulo_status status =
-      ambulo__fitted_problem(r->fit, u, r->directory, r->diagnostics, &problem);
+  ambulo_status status = ambulo__fitted_problem(r->fit, u, r->directory, r->diagnostics, &problem);
   if (!status) status = ambulo__fit_json(&r->outcome, &json);
   if (!status) ambulo__fit_table(&r->outcome, &table);
   if (!status) status = ambulo__text_status(&table);
@@ -237,7 +229,7 @@ static ambulo_status prepare(run *r) {
     r->lower[n + i] = fit->parameter[i].upper;
   }
   r->runner.progress.iterations = fit->iterations;
-  r->runner.progress.expected = expect(fit);
+  r->runner.progress.expected = ambulo__fit_expected(fit);
   return AMBULO_OK;
 }
 

@@ -37,7 +37,8 @@ static void append_curves(const ambulo__fit_outcome *o, ambulo__text_buffer *tex
                                       (double)NAN, (double)NAN, (double)NAN};
       const ambulo__fit_score *s = &first->score[at], *e = known ? &after->score[at] : &none;
       ambulo__text_append_format(text, "%-12s %-28s %-7s", k == 0 ? condition->name : "",
-                                 fit->curve[t->curve].name, ambulo__curve_unit_name(t->entry->unit));
+                                 fit->curve[t->curve].name,
+                                 ambulo__curve_unit_name(t->entry->unit));
       append_cell(text, s->z, 8, 3);
       append_cell(text, e->z, 8, 3);
       append_cell(text, s->rmse, 9, decimals_of(t));

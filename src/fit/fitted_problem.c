@@ -49,9 +49,12 @@ static size_t length_of(const rewrite *w, size_t at, const char *word) {
   if (quote != '"' && quote != '\'')
     return size <= w->length - at && memcmp(w->text + at, word, size) == 0 ? size : 0;
   for (size_t end = at + 1; end < w->length; end++) {
-    if (quote == '"' && w->text[end] == '\\') end++;
-    else if (quote == '\'' && w->text[end] == quote && w->text[end + 1] == quote) end++;
-    else if (w->text[end] == quote) return end + 1 - at;
+    if (quote == '"' && w->text[end] == '\\')
+      end++;
+    else if (quote == '\'' && w->text[end] == quote && w->text[end + 1] == quote)
+      end++;
+    else if (w->text[end] == quote)
+      return end + 1 - at;
   }
   return 0;
 }

@@ -98,12 +98,12 @@ static ambulo_status compare_inputs(const ambulo__fit_runner *r, const char *pat
   ambulo__yaml_free(document);
   if (same_texts && same_problem) return AMBULO_OK;
   ambulo__place place = {path, 0, 0, NULL};
-  return ambulo__error(
-      r->diagnostics, AMBULO_E_PROBLEM, place,
-      "--force goes on in it and keeps the solves whose inputs are the same; or give another folder",
-      "the folder was filled from other inputs: %s changed",
-      same_texts ? "the model, other data of the problem, or the version of ambulo"
-                 : "the fit file, its problem or a reference");
+  return ambulo__error(r->diagnostics, AMBULO_E_PROBLEM, place,
+                       "--force goes on in it and keeps the solves whose inputs are the same; or "
+                       "give another folder",
+                       "the folder was filled from other inputs: %s changed",
+                       same_texts ? "the model, other data of the problem, or the version of ambulo"
+                                  : "the fit file, its problem or a reference");
 }
 
 ambulo_status ambulo__fit_folder_prepare(const ambulo__fit_runner *r, const char *directory,

@@ -1,7 +1,7 @@
 /* fit/folder.h - the folder of a fit.
  *
- * DIR/fit_inputs.json: hashes of what it was filled from. DIR/solves: the batch folder of its solves.
- * DIR/fit.json, DIR/fitted.yaml: results. DIR/lock: held while a fit runs in it. */
+ * DIR/fit_inputs.json: hashes of what it was filled from. DIR/solves: the batch folder of its
+ * solves. DIR/fit.json, DIR/fitted.yaml: results. DIR/lock: held while a fit runs in it. */
 #ifndef AMBULO_FIT_FOLDER_H
 #define AMBULO_FIT_FOLDER_H
 

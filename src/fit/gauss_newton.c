@@ -2,15 +2,15 @@
  *
  * An iteration at u, whose residuals are r:
  *
- *   1. Column i of J is (r(u + h e_i) - r) / h, h one step toward the file's own value (the other way
- *      at a bound). All columns are solved at once.
+ *   1. Column i of J is (r(u + h e_i) - r) / h, h one step toward the file's own value (the other
+ * way at a bound). All columns are solved at once.
  *   2. A change |r(u + h e_i) - r| > 0.6 |r| + 0.2, or a solve that fails, is a jump into another
  *      valley and no derivative: the other side is tried, and where it jumps too the column is 0;
  *      unless both changes are each other's opposite, which is a steep slope (central difference).
  *   3. Steps of four dampings (damped_step.h) with that J, no longer than four steps in any
  *      parameter and within its bounds; a parameter at its bound that would leave it stands still.
- *   4. The best of all trials is the next u, if it is still better with the solutions that zero finds
- *      there where those are the better ones (refresh). Where none is, the damping grows and h
+ *   4. The best of all trials is the next u, if it is still better with the solutions that zero
+ * finds there where those are the better ones (refresh). Where none is, the damping grows and h
  *      shrinks; h also follows how much each parameter changes (adapt_reach).
  *
  * Residuals and not the distance, because a distance alone hides that two curves moved against each
@@ -201,7 +201,8 @@ static void find_free(newton *g) {
   size_t m = (size_t)g->task->sizes.residuals;
   int n = g->task->sizes.parameters;
   for (int i = 0; i < n; i++) {
-    double slope = g->task->ridge / n * g->best->u[i], width = g->task->upper[i] - g->task->lower[i];
+    double slope = g->task->ridge / n * g->best->u[i],
+           width = g->task->upper[i] - g->task->lower[i];
     for (size_t k = 0; k < m; k++) slope += g->jacobian[(size_t)i * m + k] * g->best->residual[k];
     int low = g->best->u[i] <= g->task->lower[i] + 1e-9 * width;
     int high = g->best->u[i] >= g->task->upper[i] - 1e-9 * width;

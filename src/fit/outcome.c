@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+enum { CANDIDATES = 5 }; /* of an iteration: four dampings, and one from zero */
+
 const ambulo__fit_trial *ambulo__fit_after(const ambulo__fit_outcome *o, int condition) {
   return &o->trial[o->fit->condition[condition].held_out ? AMBULO__FIT_APART : AMBULO__FIT_BEST];
 }
@@ -38,4 +40,11 @@ const char *ambulo__fit_ending_name(ambulo_fit_ending ending) {
     break;
   }
   return "stuck";
+}
+
+int ambulo__fit_expected(const ambulo_fit *fit) {
+  int fitted = 0;
+  for (int c = 0; c < fit->conditions; c++) fitted += !fit->condition[c].held_out;
+  int each = fit->method == AMBULO__FIT_GAUSS_NEWTON ? fit->parameters + CANDIDATES : 1;
+  return 3 * fit->conditions - fitted + fit->iterations * each * fitted;
 }

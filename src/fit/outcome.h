@@ -31,6 +31,9 @@ double ambulo__fit_held_out(const ambulo__fit_outcome *outcome, int after);
 int ambulo__fit_bound(const ambulo__fit_outcome *outcome, int i);
 const char *ambulo__fit_ending_name(ambulo_fit_ending ending);
 
+/* About how many solves a fit takes, when none is in the folder yet. */
+int ambulo__fit_expected(const ambulo_fit *fit);
+
 /* fit_json.c: appends fit.json. Errors: E_MEMORY. */
 ambulo_status ambulo__fit_json(const ambulo__fit_outcome *outcome, ambulo__text_buffer *text);
 /* fit_table.c: appends the table. */

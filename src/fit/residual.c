@@ -68,6 +68,6 @@ void ambulo__fit_residual_failed(const ambulo_fit *fit, const ambulo__fit_target
                                  double *residual, ambulo__fit_score *score) {
   double each = sqrt(2.0 * fit->cap / (double)t->count);
   for (int i = 0; i < t->count; i++) residual[i] = each;
-  *score = (ambulo__fit_score){2.0 * fit->cap, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
-                               (double)NAN};
+  *score = (ambulo__fit_score){2.0 * fit->cap, (double)NAN, (double)NAN,
+                               (double)NAN,    (double)NAN, (double)NAN};
 }

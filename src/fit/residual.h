@@ -7,9 +7,9 @@
  *     correlation (1 - r)                                r: Pearson's, 0 where y is constant
  *     range ln max(k, 0.1)                               k: range of y over that of m
  *
- * and a number of a curve (its range, peak or lowest value) one, (number of y - that of m) / s. Their
- * sum of squares z is 1 where the curve is off by one deviation. A block whose z is above the cap is
- * shortened, so that one curve does not outweigh all others and no gradient is lost:
+ * and a number of a curve (its range, peak or lowest value) one, (number of y - that of m) / s.
+ * Their sum of squares z is 1 where the curve is off by one deviation. A block whose z is above the
+ * cap is shortened, so that one curve does not outweigh all others and no gradient is lost:
  *
  *     z -> cap + ln(z / cap)
  *
@@ -21,11 +21,11 @@
 
 /* What a target scores; NaN where there is no such thing. */
 typedef struct ambulo__fit_score {
-  double z;    /* sum of squares of the block, after the cap */
-  double rmse; /* of y - m, not centred; of a number: |difference| */
-  double r;    /* NaN: of a number, or y is constant */
-  double ratio;             /* k */
-  double value, reference;  /* of a number */
+  double z;                /* sum of squares of the block, after the cap */
+  double rmse;             /* of y - m, not centred; of a number: |difference| */
+  double r;                /* NaN: of a number, or y is constant */
+  double ratio;            /* k */
+  double value, reference; /* of a number */
 } ambulo__fit_score;
 
 /* y [points] of the target; residual [count of the target] */

@@ -9,8 +9,8 @@ ambulo__fit_trial *ambulo__fit_trials_make(const ambulo__fit_sizes *s, int count
   size_t n = (size_t)s->parameters, m = (size_t)s->residuals, c = (size_t)s->conditions;
   size_t scores = c * (size_t)s->curves;
   /* doubles first, then integers, then bytes: all are aligned */
-  size_t each = (n + m + c) * sizeof(double) + scores * sizeof(ambulo__fit_score) +
-                c * (sizeof(int) + 1);
+  size_t each =
+      (n + m + c) * sizeof(double) + scores * sizeof(ambulo__fit_score) + c * (sizeof(int) + 1);
   each = (each + 15) / 16 * 16;
   size_t head = ((size_t)count * sizeof(ambulo__fit_trial) + 15) / 16 * 16;
   char *block = ambulo__alloc(allocator, head + (size_t)count * each, 1);

@@ -13,14 +13,14 @@ typedef struct ambulo__fit_sizes {
 } ambulo__fit_sizes;
 
 typedef struct ambulo__fit_trial {
-  double *u;               /* [parameters], in steps */
-  double *residual;        /* [residuals], with their weights */
-  double distance, cost;   /* D; with the ridge */
-  int *index;              /* [conditions] place of the case in the list of solves; -1: none */
-  unsigned char *solved;   /* [conditions] */
-  double *apart;           /* [conditions] distance of each by itself; NaN: not evaluated */
+  double *u;                /* [parameters], in steps */
+  double *residual;         /* [residuals], with their weights */
+  double distance, cost;    /* D; with the ridge */
+  int *index;               /* [conditions] place of the case in the list of solves; -1: none */
+  unsigned char *solved;    /* [conditions] */
+  double *apart;            /* [conditions] distance of each by itself; NaN: not evaluated */
   ambulo__fit_score *score; /* [conditions][curves] */
-  int complete;            /* 0: the run was stopped before it was solved */
+  int complete;             /* 0: the run was stopped before it was solved */
   char label[AMBULO__FIT_LABEL];
 } ambulo__fit_trial;
 
@@ -62,8 +62,8 @@ typedef struct ambulo__fit_task {
 double ambulo__fit_cost(const ambulo__fit_task *task, const ambulo__fit_trial *trial);
 
 /* gauss_newton.c, direct_search.c: from *best, an evaluated trial, to a better one. sensitivity
- * [parameters]: |dr/du_i| where it was found last; NaN where it was not. *stuck: the condition whose
- * solves all failed. Errors: what evaluate and note return, E_MEMORY. */
+ * [parameters]: |dr/du_i| where it was found last; NaN where it was not. *stuck: the condition
+ * whose solves all failed. Errors: what evaluate and note return, E_MEMORY. */
 ambulo_status ambulo__fit_gauss_newton(const ambulo__fit_task *task, ambulo__fit_trial *best,
                                        double *sensitivity, ambulo_fit_ending *ending, int *stuck);
 ambulo_status ambulo__fit_direct_search(const ambulo__fit_task *task, ambulo__fit_method method,

@@ -79,6 +79,7 @@ struct ambulo_sweep {
   int *value; /* [cases][stride]: index into the axis's values; -1: not set */
   int stride; /* axes, those of explicit cases included */
   int case_count, case_capacity;
+  int trusted; /* cases before it were run or verified by this process: their files are believed */
   /* of the base problem as understood; of its file's text; of the former with the versions */
   unsigned long long problem_hash, text_hash, base_hash;
 };

@@ -3,9 +3,11 @@
 
 #define CHAIN                                                                                      \
   "conditions:\n  - {name: slow, reference: slow.csv, weight: 3}\n"                                \
-  "  - {name: quick, after: slow, set: {time.duration: 0.7}, reference: quick.csv}\n"             \
+  "  - {name: quick, after: slow, set: {time.duration: 0.7}, reference: quick.csv}\n"              \
   "  - {name: apart, set: {time.duration: 0.8}, reference: quick.csv, held_out: true}\n"
-#define TEXT FIT_HEAD FIT_PARAMETERS CHAIN "distance: {curves: {pin: 1, top: {curve: pin, of: peak, weight: 2}}}\n"
+#define TEXT                                                                                       \
+  FIT_HEAD FIT_PARAMETERS CHAIN                                                                    \
+      "distance: {curves: {pin: 1, top: {curve: pin, of: peak, weight: 2}}}\n"
 
 static double sum_of(const fit_runner *w, const ambulo__fit_trial *t) {
   double sum = 0.0;
@@ -32,8 +34,7 @@ static void scopes_and_starts(void **state) {
   assert_int_equal(r->sweep->case_count, 7);
   cases = r->sweep->cases;
   for (int i = 1; i < 3; i++)
-    for (int c = 0; c < 2; c++)
-      assert_int_equal(cases[t[i].index[c]].previous, t[0].index[c]);
+    for (int c = 0; c < 2; c++) assert_int_equal(cases[t[i].index[c]].previous, t[0].index[c]);
   assert_int_equal(t[1].index[2], -1);
   assert_true(isnan(t[1].apart[2]));
   /* asked for again, it is the same case */

@@ -88,9 +88,9 @@ static void references_that_lack(void **state) {
               FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS
               "distance: {curves: {pin: {weight: 1, between: [11, 14]}}}\n",
               "has 0 points of 'pin' between 11 and 14 percent");
-  ambulo_fit *f = fit_of(state, FIT_HEAD FIT_PARAMETERS
-                         "conditions:\n  - {name: a, reference: plain.csv}\n"
-                         "distance: {curves: {pin: {sd: 5}}}\n");
+  ambulo_fit *f =
+      fit_of(state, FIT_HEAD FIT_PARAMETERS "conditions:\n  - {name: a, reference: plain.csv}\n"
+                                            "distance: {curves: {pin: {sd: 5}}}\n");
   assert_close(f->condition[0].target[0].sd, 5.0, 0.0);
   ambulo_fit_free(f);
 }

@@ -45,7 +45,8 @@ static void what_is_no_fit(void **state) {
   fit_refused(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS, "missing required key 'distance'");
   fit_refused(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE "methods: {}\n",
               "did you mean 'method'?");
-  fit_refused(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE
+  fit_refused(state,
+              FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE
               "method: {kind: bobyqa, iterations: 3}\n",
               "unknown key 'iterations'");
 }
@@ -57,7 +58,8 @@ static void parameters_that_are_none(void **state) {
               "fit.yaml:7:46: error[E_SCHEMA]: range [2, 1]; expected two rising factors above 0");
   fit_refused(state, ONE("{name: a, keys: [ends.final.pin], range: [2, 3]}"),
               "range [2, 3] is without 1, where the problem stands");
-  fit_refused(state, ONE("{name: a, keys: [ends.final.pin], scale: linear, step: 1, range: [1, 3]}"),
+  fit_refused(state,
+              ONE("{name: a, keys: [ends.final.pin], scale: linear, step: 1, range: [1, 3]}"),
               "range [1, 3] is without 0");
   fit_refused(state, ONE("{name: a, keys: [ends.final.pin], scale: linear, range: [-1, 3]}"),
               "missing required key 'step'");
@@ -115,9 +117,12 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_open, scratch_close)
   const struct CMUnitTest tests[] = {
-      TEST(a_fit_is_read),         TEST(defaults),
-      TEST(what_is_no_fit),        TEST(parameters_that_are_none),
-      TEST(a_file_that_is_not_there), TEST(every_allocation_may_fail),
+      TEST(a_fit_is_read),
+      TEST(defaults),
+      TEST(what_is_no_fit),
+      TEST(parameters_that_are_none),
+      TEST(a_file_that_is_not_there),
+      TEST(every_allocation_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

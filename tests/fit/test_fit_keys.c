@@ -3,9 +3,9 @@
 #include "support/fit_files.h"
 
 static void own_values(void **state) {
-  ambulo_fit *f = fit_of(state, FIT_HEAD
-                         "parameters:\n  - {name: a, keys: [\"objective[1].weight\", time.duration],"
-                         " range: [0.5, 2]}\n" FIT_CONDITIONS FIT_DISTANCE);
+  ambulo_fit *f = fit_of(
+      state, FIT_HEAD "parameters:\n  - {name: a, keys: [\"objective[1].weight\", time.duration],"
+                      " range: [0.5, 2]}\n" FIT_CONDITIONS FIT_DISTANCE);
   const ambulo__fit_parameter *p = &f->parameter[0];
   assert_close(p->in_file[0], 2.0, 0.0);
   assert_close(p->in_file[1], 1.0, 0.0);
@@ -17,11 +17,11 @@ static void own_values(void **state) {
 }
 
 static void a_key_of_conditions_alone(void **state) {
-  ambulo_fit *f = fit_of(state, FIT_HEAD
-                         "parameters:\n  - {name: a, keys: [ends.initial_speed.pin],"
-                         " scale: linear, step: 0.1, range: [-1, 1]}\n"
-                         "conditions:\n  - {name: a, reference: slow.csv,\n"
-                         "     set: {ends.initial_speed: {pin: 0.25}}}\n" FIT_DISTANCE);
+  ambulo_fit *f =
+      fit_of(state, FIT_HEAD "parameters:\n  - {name: a, keys: [ends.initial_speed.pin],"
+                             " scale: linear, step: 0.1, range: [-1, 1]}\n"
+                             "conditions:\n  - {name: a, reference: slow.csv,\n"
+                             "     set: {ends.initial_speed: {pin: 0.25}}}\n" FIT_DISTANCE);
   assert_true(isnan(f->parameter[0].in_file[0]));
   assert_close(f->parameter[0].own[0], 0.25, 0.0);
   ambulo_fit_free(f);
@@ -43,14 +43,15 @@ static void keys_that_are_not_there(void **state) {
 }
 
 static void what_the_problem_does_not_take(void **state) {
-  fit_refused(state, ONE("{name: a, keys: [time.duration], scale: linear, step: 1,"
-                         " range: [-3, 1]}"),
-              "with 'a' at its lower bound the problem cannot be read: ");
   fit_refused(state,
-              FIT_HEAD FIT_PARAMETERS
-              "conditions:\n  - {name: a, set: {time.duration: long}, reference: slow.csv}\n"
-              FIT_DISTANCE,
-              "fit.yaml:10:20: error[E_SCHEMA]: the problem cannot be read as condition 'a' sets");
+              ONE("{name: a, keys: [time.duration], scale: linear, step: 1,"
+                  " range: [-3, 1]}"),
+              "with 'a' at its lower bound the problem cannot be read: ");
+  fit_refused(
+      state,
+      FIT_HEAD FIT_PARAMETERS
+      "conditions:\n  - {name: a, set: {time.duration: long}, reference: slow.csv}\n" FIT_DISTANCE,
+      "fit.yaml:10:20: error[E_SCHEMA]: the problem cannot be read as condition 'a' sets");
   fit_refused(state,
               "ambulo: 1\nkind: fit\nname: swing\nproblem: none.yaml\n"
               "compare: {map: map.csv}\n" FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE,

@@ -1,6 +1,6 @@
-/* Whole fits by the program itself, of a rod whose truth is known: the references are motions of the
- * problem with other numbers, which the fit finds; results that do not depend on workers or stops;
- * folders that are refused; first solves that all fail. */
+/* Whole fits by the program itself, of a rod whose truth is known: the references are motions of
+ * the problem with other numbers, which the fit finds; results that do not depend on workers or
+ * stops; folders that are refused; first solves that all fail. */
 #include "ambulo/solve.h"
 #include "support/fit_files.h"
 
@@ -18,9 +18,9 @@ static void make_truth(void **state, const char *duration, const char *name) {
   ambulo_report_options options = ambulo_report_options_default();
   options.overwrite = 1;
   const char *folder = scratch_path(state, "truth");
-  assert_int_equal(ambulo_problem_load(scratch_path(state, "p.yaml"), overrides, 3, NULL, NULL,
-                                       &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load(scratch_path(state, "p.yaml"), overrides, 3, NULL, NULL, &problem),
+      AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   assert_int_equal(ambulo_report_write(problem, result, folder, &options, NULL, NULL), AMBULO_OK);
   ambulo_result_free(result);
@@ -35,8 +35,8 @@ static void make_truth(void **state, const char *duration, const char *name) {
   for (int i = 0; i < 21; i++) percent[i] = 5.0 * i;
   percent[20] = 99.9; /* 100 is the next beginning */
   assert_int_equal(ambulo__cycle_open(folder, &compare, NULL, NULL, &cycle), AMBULO_OK);
-  assert_int_equal(
-      ambulo__cycle_mean(&cycle, &compare, &entry, percent, 21, values, other, &found), AMBULO_OK);
+  assert_int_equal(ambulo__cycle_mean(&cycle, &compare, &entry, percent, 21, values, other, &found),
+                   AMBULO_OK);
   assert_true(found);
   ambulo__cycle_close(&cycle);
   FILE *f = fopen(scratch_path(state, name), "w");
@@ -229,8 +229,9 @@ static void first_solves_that_fail(void **state) {
   assert_int_equal(
       ambulo_fit_run(fit, scratch_path(state, "out"), &o, NULL, list, NULL, NULL, NULL),
       AMBULO_E_PROBLEM);
-  assert_message(list, 0, "no condition could be solved where the parameters stand; 'slow' is "
-                          "error");
+  assert_message(list, 0,
+                 "no condition could be solved where the parameters stand; 'slow' is "
+                 "error");
   assert_int_not_equal(access(scratch_path(state, "out/fit.json"), F_OK), 0);
   ambulo_diagnostics_free(list);
   ambulo_fit_free(fit);

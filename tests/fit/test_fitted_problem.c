@@ -24,12 +24,11 @@ static void numbers_and_names(void **state) {
   assert_int_equal(mkdir(scratch_path(state, "out/in"), 0777), 0);
   char *text = rewritten(state, f, u, "out/in");
   assert_string_equal(
-      text,
-      "# a rod\nambulo: 1\nkind: problem\nname: swing\nmodel: \"../../one.yaml\" # the rod\n"
-      "angles: radians\ntime: {duration: 1.0, intervals: 10}\ntrajectory: {intervals: 6}\n"
-      "ends: {initial: {pin: 0}, final: {pin: 0.8}}\n"
-      "objective:\n  - {term: torque_squared, weight: 1}\n"
-      "  - {term: acceleration, weight: 2.69971762} # price\n");
+      text, "# a rod\nambulo: 1\nkind: problem\nname: swing\nmodel: \"../../one.yaml\" # the rod\n"
+            "angles: radians\ntime: {duration: 1.0, intervals: 10}\ntrajectory: {intervals: 6}\n"
+            "ends: {initial: {pin: 0}, final: {pin: 0.8}}\n"
+            "objective:\n  - {term: torque_squared, weight: 1}\n"
+            "  - {term: acceleration, weight: 2.69971762} # price\n");
   free(text);
   ambulo_fit_free(f);
 }

@@ -37,8 +37,8 @@ static void a_ridge_holds_back(void **state) {
   w.task.ridge = 10.0;
   (void)run(&w, best, sensitivity, &stuck);
   assert_true(fabs(best->u[0]) < 0.1);
-  assert_close(best->cost, best->distance + 5.0 * (best->u[0] * best->u[0] + best->u[1] * best->u[1]),
-               1e-12);
+  assert_close(best->cost,
+               best->distance + 5.0 * (best->u[0] * best->u[0] + best->u[1] * best->u[1]), 1e-12);
   fit_made_up_close(&w, best);
 }
 
@@ -142,8 +142,7 @@ static void memory_may_give_out(void **state) {
     ambulo_fit_ending ending;
     fit_made_up_open(&w, &best);
     w.memory.fail_at = w.memory.requests + k;
-    ambulo_status status =
-        ambulo__fit_gauss_newton(&w.task, best, sensitivity, &ending, &stuck);
+    ambulo_status status = ambulo__fit_gauss_newton(&w.task, best, sensitivity, &ending, &stuck);
     int failed = w.memory.failed;
     assert_int_equal(status, failed ? AMBULO_E_MEMORY : AMBULO_OK);
     fit_made_up_close(&w, best);
@@ -154,14 +153,10 @@ static void memory_may_give_out(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_curved_valley),
-      cmocka_unit_test(a_ridge_holds_back),
-      cmocka_unit_test(bounds_hold),
-      cmocka_unit_test(a_jump_is_tried_on_the_other_side),
-      cmocka_unit_test(failures_are_jumps),
-      cmocka_unit_test(a_condition_that_is_never_solved),
-      cmocka_unit_test(a_stop_keeps_the_best),
-      cmocka_unit_test(no_iteration),
+      cmocka_unit_test(a_curved_valley),       cmocka_unit_test(a_ridge_holds_back),
+      cmocka_unit_test(bounds_hold),           cmocka_unit_test(a_jump_is_tried_on_the_other_side),
+      cmocka_unit_test(failures_are_jumps),    cmocka_unit_test(a_condition_that_is_never_solved),
+      cmocka_unit_test(a_stop_keeps_the_best), cmocka_unit_test(no_iteration),
       cmocka_unit_test(memory_may_give_out),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,9 +4,8 @@
 
 static void bounds_and_held_out(void **state) {
   (void)state;
-  ambulo__fit_parameter parameter[3] = {{.lower = -2.0, .upper = 3.0},
-                                        {.lower = -2.0, .upper = 3.0},
-                                        {.lower = -2.0, .upper = 3.0}};
+  ambulo__fit_parameter parameter[3] = {
+      {.lower = -2.0, .upper = 3.0}, {.lower = -2.0, .upper = 3.0}, {.lower = -2.0, .upper = 3.0}};
   ambulo__fit_condition condition[3] = {
       {.weight = 1.0}, {.held_out = 1, .weight = 1.0}, {.held_out = 1, .weight = 3.0}};
   ambulo_fit fit = {

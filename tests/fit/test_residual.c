@@ -12,10 +12,8 @@ static ambulo_fit make(ambulo__fit_curve *curve, ambulo__fit_of of, int centred)
 }
 
 static ambulo__fit_target target_of(ambulo__fit_of of) {
-  return (ambulo__fit_target){.points = POINTS,
-                              .mean = mean,
-                              .sd = 2.0,
-                              .count = of == AMBULO__FIT_CURVE ? POINTS + 2 : 1};
+  return (ambulo__fit_target){
+      .points = POINTS, .mean = mean, .sd = 2.0, .count = of == AMBULO__FIT_CURVE ? POINTS + 2 : 1};
 }
 
 static double sum(const double *r, int count) {

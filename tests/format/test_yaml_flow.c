@@ -50,7 +50,8 @@ static void there_and_back(void **state) {
 
 static void nodes_by_path(void **state) {
   (void)state;
-  static const char text[] = "list:\n  - {name: one, x: 3}\n  - {term: two, x: 4}\nkey: {deep: 5}\n";
+  static const char text[] =
+      "list:\n  - {name: one, x: 3}\n  - {term: two, x: 4}\nkey: {deep: 5}\n";
   ambulo__yaml *document = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(ambulo__yaml_load_text(text, strlen(text), "f", NULL, list, &document), 0);

@@ -25,10 +25,11 @@ static const char fit_model[] =
     "pin, range: [-3, 3]},\n"
     "     body: {mass: 1, com: [-0.5, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0]}}\n";
 
-#define FIT_HEAD "ambulo: 1\nkind: fit\nname: swing\nproblem: p.yaml\ncompare: {map: map.csv, foot: left}\n"
+#define FIT_HEAD                                                                                   \
+  "ambulo: 1\nkind: fit\nname: swing\nproblem: p.yaml\ncompare: {map: map.csv, foot: left}\n"
 #define FIT_PARAMETERS                                                                             \
   "parameters:\n"                                                                                  \
-  "  - {name: price, keys: [\"objective[acceleration].weight\"], range: [0.05, 20]}\n"            \
+  "  - {name: price, keys: [\"objective[acceleration].weight\"], range: [0.05, 20]}\n"             \
   "  - {name: last, keys: [ends.final.pin], scale: linear, range: [-0.5, 0.5], step: 0.1}\n"
 #define FIT_CONDITIONS                                                                             \
   "conditions:\n  - {name: slow, reference: slow.csv}\n"                                           \

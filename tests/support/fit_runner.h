@@ -27,9 +27,9 @@ static inline void fit_runner_open(void **state, const char *text, fit_runner *w
   w->list = ambulo_diagnostics_create(NULL);
   w->sizes = (ambulo__fit_sizes){w->fit->parameters, w->fit->residuals, w->fit->conditions,
                                  w->fit->curves};
-  assert_int_equal(ambulo__fit_runner_open(w->fit, *state, &w->options, &w->allocator, w->list,
-                                           &w->runner),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo__fit_runner_open(w->fit, *state, &w->options, &w->allocator, w->list, &w->runner),
+      AMBULO_OK);
   w->trial = ambulo__fit_trials_make(&w->sizes, 6, &w->allocator);
   assert_non_null(w->trial);
 }

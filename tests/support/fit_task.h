@@ -1,4 +1,5 @@
-/* tests/support/fit_task.h - a made-up fit for the methods: residuals by formula in place of solves.
+/* tests/support/fit_task.h - a made-up fit for the methods: residuals by formula in place of
+ * solves.
  *
  * Two parameters u, two conditions of two residuals each:
  *     r = (10 (u_1 - u_0^2), 1 - u_0, 0.3 (u_0 + u_1 - 2), 0)            Rosenbrock and more
@@ -12,9 +13,9 @@
 
 typedef struct fit_made_up {
   double scale;
-  double wall;  /* u_0 above it is another valley: all residuals change by 5; 0: none */
-  int fails;    /* 1: condition 1 is never solved away from the start; 2: nowhere */
-  int stop_at;  /* after so many trials the caller stops; 0: never */
+  double wall; /* u_0 above it is another valley: all residuals change by 5; 0: none */
+  int fails;   /* 1: condition 1 is never solved away from the start; 2: nowhere */
+  int stop_at; /* after so many trials the caller stops; 0: never */
   int evaluated, rounds, refreshed, notes;
   double noted; /* last cost */
   int dropped;  /* columns, in all */

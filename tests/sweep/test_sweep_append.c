@@ -71,9 +71,9 @@ static void keys_see_files(void **state) {
 static void a_base_that_is_none(void **state) {
   ambulo_sweep *s = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  assert_int_equal(ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "none.yaml"), NULL, list,
-                                       &s),
-                   AMBULO_E_IO);
+  assert_int_equal(
+      ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "none.yaml"), NULL, list, &s),
+      AMBULO_E_IO);
   assert_null(s);
   assert_message(list, 0, "none.yaml: error[E_IO]");
   ambulo_diagnostics_free(list);
@@ -88,8 +88,8 @@ static void memory_may_give_out(void **state) {
     ambulo_sweep *s = NULL;
     const char *overrides[] = {"time.intervals=8"};
     int index;
-    ambulo_status status = ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "p.yaml"),
-                                               &allocator, NULL, &s);
+    ambulo_status status =
+        ambulo__sweep_begin("s", "f.yaml", scratch_path(state, "p.yaml"), &allocator, NULL, &s);
     if (!status) status = ambulo__sweep_append(s, "n", overrides, 1, -1, NULL, &index);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     ambulo_sweep_free(s);
