@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700 /* realpath */
 #include "base/paths.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ static char *way(const ambulo_allocator *allocator, const char *from, const char
   while (*rest == '/') rest++;
   size_t length = strlen(rest);
   char *path = ambulo__alloc(allocator, 3 * up + length + 2, 1), *at = path;
+  if (!path) errno = ENOMEM;
   if (!path) return NULL;
   for (size_t i = 0; i < up; i++, at += 3) memcpy(at, "../", 3);
   memcpy(at, rest, length);

@@ -179,7 +179,7 @@ ambulo_status ambulo__fitted_problem(const ambulo_fit *fit, const double *u, con
   if (!status)
     status = ambulo__read_file(fit->problem, MOST_BYTES, a, diagnostics, &own, &w.length);
   w.text = own;
-  w.way = way;
+  w.way = way ? way : "";
   if (!status) status = rewrite_text(&w, u, text);
   for (int i = 0; i < w.count; i++) ambulo__free(a, w.places[i].with);
   ambulo__free(a, w.places);
