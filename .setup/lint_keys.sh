@@ -29,4 +29,5 @@ compare() {
 
 compare docs/model-format.md src/reader/model_*.c src/format/yaml_file_kind.c
 compare docs/problem-format.md src/reader/problem_*.c src/format/yaml_file_kind.c
+compare docs/guide-fit.md src/fit/fit_*.c
 exit $bad

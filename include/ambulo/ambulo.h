@@ -29,6 +29,7 @@
 
 #include "ambulo/batch.h"
 #include "ambulo/evaluate.h"
+#include "ambulo/fit.h"
 #include "ambulo/ground.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"

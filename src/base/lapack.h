@@ -39,6 +39,11 @@ extern void dgbtrs_(const char *trans, const int *n, const int *kl, const int *k
 extern void dgesv_(const int *n, const int *nrhs, double *a, const int *lda, int *ipiv, double *b,
                    const int *ldb, int *info);
 
+/* least squares: min |B - A X| by QR, A of full rank; X in the first rows of B */
+extern void dgels_(const char *trans, const int *m, const int *n, const int *nrhs, double *a,
+                   const int *lda, double *b, const int *ldb, double *work, const int *lwork,
+                   int *info);
+
 /* --------------------------------------------------------------------- BLAS */
 
 /* C = alpha A A' + beta C or alpha A' A + beta C */

@@ -12,4 +12,10 @@ char *ambulo__join_paths(const ambulo_allocator *allocator, const char *director
 /* The parts, one after the other. NULL: no memory. */
 char *ambulo__join_parts(const ambulo_allocator *allocator, const char *const *part, int parts);
 
+/* path_between.c: how a file of folder `to` is written as seen from folder `from`: "", "../../a/",
+ * or an absolute path that ends with '/'. Both folders exist. NULL: one of them does not, or no
+ * memory.
+ */
+char *ambulo__path_between(const ambulo_allocator *allocator, const char *from, const char *to);
+
 #endif

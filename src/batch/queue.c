@@ -49,7 +49,8 @@ static ambulo_status take_record(ambulo__supervisor *batch, int k) {
   ambulo__record record;
   ambulo__damage damage;
   if (batch->damaged[k]) return AMBULO_OK;
-  ambulo_status status = ambulo__record_find(batch->directory, one->id, one->key, 1,
+  int verified = k < batch->sweep->trusted;
+  ambulo_status status = ambulo__record_find(batch->directory, one->id, one->key, !verified,
                                              batch->allocator, &finding, &record, &damage);
   if (status) return status;
   batch->damaged[k] = finding == AMBULO__FOUND_DAMAGED;

@@ -1,50 +1,23 @@
 /* cli/cmd_batch.c - ambulo batch: many cases, on all processors, resumable. */
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cli/batch_dry_run.h"
 #include "cli/commands.h"
 #include "cli/format.h"
 #include "cli/output.h"
+#include "cli/stop_signals.h"
 
 enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };
-
-/* all that a signal handler touches */
-static volatile sig_atomic_t signals_seen = 0, last_signal = 0;
-
-static void note_signal(int number) {
-  signals_seen = signals_seen + 1;
-  last_signal = number;
-}
-
-static void catch_signals(void) {
-  struct sigaction action;
-  memset(&action, 0, sizeof action);
-  action.sa_handler = note_signal;
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-}
 
 typedef struct view {
   int terminal, quiet, told;
   double line_at; /* s: when the last plain line was printed */
   int line_done;
 } view;
-
-/* letters that fit into a line of the terminal, which a longer one would break */
-static int line_room(void) {
-#ifdef TIOCGWINSZ
-  struct winsize size;
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col - 1;
-#endif
-  return LINE;
-}
 
 static void print_line(const ambulo_batch_progress *p, int room, const char *begin,
                        const char *end) {
@@ -64,13 +37,13 @@ static void print_line(const ambulo_batch_progress *p, int room, const char *beg
 static int show(void *user, const ambulo_batch_progress *p) {
   view *v = user;
   if (!v->quiet && v->terminal) {
-    print_line(p, line_room(), "\r", "\033[K");
+    print_line(p, ambulo__cli_line_room(), "\r", "\033[K");
   } else if (!v->quiet && p->done != v->line_done && p->seconds >= v->line_at + 5.0) {
     print_line(p, LINE, "", "\n");
     v->line_at = p->seconds;
     v->line_done = p->done;
   }
-  int seen = (int)signals_seen;
+  int seen = ambulo__cli_stops();
   if (seen == 1 && v->told == 0 && !v->quiet) {
     v->told = 1;
     fprintf(stderr, "%sfinishing %d running cases; once more to stop now\n",
@@ -112,7 +85,7 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
   view v = {isatty(STDERR_FILENO), ambulo__cli_flag(input, "quiet"), 0, 0.0, 0};
   o->progress = show;
   o->user = &v;
-  catch_signals();
+  ambulo__cli_catch_stops();
   ambulo_batch_progress end;
   memset(&end, 0, sizeof end);
   ambulo_status status = ambulo_batch_run(sweep, directory, o, NULL, diagnostics, &end);
@@ -122,7 +95,7 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
     printf("%d of %d cases done (%d before), %d without a valid solution, %.1f s\n", end.done,
            end.cases, end.resumed, end.failed, end.seconds);
   if (code) return code;
-  if (last_signal && end.done < end.cases) return 128 + (int)last_signal;
+  if (ambulo__cli_stops() > 0 && end.done < end.cases) return 128 + ambulo__cli_stop_signal();
   return end.failed > 0 || end.done < end.cases ? 1 : 0;
 }
 

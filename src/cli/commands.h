@@ -12,5 +12,6 @@ extern const ambulo__cli_command ambulo__cli_inverse;
 extern const ambulo__cli_command ambulo__cli_compare;
 extern const ambulo__cli_command ambulo__cli_batch;
 extern const ambulo__cli_command ambulo__cli_collect;
+extern const ambulo__cli_command ambulo__cli_fit;
 
 #endif

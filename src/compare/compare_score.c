@@ -19,7 +19,7 @@ static double mean_of(const double *y, int n) {
   return sum / (double)n;
 }
 
-static double correlation(const double *a, const double *b, int n) {
+double ambulo__correlation(const double *a, const double *b, int n) {
   double mean_a = mean_of(a, n), mean_b = mean_of(b, n), aa = 0.0, bb = 0.0, ab = 0.0;
   for (int i = 0; i < n; i++) {
     double da = a[i] - mean_a, db = b[i] - mean_b;
@@ -57,7 +57,7 @@ void ambulo__score_curve(const ambulo__reference_curve *reference, const double 
   }
   score->points = n;
   score->rmse = sqrt(squares / (double)n);
-  score->r = correlation(values, reference->mean, n);
+  score->r = ambulo__correlation(values, reference->mean, n);
   score->within_2sd = reference->sd ? (double)inside / (double)n : (double)NAN;
   int first = (int)floor(2.0 * reference->percent[0]);
   int last = (int)ceil(2.0 * reference->percent[n - 1]);

@@ -12,6 +12,9 @@ enum { AMBULO__FINE = 201 }; /* points of a finely sampled cycle: every half per
 void ambulo__score_curve(const ambulo__reference_curve *reference, const double *values,
                          const double *fine, ambulo_curve_score *score);
 
+/* Pearson's r of two curves; NaN where one of them is constant. */
+double ambulo__correlation(const double *a, const double *b, int count);
+
 /* Landmarks of one curve, added at landmarks[*count]: at most 5 each. Knee flexion and ankle
  * dorsiflexion in deg, forces in N/kg (gravity in m/s^2 turns them into body weights). */
 enum { AMBULO__MAX_LANDMARKS = 16 };

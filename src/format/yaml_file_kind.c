@@ -21,6 +21,7 @@ static const format formats[] = {
     {"solution", "a solution", "control_points", "ambulo evaluate takes it, and solve --start"},
     {"sweep", "a sweep", "axes",
      "ambulo batch takes it; its --dry-run checks it and lists the cases"},
+    {"fit", "a fit", "conditions", "ambulo fit takes it"},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 

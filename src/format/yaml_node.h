@@ -18,6 +18,7 @@
 
 #include "ambulo/status.h"
 #include "base/diagnostics.h"
+#include "base/text_buffer.h"
 
 enum { AMBULO__YAML_MAX_BYTES = 16 << 20 }; /* of a document */
 
@@ -50,6 +51,9 @@ ambulo_status ambulo__yaml_set(ambulo__yaml *document, const char *path, const c
  * before the path. */
 ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, const char *path,
                                      const char *value);
+
+/* The node at such a path, and NULL after an error (of no place in a file) where there is none. */
+const ambulo__yaml_node *ambulo__yaml_at(ambulo__yaml *document, const char *path);
 
 const ambulo__yaml_node *ambulo__yaml_root(const ambulo__yaml *document);
 const char *ambulo__yaml_file(const ambulo__yaml *document);
@@ -91,6 +95,8 @@ void ambulo__yaml_warning(const ambulo__yaml_node *node, const char *hint, const
 /* Text of a plain or quoted scalar. "", never NULL, after an error when a list, a mapping or
  * nothing at all stands there; a NULL node gives "" silently. */
 const char *ambulo__yaml_text(const ambulo__yaml_node *node);
+/* Appends a node as YAML flow text, as --set takes it: 36, [1, 2], {a: "b"}. */
+void ambulo__yaml_flow(const ambulo__yaml_node *node, ambulo__text_buffer *text);
 /* Typed values. A NULL node gives `fallback` silently (so that
  * number(get(map, "k"), 1.0) reads an optional key). */
 double ambulo__yaml_number(const ambulo__yaml_node *node, double fallback);

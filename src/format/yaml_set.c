@@ -190,6 +190,15 @@ static ambulo_status locate(ambulo__yaml *document, const char *file, const char
   return AMBULO_OK;
 }
 
+const ambulo__yaml_node *ambulo__yaml_at(ambulo__yaml *document, const char *path) {
+  ambulo__yaml_node *parent = NULL, *found = NULL;
+  char *key = NULL;
+  int depth = 0;
+  if (locate(document, NULL, path, &parent, &found, &key, &depth)) return NULL;
+  if (!found) (void)no_key(document, NULL, parent, key);
+  return found;
+}
+
 ambulo_status ambulo__yaml_set_below(ambulo__yaml *document, const char *above, const char *path,
                                      const char *value) {
   size_t size = strlen("--set ") + strlen(above) + strlen(path) + 1;

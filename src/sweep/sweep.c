@@ -1,7 +1,7 @@
 /* sweep/sweep.c - reading a sweep file.
  *
  * Reading order: sweep.h, sweep.c, sweep_axis.c, sweep_values.c, filter.c, sweep_cases.c,
- * sweep_chains.c, sweep_check.c, units.h.
+ * sweep_chains.c, sweep_check.c, sweep_append.c, units.h.
  */
 #include "sweep/sweep.h"
 #include "ambulo/mechanics.h"
@@ -114,13 +114,11 @@ static ambulo_status hash_file(ambulo_sweep *s, const char *path, unsigned long 
 }
 
 /* the base problem is loaded once: a fault in it is told now, and its hash enters every key */
-static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
+static ambulo_status load_base(ambulo_sweep *s) {
   ambulo_problem *problem = NULL;
   ambulo_status status =
       ambulo_problem_load(s->base, NULL, 0, &s->allocator, s->diagnostics, &problem);
-  if (status)
-    return ambulo__yaml_error(node, status, NULL, "the base problem '%s' could not be loaded",
-                              s->base);
+  if (status) return status;
   ambulo_versions versions;
   ambulo_versions_get(&versions);
   s->problem_hash = ambulo_problem_hash(problem);
@@ -134,6 +132,14 @@ static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
   s->base_hash = ambulo__hash_text(hash, versions.nlopt);
   ambulo_problem_free(problem);
   return status;
+}
+
+static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
+  size_t errors = ambulo_diagnostics_error_count(s->diagnostics);
+  ambulo_status status = load_base(s);
+  if (!status || ambulo_diagnostics_error_count(s->diagnostics) == errors) return status;
+  return ambulo__yaml_error(node, status, NULL, "the base problem '%s' could not be loaded",
+                            s->base);
 }
 
 /* a fault in one key must not make strangers of those that would have been read after it */
@@ -205,6 +211,28 @@ ambulo_status ambulo_sweep_load(const char *path, const ambulo_allocator *alloca
   }
   *sweep = s;
   return AMBULO_OK;
+}
+
+ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char *base,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_sweep **sweep) {
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_sweep *s = ambulo__alloc(&own, 1, sizeof *s);
+  if (!s) return AMBULO_E_MEMORY;
+  s->allocator = own;
+  s->diagnostics = diagnostics;
+  s->chain_axis = -1;
+  s->name = ambulo__strdup(&own, name);
+  s->path = ambulo__strdup(&own, path);
+  s->base = ambulo__strdup(&own, base);
+  ambulo_status status = s->name && s->path && s->base ? load_base(s) : AMBULO_E_MEMORY;
+  s->diagnostics = NULL;
+  if (status) {
+    ambulo_sweep_free(s);
+  } else {
+    *sweep = s;
+  }
+  return status;
 }
 
 static void free_texts(const ambulo_allocator *a, char **texts, int count) {

@@ -79,6 +79,7 @@ struct ambulo_sweep {
   int *value; /* [cases][stride]: index into the axis's values; -1: not set */
   int stride; /* axes, those of explicit cases included */
   int case_count, case_capacity;
+  int trusted; /* cases before it were run or verified by this process: their files are believed */
   /* of the base problem as understood; of its file's text; of the former with the versions */
   unsigned long long problem_hash, text_hash, base_hash;
 };
@@ -111,11 +112,29 @@ ambulo_status ambulo__axis_add_node(ambulo_sweep *sweep, ambulo__axis *axis,
                                     const ambulo__yaml_node *node);
 ambulo_status ambulo__axis_add_number(ambulo_sweep *sweep, ambulo__axis *axis, double value,
                                       ambulo__spot spot);
+/* *hash of the regular file that a value names, seen from the base problem; 0: no such file.
+ * Errors: E_IO, E_MEMORY. */
+ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *name,
+                                       unsigned long long *hash);
 const char *ambulo__axis_text(const ambulo__axis *axis, int value);
 int ambulo__sweep_find_axis(const ambulo_sweep *sweep, const char *name);
 ambulo__spot ambulo__spot_of(const ambulo__yaml_node *node);
 /* Its place in the sweep file or the table. */
 ambulo__place ambulo__spot_place(const ambulo_sweep *sweep, ambulo__spot spot);
+
+/* sweep.c: a sweep without cases, to which others add them one by one: its axes are none, so that
+ * nothing is a product. `path` is the file that asks for it, `base` its problem, which is loaded
+ * once. Errors as of ambulo_sweep_load. */
+ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char *base,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_sweep **sweep);
+/* sweep_append.c: a case whose id is the hash of its overrides and of its start, so that the same
+ * request is the same case whenever it comes: *index is that of the one that is there already, or
+ * of a new one. previous: the case that it starts from; -1: zero. Errors: E_IO (a file that a value
+ * names), E_LIMIT, E_MEMORY. */
+ambulo_status ambulo__sweep_append(ambulo_sweep *sweep, const char *name,
+                                   const char *const *overrides, int count, int previous,
+                                   ambulo_diagnostics *diagnostics, int *index);
 
 /* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
  * was not read any more is no stranger. Returns `status`. */

@@ -60,9 +60,8 @@ static ambulo_status is_file(const ambulo_sweep *sweep, const char *path, int *y
   return none ? AMBULO_OK : ambulo__io_error(sweep->diagnostics, path, "inspect");
 }
 
-/* *hash of the regular file that a value names, seen from the base problem; 0: no such file */
-static ambulo_status hash_named_file(const ambulo_sweep *sweep, const char *name,
-                                     unsigned long long *hash) {
+ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *name,
+                                       unsigned long long *hash) {
   double number;
   *hash = 0;
   if (!name[0] || ambulo__parse_double(name, strlen(name), &number)) return AMBULO_OK;
@@ -108,7 +107,7 @@ ambulo_status ambulo__axis_add_text(ambulo_sweep *sweep, ambulo__axis *axis, con
   memcpy(copy + key + 1, text, length);
   ambulo__axis_value *value = &axis->value[axis->count++];
   *value = (ambulo__axis_value){copy, 0, spot};
-  return hash_named_file(sweep, copy + key + 1, &value->file);
+  return ambulo__sweep_hash_value(sweep, copy + key + 1, &value->file);
 }
 
 const char *ambulo__axis_text(const ambulo__axis *axis, int value) {

@@ -61,3 +61,34 @@ awk -F '\t' -v OFS=, '
       for (i = 1; i < n; i++) print time[i] + r * time[n] rest[i]
   }' ik.mot >person.csv
 rm -r of_walk of_walk.csv
+
+# walks of people whose prices nobody knows, for docs/guide-fit.md: the left foot strikes at 0
+people() { # NAME STEP_LENGTH DURATION
+  ambulo solve "$models/walk_normal.yaml" -o of_people --force --quiet \
+    --set gait.step_length="$2" --set time.duration="$3" --set gait.phases.toe_off=0.63 \
+    --set 'objective[torque_power].scale.hip_adduction_r=0.0035' \
+    --set 'objective[torque_power].scale.hip_adduction_l=0.0035' \
+    --set 'objective[torque_power].scale.ankle_angle_r=0.0025' \
+    --set 'objective[torque_power].scale.ankle_angle_l=0.0025' \
+    --set 'objective[ankle_posture].weight=0.15'
+  grep -v '^#' of_people/motion.csv | awk -F, '
+    NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i; next }
+    { for (i = 1; i <= NF; i++) row[NR - 1, i] = $i; rows = NR - 1 }
+    function curve(name, from, shift,    k, percent) {
+      for (k = 1; k <= rows; k++) {
+        percent = 100 * row[k, column["time"]] / row[rows, column["time"]]
+        printf "%s,%.6g,%.6g,3\n", name, percent, 57.29577951308232 * row[k, column[from]] + shift
+      }
+    }
+    END {
+      print "variable,percent,mean_deg,sd_deg"
+      curve("hip_flexion", "q.hip_flexion_l", 11.4)
+      curve("hip_adduction", "q.hip_adduction_l", 0)
+      curve("knee_flexion", "q.knee_angle_l", 0)
+      curve("ankle_dorsiflexion", "q.ankle_angle_l", 0)
+    }' >"people_$1.csv"
+  rm -r of_people
+}
+people slow 0.60 0.60
+people usual 0.68 0.54
+people fast 0.76 0.49

@@ -181,6 +181,7 @@ yaml_block() { # WHERE FOLDER FILE: a whole file is checked; a fragment in place
   fi
   case $kind in
   sweep) in_world "$1" "$2" ambulo batch models/block.yaml --dry-run ;;
+  fit) in_world "$1" "$2" ambulo fit models/block.yaml --dry-run ;;
   *) in_world "$1" "$2" ambulo check models/block.yaml ;;
   esac
 }

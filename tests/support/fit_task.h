@@ -1,0 +1,105 @@
+/* tests/support/fit_task.h - a made-up fit for the methods: residuals by formula in place of
+ * solves.
+ *
+ * Two parameters u, two conditions of two residuals each:
+ *     r = (10 (u_1 - u_0^2), 1 - u_0, 0.3 (u_0 + u_1 - 2), 0)            Rosenbrock and more
+ * divided by `scale`; least, 0, at u = (1, 1). What goes wrong is asked for by the members. */
+#ifndef AMBULO_TESTS_FIT_TASK_H
+#define AMBULO_TESTS_FIT_TASK_H
+
+#include "fit/trial.h"
+#include "support/fail_alloc.h"
+#include "support/test.h"
+
+typedef struct fit_made_up {
+  double scale;
+  double wall; /* u_0 above it is another valley: all residuals change by 5; 0: none */
+  int fails;   /* 1: condition 1 is never solved away from the start; 2: nowhere */
+  int stop_at; /* after so many trials the caller stops; 0: never */
+  int evaluated, rounds, refreshed, notes;
+  double noted; /* last cost */
+  int dropped;  /* columns, in all */
+  fail_alloc memory;
+  ambulo_allocator allocator;
+  double lower[2], upper[2];
+  ambulo__fit_task task;
+} fit_made_up;
+
+static inline void fit_made_up_score(fit_made_up *w, ambulo__fit_trial *t, int is_start) {
+  double a = t->u[0], b = t->u[1], jump = w->wall != 0.0 && a > w->wall ? 5.0 : 0.0;
+  const double r[4] = {10.0 * (b - a * a), 1.0 - a, 0.3 * (a + b - 2.0), 0.0};
+  t->distance = 0.0;
+  for (int k = 0; k < 4; k++) {
+    int failed = k >= 2 && (w->fails == 2 || (w->fails == 1 && !is_start));
+    t->residual[k] = failed ? 3.0 : r[k] / w->scale + jump;
+    t->distance += t->residual[k] * t->residual[k];
+  }
+  t->solved[0] = 1;
+  t->solved[1] = !(w->fails == 2 || (w->fails == 1 && !is_start));
+  t->index[0] = t->index[1] = w->evaluated;
+  t->complete = 1;
+}
+
+static inline ambulo_status fit_made_up_evaluate(void *user, const ambulo__fit_trial *from,
+                                                 ambulo__fit_trial *trials, int count) {
+  fit_made_up *w = user;
+  assert_non_null(from);
+  w->rounds++;
+  for (int i = 0; i < count; i++) {
+    for (int k = 0; k < 2; k++) assert_true(trials[i].u[k] >= w->lower[k] - 1e-12);
+    for (int k = 0; k < 2; k++) assert_true(trials[i].u[k] <= w->upper[k] + 1e-12);
+    trials[i].complete = 0;
+    if (w->stop_at && w->evaluated >= w->stop_at) continue;
+    w->evaluated++;
+    fit_made_up_score(w, &trials[i], 0);
+  }
+  return AMBULO_OK;
+}
+
+static inline ambulo_status fit_made_up_refresh(void *user, ambulo__fit_trial *best) {
+  fit_made_up *w = user;
+  (void)best;
+  w->refreshed++;
+  return AMBULO_OK;
+}
+
+/* the cost never rises */
+static inline ambulo_status fit_made_up_note(void *user, const ambulo__fit_step *step) {
+  fit_made_up *w = user;
+  if (w->notes++ > 0) assert_true(step->cost <= w->noted);
+  w->noted = step->cost;
+  w->dropped += step->dropped;
+  return AMBULO_OK;
+}
+
+/* from u = 0; *best is to be freed by free() */
+static inline void fit_made_up_open(fit_made_up *w, ambulo__fit_trial **best) {
+  w->memory = fail_alloc_at(-1);
+  w->allocator = fail_alloc_hook(&w->memory);
+  if (w->scale == 0.0) w->scale = 5.0;
+  if (w->upper[0] == 0.0) {
+    w->lower[0] = w->lower[1] = -8.0;
+    w->upper[0] = w->upper[1] = 8.0;
+  }
+  w->task = (ambulo__fit_task){.sizes = {2, 4, 2, 1},
+                               .lower = w->lower,
+                               .upper = w->upper,
+                               .tolerance = 1e-4,
+                               .iterations = 40,
+                               .allocator = &w->allocator,
+                               .evaluate = fit_made_up_evaluate,
+                               .refresh = fit_made_up_refresh,
+                               .note = fit_made_up_note,
+                               .user = w};
+  *best = ambulo__fit_trials_make(&w->task.sizes, 1, &w->allocator);
+  assert_non_null(*best);
+  fit_made_up_score(w, *best, 1);
+  (*best)->cost = ambulo__fit_cost(&w->task, *best);
+}
+
+static inline void fit_made_up_close(fit_made_up *w, ambulo__fit_trial *best) {
+  w->allocator.resize(w->allocator.user, best, 0);
+  assert_int_equal(w->memory.live, 0);
+}
+
+#endif
