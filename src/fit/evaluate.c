@@ -5,7 +5,7 @@
 #include "base/paths.h"
 #include "batch/case_path.h"
 #include "batch/record.h"
-#include "compare/compare_cycle.h"
+#include "compare/compare_curve.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,20 +15,20 @@
 
 static ambulo_status allocate(ambulo__fit_runner *r) {
   const ambulo_fit *fit = r->fit;
-  int points = 1, residuals = 1;
+  int residuals = 1;
+  r->points = 1;
   for (int c = 0; c < fit->conditions; c++) {
     const ambulo__fit_condition *condition = &fit->condition[c];
     if (condition->residuals > residuals) residuals = condition->residuals;
     for (int t = 0; t < condition->targets; t++) {
       const ambulo__fit_target *target = &condition->target[t];
-      if (target->points > points) points = target->points;
+      if (target->points > r->points) r->points = target->points;
       if (!condition->held_out) r->weights += condition->weight * fit->curve[target->curve].weight;
     }
   }
-  r->values = ambulo__alloc(r->allocator, (size_t)points, sizeof *r->values);
-  r->other = ambulo__alloc(r->allocator, (size_t)points, sizeof *r->other);
+  r->values = ambulo__alloc(r->allocator, (size_t)r->points, sizeof *r->values);
   r->block = ambulo__alloc(r->allocator, (size_t)residuals, sizeof *r->block);
-  return r->values && r->other && r->block ? AMBULO_OK : AMBULO_E_MEMORY;
+  return r->values && r->block ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
 ambulo_status ambulo__fit_runner_open(const ambulo_fit *fit, const char *directory,
@@ -56,7 +56,6 @@ ambulo_status ambulo__fit_runner_open(const ambulo_fit *fit, const char *directo
 void ambulo__fit_runner_close(ambulo__fit_runner *r) {
   ambulo__free(r->allocator, r->solves);
   ambulo__free(r->allocator, r->values);
-  ambulo__free(r->allocator, r->other);
   ambulo__free(r->allocator, r->block);
   ambulo_sweep_free(r->sweep);
   r->sweep = NULL;
@@ -172,9 +171,9 @@ static ambulo_status lacks_curve(const ambulo__fit_runner *r, const ambulo__fit_
                        c->name, r->fit->curve[t->curve].curve, t->entry->result);
 }
 
-/* blocks and scores of one condition from its motion, or, without a cycle, of a failed solve; sums
+/* blocks and scores of one condition from its motion, or, without one, of a failed solve; sums
  * of what counts */
-static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__cycle *cycle,
+static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__sampler *motion,
                                    ambulo__fit_trial *trial) {
   const ambulo_fit *fit = r->fit;
   const ambulo__fit_condition *c = &fit->condition[index];
@@ -183,12 +182,12 @@ static ambulo_status score_targets(ambulo__fit_runner *r, int index, ambulo__cyc
     const ambulo__fit_target *t = &c->target[k];
     ambulo__fit_score *score = &trial->score[index * fit->curves + t->curve];
     double *block = r->block + t->first, weight = fit->curve[t->curve].weight;
-    if (cycle) {
+    if (motion) {
       int found = 0;
-      ambulo_status status = ambulo__cycle_mean(cycle, &fit->compare, t->entry, t->percent,
-                                                t->points, r->values, r->other, &found);
+      ambulo_status status =
+          ambulo__sample_curve(motion, t->entry, t->percent, t->points, r->values, NULL, &found);
       if (status) return status;
-      if (!found) return lacks_curve(r, c, t, cycle);
+      if (!found) return lacks_curve(r, c, t, motion->cycle);
       ambulo__fit_residual(fit, t, r->values, block, score);
     } else {
       ambulo__fit_residual_failed(fit, t, block, score);
@@ -215,7 +214,10 @@ static ambulo_status read_motion(ambulo__fit_runner *r, int index, ambulo__fit_t
   if (!status) {
     status = ambulo__cycle_open(path, &r->fit->compare, r->allocator, list, &cycle);
     if (!status) {
-      status = score_targets(r, index, &cycle, t);
+      ambulo__sampler motion = {.cycle = NULL};
+      status = ambulo__sampler_create(&cycle, &r->fit->compare, r->points, &motion);
+      if (!status) status = score_targets(r, index, &motion, t);
+      ambulo__sampler_free(&motion);
       ambulo__cycle_close(&cycle);
     }
   }

@@ -28,14 +28,14 @@ typedef struct ambulo__fit_runner {
   ambulo_diagnostics *diagnostics;
   char *solves; /* path of the batch folder */
   ambulo_sweep *sweep;
-  double *values, *other,
-      *block;            /* [most points], [most points], [most residuals of a condition] */
-  double weights;        /* sum over fitted conditions and their targets */
-  double begin, solving; /* s; of rounds that computed something */
-  int before;            /* cases of earlier rounds */
-  int computed;          /* solves of this run */
-  int told;              /* 1: warnings about motions were passed on */
-  int wish;              /* of the caller: 1, 2: stop */
+  int points;             /* most of a target */
+  double *values, *block; /* [points], [most residuals of a condition] */
+  double weights;         /* sum over fitted conditions and their targets */
+  double begin, solving;  /* s; of rounds that computed something */
+  int before;             /* cases of earlier rounds */
+  int computed;           /* solves of this run */
+  int told;               /* 1: warnings about motions were passed on */
+  int wish;               /* of the caller: 1, 2: stop */
   ambulo_fit_progress progress;
 } ambulo__fit_runner;
 

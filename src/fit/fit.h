@@ -27,7 +27,7 @@
 #include "ambulo/fit.h"
 #include "ambulo/report.h"
 #include "base/alloc.h"
-#include "compare/compare_reference.h"
+#include "compare/compare_people.h"
 #include "format/yaml_node.h"
 
 enum {
@@ -88,9 +88,8 @@ typedef struct ambulo__fit_condition {
   char *reference; /* path */
   int held_out;    /* 1: does not count; its distance is reported apart */
   double weight;
-  int after; /* the condition whose solution starts its first solve; -1: zero */
-  ambulo__map map;
-  ambulo__reference curves;
+  int after;                  /* the condition whose solution starts its first solve; -1: zero */
+  ambulo__people people;      /* the file of its reference */
   ambulo__fit_target *target; /* [targets] */
   int targets;
   int first, residuals; /* its block in r; of a held-out one first is 0 */

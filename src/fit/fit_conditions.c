@@ -128,17 +128,19 @@ static void check_names(const ambulo_fit *fit, const ambulo__fit_condition *c) {
 }
 
 static const ambulo__reference_curve *find_curve(const ambulo__fit_condition *c, const char *name) {
-  for (int i = 0; i < c->curves.count; i++)
-    if (strcmp(c->curves.curves[i].entry->curve, name) == 0) return &c->curves.curves[i];
+  const ambulo__reference *r = &c->people.files[0].reference;
+  for (int i = 0; i < r->count; i++)
+    if (strcmp(r->curves[i].entry->curve, name) == 0) return &r->curves[i];
   return NULL;
 }
 
 static void lacks_curve(const ambulo__fit_condition *c, const ambulo__fit_curve *curve) {
   char known[LIST] = "", hint[LIST + 120];
   size_t used = 0;
-  for (int i = 0; i < c->curves.count && used < sizeof known; i++)
+  const ambulo__reference *r = &c->people.files[0].reference;
+  for (int i = 0; i < r->count && used < sizeof known; i++)
     used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-                             c->curves.curves[i].entry->curve);
+                             r->curves[i].entry->curve);
   (void)snprintf(hint, sizeof hint,
                  "it has %s; a list 'curves' in the condition leaves the others out", known);
   (void)ambulo__yaml_error(c->reference_node, AMBULO_E_SCHEMA, hint,
@@ -221,8 +223,8 @@ ambulo_status ambulo__fit_read_references(ambulo_fit *fit) {
   }
   for (int i = 0; i < fit->conditions; i++) {
     ambulo__fit_condition *c = &fit->condition[i];
-    ambulo_status status = ambulo__reference_read(c->reference, fit->compare.map, &fit->allocator,
-                                                  fit->diagnostics, &c->map, &c->curves);
+    ambulo_status status = ambulo__people_read(c->reference, fit->compare.map, &fit->allocator,
+                                               fit->diagnostics, &c->people);
     if (status == AMBULO_E_MEMORY) return status;
     if (status)
       return ambulo__yaml_error(c->reference_node, status, NULL,

@@ -255,8 +255,7 @@ void ambulo_fit_free(ambulo_fit *f) {
     ambulo__free(&a, c->set);
     ambulo__free(&a, c->reference);
     ambulo__free(&a, c->target);
-    ambulo__reference_free(&c->curves);
-    ambulo__map_free(&c->map);
+    ambulo__people_free(&c->people);
   }
   ambulo__free(&a, f->parameter);
   ambulo__free(&a, f->condition);

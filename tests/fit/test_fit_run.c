@@ -29,15 +29,18 @@ static void make_truth(void **state, const char *duration, const char *name) {
   ambulo_compare_options compare = ambulo_compare_options_default();
   ambulo__map_entry entry = {.curve = "pin", .result = "q.pin", .factor = 1.0};
   ambulo__cycle cycle;
-  double percent[21], values[21], other[21];
+  double percent[21], values[21];
+  ambulo__sampler sampler = {.cycle = NULL};
   int found = 0;
   compare.foot = "left";
   for (int i = 0; i < 21; i++) percent[i] = 5.0 * i;
   percent[20] = 99.9; /* 100 is the next beginning */
   assert_int_equal(ambulo__cycle_open(folder, &compare, NULL, NULL, &cycle), AMBULO_OK);
-  assert_int_equal(ambulo__cycle_mean(&cycle, &compare, &entry, percent, 21, values, other, &found),
+  assert_int_equal(ambulo__sampler_create(&cycle, &compare, 21, &sampler), AMBULO_OK);
+  assert_int_equal(ambulo__sample_curve(&sampler, &entry, percent, 21, values, NULL, &found),
                    AMBULO_OK);
   assert_true(found);
+  ambulo__sampler_free(&sampler);
   ambulo__cycle_close(&cycle);
   FILE *f = fopen(scratch_path(state, name), "w");
   assert_non_null(f);

@@ -6,7 +6,7 @@
 #ifndef AMBULO_TESTS_FIT_FILES_H
 #define AMBULO_TESTS_FIT_FILES_H
 
-#include "compare/compare_cycle.h"
+#include "compare/compare_curve.h"
 #include "ambulo/problem.h"
 #include "fit/fit.h"
 #include "support/messages.h"
