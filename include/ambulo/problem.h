@@ -198,8 +198,8 @@ typedef struct ambulo_term {
                                     (1/rad), c3 (rad) of peak cos(c2 (q - c3)); peak 0: strength 1;
                                     NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
   int strength_is_limits;        /* 1: the strength of each coordinate is its torque limit in the
-                                    model, of positive and of negative torque; `strength` NULL,
-                                    scale then is a price (AMBULO_TORQUE_POWER) */
+                                    model, of positive and of negative torque, whatever `strength`
+                                    is; scale then is a price (AMBULO_TORQUE_POWER) */
   const double *price;           /* [d][2]: with strength_is_limits what scale is multiplied by for
                                     negative, for positive torque, > 0; NULL: 1 */
   int point[2];                  /* model points of AMBULO_UPRIGHT, on one link */

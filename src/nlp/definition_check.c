@@ -216,11 +216,8 @@ static ambulo_status check_limits(const ambulo_problem_definition *d, int t,
   if (!term->strength_is_limits && term->price)
     return REFUSE(list, "objective[%d]: prices without strength: limits", t);
   if (!term->strength_is_limits) return AMBULO_OK;
-  if (term->kind != AMBULO_TORQUE_POWER || term->strength)
-    return REFUSE(list,
-                  "objective[%d]: strength is limits; expected torque_power without a "
-                  "strength of its own",
-                  t);
+  if (term->kind != AMBULO_TORQUE_POWER)
+    return REFUSE(list, "objective[%d]: strength is limits; expected torque_power", t);
   for (int i = 0; i < ambulo_model_coordinate_count(d->model); i++) {
     const ambulo_coordinate *c = ambulo_model_coordinate(d->model, i);
     if (ambulo__term_scale(term, i) == 0.0) continue;

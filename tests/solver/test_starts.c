@@ -135,8 +135,25 @@ static void memory_runs_out(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* a problem on another grid is made of the first one's own definition, also where that has been
+ * completed: strength that is limits */
+static void starts_of_a_walk_by_its_limits(void **state) {
+  (void)state;
+  static const char *const settings[] = {
+      "objective[torque_power].strength=limits",
+      "objective[torque_power].scale={default: 0, knee_angle_r: [2, 1], knee_angle_l: [2, 1]}"};
+  ambulo_problem *problem = NULL;
+  assert_int_equal(
+      ambulo_problem_load("models/walk_normal.yaml", settings, 2, NULL, NULL, &problem), AMBULO_OK);
+  ambulo_result *result = solve(problem, 2, NULL);
+  assert_non_null(ambulo_result_starts(result));
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(starts_of_a_walk_by_its_limits),
+      cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
                                      cmocka_unit_test(every_run_is_the_same),
                                      cmocka_unit_test(the_own_start_stays_what_it_is),
                                      cmocka_unit_test(a_stop_keeps_what_is_there),
