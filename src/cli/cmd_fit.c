@@ -142,7 +142,8 @@ const ambulo__cli_command ambulo__cli_fit = {
         "keeps the best parameters so far. DIR/fit.json says what was found, DIR/fitted.yaml is\n"
         "the problem with its numbers. Exit code 0: done; 1: every solve of a condition failed;\n"
         "3: invalid input, or not what the folder was filled from; 130: stopped.",
-    .example = "ambulo fit fit_walk.yaml -o fitted -j 2\nambulo solve fitted/fitted.yaml -o fitted_walk",
+    .example =
+        "ambulo fit fit_walk.yaml -o fitted -j 2\nambulo solve fitted/fitted.yaml -o fitted_walk",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
