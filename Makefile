@@ -110,7 +110,7 @@ submake = +@$(MAKE) --no-print-directory $(if $(filter -j% --jobserver%,$(MAKEFL
 
 help:
 	@echo 'make              build/ambulo, build/libambulo.a, build/libambulo.so'
-	@echo 'make demo         install what is missing, build, solve models/walk_normal.yaml'
+	@echo 'make demo         install what is missing, build, solve models/walk.yaml'
 	@echo 'make check        install what is missing, build, run all tests'
 	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
@@ -200,7 +200,7 @@ setup: build/.ready-test
 
 demo: build/.ready-build
 	$(submake) all
-	build/ambulo solve models/walk_normal.yaml -o build/demo --force
+	build/ambulo solve models/walk.yaml -o build/demo --force
 
 check: build/.ready-test
 	$(submake) run-tests

@@ -1,24 +1,25 @@
 #!/usr/bin/env python3
 """The tables and the picture of docs/validation.md: models/walk.yaml at five speeds beside people.
 
-    python3 bench/validation.py build/ambulo [PICTURE.svg]
+    python3 bench/validation.py build/ambulo [PICTURE.svg [PEOPLE]]
 
-Curves are compared with models/norms, which are of people at a comfortable speed; the columns
-"people" of the first table are the figures that the page quotes, with their sources. The picture
+Curves are compared with models/norms, which are of people at a comfortable speed, and with the tables
+in the folder PEOPLE (bench/fit_references.py) at theirs, whose values stand in brackets. The picture
 needs matplotlib, the rest numpy.
 """
 import csv, json, math, os, subprocess, sys, tempfile
 import numpy
 
 HERE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SPEEDS = [0.8, 1.0, 1.28, 1.6, 1.9]
+SPEEDS = [0.7, 0.9, 1.28, 1.72, 2.0]
+PEOPLE = {0.9: "slow", 1.28: "usual", 1.72: "fast"}
 MASS, WEIGHT = 75.0, 75.0 * 9.81
 CURVES = ["pelvis_up_obliquity", "pelvis_internal_rotation", "hip_flexion", "hip_adduction",
           "knee_flexion", "ankle_dorsiflexion", "hip_extension_moment", "knee_extension_moment",
           "ankle_plantarflexion_moment", "grf_vertical", "grf_forward"]
 
 
-def run(program, speed, folder):
+def run(program, speed, folder, people):
     subprocess.run([program, "solve", os.path.join(HERE, "models", "walk.yaml"), "--set",
                     f"gait.speed={speed}", "-o", folder, "--force", "--quiet", "--samples", "401"],
                    check=False)
@@ -27,7 +28,8 @@ def run(program, speed, folder):
     with open(os.path.join(folder, "motion.csv")) as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
     table = numpy.array([[float(cell or "nan") for cell in row] for row in rows[1:]])
-    scores = subprocess.run([program, "compare", folder, "--json"], check=False,
+    table_of = [os.path.join(people, PEOPLE[speed] + ".csv")] if people and speed in PEOPLE else []
+    scores = subprocess.run([program, "compare", folder, *table_of, "--json"], check=False,
                             capture_output=True, text=True)
     return summary, {name: table[:, i] for i, name in enumerate(rows[0])}, \
         json.loads(scores.stdout)["curves"]
@@ -66,6 +68,37 @@ def measure(summary, motion):
         "step length, m": summary["gait"]["step_length"],
         "objective": summary["objective"]["total"],
     }
+
+
+def measure_people(folder, speed):
+    if not folder or speed not in PEOPLE:
+        return {}
+    with open(os.path.join(folder, PEOPLE[speed] + ".csv")) as file:
+        rows = list(csv.DictReader(file))
+    get = lambda name: numpy.array([float(row[name]) for row in rows])
+    knee, force = get("knee_flexion"), get("grf_vertical") / 9.81
+    moment, power = get("ankle_plantarflexion_moment"), get("ankle_power")
+    return {"knee at strike, deg": knee[0], "knee, loading, deg": knee[:26].max(),
+            "knee, swing, deg": knee[55:].max(),
+            "vertical force, first peak, BW": force[5:27].max(),
+            "vertical force, valley, BW": force[20:43].min(),
+            "vertical force, second peak, BW": force[36:61].max(),
+            "dorsiflexor moment after strike, N m/kg": max(0.0, -moment[:16].min()),
+            "ankle power, peak, W/kg": power.max(),
+            "pelvis list, range, deg": numpy.ptp(get("pelvis_up_obliquity")),
+            "hip adduction, range, deg": numpy.ptp(get("hip_adduction"))}
+
+
+def beside(runs):
+    """r and rmse of each curve against people at that speed, or at a comfortable one"""
+    rows = []
+    for curve in CURVES:
+        cells = []
+        for speed, (_, _, scores) in runs.items():
+            score = scores.get(curve)
+            cells.append(f"{score['r']:.2f}, {score['rmse']:.2g}" if score else "–")
+        rows.append([curve] + cells)
+    return rows
 
 
 def print_table(head, rows):
@@ -136,24 +169,19 @@ def draw(runs, path):
 
 def main():
     program = os.path.abspath(sys.argv[1])
+    people = sys.argv[3] if len(sys.argv) > 3 else None
     with tempfile.TemporaryDirectory() as folder:
-        runs = {v: run(program, v, os.path.join(folder, f"v{v}")) for v in SPEEDS}
+        runs = {v: run(program, v, os.path.join(folder, f"v{v}"), people) for v in SPEEDS}
     measured = {v: measure(summary, motion) for v, (summary, motion, _) in runs.items()}
-    head = ["m/s"] + [str(v) for v in SPEEDS]
+    theirs = {v: measure_people(people, v) for v in SPEEDS}
     rows = [["verdict"] + [runs[v][0]["verdict"] for v in SPEEDS]]
     for name in measured[SPEEDS[0]]:
-        rows.append([name] + [f"{measured[v][name]:.3g}" for v in SPEEDS])
-    print_table(head, rows)
-    rows = []
-    for curve in CURVES:
-        cells = []
-        for v in SPEEDS:
-            score = runs[v][2].get(curve, {})
-            cells.append(f"{score['r']:.2f}, {score['rmse']:.2g}" if score else "–")
-        rows.append([curve] + cells)
-    print_table(["r and rmse beside people at a comfortable speed"] + [str(v) for v in SPEEDS],
-                rows)
-    if len(sys.argv) > 2:
+        rows.append([name] + [f"{measured[v][name]:.3g}"
+                              + (f" ({theirs[v][name]:.3g})" if name in theirs[v] else "")
+                              for v in SPEEDS])
+    print_table(["m/s"] + [str(v) for v in SPEEDS], rows)
+    print_table(["r, rmse"] + [str(v) for v in SPEEDS], beside(runs))
+    if len(sys.argv) > 2 and sys.argv[2] != "-":
         draw(runs, sys.argv[2])
 
 

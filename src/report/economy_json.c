@@ -8,7 +8,9 @@ enum { SAMPLES = 1001 }; /* a stride of 1 s by the millisecond: work of a walk t
 static const double shortest_way = 0.01; /* m: nothing is said by the metre of less */
 
 static void work(ambulo__json *json, const ambulo__stride *s, const ambulo__economy *e) {
-  double metabolic = ambulo__economy_metabolic(e), way = e->distance * s->model->mass;
+  const ambulo_model *m = s->model;
+  double metabolic = ambulo__economy_metabolic(e);
+  double way = e->distance * (m->mass - m->load.mass); /* by the person, whatever is carried */
   ambulo__json_open(json, "work", '{');
   ambulo__json_number(json, "positive", e->positive_sum);
   ambulo__json_number(json, "negative", e->negative_sum);
