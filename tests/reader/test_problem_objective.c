@@ -92,8 +92,12 @@ static void limits_are_strength(void **state) {
   assert_close(term->strength[6 * ankle + 3], -limit[0] / 0.5, 1e-12);
   ambulo_problem_free(p);
   expect_refusal(PRICED("[0.5, 4]", ""), AMBULO_E_SCHEMA, "got a sequence of 2; expected a number");
-  expect_refusal(PRICED("[0.5, 0]", ", strength: limits"), AMBULO_E_PROBLEM,
-                 "a price of 0 for ankle_angle_r; expected a positive one");
+  expect_refusal(PRICED("[0.5, 4]", ""), AMBULO_E_SCHEMA, "torque_power with strength: limits");
+  expect_refusal(PRICED("[0.5, 0]", ", strength: limits"), AMBULO_E_SCHEMA,
+                 "p.yaml:6:67: error[E_SCHEMA]: a price of 0 for ankle_angle_r; expected one above "
+                 "0");
+  expect_refusal(PRICED("[-0.5, 1]", ", strength: limits"), AMBULO_E_SCHEMA,
+                 "p.yaml:6:62: error[E_SCHEMA]: a price of -0.5 for ankle_angle_r");
   expect_refusal(PRICED("[0.5, 1, 2]", ", strength: limits"), AMBULO_E_SCHEMA,
                  "expected a sequence of 2 numbers");
   expect_refusal("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"

@@ -23,7 +23,7 @@ static void phases_of_a_walk(void **state) {
   static const setting c = {
       "tests/two_step/walk_normal.yaml",
       {SHARED, "objective=[{term: force_rate, weight: 0.02}, {term: ground_force, weight: 0.3}]",
-       "time.intervals=36", ON_EVENTS},
+       "time.intervals=36", ON_EVENTS, "load={link: pelvis, mass: 10, position: [-0.1, 0.3, 0]}"},
       {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "time.duration",
        "ground_reaction.loading_rate", "gait.step_length", "subject.mass"}};
   check(&c, NULL);
