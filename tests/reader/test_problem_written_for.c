@@ -223,6 +223,16 @@ static void faults_are_named(void **state) {
                  AMBULO_E_SCHEMA, "17");
   expect_refusal(SMALL "model: yardstick_body.yaml\nwritten_for: {mass: 75, stature: 1.75}\n",
                  AMBULO_E_PROBLEM, "a model that has its own size");
+  static const char own[] =
+      SMALL "model: lower_body_18.yaml\nwritten_for: {mass: 75, stature: 1.75}\n";
+  const char *overrides[] = {"model.units.mass=kilograms"};
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_problem *p = NULL;
+  assert_int_equal(
+      ambulo_problem_load_text(own, strlen(own), "p.yaml", "models", overrides, 1, NULL, list, &p),
+      AMBULO_E_PROBLEM);
+  assert_message(list, 1, "a model that has its own size");
+  ambulo_diagnostics_free(list);
   expect_refusal(SMALL "model: lower_body_18.yaml\nwritten_for: 75\n", AMBULO_E_SCHEMA,
                  "'written_for' is not a mapping");
 }

@@ -35,7 +35,7 @@ static void phases_of_a_walk_that_strikes_late(void **state) {
   (void)state;
   static const setting c = {
       "tests/two_step/walk_loaded.yaml",
-      {SHARED, "ground_reaction.loading_rate=3",
+      {SHARED, "ground_reaction.loading_rate=3", "subject.stature=1.6",
        "gait.phases={heel_strike: 0.015, foot_flat: 0.14, heel_off: 0.38, toe_off: 0.62}",
        "time.intervals=40", ON_EVENTS},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",
