@@ -128,13 +128,22 @@ static int has_name(const found_column *found, int count, const char *name) {
 
 static ambulo_status unknown_columns(const ambulo__subject *s, const ambulo__motion *motion) {
   ambulo__place place = {.file = s->file};
-  char names[240] = "";
+  char names[240] = "", hint[160] = "";
   size_t used = 0;
+  const char *known[ROWS];
+  for (int i = 0; i < ROWS; i++) known[i] = rows[i].name;
+  for (int c = 0; c < motion->columns && !hint[0]; c++) {
+    const char *near = ambulo__nearest(motion->names[c], known, ROWS);
+    if (near)
+      (void)snprintf(hint, sizeof hint, "did you mean '%s' with '%.60s'?", near, motion->names[c]);
+  }
   for (int c = 0; c < motion->columns && used < 120; c++)
     used += (size_t)snprintf(names + used, sizeof names - used, "%s%.60s", c > 0 ? ", " : "",
                              motion->names[c]);
   return ambulo__error(s->diagnostics, AMBULO_E_SCHEMA, place,
-                       "hip_flexion_l, knee_angle_l, /jointset/.../value, LHipAngles x, y, z",
+                       hint[0] ? hint
+                               : "hip_flexion_l, knee_angle_l, /jointset/.../value, LHipAngles x, "
+                                 "y, z",
                        "no column of a joint that is known; the file has %s; expected names of "
                        "OpenSim or Plug-in Gait",
                        names);

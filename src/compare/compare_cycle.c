@@ -136,6 +136,18 @@ static int is_file(const char *path) {
   return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
+/* a folder without a motion */
+static ambulo_status refuse_other_folder(const ambulo__cycle *c, const char *directory) {
+  struct stat info;
+  ambulo__place place = {.file = directory};
+  if (stat(directory, &info) != 0) return ambulo__io_error(c->diagnostics, directory, "open");
+  if (!S_ISDIR(info.st_mode) || stat(c->motion_path, &info) == 0) return AMBULO_OK;
+  return ambulo__error(c->diagnostics, AMBULO_E_IO, place,
+                       "ambulo solve writes result folders, with motion.csv and summary.json",
+                       "the folder has no motion.csv; expected a result folder, or a file with a "
+                       "person's own motion");
+}
+
 static ambulo_status refuse_options_of_a_subject(const char *directory,
                                                  const ambulo_compare_options *options,
                                                  ambulo_diagnostics *diagnostics) {
@@ -242,6 +254,7 @@ ambulo_status ambulo__cycle_open(const char *directory, const ambulo_compare_opt
   c.motion_path = join(&c.allocator, directory, "motion.csv");
   c.summary_path = join(&c.allocator, directory, "summary.json");
   status = c.motion_path && c.summary_path ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status) status = refuse_other_folder(&c, directory);
   if (!status) status = ambulo__sheet_read(c.motion_path, &c.allocator, diagnostics, &c.sheet);
   if (!status) status = read_times(&c);
   if (!status) status = read_summary(&c, have);

@@ -109,8 +109,11 @@ static int is_wanted(const ambulo__fit_condition *c, const char *name) {
   return c->curves_node == NULL;
 }
 
+/* names of the list `curves` that are curves of the distance, and that one of them counts */
 static void check_names(const ambulo_fit *fit, const ambulo__fit_condition *c) {
   const char *names[AMBULO__FIT_CURVES];
+  double weights = 0.0;
+  int strangers = 0;
   int count = c->curves_node ? ambulo__yaml_items(c->curves_node) : 0;
   for (int k = 0; k < fit->curves; k++) names[k] = fit->curve[k].name;
   for (int i = 0; i < count; i++) {
@@ -119,12 +122,19 @@ static void check_names(const ambulo_fit *fit, const ambulo__fit_condition *c) {
     int known = 0;
     for (int k = 0; k < fit->curves; k++) known |= strcmp(names[k], word) == 0;
     if (known) continue;
+    strangers++;
     const char *near = ambulo__nearest(word, names, (size_t)fit->curves);
     char hint[LIST];
     (void)snprintf(hint, sizeof hint, "did you mean '%s'?", near ? near : "");
     (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, near ? hint : NULL,
                              "distance.curves has no '%s'; expected some of its curves", word);
   }
+  for (int k = 0; k < fit->curves; k++)
+    if (is_wanted(c, names[k])) weights += fit->curve[k].weight;
+  if (!(weights > 0.0) && !strangers)
+    (void)ambulo__yaml_error(c->curves_node, AMBULO_E_SCHEMA, NULL,
+                             "condition '%s' has no curve with a weight above 0; expected one",
+                             c->name);
 }
 
 static const ambulo__reference_curve *find_curve(const ambulo__fit_condition *c, const char *name) {

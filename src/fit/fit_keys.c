@@ -75,10 +75,13 @@ static void check_factor(const ambulo__fit_parameter *p, const ambulo__yaml_node
 
 /* index: of the condition; -1: as the file is, where a key may lack */
 static ambulo_status read_values(ambulo_fit *fit, int index) {
+  static const char *const kinds[] = {"problem"};
   const ambulo__fit_condition *c = index < 0 ? NULL : &fit->condition[index];
   ambulo_diagnostics *list = ambulo_diagnostics_create(&fit->allocator);
   ambulo__yaml *document = NULL;
   ambulo_status status = list ? load_text(fit, c, list, &document) : AMBULO_E_MEMORY;
+  if (!status && ambulo__yaml_file_kind(ambulo__yaml_root(document), kinds, 1) < 0)
+    status = AMBULO_E_SCHEMA;
   for (int i = 0; i < fit->parameters && !status; i++) {
     ambulo__fit_parameter *p = &fit->parameter[i];
     for (int k = 0; k < p->keys && !status; k++) {
@@ -183,7 +186,10 @@ ambulo_status ambulo__fit_read_keys(ambulo_fit *fit) {
     return ambulo__yaml_error(ambulo__yaml_get(ambulo__yaml_root(fit->document), "problem"), status,
                               NULL, "the problem '%s' could not be read", fit->problem);
   status = allocate(fit);
-  for (int c = -1; c < fit->conditions && !status; c++) status = read_values(fit, c);
-  if (!status) status = ambulo__yaml_finish(fit->document);
+  for (int c = -1; c < fit->conditions && !status; c++) {
+    status = read_values(fit, c);
+    /* the next condition would say the same of a key */
+    if (!status) status = ambulo__yaml_finish(fit->document);
+  }
   return status ? status : try_all(fit);
 }

@@ -192,6 +192,7 @@ static const char *number_hint(const ambulo__yaml_node *node) {
     return ambulo__parse_double(node->text, strlen(node->text), &value)
                ? "numbers are written without quotes"
                : NULL;
+  if (!strchr("+-.0123456789", node->text[0])) return NULL; /* a word */
   if (strchr(node->text, ',')) return "the decimal separator is a point";
   if (strchr(node->text, '_')) return "digits are not grouped";
   return NULL;

@@ -29,7 +29,13 @@ static double *read_scale(ambulo__problem_reader *reader, const ambulo__yaml_nod
   for (int i = 0; scale && i < ambulo_model_coordinate_count(reader->model); i++) {
     const ambulo__yaml_node *value =
         ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
-    if (may_be_pairs && ambulo__yaml_is(value, AMBULO__YAML_SEQUENCE))
+    int is_pair = ambulo__yaml_is(value, AMBULO__YAML_SEQUENCE);
+    if (is_pair && !may_be_pairs)
+      (void)ambulo__yaml_error(
+          value, AMBULO_E_SCHEMA,
+          "prices by direction are those of torque_power with strength: limits",
+          "got a sequence of %d; expected a number", ambulo__yaml_items(value));
+    if (is_pair)
       scale[i] = 1.0;
     else
       scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, scale[i]);
@@ -106,8 +112,15 @@ static double *read_prices(ambulo__problem_reader *reader, const ambulo__yaml_no
         ambulo__yaml_get(scale, ambulo_model_coordinate(reader->model, i)->name);
     price[2 * i] = price[2 * i + 1] = 1.0;
     if (!ambulo__yaml_is(pair, AMBULO__YAML_SEQUENCE)) continue;
-    (void)ambulo__yaml_numbers(pair, 2, price + 2 * i);
     some = 1;
+    if (!ambulo__yaml_numbers(pair, 2, price + 2 * i)) continue;
+    for (int up = 0; up < 2; up++) {
+      if (price[2 * i + up] > 0.0 && price[2 * i + up] <= 1e12) continue;
+      (void)ambulo__yaml_error(ambulo__yaml_item(pair, up), AMBULO_E_SCHEMA,
+                               "a scale of 0 leaves the coordinate out",
+                               "a price of %g for %s; expected one above 0, at most 1e12",
+                               price[2 * i + up], ambulo_model_coordinate(reader->model, i)->name);
+    }
   }
   return some ? price : NULL;
 }

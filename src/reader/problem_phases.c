@@ -18,6 +18,7 @@
 
 static const char *const names[AMBULO__PHASES] = {"heel_strike", "foot_flat", "heel_off",
                                                   "toe_off"};
+static const char by_speed[] = "by_speed";
 static const double people[AMBULO__PHASES] = {0.0, 0.08, 0.38, 0.62};
 static const double people_slope[AMBULO__PHASES] = {0.0, 0.0, -0.145, -0.145};
 static const double least[AMBULO__PHASES] = {-0.49, -0.49, -0.49, -0.49};
@@ -45,47 +46,57 @@ static double read_function(ambulo__problem_reader *reader, const ambulo__yaml_n
 }
 
 static double read_phase(ambulo__problem_reader *reader, const ambulo__yaml_node *node, int i) {
+  if (ambulo__yaml_is(node, AMBULO__YAML_SCALAR) &&
+      strcmp(ambulo__yaml_text(node), by_speed) == 0) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, "phases: by_speed is of all four",
+                             "got 'by_speed' for one phase; expected a number, or {comfortable, "
+                             "slope}");
+    return people[i];
+  }
   if (!ambulo__yaml_is(node, AMBULO__YAML_MAPPING))
     return ambulo__yaml_number_in(node, least[i], most[i], people[i]);
   if (reader->keys.speed_unit > 0.0) return read_function(reader, node, i);
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM,
-                           "give the model a stature, or the phase a number",
-                           "a phase by speed of a model without stature; expected a number");
+  (void)ambulo__yaml_error(
+      node, AMBULO_E_PROBLEM, "give the model a stature, or the phase a number",
+      "a phase by speed of a model without stature or gravity; expected a number");
   return people[i];
 }
 
 static int is_by_speed(const ambulo__yaml_node *node) {
-  static const char *const words[] = {"by_speed"};
+  static const char *const words[] = {by_speed};
   if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) return 0;
   return ambulo__yaml_choice(node, words, 1, -1) == 0;
 }
 
+/* none without stature or gravity; a speed that could not be read is a comfortable one */
 static void find_number(ambulo__problem_reader *reader, double speed) {
   const double *g = reader->model->gravity;
   double stature = ambulo_model_stature(reader->model);
-  if (!(stature > 0.0) || !isfinite(speed)) return;
-  reader->keys.speed_unit = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * stature);
-  reader->keys.speed_number = speed / reader->keys.speed_unit;
+  double unit = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * fmax(stature, 0.0));
+  if (!(unit > 0.0)) return;
+  reader->keys.speed_unit = unit;
+  reader->keys.speed_number = isfinite(speed) ? speed / unit : AMBULO__COMFORTABLE_NUMBER;
 }
 
 int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
                         double value[AMBULO__PHASES]) {
   find_number(reader, speed);
-  int by_speed = is_by_speed(node);
+  int all_by_speed = is_by_speed(node);
   int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
-  if (by_speed && !(reader->keys.speed_unit > 0.0)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                             "phases by speed of a model without stature; expected four numbers");
+  if (all_by_speed && !(reader->keys.speed_unit > 0.0)) {
+    (void)ambulo__yaml_error(
+        node, AMBULO_E_PROBLEM, NULL,
+        "phases by speed of a model without stature or gravity; expected four numbers");
     return 0;
   }
-  if (node && !by_speed && !is_mapping) {
+  if (node && !all_by_speed && !is_mapping) {
     if (!ambulo__yaml_is(node, AMBULO__YAML_SCALAR))
       (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                                "'phases' is a list; expected keys, or by_speed");
     return 0;
   }
   for (int i = 0; i < AMBULO__PHASES; i++) {
-    value[i] = by_speed     ? read_function(reader, node, i)
+    value[i] = all_by_speed ? read_function(reader, node, i)
                : is_mapping ? read_phase(reader, ambulo__yaml_get(node, names[i]), i)
                             : people[i];
   }

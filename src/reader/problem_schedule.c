@@ -230,7 +230,12 @@ static void read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node 
   if (!ambulo__read_phases(reader, node, speed, value)) return;
   for (int i = 0; i < AMBULO__PHASES; i++) *phase[i] = value[i];
   if (!node || phases_are_in_order(gait)) return;
-  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+  int moves = 0;
+  for (int i = 0; i < AMBULO__PHASES; i++) moves |= reader->keys.by_speed[i] != AMBULO__PHASE_SHARE;
+  char hint[80];
+  (void)snprintf(hint, sizeof hint, "phases go with the speed, here %.4g sqrt(g H)",
+                 reader->keys.speed_number);
+  (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, moves ? hint : NULL,
                            "phases %.6g, %.6g, %.6g, %.6g of a stride; expected heel_strike <= "
                            "foot_flat <= heel_off <= toe_off < heel_strike + 1",
                            gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off);

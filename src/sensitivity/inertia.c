@@ -108,17 +108,21 @@ static void turn_of_gravity(const ambulo_model *model, double turn[3]) {
   for (int i = 0; i < 3; i++) turn[i] = forward * model->up[i] - up * model->forward[i];
 }
 
+int ambulo__offset_is_weight(const ambulo_problem *p, const ambulo_term *term, int i) {
+  double weight = ambulo__model_weight(p->model);
+  if (!term->offset || term->kind == AMBULO_POSTURE) return 0;
+  return fabs(fabs(term->offset[i]) - weight) <= 1e-12 * weight;
+}
+
 /* offsets that are the body weight: d offset/d ln m */
 static double pull_of_offsets(const ambulo_problem *p, const ambulo__partials *partials) {
-  double sum = 0.0, weight = ambulo__model_weight(p->model);
+  double sum = 0.0;
   size_t d = (size_t)p->coordinates;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (!term->offset || term->kind == AMBULO_POSTURE) continue;
-    for (size_t i = 0; i < d; i++) {
-      if (fabs(fabs(term->offset[i]) - weight) > 1e-12 * weight) continue;
-      sum += partials->offset[(size_t)t * d + i] * term->offset[i];
-    }
+    for (size_t i = 0; i < d; i++)
+      if (ambulo__offset_is_weight(p, term, (int)i))
+        sum += partials->offset[(size_t)t * d + i] * term->offset[i];
   }
   return sum;
 }

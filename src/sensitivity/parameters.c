@@ -155,9 +155,8 @@ static double by_strength(const ambulo_problem *problem, const ambulo__partials 
   return sum;
 }
 
-/* d/d ln M of terms that are written for another body (reader/problem_written_for.c); NaN: not
- * known
- */
+/* d/d ln M of terms that are written for another body (reader/problem_written_for.c), but for
+ * offsets that are the body weight, which partials->body has; NaN: not known */
 static double by_written_for(const ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
   const ambulo__partials *by = p->partials;
@@ -173,7 +172,8 @@ static double by_written_for(const ambulo__parameters *p) {
       size_t at = (size_t)t * (size_t)p->problem->coordinates + (size_t)i;
       if (!priced && ambulo__term_scale(term, i) != 0.0)
         sum -= by->scale[at] * ambulo__term_scale(term, i);
-      if (term->offset) sum += by->offset[at] * term->offset[i];
+      if (term->offset && !ambulo__offset_is_weight(p->problem, term, i))
+        sum += by->offset[at] * term->offset[i];
       if (!priced || term->strength_is_limits) continue;
       sum += by->strength[2 * at] * term->strength[6 * i];
       sum += by->strength[2 * at + 1] * term->strength[6 * i + 3];

@@ -83,6 +83,8 @@ void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *p
 ambulo_status ambulo__partials_of_forces(const ambulo__stationary *s, ambulo__partials *partials);
 void ambulo__partials_of_bounds(const ambulo__stationary *s, ambulo__partials *partials);
 void ambulo__partials_of_terms(const ambulo__stationary *s, ambulo__partials *partials);
+/* 1: the offset of coordinate i is the body weight, whose pull that of the mass has. */
+int ambulo__offset_is_weight(const ambulo_problem *problem, const ambulo_term *term, int i);
 /* Through torques and forces; needs the adjoints of the channels, and log_mass. */
 ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__pool *pool,
                                           ambulo__partials *partials);

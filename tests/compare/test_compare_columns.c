@@ -142,6 +142,18 @@ static void nothing_that_is_known(void **state) {
   ambulo_diagnostics_free(list);
 }
 
+/* letters of another case are other names */
+static void a_name_that_is_near(void **state) {
+  static const subject_column columns[] = {{"marker", "hip_flexion", 0, 0, 1},
+                                           {"Knee_angle_R", "knee_angle", 1, 0, 1}};
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__subject s;
+  const char *path = subject_write(state, "other.csv", "", columns, 2, 0.0);
+  assert_int_equal(read_columns(path, list, &s), AMBULO_E_SCHEMA);
+  assert_message(list, 0, "hint: did you mean 'knee_angle_r' with 'Knee_angle_R'?");
+  ambulo_diagnostics_free(list);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(plain_names_in_degrees, scratch_open, scratch_close),
@@ -149,6 +161,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(plug_in_gait, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(the_right_side_of_the_pelvis, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(units_that_are_not_stated, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(a_name_that_is_near, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(nothing_that_is_known, scratch_open, scratch_close)};
   return cmocka_run_group_tests_name("compare/compare_columns", tests, NULL, NULL);
 }

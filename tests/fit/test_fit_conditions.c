@@ -78,6 +78,21 @@ static void conditions_that_are_none(void **state) {
               "distance.curves has no 'pni'");
 }
 
+/* a fit without anything to come closer to */
+static void conditions_without_weight(void **state) {
+  fit_refused(state, WITH("  - {name: a, reference: slow.csv, curves: []}\n"),
+              "fit.yaml:10:44: error[E_SCHEMA]: condition 'a' has no curve with a weight above 0");
+  fit_refused(state,
+              FIT_HEAD FIT_PARAMETERS
+              "conditions:\n  - {name: a, reference: slow.csv, curves: [pin]}\n"
+              "  - {name: b, reference: slow.csv, held_out: true}\n"
+              "distance: {curves: {pin: 0, top: {curve: pin, of: peak}}}\n",
+              "condition 'a' has no curve with a weight above 0");
+  ambulo_fit *f = fit_of(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS
+                         "distance: {curves: {pin: 0, top: {curve: pin, of: peak}}}\n");
+  ambulo_fit_free(f);
+}
+
 static void references_that_lack(void **state) {
   fit_refused(state,
               FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS "distance: {curves: {knee_flexion: 1}}\n",
@@ -100,7 +115,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       TEST(sets_are_overrides),          TEST(blocks_stand_one_behind_the_other),
       TEST(a_condition_may_lack_curves), TEST(conditions_that_are_none),
-      TEST(references_that_lack),
+      TEST(conditions_without_weight),   TEST(references_that_lack),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

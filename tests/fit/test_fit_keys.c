@@ -37,6 +37,7 @@ static void keys_that_are_not_there(void **state) {
               "did you mean 'duration'?");
   fit_refused(state, ONE("{name: a, keys: [\"objective[upright].weight\"], range: [0.5, 2]}"),
               "no item is named 'upright'");
+  assert_int_equal(fit_errors(state, ONE("{name: a, keys: [time.durration], range: [0.5, 2]}")), 1);
   fit_refused(state, ONE("{name: a, keys: [model], range: [0.5, 2]}"), "no number stands there");
   fit_refused(state, ONE("{name: a, keys: [ends.initial.pin], range: [0.5, 2]}"),
               "'ends.initial.pin' is 0, which no factor changes");
@@ -56,6 +57,11 @@ static void what_the_problem_does_not_take(void **state) {
               "ambulo: 1\nkind: fit\nname: swing\nproblem: none.yaml\n"
               "compare: {map: map.csv}\n" FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE,
               "fit.yaml:4:10: error[E_IO]: the problem");
+  fit_refused(state,
+              "ambulo: 1\nkind: fit\nname: swing\nproblem: one.yaml\n"
+              "compare: {map: map.csv}\n" FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE,
+              "fit.yaml:4:10: error[E_SCHEMA]: the problem cannot be read: this is a skeleton "
+              "model; expected a problem");
 }
 
 int main(void) {

@@ -66,6 +66,9 @@ static void numbers(void **state) {
                      "got '1,5'; expected a number\n  hint: the decimal separator is a point");
   expect_value_error("1_000", 'n',
                      "got '1_000'; expected a number\n  hint: digits are not grouped");
+  expect_value_error("-1_000", 'n',
+                     "got '-1_000'; expected a number\n  hint: digits are not grouped");
+  expect_value_error("by_speed", 'n', "got 'by_speed'; expected a number");
   expect_value_error("7x5", 'n', "got '7x5'; expected a number");
   expect_value_error("1e", 'n', "got '1e'; expected a number");
   expect_value_error("0x10", 'n', "got '0x10'; expected a number");

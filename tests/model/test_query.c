@@ -19,6 +19,7 @@ static void by_index(void **state) {
   assert_close(ambulo_model_mass(model), 7, 0);
   assert_close(ambulo__model_weight(model), 7 * 9.81, 1e-12);
   assert_close(ambulo_model_stature(model), 1.8, 0);
+  assert_close(ambulo__model_size(model), 1.8 / 1.75, 1e-15);
   assert_close(ambulo_model_gravity(model)[1], -9.81, 0);
   assert_close(ambulo_model_up(model)[1], 1, 0);
   assert_close(ambulo_model_forward(model)[0], 1, 0);

@@ -1,4 +1,5 @@
 /* Every number of a definition built in code: what is not finite, or absurd, is refused by name. */
+#include "model/model.h"
 #include "support/messages.h"
 #include "support/problem_fixture.h"
 
@@ -258,11 +259,40 @@ static void grids_are_checked(void **state) {
   ambulo_model_free(b.model);
 }
 
+/* one of strength that is limits, with a price for each direction */
+static void strength_that_is_limits(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  double price[4] = {1.0, 2.0, 0.5, 1.0};
+  const char *priced = "a price of", *limits = "and shoulder has none in the model";
+  double *torque = b.model->coordinates[0].torque;
+  b.terms[0].price = price;
+  expect_refused(&b, &price[0], 1.0, "prices without strength: limits");
+  b.terms[0].strength_is_limits = 1;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(create(&b, list), AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  for (int k = 0; k < 4; k++) {
+    expect_range(&b, &price[k], priced, 0);
+    expect_refused(&b, &price[k], 0.0, priced);
+    expect_refused(&b, &price[k], -1.0, priced);
+  }
+  for (int side = 0; side < 2; side++) {
+    expect_refused(&b, &torque[side], side ? INFINITY : -INFINITY, limits);
+    expect_refused(&b, &torque[side], 0.0, limits);
+  }
+  b.terms[0].price = NULL;
+  b.terms[1].strength_is_limits = 1;
+  expect_refused(&b, &b.terms[0].weight, 1.0, "strength is limits; expected torque_power");
+  ambulo_model_free(b.model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_built_is_legal),   cmocka_unit_test(grids_are_checked),
-      cmocka_unit_test(numbers_have_ranges),      cmocka_unit_test(no_bound_is_a_bound),
-      cmocka_unit_test(what_is_missing_is_named), cmocka_unit_test(some_weight_is_not_zero),
-      cmocka_unit_test(a_line_lies_in_one_link)};
+      cmocka_unit_test(what_is_built_is_legal),  cmocka_unit_test(strength_that_is_limits),
+      cmocka_unit_test(grids_are_checked),       cmocka_unit_test(numbers_have_ranges),
+      cmocka_unit_test(no_bound_is_a_bound),     cmocka_unit_test(what_is_missing_is_named),
+      cmocka_unit_test(some_weight_is_not_zero), cmocka_unit_test(a_line_lies_in_one_link)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

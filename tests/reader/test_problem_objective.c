@@ -1,5 +1,6 @@
 /* `objective:`. */
 #include "reader/problem_text.h"
+#include "support/fail_alloc.h"
 
 #define TIME "time: {duration: 1, intervals: 4}\n"
 
@@ -92,8 +93,12 @@ static void limits_are_strength(void **state) {
   assert_close(term->strength[6 * ankle + 3], -limit[0] / 0.5, 1e-12);
   ambulo_problem_free(p);
   expect_refusal(PRICED("[0.5, 4]", ""), AMBULO_E_SCHEMA, "got a sequence of 2; expected a number");
-  expect_refusal(PRICED("[0.5, 0]", ", strength: limits"), AMBULO_E_PROBLEM,
-                 "a price of 0 for ankle_angle_r; expected a positive one");
+  expect_refusal(PRICED("[0.5, 4]", ""), AMBULO_E_SCHEMA, "torque_power with strength: limits");
+  expect_refusal(PRICED("[0.5, 0]", ", strength: limits"), AMBULO_E_SCHEMA,
+                 "p.yaml:6:67: error[E_SCHEMA]: a price of 0 for ankle_angle_r; expected one above "
+                 "0");
+  expect_refusal(PRICED("[-0.5, 1]", ", strength: limits"), AMBULO_E_SCHEMA,
+                 "p.yaml:6:62: error[E_SCHEMA]: a price of -0.5 for ankle_angle_r");
   expect_refusal(PRICED("[0.5, 1, 2]", ", strength: limits"), AMBULO_E_SCHEMA,
                  "expected a sequence of 2 numbers");
   expect_refusal("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
@@ -102,9 +107,29 @@ static void limits_are_strength(void **state) {
                  AMBULO_E_PROBLEM, "pelvis_tx has none in the model");
 }
 
+static void every_allocation_may_fail(void **state) {
+  (void)state;
+  static const char text[] = PRICED("[0.5, 4]", ", strength: limits") "written_for: {mass: 60, "
+                                                                      "stature: 1.6}\n";
+  for (long k = 0; k < 100000; k += k < 100 ? 7 : 97) {
+    fail_alloc memory = fail_alloc_at(k);
+    ambulo_allocator allocator = fail_alloc_hook(&memory);
+    ambulo_problem *p = NULL;
+    ambulo_status status = ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0,
+                                                    &allocator, NULL, &p);
+    if (status)
+      assert_int_equal(status, AMBULO_E_MEMORY);
+    else
+      ambulo_problem_free(p);
+    assert_int_equal(memory.live, 0);
+    if (!memory.failed) break;
+    assert_true(k < 99000);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(terms_are_read),
-                                     cmocka_unit_test(limits_are_strength),
-                                     cmocka_unit_test(faults_are_placed)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(terms_are_read), cmocka_unit_test(limits_are_strength),
+      cmocka_unit_test(every_allocation_may_fail), cmocka_unit_test(faults_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,8 +80,57 @@ static void lengths_and_times_make_the_speed(void **state) {
                 0.62 - 0.145 * (number_of(1.4) - 0.31));
 }
 
+/* of both steps together */
+static void two_unlike_steps_have_one_speed(void **state) {
+  (void)state;
+  ambulo_problem *p = problem_of(
+      "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\nobjective: none\n"
+      "time: {intervals: 20}\nends: {kind: periodic}\n"
+      "gait: {steps: 2, first_foot: left, step_length: [0.6, 0.8], step_time: [0.5, 0.6], "
+      "phases: by_speed}\n");
+  assert_close(p->keys.walk.toe_off, 0.62 - 0.145 * (number_of(1.4 / 1.1) - 0.31), 1e-14);
+  ambulo_problem_free(p);
+}
+
+/* on the moon people are faster at a lower speed */
+static void the_number_is_by_gravity(void **state) {
+  (void)state;
+  static const char moon[] = "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\nobjective: "
+                             "none\ntime: {intervals: 20}\nends: {kind: mirrored}\n"
+                             "gait: {steps: 1, first_foot: left, speed: 1, phases: by_speed}\n";
+  const char *overrides[] = {"model.gravity=[0, -1.62, 0]"};
+  ambulo_problem *p = NULL;
+  assert_int_equal(ambulo_problem_load_text(moon, strlen(moon), "p.yaml", "models", overrides, 1,
+                                            NULL, NULL, &p),
+                   AMBULO_OK);
+  assert_close(p->keys.walk.toe_off, 0.62 - 0.145 * (1.0 / sqrt(1.62 * 1.75) - 0.31), 1e-14);
+  ambulo_problem_free(p);
+}
+
+/* one fault is one error: phases have a speed to be read at, whatever became of it */
+static void a_speed_that_is_none_is_the_only_fault(void **state) {
+  (void)state;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_problem *p = NULL;
+  assert_int_equal(load_text(WALK "speed: -1, phases: {toe_off: {slope: -0.2}}}\n", list, &p),
+                   AMBULO_E_SCHEMA);
+  assert_int_equal(ambulo_diagnostics_error_count(list), 1);
+  ambulo_diagnostics_free(list);
+}
+
 static void faults_are_named(void **state) {
   (void)state;
+  expect_refusal(WALK "speed: 2, phases: {heel_strike: {slope: -9}}}\n", AMBULO_E_PROBLEM,
+                 "expected -0.49 to 0.49");
+  expect_refusal(WALK "speed: 2, phases: {heel_strike: 0.6}}\n", AMBULO_E_SCHEMA,
+                 "got '0.6'; expected a number from -0.49 to 0.49");
+  expect_refusal(WALK "speed: 2, phases: {toe_off: 1.2}}\n", AMBULO_E_SCHEMA,
+                 "got '1.2'; expected a number from -0.49 to 1");
+  expect_refusal(WALK "speed: 2, phases: {toe_of: 0.6}}\n", AMBULO_E_SCHEMA, "toe_of");
+  expect_refusal(WALK "speed: 2, phases: {toe_off: by_speed}}\n", AMBULO_E_SCHEMA,
+                 "got 'by_speed' for one phase; expected a number, or {comfortable, slope}");
+  expect_refusal(WALK "speed: 2, phases: {toe_off: {slope: -2}}}\n", AMBULO_E_PROBLEM,
+                 "hint: phases go with the speed, here 0.4827 sqrt(g H)");
   expect_refusal(WALK "speed: 1, phases: by_sped}\n", AMBULO_E_SCHEMA, "by_speed");
   expect_refusal(WALK "speed: 1, phases: [0, 1]}\n", AMBULO_E_SCHEMA, "'phases' is a list");
   expect_refusal(WALK "speed: 1, phases: {toe_off: {slop: 1}}}\n", AMBULO_E_SCHEMA, "slop");
@@ -102,6 +151,9 @@ int main(void) {
       cmocka_unit_test(functions_are_read),
       cmocka_unit_test(phases_follow_the_number_and_not_the_speed),
       cmocka_unit_test(lengths_and_times_make_the_speed),
+      cmocka_unit_test(two_unlike_steps_have_one_speed),
+      cmocka_unit_test(the_number_is_by_gravity),
+      cmocka_unit_test(a_speed_that_is_none_is_the_only_fault),
       cmocka_unit_test(faults_are_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

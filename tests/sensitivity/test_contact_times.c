@@ -23,7 +23,7 @@ static void phases_of_a_walk(void **state) {
   static const setting c = {
       "tests/two_step/walk_normal.yaml",
       {SHARED, "objective=[{term: force_rate, weight: 0.02}, {term: ground_force, weight: 0.3}]",
-       "time.intervals=36", ON_EVENTS},
+       "time.intervals=36", ON_EVENTS, "load={link: pelvis, mass: 10, position: [-0.1, 0.3, 0]}"},
       {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off", "time.duration",
        "ground_reaction.loading_rate", "gait.step_length", "subject.mass"}};
   check(&c, NULL);
@@ -35,7 +35,7 @@ static void phases_of_a_walk_that_strikes_late(void **state) {
   (void)state;
   static const setting c = {
       "tests/two_step/walk_loaded.yaml",
-      {SHARED, "ground_reaction.loading_rate=3",
+      {SHARED, "ground_reaction.loading_rate=3", "subject.stature=1.6",
        "gait.phases={heel_strike: 0.015, foot_flat: 0.14, heel_off: 0.38, toe_off: 0.62}",
        "time.intervals=40", ON_EVENTS},
       {"gait.phases.heel_strike", "gait.phases.foot_flat", "gait.phases.heel_off",

@@ -7,7 +7,8 @@ static void a_walk(void **state) {
   (void)state;
   static const setting c = {
       "tests/two_step/walk_normal.yaml",
-      {SHARED, "objective=[{term: force_rate, weight: 0.02}, {term: ground_force, weight: 0.3}]"},
+      {SHARED, "objective=[{term: force_rate, weight: 0.02}, {term: ground_force, weight: 0.3}]",
+       "load={link: pelvis, mass: 10, position: [-0.1, 0.3, 0]}"},
       {"ground_reaction.moment_arm", "ground_reaction.slant", "ground_reaction.loading_rate",
        "ground_reaction.friction", "ground_reaction.free_moment", "ground_reaction.minimum_force",
        "ground_reaction.pressure.heel[0]", "ground_reaction.pressure.flat[1]",

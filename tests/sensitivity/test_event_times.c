@@ -4,6 +4,9 @@
 
 #define ON_EVENTS "time.grid=events", "trajectory.knots=events"
 
+/* without a load, motions and prices by strength are those of any mass */
+#define LOADED "load={link: pelvis, mass: 10, position: [-0.1, 0.3, 0]}"
+
 #define BY_SPEED "time.duration=null", "gait.step_length=null", "gait.speed=1.4"
 
 /* what changes the speed moves the phases along */
@@ -13,7 +16,7 @@ static void phases_by_speed(void **state) {
       "models/walk_normal.yaml",
       {BY_SPEED,
        "gait.phases={foot_flat: {slope: 0.05}, toe_off: {comfortable: 0.61, slope: -0.3}}",
-       "written_for={mass: 60, stature: 1.6}", "trajectory.knots=events"},
+       "written_for={mass: 60, stature: 1.6}", "trajectory.knots=events", LOADED},
       {"gait.speed", "gait.phases.foot_flat.comfortable", "gait.phases.toe_off.comfortable",
        "gait.phases.heel_off", "gait.step_width", "subject.mass", "constraints.contact_tolerance",
        "ground_reaction.moment_arm", "constraints.orientation_tolerance",
@@ -35,6 +38,50 @@ static void phases_by_speed_between_nodes(void **state) {
   check(&fixed, NULL);
 }
 
+#define SLOPED "gait.phases={heel_strike: 0.01, heel_off: {slope: 0.1}, toe_off: {slope: -0.3}}"
+
+/* dL/dv reaches every key that changes the speed, and none that does not */
+static void keys_that_change_the_speed(void **state) {
+  (void)state;
+  static const setting cadence = {"models/walk_normal.yaml",
+                                  {"time.duration=null", "gait.step_length=null", "gait.speed=1.26",
+                                   "gait.step_time=0.54", SLOPED},
+                                  {"gait.step_time", "gait.speed"}},
+                       length = {"models/walk_normal.yaml",
+                                 {"time.duration=null", "gait.speed=1.26", SLOPED},
+                                 {"gait.step_length", "gait.speed"}},
+                       limp = {"tests/two_step/walk_asymmetric.yaml",
+                               {SLOPED, "ground_reaction.transfer=linear", "objective[0].weight=2",
+                                ON_EVENTS},
+                               {"gait.step_length[0]", "gait.step_length[1]",
+                                "gait.phases.toe_off.comfortable"}};
+  check(&cadence, NULL);
+  check(&length, NULL);
+  check(&limp, NULL);
+}
+
+/* where phases have no derivative, neither has what changes the speed; a cadence does not */
+static void keys_that_change_the_speed_between_nodes(void **state) {
+  (void)state;
+  static const setting cadence = {"tests/two_step/walk_fast.yaml",
+                                  {"gait.step_time=0.48", "gait.phases=by_speed"},
+                                  {"gait.step_time"}},
+                       both = {"tests/two_step/walk_fast.yaml",
+                               {"gait.speed=null", "gait.step_time=0.48", "gait.step_length=0.77",
+                                "gait.phases=by_speed"},
+                               {NULL}},
+                       tubes = {"models/walk_normal.yaml",
+                                {BY_SPEED, SLOPED,
+                                 "constraints.tubes=[{reference: walk_tracking_angles.csv, "
+                                 "coordinates: {hip_flexion_r: 40}}]"},
+                                {NULL}},
+                       tracked = {"models/walk_tracking.yaml", {BY_SPEED, SLOPED}, {NULL}};
+  check(&cadence, "gait.speed");
+  expect_absent(&both, (const char *const[]){"gait.step_time", "gait.step_length", NULL});
+  expect_absent(&tubes, (const char *const[]){"gait.speed", NULL});
+  expect_absent(&tracked, (const char *const[]){"gait.speed", NULL});
+}
+
 /* torques counted in shares of the model's limits, which have the price then */
 static void limits_as_strength(void **state) {
   (void)state;
@@ -43,7 +90,8 @@ static void limits_as_strength(void **state) {
       {"objective[torque_power].strength=limits",
        "objective[torque_power].scale={default: 0, hip_flexion_r: 1, hip_flexion_l: 1, "
        "ankle_angle_r: [2, 3], ankle_angle_l: [2, 3], hip_adduction_r: 1, hip_adduction_l: 1, "
-       "pelvis_list: 0}"},
+       "pelvis_list: 0}",
+       LOADED},
       {"subject.mass", "objective[torque_power].scale.ankle_angle_r[0]",
        "objective[torque_power].scale.ankle_angle_r[1]",
        "objective[torque_power].scale.hip_flexion_r", "model.links[talus_r].coordinate.torque[0]",
@@ -54,9 +102,42 @@ static void limits_as_strength(void **state) {
       "models/walk_normal.yaml",
       {"objective[torque_power].strength=limits",
        "objective[torque_power].scale={default: 0, ankle_angle_r: [2, 3], ankle_angle_l: [2, 3]}",
-       "written_for={mass: 60, stature: 1.6}"},
+       "written_for={mass: 60, stature: 1.6}", LOADED},
       {"subject.mass", "model.links[talus_r].coordinate.torque[0]"}};
   check(&of_another, NULL);
+  static const setting of_the_trunk = {
+      "models/walk_normal.yaml",
+      {"model=lower_body_21.yaml", "objective[upright].points=[lumbar, head_top]",
+       "objective[torque_power].strength=limits",
+       "objective[torque_power].scale={default: 0, ankle_angle_r: [1, 3], ankle_angle_l: [1, 3], "
+       "knee_angle_r: [2, 1], knee_angle_l: [2, 1], lumbar_bending: [0.5, 0.5]}"},
+      {"objective[torque_power].scale.ankle_angle_r[0]",
+       "objective[torque_power].scale.ankle_angle_r[1]",
+       "objective[torque_power].scale.knee_angle_r[0]",
+       "objective[torque_power].scale.lumbar_bending[0]"}};
+  check(&of_the_trunk, "objective[torque_power].scale.lumbar_bending[1]");
+}
+
+/* terms of a file that is written for another body go with the subject's mass */
+static void terms_written_for(void **state) {
+  (void)state;
+#define TERMS(power)                                                                               \
+  "objective=[{term: torque_power, name: plain, scale: {default: 0, hip_flexion_r: 0.01, "         \
+  "hip_flexion_l: 0.01}, offset: {hip_flexion_r: 4, hip_flexion_l: 4}" power                       \
+  "}, {term: torque_power, name: curves, scale: {default: 0, knee_angle_r: 1, knee_angle_l: 1}, "  \
+  "strength: {knee_angle_r: [100, 1, 0.5, 200, 0.9, 0.8], knee_angle_l: [100, 1, 0.5, 200, 0.9, "  \
+  "0.8]}}, {term: torque_squared, scale: 0.01, offset: {pelvis_ty: body_weight}}, "                \
+  "{term: torque_absolute, scale: 0.01}, {term: torque_rate, scale: 0.001}]"
+  static const setting c = {"models/walk_normal.yaml",
+                            {TERMS(""), LOADED, "written_for={mass: 60, stature: 1.6}"},
+                            {"subject.mass", "load.mass"}};
+  check(&c, NULL);
+  static const setting passive = {
+      "models/walk_normal.yaml",
+      {TERMS(", passive: {hip_flexion_r: [-2, -5, 1, 4], hip_flexion_l: [-2, -5, 1, 4]}"), LOADED,
+       "written_for={mass: 60, stature: 1.6}"},
+      {"load.mass"}};
+  check(&passive, "subject.mass");
 }
 
 /* a node on an event has rows of both contacts, and half an interval of either length */
@@ -210,7 +291,10 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(phases_by_speed),
       cmocka_unit_test(phases_by_speed_between_nodes),
+      cmocka_unit_test(keys_that_change_the_speed),
+      cmocka_unit_test(keys_that_change_the_speed_between_nodes),
       cmocka_unit_test(limits_as_strength),
+      cmocka_unit_test(terms_written_for),
       cmocka_unit_test(a_planar_step_on_events),
       cmocka_unit_test(four_steps_on_hulls_on_events),
       cmocka_unit_test(contacts_one_by_one_on_events),

@@ -90,6 +90,38 @@ static void a_walk_gains_no_energy(void **state) {
   release(&s);
 }
 
+/* the way to the side, from pose to pose */
+static void sway_is_from_side_to_side(void **state) {
+  (void)state;
+  solved s = solve("models/walk_normal.yaml", 101);
+  ambulo__pose pose;
+  double least = INFINITY, most = -INFINITY;
+  const double *left = s.problem->model->left;
+  assert_int_equal(ambulo__pose_create(s.problem->model, NULL, &pose), AMBULO_OK);
+  for (int k = 0; k < s.stride.samples; k++) {
+    double c[3];
+    ambulo__pose_at(&pose, s.stride.q + (size_t)k * (size_t)s.stride.coordinates);
+    ambulo__pose_center_of_mass(&pose, c);
+    double aside = left[0] * c[0] + left[1] * c[1] + left[2] * c[2];
+    least = fmin(least, aside);
+    most = fmax(most, aside);
+  }
+  assert_close(s.economy.sway, most - least, 1e-15);
+  ambulo__pose_free(&pose);
+  release(&s);
+}
+
+/* torques of a pelvis that no ground carries are nobody's work */
+static void what_is_not_actuated_does_no_work(void **state) {
+  (void)state;
+  solved s = solve("models/walk_without_reaction.yaml", 101);
+  const ambulo_model *m = s.problem->model;
+  for (int i = 0; i < m->coordinate_count; i++)
+    if (!m->coordinates[i].actuated)
+      assert_close(s.economy.positive[i] - s.economy.negative[i], 0.0, 0.0);
+  release(&s);
+}
+
 /* stairs: the climb itself is no rise of the centre of mass beside its path */
 static void a_climb_is_no_excursion(void **state) {
   (void)state;
@@ -121,9 +153,12 @@ static void every_allocation_may_fail(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(work_lifts_a_pendulum), cmocka_unit_test(forces_move_the_center_of_mass),
-      cmocka_unit_test(a_walk_gains_no_energy), cmocka_unit_test(a_climb_is_no_excursion),
-      cmocka_unit_test(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(work_lifts_a_pendulum),
+                                     cmocka_unit_test(forces_move_the_center_of_mass),
+                                     cmocka_unit_test(a_walk_gains_no_energy),
+                                     cmocka_unit_test(a_climb_is_no_excursion),
+                                     cmocka_unit_test(sway_is_from_side_to_side),
+                                     cmocka_unit_test(what_is_not_actuated_does_no_work),
+                                     cmocka_unit_test(every_allocation_may_fail)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,6 +78,17 @@ static inline ambulo_fit *fit_of(void **state, const char *text) {
   return fit;
 }
 
+/* of a text that must be refused */
+static inline size_t fit_errors(void **state, const char *text) {
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_fit *fit = NULL;
+  fit_world(state);
+  assert_int_not_equal(fit_load_text(state, text, list, &fit), AMBULO_OK);
+  size_t errors = ambulo_diagnostics_error_count(list);
+  ambulo_diagnostics_free(list);
+  return errors;
+}
+
 /* the text is refused, and one of the messages says so */
 static inline void fit_refused(void **state, const char *text, const char *says) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
