@@ -44,6 +44,8 @@ typedef struct ambulo_ground_reaction {
   double flat_pressure[2]; /* flat: behind from the heel, ahead from the ball (toe centre), m */
   double toe_pressure[2];  /* on its toes: from the ball, m */
   double pressure_width;   /* to either side, m */
+  double arc_pressure; /* of a foot that rolls on an arc: how far from under the arc's centre, ahead
+                          and behind, m */
 
   /* Shared (kind AMBULO_REACTION_SHARED): the forces f_c and moments m_c of the contacts, about
    * their centres p_c, are those that carry the root wrench and minimize

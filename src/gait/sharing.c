@@ -12,7 +12,8 @@
  *                                       all with an allowance a of 2e-4 m at 1.75 m
  *     |n.m| <= bound W                  m, divided by W
  *
- * Of an arc that rolls, the centre of pressure is within 4.5 mm of under its centre (gait/arc.h).
+ * Of an arc that rolls, the centre of pressure is within arc_pressure of under its centre
+ * (gait/arc.h).
  *
  * A contact without weight carries exactly nothing and has no rows.
  */
@@ -28,8 +29,6 @@
  * it can hardly be moved: walks take up to four times the iterations, and of 300 random ones
  * (bench/random_walks.py) 11 are only feasible with half of it */
 static const double allowance = 2e-4;
-static const double under_arc = 0.0045; /* m: an arc is no line; with 5 mm the ground does 1.1 % of
- the joints' work in walk_slow, with 4 mm walk_tracking is only feasible */
 
 typedef struct one {
   const ambulo__gait_context *context;
@@ -79,7 +78,7 @@ static void pressure_row(const one *c, const double axis[3], double sign, double
 static void arc_rows(const one *c) {
   const ambulo__gait_context *context = c->context;
   const ambulo__contact_load *load = &c->load;
-  ambulo__arc arc = {.room = under_arc * ambulo__model_size(context->model),
+  ambulo__arc arc = {.room = context->definition->ground_reaction.arc_pressure,
                      .center = ambulo__channel_point(&context->channels, load->arc, 0),
                      .force = c->force,
                      .moment = c->moment,

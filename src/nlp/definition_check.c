@@ -93,6 +93,7 @@ static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diag
       {"ground_reaction.flat_pressure", "m", r->flat_pressure, 2, -longest, longest},
       {"ground_reaction.toe_pressure", "m", r->toe_pressure, 2, -longest, longest},
       {"ground_reaction.pressure_width", "m", &r->pressure_width, 1, 0.0, longest},
+      {"ground_reaction.arc_pressure", "m", &r->arc_pressure, 1, 0.0, longest},
       {"ground_reaction.moment_arm", "m", &r->moment_arm, 1, 1e-6, longest},
       {"ground_reaction.slant", "", &r->slant, 1, 1e-6, largest},
       {"ground_reaction.loading_rate", "1/s", &r->loading_rate, 1, -largest, largest},

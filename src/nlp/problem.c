@@ -42,6 +42,7 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
                           .flat_pressure = {-0.005, 0.02},
                           .toe_pressure = {-0.02, 0.055},
                           .pressure_width = 0.035,
+                          .arc_pressure = 0.0045,
                           .moment_arm = 0.2,
                           .slant = 0.2,
                           .loading_rate = 15.0},

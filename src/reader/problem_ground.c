@@ -93,6 +93,8 @@ static void read_pressure(const ambulo__yaml_node *node, ambulo_ground_reaction 
   read_interval(ambulo__yaml_get(node, "toe"), r->toe_pressure);
   r->pressure_width =
       ambulo__yaml_number_in(ambulo__yaml_get(node, "width"), 1e-6, 1.0, r->pressure_width);
+  r->arc_pressure =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "arc"), 1e-6, 1.0, r->arc_pressure);
   ambulo__yaml_close(node);
 }
 

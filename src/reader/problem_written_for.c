@@ -64,7 +64,8 @@ static void scale_gaps(ambulo_problem_definition *d, double longer) {
                        &r->flat_pressure[1],
                        &r->toe_pressure[0],
                        &r->toe_pressure[1],
-                       &r->pressure_width};
+                       &r->pressure_width,
+                       &r->arc_pressure};
   for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) *lengths[i] *= longer;
   r->loading_rate /= sqrt(longer); /* negative ones, which say `off`, stay so */
 }

@@ -103,6 +103,10 @@ static void add_pressure(ambulo__parameters *p) {
                         "roll of the pressure under the heel", "ground_reaction.pressure.roll");
   ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->pressure_width, by->pressure_width,
                         "width of the pressure", "ground_reaction.pressure.width");
+  if (r->arc_pressure > 0.0 &&
+      p->problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED)
+    ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, r->arc_pressure, by->arc_pressure,
+                          "distance of the pressure from an arc's", "ground_reaction.pressure.arc");
 }
 
 static void add_sharing(ambulo__parameters *p) {

@@ -109,5 +109,8 @@ void ambulo__partials_of_sharing(const ambulo__stationary *s, const ambulo__foot
   ambulo__surface_pull by = ambulo__surface_pull_of(s, row, pull, frame->origin);
   partials->ground_height += ambulo__dot(by.origin, p->model->up);
   ambulo__surface_of_contact(s, own, &by, partials);
-  if (!ambulo__row_arc_of(&p->table, row)) add_numbers(&c, s, row, partials);
+  if (ambulo__row_arc_of(&p->table, row))
+    partials->reaction.arc_pressure += pull * c.phi;
+  else
+    add_numbers(&c, s, row, partials);
 }

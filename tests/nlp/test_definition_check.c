@@ -126,6 +126,7 @@ static void numbers_have_ranges(void **state) {
       {&r->flat_pressure[1], "flat_pressure[1]", 0},
       {&r->toe_pressure[0], "toe_pressure[0]", 0},
       {&r->pressure_width, "pressure_width", 0},
+      {&r->arc_pressure, "arc_pressure", 0},
       {&b.terms[0].weight, "objective[0]", 0},
       {&b.terms[0].smoothing, "objective[0]", 0},
       {&b.terms[0].power, "objective[0]", 0},

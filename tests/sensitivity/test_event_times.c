@@ -16,11 +16,12 @@ static void phases_by_speed(void **state) {
       "models/walk_normal.yaml",
       {BY_SPEED,
        "gait.phases={foot_flat: {slope: 0.05}, toe_off: {comfortable: 0.61, slope: -0.3}}",
-       "written_for={mass: 60, stature: 1.6}", "trajectory.knots=events", LOADED},
+       "written_for={mass: 60, stature: 1.6}", "trajectory.knots=events", LOADED,
+       "ground_reaction.pressure={arc: 0.004}"},
       {"gait.speed", "gait.phases.foot_flat.comfortable", "gait.phases.toe_off.comfortable",
        "gait.phases.heel_off", "gait.step_width", "subject.mass", "constraints.contact_tolerance",
        "ground_reaction.moment_arm", "constraints.orientation_tolerance",
-       "constraints.clearance.height"}};
+       "constraints.clearance.height", "ground_reaction.pressure.arc"}};
   check(&c, "gait.phases.toe_off");
   static const setting time = {"models/walk_normal.yaml",
                                {"time.duration=null", "gait.step_time=0.5", "gait.phases=by_speed"},
