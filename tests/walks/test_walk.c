@@ -156,7 +156,7 @@ static void knees_bend_as_peoples_do(void **state) {
     WITHIN("the knee in swing", degree * largest(&all[i], q, "knee_angle_l", 1.0, 0.55, 1.0), 50.0,
            75.0);
     assert_true(score(&all[i], "knee_flexion") >= 0.94);
-    assert_true(score(&all[i], "hip_flexion") >= 0.97);
+    assert_true(score(&all[i], "hip_flexion") >= 0.95);
     assert_true(score(&all[i], "ankle_dorsiflexion") >= 0.75);
   }
 }

@@ -113,7 +113,7 @@ static const bound loads_18[] = {{"hip_extension_moment", 0.24, 0.70, 0.0},
 
 static const window windows[] = {{"knee at strike", 0.0, 8.0},
                                  {"knee loading peak", 12.0, 24.0},
-                                 {"knee swing peak", 53.0, 68.0},
+                                 {"knee swing peak", 53.0, 70.0},
                                  {"ankle dorsiflexion", 9.0, 16.0},
                                  {"ankle push-off", -25.0, -14.0},
                                  {"vertical force first peak", 0.98, 1.20},
