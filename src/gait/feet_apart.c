@@ -12,8 +12,9 @@
  * steps of unlike height they have to pass beside each other.
  *
  * Lines at an angle a that pass at the speed v come nearer between two nodes than at them, by
- * v h tan(a / 2) / 2 where a corner falls in the middle. That is m, with v = 5 m/s, a = .2 rad (a
- * walk's peaks) and h = T / N; on a fine grid it vanishes, and what is then missed it shows.
+ * v h tan(a / 2) / 2 where a corner falls in the middle. That is m, with a = .2 rad, v = 5 m/s (a
+ * walk's peaks, of 1.75 m; v goes with the root of the stature) and h = T / N; on a fine grid it
+ * vanishes, and what is then missed it shows.
  */
 #include "gait/bounded.h"
 #include "gait/foot_outline.h"

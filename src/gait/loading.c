@@ -20,7 +20,7 @@
 
 #include <math.h>
 
-static const double rear_ahead = 0.02; /* m */
+static const double rear_ahead = 0.02; /* m of a body of 1.75 m */
 
 int ambulo__contact_holds(const ambulo_contact *contact, double duration, double time) {
   if (time < contact->from - AMBULO__INSTANT) return 0;

@@ -2,6 +2,7 @@
  */
 #include "reader/problem_text.h"
 #include "sensitivity/parameters.h"
+#include "support/scratch.h"
 
 #define NUMBERS                                                                                    \
   "ambulo: 1\nkind: problem\nmodel: lower_body_21.yaml\nangles: degrees\n"                         \
@@ -162,6 +163,27 @@ static void a_width_that_is_not_given(void **state) {
   ambulo_problem_free(q);
 }
 
+/* the way that is tracked is the task; how far from it counts as much goes with the body */
+static void scales_of_tracked_translations(void **state) {
+  char text[1024];
+  const char *file = scratch_path(state, "way.csv");
+  scratch_write(file, "# inDegrees=no\ntime,pelvis_ty,hip_flexion_r\n0,0,0\n0.5,0.1,0.2\n1,0,0\n");
+  (void)snprintf(text, sizeof text,
+                 "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
+                 "time: {intervals: 4, duration: 1}\nsubject: {mass: 60, stature: 2.1}\n"
+                 "written_for: {mass: 75, stature: 1.75}\nobjective: [{term: tracking, "
+                 "reference: \"%s\", scale: {pelvis_ty: 3, hip_flexion_r: 2}}]\n",
+                 file);
+  ambulo_problem *p = problem_of(text);
+  int up = ambulo_model_find_coordinate(p->model, "pelvis_ty");
+  int hip = ambulo_model_find_coordinate(p->model, "hip_flexion_r");
+  const ambulo_term *term = &p->definition.terms[0];
+  assert_close(term->scale[up], 3.0 / 1.2, 1e-14);
+  assert_close(term->scale[hip], 2.0, 0.0);
+  assert_close(term->reference[2 * ambulo_model_coordinate_count(p->model) + up], 0.1, 1e-14);
+  ambulo_problem_free(p);
+}
+
 /* SI of a number by its unit in the file is the file's number, whatever the body */
 static void expect_units(const char *numbers) {
   ambulo_problem *problem[2];
@@ -243,6 +265,7 @@ int main(void) {
       cmocka_unit_test(without_it_numbers_are_si),
       cmocka_unit_test(a_width_that_is_not_given),
       cmocka_unit_test(bounds_of_numbers_are_the_files),
+      cmocka_unit_test_setup_teardown(scales_of_tracked_translations, scratch_open, scratch_close),
       cmocka_unit_test(faults_are_named),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,15 +72,14 @@ static void keys_that_change_the_speed_between_nodes(void **state) {
                                 "gait.phases=by_speed"},
                                {NULL}},
                        tubes = {"models/walk_normal.yaml",
-                                {BY_SPEED, SLOPED,
-                                 "constraints.tubes=[{reference: walk_tracking_angles.csv, "
-                                 "coordinates: {hip_flexion_r: 40}}]"},
+                                {SLOPED, "constraints.tubes=[{reference: walk_tracking_angles.csv, "
+                                         "coordinates: {hip_flexion_r: 40}}]"},
                                 {NULL}},
-                       tracked = {"models/walk_tracking.yaml", {BY_SPEED, SLOPED}, {NULL}};
+                       tracked = {"models/walk_tracking.yaml", {SLOPED}, {NULL}};
   check(&cadence, "gait.speed");
   expect_absent(&both, (const char *const[]){"gait.step_time", "gait.step_length", NULL});
-  expect_absent(&tubes, (const char *const[]){"gait.speed", NULL});
-  expect_absent(&tracked, (const char *const[]){"gait.speed", NULL});
+  expect_absent(&tubes, (const char *const[]){"gait.step_length", NULL});
+  expect_absent(&tracked, (const char *const[]){"gait.step_length", NULL});
 }
 
 /* torques counted in shares of the model's limits, which have the price then */

@@ -153,7 +153,7 @@ static void starts_of_a_walk_by_its_limits(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(starts_of_a_walk_by_its_limits),
-      cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
+                                     cmocka_unit_test(a_cheaper_valley_is_gone_on_from),
                                      cmocka_unit_test(every_run_is_the_same),
                                      cmocka_unit_test(the_own_start_stays_what_it_is),
                                      cmocka_unit_test(a_stop_keeps_what_is_there),
