@@ -29,6 +29,9 @@ static double read_function(ambulo__problem_reader *reader, const ambulo__yaml_n
   ambulo__problem_keys *keys = &reader->keys;
   double value = people[i], slope = people_slope[i];
   int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  if (is_mapping && !ambulo__yaml_get(node, "comfortable") && !ambulo__yaml_get(node, "slope"))
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "a phase without a number; expected comfortable, slope, or both");
   if (is_mapping) {
     value = ambulo__yaml_number_in(ambulo__yaml_get(node, "comfortable"), least[i], most[i], value);
     slope = ambulo__yaml_number_in(ambulo__yaml_get(node, "slope"), -10.0, 10.0, slope);

@@ -133,6 +133,8 @@ static void faults_are_named(void **state) {
                  "hint: phases go with the speed, here 0.4827 sqrt(g H)");
   expect_refusal(WALK "speed: 1, phases: by_sped}\n", AMBULO_E_SCHEMA, "by_speed");
   expect_refusal(WALK "speed: 1, phases: [0, 1]}\n", AMBULO_E_SCHEMA, "'phases' is a list");
+  expect_refusal(WALK "speed: 1, phases: {toe_off: {}}}\n", AMBULO_E_SCHEMA,
+                 "a phase without a number");
   expect_refusal(WALK "speed: 1, phases: {toe_off: {slop: 1}}}\n", AMBULO_E_SCHEMA, "slop");
   expect_refusal(WALK "speed: 2, phases: {heel_strike: {slope: 9}}}\n", AMBULO_E_PROBLEM,
                  "heel_strike is at 1.5");
