@@ -109,7 +109,7 @@ def print_table(head, rows):
 
 
 PANELS = [("pelvis_list", -1, "q.pelvis_list", "pelvis, this side up, deg", "pelvic_obliquity"),
-          ("pelvis_rotation", -1, "q.pelvis_rotation", "pelvis, this side forward, deg", None),
+          ("pelvis_rotation", 1, "q.pelvis_rotation", "pelvis, this side forward, deg", None),
           ("hip_flexion", 1, "q.hip_flexion_r", "hip flexion, deg", "hip_flexion"),
           ("hip_adduction", 1, "q.hip_adduction_r", "hip adduction, deg", "hip_adduction"),
           ("knee", 1, "q.knee_angle_r", "knee flexion, deg", "knee_flexion"),
