@@ -24,7 +24,8 @@ typedef enum ambulo_transfer {
 } ambulo_transfer;
 
 /* Two-step ground reaction, and the rows it makes possible. With D the nominal centre of pressure
- * of the front foot (its heel) less that of the rear foot (0.02 m ahead of its ball), F the root
+ * of the front foot (its heel) less that of the rear foot (0.02 m ahead of its ball, of a body of
+ * 1.75 m), F the root
  * force, F_n its normal part, z the height of the centre of mass:
  *   force on the front foot   a F - h,    on the rear foot   (1 - a) F + h,
  *   h = shear a (1 - a) F_n D / z
@@ -44,8 +45,8 @@ typedef struct ambulo_ground_reaction {
   double flat_pressure[2]; /* flat: behind from the heel, ahead from the ball (toe centre), m */
   double toe_pressure[2];  /* on its toes: from the ball, m */
   double pressure_width;   /* to either side, m */
-  double arc_pressure; /* of a foot that rolls on an arc: how far from under the arc's centre, ahead
-                          and behind, m */
+  double arc_pressure;     /* shared, of a foot that rolls on an arc: how far from under the arc's
+                              centre, ahead     and behind, m */
 
   /* Shared (kind AMBULO_REACTION_SHARED): the forces f_c and moments m_c of the contacts, about
    * their centres p_c, are those that carry the root wrench and minimize
@@ -55,8 +56,8 @@ typedef struct ambulo_ground_reaction {
   double moment_arm;   /* > 0, m: the shorter, the less moment a contact takes */
   double slant;        /* > 0; below 1, forces lean towards the centre of mass */
   double loading_rate; /* of a contact's normal force, body weights per s: at most this times the
-                          time since it began and until it ends, setting in over 0.01 s; negative:
-                          no rows */
+                          time since it began and until it ends, setting in over 6.5 ms (of a body
+                          of 1.75 m; as the root of the stature); negative: no rows */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;

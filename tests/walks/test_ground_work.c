@@ -284,15 +284,15 @@ static void the_ground_does_next_to_no_work(void **state) {
 }
 
 /* at rest would be 0: feet move within contact_tolerance, half a millimetre, and
- * orientation_tolerance, to and fro as fast as the trajectory's knots let them (measured: 63 to 101
- * mm/s at most, 22 to 40 rms) */
+ * orientation_tolerance, to and fro as fast as the trajectory's knots let them (measured: 63 to 82
+ * mm/s at most, 22 to 38 rms) */
 static void loaded_feet_slip_within_their_tolerance(void **state) {
   const walk *all = *state;
   for (int i = 0; i < WALKS; i++) {
     double rms, most = slip(&all[i], &rms);
-    if (!(most <= 0.11 && rms <= 0.043))
+    if (!(most <= 0.095 && rms <= 0.041))
       print_error("%s: %.1f mm/s at most, %.1f rms\n", name_of(i), 1e3 * most, 1e3 * rms);
-    assert_true(most <= 0.11 && rms <= 0.043);
+    assert_true(most <= 0.095 && rms <= 0.041);
   }
 }
 
