@@ -16,9 +16,10 @@ enum { MAX_INTERVALS = 100000 };
 
 /* -------------------------------------------------------------- plain numbers */
 
-static const double shortest = 1e-6; /* s: no motion is shorter */
-static const double longest = 1e6;   /* m, s: no length or duration of a task is longer */
-static const double largest = 1e12;  /* weights, scales and offsets */
+static const double shortest = 1e-6;  /* s: no motion is shorter */
+static const double narrowest = 1e-6; /* m: points nearer than that have no line */
+static const double longest = 1e6;    /* m, s: no length or duration of a task is longer */
+static const double largest = 1e12;   /* weights, scales and offsets */
 static const double everything = HUGE_VAL;
 
 /* `count` numbers that have to lie in [low, high]; infinite ends let infinity pass */
@@ -166,13 +167,10 @@ static const char *point_name(const ambulo_model *model, int index) {
   return point ? point->name : "(none)";
 }
 
-/* two different points of one link */
+/* two points that are apart at q = 0 */
 static int is_line(const ambulo_model *model, const int point[2]) {
-  const ambulo_point *a = ambulo_model_point(model, point[0]);
-  const ambulo_point *b = ambulo_model_point(model, point[1]);
-  if (!a || !b || a->link != b->link) return 0;
-  return a->position[0] != b->position[0] || a->position[1] != b->position[1] ||
-         a->position[2] != b->position[2];
+  if (!ambulo_model_point(model, point[0]) || !ambulo_model_point(model, point[1])) return 0;
+  return ambulo__upright_length(model, point) > narrowest;
 }
 
 static ambulo_status check_term(const ambulo_problem_definition *d, int t,
@@ -195,8 +193,8 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
     return REFUSE(list, "objective[%d] (%s): height is %g m; expected a positive length", t,
                   info->name, term->height);
   if (term->kind == AMBULO_UPRIGHT && !is_line(d->model, term->point))
-    return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points of one link", t,
-                  info->name, point_name(d->model, term->point[0]),
+    return REFUSE(list, "objective[%d] (%s): points %s and %s; expected two points that are apart",
+                  t, info->name, point_name(d->model, term->point[0]),
                   point_name(d->model, term->point[1]));
   if (term->kind == AMBULO_FORCE_RATE && d->ground_reaction.kind == AMBULO_REACTION_NONE)
     return REFUSE(list,

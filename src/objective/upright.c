@@ -1,19 +1,22 @@
-/* objective/upright.c - the line from one point of a segment to another stays vertical.
+/* objective/upright.c - the line from one point of the body to another stays vertical.
  *
  *     u_j = (p_to - p_from) . e_j / L,   e_0 = l x u,  e_1 = l,  u = -g / |g|, l left
  *
  * the horizontal direction cosines of the line (e_0 is the walking direction, level also where
- * the ground is not); L its length, constant because both
- * points belong to one rigid segment (of the shipped bodies: hip centre and head).
+ * the ground is not); L its length at q = 0. Where both points belong to one rigid
+ * segment (hip centre and head of lower_body_18) that is its length, and u_j are direction cosines;
+ * over several joints (hips and head of a whole body) it is a scale, and u_j how far the one is
+ * off the other's plumb line, in lengths.
  */
+#include "model/neutral_pose.h"
 #include "objective/term.h"
 
 #include <math.h>
 
-/* distance of two points of one link, m */
-static double line_length(const ambulo_model *model, const int point[2]) {
-  const double *a = ambulo_model_point(model, point[0])->position;
-  const double *b = ambulo_model_point(model, point[1])->position;
+double ambulo__upright_length(const ambulo_model *model, const int point[2]) {
+  double a[3], b[3];
+  ambulo__neutral_point(model, point[0], a);
+  ambulo__neutral_point(model, point[1], b);
   return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
               (a[2] - b[2]) * (a[2] - b[2]));
 }
@@ -33,7 +36,7 @@ void ambulo__upright_form(const ambulo_term *term, const ambulo__term_context *c
                           int j, ambulo__form *form) {
   double e[3];
   horizontal(context->model, j, e);
-  double length = line_length(context->model, term->point);
+  double length = ambulo__upright_length(context->model, term->point);
   for (int end = 0; end < 2; end++) {
     double sign = end ? 1.0 : -1.0;
     for (int axis = 0; axis < 3; axis++) {

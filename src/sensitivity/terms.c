@@ -79,17 +79,12 @@ static void simple_node(const term_sum *t, int node, int i) {
 /* de_0/ds = -v */
 static double upright_by_slope(const term_sum *t, int node) {
   const ambulo_problem *p = t->s->problem;
-  double along = 0.0, square = 0.0;
-  for (int i = 0; i < 3; i++) {
-    const ambulo_point *a = &p->model->points[t->term->point[0]];
-    const ambulo_point *b = &p->model->points[t->term->point[1]];
-    square += (a->position[i] - b->position[i]) * (a->position[i] - b->position[i]);
-  }
+  double along = 0.0;
   for (int end = 0; end < 2; end++) {
     int first = ambulo__channel_point(&p->channels, t->term->point[end], 0);
     along += (end ? 1.0 : -1.0) * ambulo__stationary_along(t->s, node, first, t->up);
   }
-  return -along / sqrt(square);
+  return -along / ambulo__upright_length(p->model, t->term->point);
 }
 
 /* dv/ds = l x v, component `axis` */

@@ -1,4 +1,4 @@
-/* Direction cosines of a segment's line. */
+/* Direction cosines of a segment's line; a line over joints. */
 #include "form_fixture.h"
 
 static void a_leaning_line_has_its_cosines(void **state) {
@@ -23,7 +23,19 @@ static void a_leaning_line_has_its_cosines(void **state) {
   form_close(&f);
 }
 
+/* hip to ball of the foot: 0.534643 of the stature below and 0.08 ahead at q = 0 */
+static void a_line_over_joints_has_its_length_at_rest(void **state) {
+  (void)state;
+  ambulo_model *body = NULL;
+  assert_int_equal(ambulo_model_load("models/lower_body_21.yaml", NULL, NULL, NULL, &body),
+                   AMBULO_OK);
+  int line[2] = {ambulo_model_find_point(body, "hip_r"), ambulo_model_find_point(body, "ball_r")};
+  assert_close(ambulo__upright_length(body, line), 1.75 * hypot(0.534643, 0.08), 1e-9);
+  ambulo_model_free(body);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_leaning_line_has_its_cosines)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_leaning_line_has_its_cosines),
+                                     cmocka_unit_test(a_line_over_joints_has_its_length_at_rest)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

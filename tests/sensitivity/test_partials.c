@@ -100,7 +100,8 @@ static void a_walk_with_other_terms(void **state) {
        "scale: {knee_angle_r: 1, knee_angle_l: 1, hip_adduction_r: 2, hip_adduction_l: 2}, "
        "angles: {knee_angle_r: 10, knee_angle_l: 10, hip_adduction_r: 3, hip_adduction_l: 3}}, "
        "{term: mechanical_power, weight: 0.01}, {term: upright, weight: 10, "
-       "points: [pelvis, head_top]}, {term: ground_force, weight: 0.3}]",
+       "points: [pelvis, head_top]}, {term: upright, name: right, points: [hip_r, heel_r]}, {term: "
+       "upright, name: left, points: [hip_l, heel_l]}, {term: ground_force, weight: 0.3}]",
        "time.duration=null", "gait.speed=1.26"},
       {"objective[clearance].height", "objective[rests].angles.hip_adduction_r",
        "objective[rests].angles.knee_angle_r", "gait.speed", "gait.step_length",
