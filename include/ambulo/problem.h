@@ -176,8 +176,7 @@ typedef enum ambulo_term_kind {
   AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
   AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
-  AMBULO_UPRIGHT,      /* squared horizontal parts of the line point[0] to point[1] by its
-                          length at q = 0 */
+  AMBULO_UPRIGHT,      /* squared horizontal parts of a line, point[0] to point[1], by its length */
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
   AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
   AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
@@ -203,7 +202,7 @@ typedef struct ambulo_term {
                                     is; scale then is a price (AMBULO_TORQUE_POWER) */
   const double *price;           /* [d][2]: with strength_is_limits what scale is multiplied by for
                                     negative, for positive torque, > 0; NULL: 1 */
-  int point[2];                  /* model points of AMBULO_UPRIGHT */
+  int point[2];                  /* model points of AMBULO_UPRIGHT; length: of q = 0 */
   double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */

@@ -12,6 +12,8 @@
  * Feet with arcs roll on their heel and on their toes: there C, the arc's centre, is held at its
  * radius above the surface, and ahead within e of where it has rolled to (gait/arc.h).
  *
+ * Toes on a joint of their own (tip on another link than the ball): n . (tip - p) >= -e.
+ *
  * A body that rolls over its feet with fewer control points than nodes cannot hold every contact
  * exactly at every node; two millimetres leave it the room that soft tissue leaves people.
  * Rows along left, yaw and roll are left out for planar feet. At a node where one contact ends and
@@ -171,6 +173,23 @@ static void place_rows(const tube *t, int i) {
     place_bounds(t, point, frame.left, place, "to the right", "to the left");
 }
 
+/* toes of their own, on a joint at the ball: they stay above the surface while the foot is loaded,
+ * and so bend as it turns over them */
+static void toe_rows(const tube *t) {
+  const ambulo__gait_context *context = t->context;
+  const ambulo_foot *foot = &context->model->feet[t->contact[0]->foot];
+  const ambulo_point *points = context->model->points;
+  if (!foot->has_tip || points[foot->tip].link == points[foot->toe_center].link) return;
+  ambulo__contact_frame frame = ambulo__contact_frame_of(context->definition, t->contact[0]);
+  ambulo__linear form = {.constant = 0.0};
+  for (int i = 0; i < 3; i++) form.constant -= frame.up[i] * frame.origin[i];
+  ambulo__linear_add(&form, ambulo__channel_point(&context->channels, foot->tip, 0), frame.up, 1.0);
+  ambulo__bounded_name name = {AMBULO__KIND_CONTACT, points[foot->tip].name, "below", "above",
+                               AMBULO__METRES};
+  ambulo__bounded_rows(context, t->node, &name, &form, -context->definition->contact_tolerance,
+                       INFINITY, t->table);
+}
+
 static void contact_rows(const tube *t) {
   const ambulo_problem_definition *d = t->context->definition;
   int on_toes = 1, foot = t->contact[0]->foot;
@@ -180,6 +199,8 @@ static void contact_rows(const tube *t) {
     on_toes &= t->contact[i]->mode == AMBULO_CONTACT_TOE;
   }
   pitch_bounds(t);
+  t->table->before = t->before[0];
+  toe_rows(t);
   if (!t->outline->moves_sideways) return;
   t->table->before = t->before[t->contacts > 1 && t->contact[0]->mode == AMBULO_CONTACT_TOE];
   double o = d->orientation_tolerance * (on_toes ? 2.0 : 1.0);

@@ -97,7 +97,7 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *cont
 /* The pieces, one file each. */
 void ambulo__mechanical_power_form(const ambulo_term *term, const ambulo__term_context *context,
                                    int node, int i, ambulo__form *form);
-/* L of (13.h), m: the distance of two points at q = 0 */
+/* the length of upright lines, m: the distance of two points at q = 0 */
 double ambulo__upright_length(const ambulo_model *model, const int point[2]);
 void ambulo__upright_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                           int j, ambulo__form *form);

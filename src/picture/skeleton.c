@@ -103,6 +103,36 @@ static void add_head(ambulo__skeleton *skeleton, const ambulo_point *top) {
   add_bone(skeleton, top->link, NULL, top->link, center, skeleton->side[top->link], radius);
 }
 
+static int carries_a_foot(const ambulo_model *model, int link) {
+  for (int f = 0; f < model->foot_count; f++) {
+    const ambulo_foot *foot = &model->feet[f];
+    if (model->points[foot->heel_center].link == link ||
+        model->points[foot->toe_center].link == link)
+      return 1;
+  }
+  return 0;
+}
+
+/* a limb that ends in no joint, a forearm with its hand, reaches to its furthest point */
+static void add_limb_ends(ambulo__skeleton *skeleton, int head) {
+  const ambulo_model *model = skeleton->model;
+  for (int i = 0; i < model->link_count; i++) {
+    int is_parent = 0, furthest = -1;
+    for (int k = 0; k < model->link_count; k++) is_parent |= model->links[k].parent == i;
+    if (is_parent || i == head || has_own_line(model, i) || carries_a_foot(model, i)) continue;
+    double length = shortest_line;
+    for (int p = 0; p < model->point_count; p++) {
+      const double *at = model->points[p].position;
+      double away = hypot(hypot(at[0], at[1]), at[2]);
+      if (model->points[p].link != i || away <= length) continue;
+      furthest = p;
+      length = away;
+    }
+    if (furthest >= 0)
+      add_bone(skeleton, i, NULL, i, model->points[furthest].position, skeleton->side[i], 0.0);
+  }
+}
+
 static void add_lines(ambulo__skeleton *skeleton) {
   const ambulo_model *model = skeleton->model;
   for (int i = 0; i < model->link_count; i++) {
@@ -117,13 +147,14 @@ static void add_lines(ambulo__skeleton *skeleton) {
   add_feet(skeleton);
   int top = ambulo_model_find_point(model, "head_top");
   if (top >= 0) add_head(skeleton, &model->points[top]);
+  add_limb_ends(skeleton, top >= 0 ? model->points[top].link : -1);
 }
 
 ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                       ambulo__skeleton *skeleton) {
   ambulo__skeleton s = {.allocator = ambulo__allocator_or_default(allocator), .model = model};
   size_t links = (size_t)model->link_count;
-  s.bone_capacity = model->link_count + 3 * model->foot_count + 1;
+  s.bone_capacity = 2 * model->link_count + 3 * model->foot_count + 1;
   s.bones = ambulo__alloc(&s.allocator, (size_t)s.bone_capacity, sizeof *s.bones);
   s.side = ambulo__alloc(&s.allocator, links, sizeof *s.side);
   ambulo_status status = ambulo__pose_create(model, &s.allocator, &s.pose);

@@ -22,6 +22,27 @@ static void test_walker_has_legs_feet_and_a_head(void **state) {
   ambulo_model_free(model);
 }
 
+/* shoulder to elbow, and on to the tip of the hand; feet with toes of their own */
+static void test_a_whole_body_has_forearms_and_toes(void **state) {
+  (void)state;
+  ambulo_model *model = NULL;
+  assert_int_equal(ambulo_model_load("models/whole_body_45.yaml", NULL, NULL, NULL, &model),
+                   AMBULO_OK);
+  ambulo__skeleton s;
+  assert_int_equal(ambulo__skeleton_create(model, NULL, &s), AMBULO_OK);
+  static const char *const ends[2] = {"hand_l", "toe_l"};
+  for (int k = 0; k < 2; k++) {
+    const ambulo_point *end = &model->points[ambulo_model_find_point(model, ends[k])];
+    int lines = 0;
+    for (int b = 0; b < s.bone_count; b++)
+      lines += s.bones[b].link[1] == end->link && s.bones[b].side == AMBULO__LEFT &&
+               memcmp(s.bones[b].at[1], end->position, sizeof end->position) == 0;
+    assert_int_equal(lines, 1);
+  }
+  ambulo__skeleton_free(&s);
+  ambulo_model_free(model);
+}
+
 static void test_arm_has_two_links(void **state) {
   (void)state;
   ambulo_model *model = arm_create();
@@ -39,6 +60,7 @@ static void test_arm_has_two_links(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_walker_has_legs_feet_and_a_head),
+                                     cmocka_unit_test(test_a_whole_body_has_forearms_and_toes),
                                      cmocka_unit_test(test_arm_has_two_links)};
   return cmocka_run_group_tests_name("picture/skeleton", tests, NULL, NULL);
 }

@@ -1,0 +1,156 @@
+/* models/walk_whole_body.yaml and its larger bodies, from zero: arms that nothing tells how to
+ * swing. */
+#include "stride/stride.h"
+#include "support/test.h"
+
+#include "ambulo/ambulo.h"
+
+#ifndef AMBULO_SOURCE_DIR
+#define AMBULO_SOURCE_DIR "."
+#endif
+
+enum { SAMPLES = 201, LOCKS = 9, TEXT = 512 };
+static const double degree = 57.295779513082321;
+
+typedef struct walk {
+  ambulo_problem *problem;
+  ambulo_result *result;
+  ambulo__stride stride;
+} walk;
+
+static void open_walk(walk *w, const char *file, const char *const *settings, int count) {
+  char path[TEXT];
+  *w = (walk){.problem = NULL};
+  (void)snprintf(path, sizeof path, "%s/models/%s", AMBULO_SOURCE_DIR, file);
+  assert_int_equal(ambulo_problem_load(path, settings, count, NULL, NULL, &w->problem), AMBULO_OK);
+  assert_int_equal(ambulo_solve(w->problem, NULL, NULL, NULL, NULL, &w->result), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(w->result), AMBULO_OPTIMAL);
+  assert_true(ambulo_result_audit(w->result)->violation.worst <= 1e-6);
+  assert_int_equal(
+      ambulo__stride_create(w->problem, ambulo_result_x(w->result), SAMPLES, NULL, &w->stride),
+      AMBULO_OK);
+}
+
+static void close_walk(walk *w) {
+  ambulo__stride_free(&w->stride);
+  ambulo_result_free(w->result);
+  ambulo_problem_free(w->problem);
+}
+
+static double angle(const walk *w, const char *name, int k) {
+  int i = ambulo_model_find_coordinate(w->problem->model, name);
+  assert_true(i >= 0);
+  return degree * w->stride.q[k * w->stride.coordinates + i];
+}
+
+static double range(const walk *w, const char *name) {
+  double low = INFINITY, high = -INFINITY;
+  for (int k = 0; k < SAMPLES; k++) {
+    low = fmin(low, angle(w, name, k));
+    high = fmax(high, angle(w, name, k));
+  }
+  return high - low;
+}
+
+/* of two angles over the stride */
+static double correlation(const walk *w, const char *one, const char *other) {
+  double mean[2] = {0.0, 0.0}, square[3] = {0.0, 0.0, 0.0};
+  for (int k = 0; k < SAMPLES; k++) {
+    mean[0] += angle(w, one, k) / SAMPLES;
+    mean[1] += angle(w, other, k) / SAMPLES;
+  }
+  for (int k = 0; k < SAMPLES; k++) {
+    double a = angle(w, one, k) - mean[0], b = angle(w, other, k) - mean[1];
+    square[0] += a * a;
+    square[1] += b * b;
+    square[2] += a * b;
+  }
+  return square[2] / sqrt(square[0] * square[1]);
+}
+
+static double largest_free_moment(const walk *w) {
+  double most = 0.0;
+  for (int i = 0; i < SAMPLES * w->stride.feet; i++)
+    most = fmax(most, fabs(w->stride.free_moment[i]));
+  return most;
+}
+
+/* Each arm against the leg of its side, by 10 to 40 degrees (people of 1.25 m/s: about 20 to 30),
+ * elbows bent, the lumbar joint against the pelvis. Larger bodies do the same. */
+static void arms_swing_against_the_legs(void **state) {
+  (void)state;
+  static const char *const files[] = {"walk_whole_body.yaml", "walk_whole_body_37.yaml",
+                                      "walk_whole_body_45.yaml"};
+  for (int f = 0; f < 3; f++) {
+    walk w;
+    open_walk(&w, files[f], NULL, 0);
+    assert_true(correlation(&w, "arm_flex_l", "hip_flexion_l") <= -0.8);
+    assert_true(correlation(&w, "lumbar_rotation", "pelvis_rotation") <= -0.6);
+    double swing = range(&w, "arm_flex_l");
+    if (!(swing >= 10.0 && swing <= 40.0)) fail_msg("%s: arms swing by %.1f", files[f], swing);
+    for (int k = 0; k < SAMPLES; k++) assert_true(angle(&w, "elbow_flex_l", k) > 5.0);
+    close_walk(&w);
+  }
+}
+
+static void arms_swing_further_the_faster(void **state) {
+  (void)state;
+  static const char *const speeds[] = {"gait.speed=0.9", "gait.speed=1.28", "gait.speed=1.72"};
+  double last = 0.0;
+  for (int i = 0; i < 3; i++) {
+    walk w;
+    open_walk(&w, "walk_whole_body.yaml", &speeds[i], 1);
+    double swing = range(&w, "arm_flex_l");
+    assert_true(swing > 1.2 * last);
+    last = swing;
+    close_walk(&w);
+  }
+}
+
+/* arms at the sides: it costs more, the ground has to hold the body against turning */
+static void locked_arms_cost_more(void **state) {
+  (void)state;
+  static const char *const locks[LOCKS] = {"model.links[arm_flex_r].coordinate.range=[0, 0]",
+                                           "model.links[arm_flex_l].coordinate.range=[0, 0]",
+                                           "model.links[arm_add_r].coordinate.range=[0, 0]",
+                                           "model.links[arm_add_l].coordinate.range=[0, 0]",
+                                           "model.links[upper_arm_r].coordinate.range=[0, 0]",
+                                           "model.links[upper_arm_l].coordinate.range=[0, 0]",
+                                           "model.links[forearm_r].coordinate.range=[20, 20]",
+                                           "model.links[forearm_l].coordinate.range=[20, 20]",
+                                           "gait.speed=1.28"};
+  walk arms, locked;
+  open_walk(&arms, "walk_whole_body.yaml", NULL, 0);
+  open_walk(&locked, "walk_whole_body.yaml", locks, LOCKS);
+  assert_true(range(&locked, "arm_flex_l") < 1e-6);
+  assert_true(ambulo_result_objective(locked.result) > 1.02 * ambulo_result_objective(arms.result));
+  assert_true(largest_free_moment(&locked) > 1.05 * largest_free_moment(&arms));
+  close_walk(&arms);
+  close_walk(&locked);
+}
+
+/* toes of their own: off the ground nowhere below it, bent by more than 30 degrees at push-off */
+static void toes_bend_at_push_off(void **state) {
+  (void)state;
+  walk w;
+  open_walk(&w, "walk_whole_body_45.yaml", NULL, 0);
+  double most = 0.0, at = 0.0;
+  for (int k = 0; k < SAMPLES; k++) {
+    if (angle(&w, "mtp_angle_l", k) <= most) continue;
+    most = angle(&w, "mtp_angle_l", k);
+    at = (double)k / (SAMPLES - 1);
+  }
+  if (!(most > 30.0 && most < 65.0 && at > 0.5 && at < 0.75))
+    fail_msg("toes bend by %.1f at %.2f of the stride", most, at);
+  close_walk(&w);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(arms_swing_against_the_legs),
+      cmocka_unit_test(arms_swing_further_the_faster),
+      cmocka_unit_test(locked_arms_cost_more),
+      cmocka_unit_test(toes_bend_at_push_off),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
