@@ -197,6 +197,16 @@ static void keep_apart(ambulo__events *events, double duration, double least) {
   events->count = kept;
 }
 
+/* Where contacts share the load, what they carry changes within the shortest phase, between one
+ * foot's being flat and the other's leaving, as much as within a long one: a phase gets
+ * AMBULO__WANTED_NODE_INTERVALS, as long as that is not more than half of all. */
+static int least_of(const ambulo_problem_definition *d, int intervals, int phases) {
+  int room = intervals / (2 * phases);
+  if (d->ground_reaction.kind != AMBULO_REACTION_SHARED || room < AMBULO__LEAST_NODE_INTERVALS)
+    return AMBULO__LEAST_NODE_INTERVALS;
+  return room < AMBULO__WANTED_NODE_INTERVALS ? room : AMBULO__WANTED_NODE_INTERVALS;
+}
+
 static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_kind kind,
                              int intervals, int least, double grade, const char *what,
                              const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
@@ -206,6 +216,8 @@ static ambulo_status grid_on(const ambulo_problem_definition *d, ambulo__event_k
   if (status) return status;
   if (kind == AMBULO__EVENTS_OF_CONTACTS)
     keep_apart(&events, d->duration, least_apart * d->duration / intervals);
+  else
+    least = least_of(d, intervals, events.count + 1);
   status = ambulo__phase_grid(&events, d->duration, intervals, least, grade, allocator, times);
   if (status == AMBULO_E_LIMIT)
     status = ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL,

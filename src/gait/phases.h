@@ -42,7 +42,11 @@ int ambulo__has_tip_rows(const ambulo_problem_definition *definition);
 int ambulo__event_at(const ambulo__events *events, double time);
 
 /* Fewest intervals of a phase: of the time nodes, and of the trajectory. */
-enum { AMBULO__LEAST_NODE_INTERVALS = 2, AMBULO__LEAST_KNOT_INTERVALS = 1 };
+enum {
+  AMBULO__LEAST_NODE_INTERVALS = 2,
+  AMBULO__WANTED_NODE_INTERVALS = 4, /* of contacts that share the load, where there are enough */
+  AMBULO__LEAST_KNOT_INTERVALS = 1
+};
 
 /* Fewest intervals of the trajectory that a definition's knots have room for; 1 where they are
  * uniform. E_MEMORY. */
