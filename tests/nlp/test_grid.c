@@ -159,8 +159,33 @@ static void other_models_are_refused(void **state) {
   fixture_close(&f);
 }
 
+/* intervals of walk.yaml between the left foot's being flat and the right one's leaving */
+static int intervals_of_the_short_phase(const char *setting) {
+  const char *const settings[] = {"gait.phases.foot_flat=0.09", "gait.phases.toe_off=0.6", setting};
+  ambulo_problem *p = NULL;
+  assert_int_equal(ambulo_problem_load("models/walk.yaml", settings, 3, NULL, NULL, &p), AMBULO_OK);
+  double step = p->definition.duration;
+  int count = 0;
+  for (int k = 0; k <= p->definition.intervals; k++) {
+    double share = ambulo_problem_node_time(p, k) / (2.0 * step);
+    count += share > 0.09 - 1e-9 && share < 0.1 + 1e-9;
+  }
+  ambulo_problem_free(p);
+  return count - 1;
+}
+
+/* a fiftieth of the step: by its share one interval of 64 */
+static void a_short_phase_has_four_intervals_where_there_are_enough(void **state) {
+  (void)state;
+  assert_int_equal(intervals_of_the_short_phase("time.intervals=64"), 4);
+  assert_int_equal(intervals_of_the_short_phase("time.intervals=40"), 4);
+  assert_int_equal(intervals_of_the_short_phase("time.intervals=32"), 3);
+  assert_int_equal(intervals_of_the_short_phase("time.intervals=16"), 2);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_short_phase_has_four_intervals_where_there_are_enough),
       cmocka_unit_test(transfer_to_a_finer_spline_keeps_the_motion),
       cmocka_unit_test(references_are_resampled),
       cmocka_unit_test(references_follow_their_nodes),
