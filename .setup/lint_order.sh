@@ -8,7 +8,7 @@
 set -u
 objects=$1
 order=(base model format trajectory mechanics gait objective nlp linear method judge solver sensitivity reader outer
-  inverse stride compare picture report sweep batch collect fit cli)
+  inverse stride compare picture report front sweep batch collect fit cli)
 faults=0
 
 fault() {

@@ -34,6 +34,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_sweep_load(const char *path,
                                                             ambulo_sweep **sweep);
 AMBULO_API void ambulo_sweep_free(ambulo_sweep *sweep); /* accepts NULL */
 
+/* Points that a front is asked for (the key `front`); 0: the sweep is none. The list of a front has
+ * its first ends only; ambulo_batch_run finds the others. */
+AMBULO_API int ambulo_sweep_front_points(const ambulo_sweep *sweep);
 AMBULO_API const char *ambulo_sweep_name(const ambulo_sweep *sweep);
 AMBULO_API const char *ambulo_sweep_base(const ambulo_sweep *sweep); /* path of the base problem */
 AMBULO_API int ambulo_sweep_case_count(const ambulo_sweep *sweep);
@@ -79,15 +82,27 @@ AMBULO_API ambulo_batch_options ambulo_batch_options_default(void);
 /* Solves every case of the shard that is not finished in `directory` yet: that has no record, one
  * of other inputs, or files that are not what was written (computed again, with a warning).
  * AMBULO_OK when every case has a record at the end or the caller stopped; *progress (may be NULL)
- * is the final state. Errors: E_IO (folder not readable or not writable, locked by another run:
- * named), E_PROBLEM (the inputs changed since the folder was filled, or a version without
- * checksums filled it, and force is 0: what changed), E_MEMORY. */
+ * is the final state. A front is solved in rounds, until its points are even
+ * (docs/batch-format.md); it has no shards (E_ARGUMENT). Errors: E_IO (folder not readable or not
+ * writable, locked by another run: named), E_PROBLEM (the inputs changed since the folder was
+ * filled, or a version without checksums filled it, and force is 0: what changed), E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_run(const ambulo_sweep *sweep,
                                                            const char *directory,
                                                            const ambulo_batch_options *options,
                                                            const ambulo_allocator *allocator,
                                                            ambulo_diagnostics *diagnostics,
                                                            ambulo_batch_progress *progress);
+
+/* What a front of terms has become; terms 0: the batch is none. */
+typedef struct ambulo_front_census {
+  int terms, wanted;
+  int points;   /* on the front */
+  int left_out; /* another motion is better for their own weights (a local valley), or
+                   no worse in every term and better in one */
+  int refused;  /* wide gaps of two terms between which no weights lead */
+  double largest_gap, mean_gap; /* between neighbours; of three terms to the nearest point. Unit:
+                                   the range of a term between the ends of the front */
+} ambulo_front_census;
 
 /* What stands in a folder, from its records alone. Errors: E_IO (cannot be read, or the list of
  * cases is damaged), E_PROBLEM (filled by a version without checksums), E_MEMORY. */
@@ -100,6 +115,7 @@ typedef struct ambulo_batch_census {
                        ambulo_batch_status sees this of records only */
   double seconds;   /* all cases with a record took together */
   char holder[96];  /* host:pid of the run that holds the folder; "": none */
+  ambulo_front_census front; /* filled by ambulo_batch_collect alone */
 } ambulo_batch_census;
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_status(const char *directory,
                                                               const ambulo_allocator *allocator,
@@ -123,10 +139,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_verify(
 
 /* Writes results.csv and results.jsonl into `directory`: one line per case, sorted by id, the
  * axes and the outputs the sweep file asks for. Idempotent; the same bytes whatever the order
- * in which cases were solved. Every file is compared with its checksum; a case of which one is
- * damaged or cannot be read has the state "corrupt", no outputs, a warning that names the file,
- * and is counted in the census. Errors, which leave the tables as they were: as
- * ambulo_batch_status; and a table that cannot be written. */
+ * in which cases were solved. Of a front, its points are judged, the lines tell which are on it,
+ * and front.svg is drawn; warnings tell of gaps that refuse to close. Every file is compared with
+ * its checksum; a case of which one is damaged or cannot be read has the state "corrupt", no
+ * outputs, a warning that names the file, and is counted in the census. Errors, which leave the
+ * tables as they were: as ambulo_batch_status; and a table that cannot be written. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *directory,
                                                                const ambulo_allocator *allocator,
                                                                ambulo_diagnostics *diagnostics,

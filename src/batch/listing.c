@@ -89,6 +89,23 @@ static ambulo_status copy_texts(const ambulo__listing *l, const ambulo__yaml_nod
   return *texts ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
+/* `front`, where the batch is one; its terms are the axes */
+static ambulo_status read_front(ambulo__listing *l, const ambulo__yaml_node *node, int *right) {
+  if (!node) return AMBULO_OK;
+  ambulo__listing_front *f = &l->front;
+  int terms = ambulo__yaml_items(ambulo__yaml_require(node, "terms"));
+  *right &= terms == l->axes && terms >= 2 && terms <= AMBULO__FRONT_TERMS;
+  if (!*right) return AMBULO_OK;
+  f->terms = terms;
+  f->points = ambulo__yaml_integer(ambulo__yaml_require(node, "points"), 2, INT_MAX, 2);
+  f->least = ambulo__yaml_number(ambulo__yaml_require(node, "least"), 0.0);
+  const ambulo__yaml_node *own = ambulo__yaml_require(node, "weights");
+  for (int i = 0; i < terms; i++) f->own[i] = ambulo__yaml_number(ambulo__yaml_item(own, i), 0.0);
+  l->front_text = copy_text(l, node, "text");
+  ambulo_status status = copy_texts(l, node, "terms", terms, &f->name, right);
+  return l->front_text ? status : AMBULO_E_MEMORY;
+}
+
 /* E_MEMORY, or AMBULO_OK, and then the document knows what was wrong, or *cases is -1 */
 static ambulo_status read_fields(ambulo__listing *l, const ambulo__yaml_node *root, int *cases) {
   int right = 1;
@@ -115,6 +132,7 @@ static ambulo_status read_fields(ambulo__listing *l, const ambulo__yaml_node *ro
   ambulo_status status = AMBULO_OK;
   for (size_t i = 0; i < sizeof lists / sizeof *lists && !status; i++)
     status = copy_texts(l, root, lists[i].key, lists[i].count, lists[i].texts, &right);
+  if (!status) status = read_front(l, ambulo__yaml_get(root, "front"), &right);
   if (!right) *cases = -1;
   return status;
 }
@@ -218,6 +236,8 @@ void ambulo__listing_free(ambulo__listing *l) {
   free_texts(a, l->output_unit, l->outputs);
   free_texts(a, l->axis_label, l->axes);
   free_texts(a, l->axis_unit, l->axes);
+  free_texts(a, l->front.name, l->front.terms);
+  ambulo__free(a, l->front_text);
   ambulo__free(a, l->digest);
   ambulo__free(a, l->name);
   ambulo__free(a, l->version);

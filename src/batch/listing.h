@@ -10,6 +10,7 @@
 #include "ambulo/batch.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
+#include "front/front.h"
 
 enum {
   AMBULO__LISTING_ID,
@@ -23,6 +24,14 @@ enum {
 
 enum { AMBULO__LISTING_NAMES = 256 }; /* looked through for the nearest name */
 
+/* Of a front (sweep.h): its terms, whose weights are the axes. */
+typedef struct ambulo__listing_front {
+  int terms, points;
+  double least;
+  char **name; /* [terms] */
+  double own[AMBULO__FRONT_TERMS];
+} ambulo__listing_front;
+
 typedef struct ambulo__listing {
   ambulo_allocator allocator;
   char *text;
@@ -33,7 +42,9 @@ typedef struct ambulo__listing {
   int outputs, axes;                            /* axes: columns - AMBULO__LISTING_AXES */
   int zipped;                                   /* the first so many axes advance together */
   char *name, *version, *problem_hash, *text_hash;
-  char *digest; /* SHA-256 of cases.tsv, as batch.json says */
+  char *digest;                /* SHA-256 of cases.tsv, as batch.json says */
+  ambulo__listing_front front; /* terms 0: none */
+  char *front_text; /* the key `front` and what points start from, as a text; NULL: none */
 } ambulo__listing;
 
 /* Errors: E_IO (no such folder, no batch in it, either file damaged), E_PROBLEM (of a version that
@@ -53,6 +64,11 @@ unsigned long long ambulo__listing_key(const ambulo__listing *listing, int index
 /* Creates DIR and DIR/cases; a folder that holds other things is refused. Errors: E_IO. */
 ambulo_status ambulo__batch_make_folders(const char *directory, const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics);
+
+/* Whether the folder, if it is a batch folder already, is that of this sweep: refused as below. */
+ambulo_status ambulo__listing_check(const ambulo_sweep *sweep, const char *directory, int force,
+                                    const ambulo_allocator *allocator,
+                                    ambulo_diagnostics *diagnostics);
 
 /* Makes the folder a batch folder of this sweep. One that holds another list is refused, with
  * what changed, unless force = 1; so is one without checksums. A damaged list is written anew, with

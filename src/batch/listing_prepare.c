@@ -9,6 +9,7 @@
 #include "base/seal.h"
 #include "base/text_buffer.h"
 #include "batch/listing.h"
+#include "batch/listing_changes.h"
 #include "format/json_text.h"
 #include "sweep/sweep.h"
 #include "sweep/units.h"
@@ -107,6 +108,7 @@ static void describe(const ambulo_sweep *s, const char *digest, ambulo__text_buf
   ambulo__json_integer(&json, "cases", s->case_count);
   ambulo__json_text(&json, "cases_sha256", digest);
   describe_columns(s, &json);
+  if (s->front.terms > 0) ambulo__listing_describe_front(s, &json);
   ambulo__seal(text);
 }
 
@@ -148,77 +150,6 @@ static ambulo_status write_listing(const ambulo_sweep *s, const char *directory,
   return status;
 }
 
-/* ---------------------------------------------------------------- comparing */
-
-typedef struct changes {
-  int same, changed, added, gone;
-  const char *first; /* name of the first case that is not the same; NULL: none */
-} changes;
-
-/* both lists are sorted by id */
-static changes compare(const ambulo_sweep *s, const ambulo__listing *old) {
-  changes c = {0, 0, 0, 0, NULL};
-  int i = 0, j = 0;
-  while (i < s->case_count || j < old->cases) {
-    int order;
-    if (i == s->case_count) {
-      order = 1;
-    } else if (j == old->cases) {
-      order = -1;
-    } else {
-      order = strcmp(s->cases[i].id, ambulo__listing_cell(old, j, AMBULO__LISTING_ID));
-    }
-    if (order == 0) {
-      int same = ambulo__listing_key(old, j) == s->cases[i].key;
-      c.same += same;
-      c.changed += !same;
-    }
-    c.added += order < 0;
-    c.gone += order > 0;
-    if (!c.first && order > 0) c.first = ambulo__listing_cell(old, j, AMBULO__LISTING_NAME);
-    if (!c.first && c.changed + c.added > 0) c.first = s->cases[i].name;
-    i += order <= 0;
-    j += order >= 0;
-  }
-  return c;
-}
-
-/* which input is another one: only what the folder has written down can be told apart */
-static void name_cause(const ambulo_sweep *s, const ambulo__listing *old, changes c, char *cause,
-                       size_t size) {
-  ambulo_versions versions;
-  ambulo_versions_get(&versions);
-  char hash[20], version[64];
-  (void)snprintf(hash, sizeof hash, "%016llx", s->problem_hash);
-  (void)snprintf(version, sizeof version, "ambulo %s, NLopt %s", versions.ambulo, versions.nlopt);
-  int problem = strcmp(hash, old->problem_hash) != 0;
-  (void)snprintf(hash, sizeof hash, "%016llx", s->text_hash);
-  if (strcmp(version, old->version) != 0)
-    (void)snprintf(cause, size, "the version changed (was %s)", old->version);
-  else if (problem && strcmp(hash, old->text_hash) != 0)
-    (void)snprintf(cause, size, "the base problem changed");
-  else if (problem)
-    (void)snprintf(cause, size, "a file that the base problem names changed, its model or data");
-  else if (c.added + c.gone > 0)
-    (void)snprintf(cause, size, "the sweep changed");
-  else
-    (void)snprintf(cause, size, "a file that the sweep names, or what cases start from, changed");
-}
-
-static ambulo_status refuse(const ambulo_sweep *s, const char *directory,
-                            const ambulo__listing *old, changes c,
-                            ambulo_diagnostics *diagnostics) {
-  char cause[128];
-  name_cause(s, old, c, cause, sizeof cause);
-  ambulo__place place = {directory, 0, 0, NULL};
-  return ambulo__error(
-      diagnostics, AMBULO_E_PROBLEM, place,
-      "--force keeps the cases that are the same and computes the others; or give another folder",
-      "the folder was filled from other inputs: %s; %d cases the same, %d with other inputs, "
-      "%d new, %d gone (first: '%.60s')",
-      cause, c.same, c.changed, c.added, c.gone, c.first ? c.first : "");
-}
-
 /* ----------------------------------------------------------------- the folder */
 
 static int begins_with(const char *name, const char *start) {
@@ -237,8 +168,8 @@ static int is_known(const char *name) {
                                       "batch.json", "results.csv", "results.jsonl"};
   for (size_t i = 0; i < sizeof names / sizeof *names; i++)
     if (strcmp(name, names[i]) == 0) return 1;
-  return begins_with(name, "results_") || begins_with(name, "results.csv.tmp-") ||
-         begins_with(name, "results.jsonl.tmp-");
+  return begins_with(name, "results_") || begins_with(name, "front.svg") ||
+         begins_with(name, "results.csv.tmp-") || begins_with(name, "results.jsonl.tmp-");
 }
 
 /* a file of the folder that begins as a batch writes it */
@@ -326,42 +257,20 @@ static ambulo_status find_mark(const char *directory, const ambulo_allocator *a,
   return status;
 }
 
-/* what the folder says it was filled from, against this sweep */
-static ambulo_status compare_with_old(const ambulo_sweep *sweep, const char *directory, int force,
-                                      const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
-  ambulo__listing old;
-  ambulo__place place = {directory, 0, 0, NULL};
-  int damaged = 0;
-  ambulo_diagnostics *reasons = ambulo_diagnostics_create(a);
-  if (!reasons) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__listing_try(directory, a, reasons, &old, &damaged);
-  if (!status) {
-    changes c = compare(sweep, &old);
-    if (c.changed + c.added + c.gone > 0 && !force)
-      status = refuse(sweep, directory, &old, c, diagnostics);
-    ambulo__listing_free(&old);
-  } else if (damaged) {
-    ambulo__warning(diagnostics, place, NULL,
-                    "damaged: the list of cases is not what was written; it is written anew from "
-                    "the sweep, and cases of other inputs are computed again");
-    status = AMBULO_OK;
-  } else if (status == AMBULO_E_PROBLEM && force) {
-    status = AMBULO_OK;
-  } else {
-    const ambulo_diagnostic *reason = ambulo_diagnostics_get(reasons, 0);
-    if (reason) {
-      place.file = reason->file;
-      (void)ambulo__error(diagnostics, status, place, reason->hint, "%s", reason->message);
-    }
-  }
-  ambulo_diagnostics_free(reasons);
-  return status;
+ambulo_status ambulo__listing_check(const ambulo_sweep *sweep, const char *directory, int force,
+                                    const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
+  struct stat entry;
+  int there = 0;
+  if (stat(directory, &entry) != 0) return AMBULO_OK; /* the run makes it, or says why not */
+  ambulo_status status = find_mark(directory, a, diagnostics, &there);
+  if (status || !there) return status;
+  return ambulo__listing_compare(sweep, directory, force, a, diagnostics);
 }
 
 ambulo_status ambulo__listing_prepare(const ambulo_sweep *sweep, const char *directory, int force,
                                       const ambulo_allocator *a, ambulo_diagnostics *diagnostics) {
   int there = 0;
   ambulo_status status = find_mark(directory, a, diagnostics, &there);
-  if (!status && there) status = compare_with_old(sweep, directory, force, a, diagnostics);
+  if (!status && there) status = ambulo__listing_compare(sweep, directory, force, a, diagnostics);
   return status ? status : write_listing(sweep, directory, a, diagnostics);
 }

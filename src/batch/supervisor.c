@@ -173,10 +173,10 @@ static ambulo_status run_locked(ambulo__supervisor *batch) {
   return batch->status;
 }
 
-ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
-                               const ambulo_batch_options *options,
-                               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-                               ambulo_batch_progress *progress) {
+ambulo_status ambulo__batch_run(const ambulo_sweep *sweep, const char *directory,
+                                const ambulo_batch_options *options,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_batch_progress *progress) {
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!sweep || !directory) return AMBULO_E_ARGUMENT;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);

@@ -45,6 +45,12 @@ typedef struct ambulo__supervisor {
   ambulo_status status; /* of the run: E_IO once a worker could not write */
 } ambulo__supervisor;
 
+/* supervisor.c: solves the cases of a list that stands, as ambulo_batch_run. */
+ambulo_status ambulo__batch_run(const ambulo_sweep *sweep, const char *directory,
+                                const ambulo_batch_options *options,
+                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
+                                ambulo_batch_progress *progress);
+
 /* queue.c: reads the records of this shard's cases and fills the tables. */
 ambulo_status ambulo__queue_open(ambulo__supervisor *batch);
 void ambulo__queue_free(ambulo__supervisor *batch);

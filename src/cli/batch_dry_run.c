@@ -85,6 +85,11 @@ int ambulo__cli_dry_run(const ambulo_sweep *sweep, const char *directory, int wo
   int cases = ambulo_sweep_case_count(sweep), left = cases;
   const char *source = "the first case";
   print_cases(sweep);
+  if (ambulo_sweep_front_points(sweep) > cases) {
+    cases = left = ambulo_sweep_front_points(sweep);
+    printf("and at least %d between them, whose weights follow from these\n",
+           cases - ambulo_sweep_case_count(sweep));
+  }
   ambulo_diagnostics *trial = ambulo_diagnostics_create(NULL);
   ambulo_status timed = time_first_case(sweep, trial, &seconds, &bytes);
   int code = timed ? ambulo__cli_diagnostics(trial, timed, ambulo_sweep_base(sweep)) : 0;

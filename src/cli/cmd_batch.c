@@ -8,6 +8,7 @@
 #include "cli/batch_dry_run.h"
 #include "cli/commands.h"
 #include "cli/format.h"
+#include "cli/front_words.h"
 #include "cli/output.h"
 #include "cli/stop_signals.h"
 
@@ -79,6 +80,18 @@ static int read_options(const ambulo__cli_input *input, ambulo_batch_options *o)
          ambulo__cli_number(input, "grace", 0.0, 1e9, &o->grace) && read_shard(input, o);
 }
 
+/* the table and the picture of a front, and what became of it */
+static int collect_front(const char *directory, int quiet) {
+  ambulo_batch_census census;
+  memset(&census, 0, sizeof census);
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_batch_collect(directory, NULL, diagnostics, &census);
+  int code = ambulo__cli_diagnostics(diagnostics, status, directory);
+  ambulo_diagnostics_free(diagnostics);
+  if (!code && !quiet) ambulo__cli_print_front(directory, &census.front);
+  return code;
+}
+
 static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
                      ambulo_batch_options *o, ambulo_diagnostics *diagnostics) {
   const char *directory = ambulo__cli_value(input, "output");
@@ -94,6 +107,9 @@ static int run_sweep(const ambulo__cli_input *input, const ambulo_sweep *sweep,
   if (end.cases > 0 && !v.quiet)
     printf("%d of %d cases done (%d before), %d without a valid solution, %.1f s\n", end.done,
            end.cases, end.resumed, end.failed, end.seconds);
+  if (code) return code;
+  if (ambulo_sweep_front_points(sweep) > 0 && end.done > 0)
+    code = collect_front(directory, v.quiet);
   if (code) return code;
   if (ambulo__cli_stops() > 0 && end.done < end.cases) return 128 + ambulo__cli_stop_signal();
   return end.failed > 0 || end.done < end.cases ? 1 : 0;
@@ -143,6 +159,9 @@ static int run(const ambulo__cli_input *input) {
   int code;
   if (status) {
     code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
+  } else if (ambulo_sweep_front_points(sweep) > 0 && o.shards > 1) {
+    code = ambulo__cli_usage_error("batch", "its points follow from each other",
+                                   "--shard with a front; expected one run with -j N");
   } else {
     code = dry ? ambulo__cli_dry_run(sweep, directory, o.workers)
                : run_sweep(input, sweep, &o, diagnostics);

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/format.h"
+#include "cli/front_words.h"
 #include "cli/output.h"
 
 enum { MOST_CONDITIONS = 64 };
@@ -54,6 +55,7 @@ static int run(const ambulo__cli_input *input) {
   int code = 0;
   if (!status) {
     printf("written to %s/results.csv and %s/results.jsonl\n", directory, directory);
+    ambulo__cli_print_front(directory, &census.front);
     code = print_census(directory, &census);
   }
   char *file = NULL;

@@ -1,7 +1,10 @@
 /* collect/collect.c - the table of a batch folder.
  *
- * Reading order: gather.h, collect.c, outputs.h, verify.c; plot.h, plot.c, plot_layout.c and the
- * other plot files.
+ * Of a front (front/front.h) each line also has the values of its terms without their weights,
+ * where it stands, and which case is better, and front.svg is drawn.
+ *
+ * Reading order: gather.h, collect.c, outputs.h, verify.c; front_points.h, front_run.c,
+ * front_picture.c; plot.h, plot.c, plot_layout.c and the other plot files.
  */
 #include "base/atomic_file.h"
 #include "base/numtext.h"
@@ -9,6 +12,7 @@
 #include "base/text_buffer.h"
 #include "batch/case_path.h"
 #include "batch/lock.h"
+#include "collect/front_points.h"
 #include "collect/gather.h"
 #include "format/json_text.h"
 
@@ -21,8 +25,9 @@ typedef struct table {
   const char *directory;
   const ambulo__listing *listing;
   ambulo_diagnostics *diagnostics;
-  int *found; /* [outputs] cases that have a value */
-  int solved; /* a case with a valid solution; -1: none */
+  int *found;                 /* [outputs] cases that have a value */
+  int solved;                 /* a case with a valid solution; -1: none */
+  const ambulo__front *front; /* NULL: none */
   ambulo__text_buffer csv, lines;
 } table;
 
@@ -47,6 +52,11 @@ static void csv_titles(table *t) {
     ambulo__text_append_char(&t->csv, ',');
     csv_cell(&t->csv, ambulo__listing_title(l, i));
   }
+  for (int i = 0; t->front && i < l->front.terms; i++) {
+    ambulo__text_append_char(&t->csv, ',');
+    csv_cell(&t->csv, l->front.name[i]);
+  }
+  if (t->front) ambulo__text_append(&t->csv, ",front,place,better");
   for (int i = 0; i < l->outputs; i++) {
     ambulo__text_append_char(&t->csv, ',');
     csv_cell(&t->csv, l->output[i]);
@@ -84,6 +94,31 @@ static void tell_damage(const table *t, const ambulo__gathered *one) {
   ambulo__free(&l->allocator, path);
 }
 
+/* the cell of a column in both tables */
+static void add_cell(table *t, ambulo__json *json, const char *title, const char *text) {
+  ambulo__text_append_char(&t->csv, ',');
+  csv_cell(&t->csv, text);
+  json_pair(json, title, text);
+}
+
+/* values of the terms; where the point stands, its place from 1, and the name of what is better */
+static void add_point(table *t, ambulo__json *json, int index) {
+  const ambulo__listing *l = t->listing;
+  const ambulo__front_point *p = &t->front->point[index];
+  char text[AMBULO__NUMTEXT_SIZE];
+  for (int i = 0; i < l->front.terms; i++) {
+    text[0] = '\0';
+    if (p->solved) (void)ambulo__print_double(text, p->value[i]);
+    add_cell(t, json, l->front.name[i], text);
+  }
+  add_cell(t, json, "front", ambulo__front_word(p->standing));
+  text[0] = '\0';
+  if (p->place >= 0) (void)snprintf(text, sizeof text, "%d", p->place + 1);
+  add_cell(t, json, "place", text);
+  add_cell(t, json, "better",
+           p->better < 0 ? "" : ambulo__listing_cell(l, p->better, AMBULO__LISTING_NAME));
+}
+
 static ambulo_status add_row(void *user, const ambulo__gathered *one) {
   table *t = user;
   const ambulo__listing *l = t->listing;
@@ -102,6 +137,7 @@ static ambulo_status add_row(void *user, const ambulo__gathered *one) {
     csv_cell(&t->csv, ambulo__listing_cell(l, one->index, i));
     json_pair(&json, ambulo__listing_title(l, i), ambulo__listing_cell(l, one->index, i));
   }
+  if (t->front) add_point(t, &json, one->index);
   if (one->valid) t->solved = one->index;
   for (int i = 0; i < l->outputs; i++) {
     t->found[i] += one->value[i].kind != AMBULO__OUTPUT_NONE;
@@ -146,10 +182,15 @@ static ambulo_status write_tables(const table *t) {
   return status;
 }
 
-static ambulo_status collect(const char *directory, const ambulo__listing *listing,
-                             ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
+static ambulo_status write_all(const char *directory, const ambulo__listing *listing,
+                               const ambulo__front *front, ambulo_diagnostics *diagnostics,
+                               ambulo_batch_census *census) {
   const ambulo_allocator *a = &listing->allocator;
-  table t = {.directory = directory, .listing = listing, .diagnostics = diagnostics, .solved = -1};
+  table t = {.directory = directory,
+             .listing = listing,
+             .diagnostics = diagnostics,
+             .solved = -1,
+             .front = front};
   t.found = ambulo__alloc(a, (size_t)listing->outputs, sizeof *t.found);
   ambulo__text_init(&t.csv, a);
   ambulo__text_init(&t.lines, a);
@@ -163,6 +204,28 @@ static ambulo_status collect(const char *directory, const ambulo__listing *listi
   ambulo__free(a, t.found);
   ambulo__text_free(&t.csv);
   ambulo__text_free(&t.lines);
+  return status;
+}
+
+static ambulo_status collect(const char *directory, const ambulo__listing *listing,
+                             ambulo_diagnostics *diagnostics, ambulo_batch_census *census) {
+  const ambulo_allocator *a = &listing->allocator;
+  ambulo__front front;
+  ambulo__front_report report;
+  ambulo_front_census found;
+  memset(&found, 0, sizeof found);
+  if (listing->front.terms == 0) {
+    ambulo_status status = write_all(directory, listing, NULL, diagnostics, census);
+    census->front = found;
+    return status;
+  }
+  ambulo_status status = ambulo__front_gather(directory, listing, &front, &report);
+  if (!status) status = write_all(directory, listing, &front, diagnostics, census);
+  if (!status)
+    status = ambulo__front_tell(directory, listing, &front, &report, diagnostics, &found);
+  if (!status) status = ambulo__front_draw(directory, listing, &front, &report, diagnostics);
+  census->front = found;
+  ambulo__front_free(a, &front);
   return status;
 }
 

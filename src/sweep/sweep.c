@@ -1,7 +1,7 @@
 /* sweep/sweep.c - reading a sweep file.
  *
  * Reading order: sweep.h, sweep.c, sweep_axis.c, sweep_values.c, filter.c, sweep_cases.c,
- * sweep_chains.c, sweep_check.c, sweep_append.c, units.h.
+ * sweep_chains.c, sweep_check.c, sweep_append.c, sweep_front.c, sweep_front_cases.c, units.h.
  */
 #include "sweep/sweep.h"
 #include "ambulo/mechanics.h"
@@ -91,6 +91,8 @@ static ambulo_status read_limits(ambulo_sweep *s, const ambulo__yaml_node *root)
 static ambulo_status read_chain(ambulo_sweep *s, const ambulo__yaml_node *root) {
   static const char *const starts[] = {"zero", "neighbour"};
   int start = ambulo__yaml_choice(ambulo__yaml_get(root, "start_from"), starts, 2, 0);
+  s->front.neighbour = start;
+  if (ambulo__yaml_get(root, "front")) start = 0; /* the next point of the front is the neighbour */
   const ambulo__yaml_node *chain =
       start ? ambulo__yaml_require(root, "along") : ambulo__yaml_get(root, "along");
   s->chain_axis = -1;
@@ -146,7 +148,7 @@ static ambulo_status read_base(ambulo_sweep *s, const ambulo__yaml_node *node) {
 static void expect_all(const ambulo__yaml_node *root) {
   static const char *const keys[] = {"axes",   "combine", "table",   "latin_hypercube",
                                      "random", "filters", "outputs", "start_from",
-                                     "along",  "limits",  "cases"};
+                                     "along",  "limits",  "cases",   "front"};
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) ambulo__yaml_expect(root, keys[i]);
 }
 
@@ -181,10 +183,13 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   if (!status) status = ambulo__sweep_read_outputs(s, ambulo__yaml_get(root, "outputs"));
   if (!status) status = read_limits(s, root);
   if (!status) status = read_chain(s, root);
+  if (!status) status = ambulo__sweep_read_front(s, root);
   status = ambulo__sweep_close(root, status);
   if (!status) status = ambulo__yaml_finish(document);
   if (!status) status = read_base(s, ambulo__yaml_get(root, "base"));
-  if (!status) status = ambulo__sweep_build_cases(s, ambulo__yaml_get(root, "cases"));
+  if (!status)
+    status = s->front.terms > 0 ? ambulo__sweep_build_front(s, ambulo__yaml_get(root, "front"))
+                                : ambulo__sweep_build_cases(s, ambulo__yaml_get(root, "cases"));
   if (!status) status = ambulo__yaml_finish(document);
   return status;
 }
@@ -262,6 +267,7 @@ void ambulo_sweep_free(ambulo_sweep *s) {
     ambulo__free(&a, s->output[i].label);
     ambulo__free(&a, s->output[i].unit);
   }
+  for (int i = 0; i < AMBULO__FRONT_TERMS; i++) ambulo__free(&a, s->front.name[i]);
   ambulo__free(&a, s->output);
   ambulo__free(&a, s->cases);
   ambulo__free(&a, s->value);
@@ -283,6 +289,9 @@ const char *ambulo_sweep_base(const ambulo_sweep *s) {
 }
 int ambulo_sweep_case_count(const ambulo_sweep *s) {
   return s->case_count;
+}
+int ambulo_sweep_front_points(const ambulo_sweep *s) {
+  return s->front.terms > 0 ? s->front.points : 0;
 }
 int ambulo_sweep_axis_count(const ambulo_sweep *s) {
   return s->axes;

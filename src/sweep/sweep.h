@@ -10,6 +10,7 @@
 #include "ambulo/batch.h"
 #include "base/alloc.h"
 #include "format/yaml_node.h"
+#include "front/front.h"
 
 enum {
   AMBULO__SWEEP_AXES = 64,
@@ -59,6 +60,15 @@ typedef struct ambulo__sweep_output {
   const char *known_unit;
 } ambulo__sweep_output;
 
+/* The key `front`. Its axes are the weights, axis i that of term i. */
+typedef struct ambulo__sweep_front {
+  int terms, points;               /* terms 0: no front */
+  int neighbour;                   /* start_from: neighbour */
+  double least;                    /* share of the other terms at an anchor */
+  char *name[AMBULO__FRONT_TERMS]; /* of the terms */
+  double own[AMBULO__FRONT_TERMS]; /* their weights in the base problem's file */
+} ambulo__sweep_front;
+
 struct ambulo_sweep {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;              /* while loading */
@@ -79,6 +89,7 @@ struct ambulo_sweep {
   int *value; /* [cases][stride]: index into the axis's values; -1: not set */
   int stride; /* axes, those of explicit cases included */
   int case_count, case_capacity;
+  ambulo__sweep_front front;
   int trusted; /* cases before it were run or verified by this process: their files are believed */
   /* of the base problem as understood; of its file's text; of the former with the versions */
   unsigned long long problem_hash, text_hash, base_hash;
@@ -135,6 +146,18 @@ ambulo_status ambulo__sweep_begin(const char *name, const char *path, const char
 ambulo_status ambulo__sweep_append(ambulo_sweep *sweep, const char *name,
                                    const char *const *overrides, int count, int previous,
                                    ambulo_diagnostics *diagnostics, int *index);
+
+/* sweep_front.c: `front`, before and after the base problem was loaded: its terms become axes, its
+ * first anchors cases. The document knows the faults; E_MEMORY. */
+ambulo_status ambulo__sweep_read_front(ambulo_sweep *sweep, const ambulo__yaml_node *root);
+ambulo_status ambulo__sweep_build_front(ambulo_sweep *sweep, const ambulo__yaml_node *root);
+/* sweep_front_cases.c: a sweep of the same front without cases, which may grow; free with
+ * ambulo_sweep_free. E_MEMORY. */
+ambulo_status ambulo__sweep_clone_front(const ambulo_sweep *sweep, ambulo_sweep **clone);
+/* Adds the case of a request, whose points have the places of the cases; *index as of
+ * ambulo__sweep_append, as are errors. */
+ambulo_status ambulo__sweep_append_point(ambulo_sweep *sweep, const ambulo__front_request *request,
+                                         ambulo_diagnostics *diagnostics, int *index);
 
 /* ambulo__yaml_close at the end of a section that was read, as `status` says; without memory what
  * was not read any more is no stranger. Returns `status`. */

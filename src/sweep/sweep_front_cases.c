@@ -1,0 +1,125 @@
+/* sweep/sweep_front_cases.c - the cases of a front: they grow while it is computed (sweep.h).
+ *
+ * Point k of the front is case k of the list. A point is named by its place in the list, an anchor
+ * by the term that it has least of. */
+#include "base/numtext.h"
+#include "sweep/sweep.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static char *copy(const ambulo_sweep *s, const char *text, ambulo_status *status) {
+  char *made = text ? ambulo__strdup(&s->allocator, text) : NULL;
+  if (text && !made) *status = AMBULO_E_MEMORY;
+  return made;
+}
+
+static ambulo_status clone_axes(const ambulo_sweep *s, ambulo_sweep *c) {
+  ambulo_status status = AMBULO_OK;
+  for (int i = 0; i < s->axes && !status; i++) {
+    ambulo__axis *axis = NULL;
+    status = ambulo__sweep_add_axis(c, s->axis[i].name, s->axis[i].key, s->axis[i].spot, &axis);
+  }
+  return status;
+}
+
+static ambulo_status clone_outputs(const ambulo_sweep *s, ambulo_sweep *c) {
+  ambulo_status status = AMBULO_OK;
+  c->output = ambulo__alloc(&c->allocator, (size_t)s->outputs, sizeof *c->output);
+  if (!c->output) return AMBULO_E_MEMORY;
+  for (int i = 0; i < s->outputs; i++) {
+    c->output[i].path = copy(c, s->output[i].path, &status);
+    c->output[i].label = copy(c, s->output[i].label, &status);
+    c->output[i].unit = copy(c, s->output[i].unit, &status);
+    c->output[i].known_unit = s->output[i].known_unit;
+    c->outputs++;
+  }
+  return status;
+}
+
+ambulo_status ambulo__sweep_clone_front(const ambulo_sweep *s, ambulo_sweep **clone) {
+  ambulo_sweep *c = ambulo__alloc(&s->allocator, 1, sizeof *c);
+  ambulo_status status = AMBULO_OK;
+  if (!c) return AMBULO_E_MEMORY;
+  c->allocator = s->allocator;
+  c->chain_axis = -1;
+  c->case_seconds = s->case_seconds;
+  c->case_megabytes = s->case_megabytes;
+  c->problem_hash = s->problem_hash;
+  c->text_hash = s->text_hash;
+  c->base_hash = s->base_hash;
+  c->front = s->front;
+  for (int i = 0; i < AMBULO__FRONT_TERMS; i++)
+    c->front.name[i] = copy(c, s->front.name[i], &status);
+  c->name = copy(c, s->name, &status);
+  c->path = copy(c, s->path, &status);
+  c->base = copy(c, s->base, &status);
+  if (!status) status = clone_axes(s, c);
+  if (!status) status = clone_outputs(s, c);
+  c->stride = c->axes > 0 ? c->axes : 1;
+  if (status) {
+    ambulo_sweep_free(c);
+  } else {
+    *clone = c;
+  }
+  return status;
+}
+
+/* whether a case is an anchor of this term */
+static int is_anchor(const char *name, const char *term) {
+  static const char lead[] = "least ";
+  size_t length = strlen(term);
+  if (strncmp(name, lead, sizeof lead - 1) != 0) return 0;
+  name += sizeof lead - 1;
+  return strncmp(name, term, length) == 0 && (!name[length] || name[length] == ',');
+}
+
+static void name_point(const ambulo_sweep *s, const ambulo__front_request *request,
+                       char name[AMBULO__SWEEP_TEXT]) {
+  int again = 0;
+  for (int k = 0; k < s->case_count && request->anchor >= 0; k++)
+    again += is_anchor(s->cases[k].name, s->front.name[request->anchor]);
+  if (request->anchor >= 0 && again > 0) {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "least %.200s, %d", s->front.name[request->anchor],
+                   again + 1);
+  } else if (request->anchor >= 0) {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "least %.200s", s->front.name[request->anchor]);
+  } else if (request->from >= 0 && !s->front.neighbour) {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "%d from %d", s->case_count + 1, request->from + 1);
+  } else {
+    (void)snprintf(name, AMBULO__SWEEP_TEXT, "%d", s->case_count + 1);
+  }
+}
+
+/* the axes' values of a case that was appended */
+static ambulo_status set_values(ambulo_sweep *s, const ambulo__front_request *request, int index) {
+  int *value = ambulo__realloc(&s->allocator, s->value,
+                               (size_t)s->case_capacity * (size_t)s->stride, sizeof *value);
+  if (!value) return AMBULO_E_MEMORY;
+  s->value = value;
+  for (int i = 0; i < s->axes; i++) {
+    ambulo__axis *axis = &s->axis[i];
+    ambulo_status status = ambulo__axis_add_number(s, axis, request->weight[i], axis->spot);
+    if (status) return status;
+    value[(size_t)index * (size_t)s->stride + (size_t)i] = axis->count - 1;
+  }
+  return AMBULO_OK;
+}
+
+ambulo_status ambulo__sweep_append_point(ambulo_sweep *s, const ambulo__front_request *request,
+                                         ambulo_diagnostics *diagnostics, int *index) {
+  char text[AMBULO__FRONT_TERMS][AMBULO__NUMTEXT_SIZE + 64], name[AMBULO__SWEEP_TEXT];
+  const char *overrides[AMBULO__FRONT_TERMS];
+  int before = s->case_count;
+  for (int i = 0; i < s->axes; i++) {
+    char number[AMBULO__NUMTEXT_SIZE];
+    (void)ambulo__print_double(number, request->weight[i]);
+    (void)snprintf(text[i], sizeof text[i], "%.48s=%s", s->axis[i].key, number);
+    overrides[i] = text[i];
+  }
+  name_point(s, request, name);
+  ambulo_status status =
+      ambulo__sweep_append(s, name, overrides, s->axes, request->from, diagnostics, index);
+  if (!status && *index == before) status = set_values(s, request, *index);
+  return status;
+}
