@@ -175,6 +175,7 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   if (ambulo__yaml_file_kind(root, kinds, 1) < 0) return ambulo__yaml_finish(document);
   expect_all(root);
   ambulo_status status = read_head(s, document, root);
+  if (!status) status = ambulo__sweep_read_front(s, root);
   if (!status) status = read_axes(s, root);
   const ambulo__yaml_node *filters = ambulo__yaml_get(root, "filters");
   if (!status) status = ambulo__sweep_check_axes(s);
@@ -183,7 +184,6 @@ ambulo_status ambulo__sweep_read(ambulo_sweep *s, const ambulo__yaml *document) 
   if (!status) status = ambulo__sweep_read_outputs(s, ambulo__yaml_get(root, "outputs"));
   if (!status) status = read_limits(s, root);
   if (!status) status = read_chain(s, root);
-  if (!status) status = ambulo__sweep_read_front(s, root);
   status = ambulo__sweep_close(root, status);
   if (!status) status = ambulo__yaml_finish(document);
   if (!status) status = read_base(s, ambulo__yaml_get(root, "base"));
