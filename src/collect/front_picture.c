@@ -121,14 +121,11 @@ static const char *name_of(const drawing *d, int k) {
   return ambulo__listing_cell(d->listing, k, AMBULO__LISTING_NAME);
 }
 
-/* names of points stand above and to the right, that of an anchor where its half of the panel has
- * room */
-static void draw_name(const drawing *d, const frame *f, int k, double x, double y,
-                      ambulo__text_buffer *svg) {
-  const char *name = name_of(d, k);
-  int is_long = strlen(name) > 4, right = x > f->x + 0.6 * panel;
-  ambulo__svg_label(svg, is_long && right ? "end" : "", is_long && right ? x + 6.0 : x + 8.0,
-                    is_long && right ? y - 11.0 : y - 6.0, name);
+/* the place along the front, as in the table; above and to the right */
+static void draw_name(const drawing *d, int k, double x, double y, ambulo__text_buffer *svg) {
+  char name[16];
+  (void)snprintf(name, sizeof name, "%d", d->front->point[k].place + 1);
+  ambulo__svg_label(svg, "", x + 7.0, y - 6.0, name);
 }
 
 static ambulo_status draw_point(const drawing *d, const frame *f, int k, ambulo__text_buffer *svg) {
@@ -138,7 +135,9 @@ static ambulo_status draw_point(const drawing *d, const frame *f, int k, ambulo_
   const char *id = ambulo__listing_cell(l, k, AMBULO__LISTING_ID);
   char *path = ambulo__case_path(&l->allocator, ".", id, "/gait.svg"), fill[8];
   if (!path) return AMBULO_E_MEMORY;
-  ambulo__text_append_format(svg, "<a href=\"%s\"><title>%s:", path, name_of(d, k));
+  ambulo__text_append_format(svg, "<a href=\"%s\"><title>", path);
+  if (is_on(p)) ambulo__text_append_format(svg, "place %d, ", p->place + 1);
+  ambulo__text_append_format(svg, "case '%s':", name_of(d, k));
   for (int i = 0; i < d->front->terms; i++) {
     ambulo__text_append_format(svg, "%s %s ", i ? "," : "", l->front.name[i]);
     ambulo__text_append_number(svg, p->value[i]);
@@ -148,7 +147,7 @@ static ambulo_status draw_point(const drawing *d, const frame *f, int k, ambulo_
   (void)snprintf(fill, sizeof fill, "%s", colour);
   if (d->front->terms == 3) ambulo__plot_shade(p->z[3 - f->term[0] - f->term[1]], fill);
   ambulo__plot_mark(svg, x, y, radius, is_on(p) ? fill : NULL, "#1d2733");
-  if (is_on(p)) draw_name(d, f, k, x, y, svg);
+  if (is_on(p)) draw_name(d, k, x, y, svg);
   ambulo__text_append(svg, "</a>\n");
   ambulo__free(&l->allocator, path);
   return AMBULO_OK;
@@ -183,7 +182,7 @@ static void draw_titles(const drawing *d, const ambulo__front_report *r, double 
   ambulo__text_append_format(&text, "%.40s: %d points, largest gap %.1f mean gaps",
                              d->listing->name, r->on, r->mean > 0.0 ? r->largest / r->mean : 0.0);
   int others = r->beaten + r->dominated;
-  if (others > 0) ambulo__text_append_format(&text, "; hollow: %d that another beats", others);
+  if (others > 0) ambulo__text_append_format(&text, "; %d left out that another beats", others);
   ambulo__svg_label(svg, "subtitle", left - 58.0, 60.0, ambulo__text_data(&text));
   ambulo__text_clear(&text);
   for (int i = 0; i < f->terms; i++) {
@@ -206,7 +205,7 @@ static ambulo_status draw_page(const drawing *d, const ambulo__front_report *rep
   int panels = d->front->terms == 3 ? 3 : 1;
   double pitch = panel + between, width = left + panels * pitch - between + 40.0;
   ambulo_status status = AMBULO_OK;
-  draw_titles(d, report, fmax(width, 620.0), svg);
+  draw_titles(d, report, fmax(width, 700.0), svg);
   for (int i = 0; i < panels && !status; i++) {
     frame f = {left + i * pitch, top, {pairs[i][0], pairs[i][1]}};
     status = draw_panel(d, &f, svg);

@@ -4,12 +4,14 @@
  * that beat it; and as many new points are shared out among the gaps as are wanted, one after the
  * other to the gap that would be left widest. Of them at most three a gap are asked for at a time:
  * where they end tells better where the others should be. Once there are as many as are wanted, a
- * gap wider than 1.5 mean gaps is halved, until none is, or all that are refuse; in all at most
+ * gap that is too wide is halved, until none is, or all that are refuse; in all at most
  * three times as many solves as points. All follows from the points alone, so that a run that is
  * repeated asks for the same. */
 #include "front/front.h"
 
-static const double widest = 1.5;
+#include <math.h>
+
+static const double widest = 1.5, least_widest = 1.2;
 enum { MOST_AT_ONCE = 3, MOST_SOLVES = 3 };
 
 /* points in valleys, from what is better, unless that was tried */
@@ -60,12 +62,29 @@ static int ask_in_gap(const ambulo__front *f, const ambulo__front_gap *gap, int 
   return count;
 }
 
+/* How wide a gap may be: 1.5 of the mean of those that do not refuse; but no less than 1.2 of what
+ * it would be if the wanted points were shared out over them exactly, or else points would be added
+ * where nothing is wide. */
+static double widest_allowed(const ambulo__front *f, const ambulo__front_gap *gap, int gaps) {
+  double sum = 0.0;
+  int open = 0, refused = 0;
+  for (int i = 0; i < gaps; i++) {
+    refused += gap[i].refused;
+    open += !gap[i].refused;
+    sum += gap[i].refused ? 0.0 : gap[i].length;
+  }
+  int shares = f->wanted - 1 - refused;
+  if (open == 0) return INFINITY;
+  return fmax(widest * sum / open, least_widest * sum / (shares > 0 ? shares : 1));
+}
+
 static int ask_in_gaps(const ambulo__front *f, const ambulo__front_gap *gap, int gaps, int *added,
-                       double mean, ambulo__front_request *requests, int room) {
+                       ambulo__front_request *requests, int room) {
   int on = gaps + 1, count = 0;
+  double most = widest_allowed(f, gap, gaps);
   if (on < f->wanted) share_out(gap, gaps, f->wanted - on, added);
   for (int i = 0; i < gaps && on >= f->wanted; i++)
-    added[i] = !gap[i].refused && gap[i].length > widest * mean;
+    added[i] = !gap[i].refused && gap[i].length > most;
   for (int i = 0; i < gaps && count < room; i++)
     count += ask_in_gap(f, &gap[i], added[i], requests + count, room - count);
   return count;
@@ -80,7 +99,7 @@ static ambulo_status ask_curve(const ambulo__front *f, const ambulo__front_repor
   ambulo_status status = gap && added ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status) {
     ambulo__front_gaps(f, gap, &gaps);
-    *count = ask_in_gaps(f, gap, gaps, added, report->mean, requests, room);
+    *count = ask_in_gaps(f, gap, gaps, added, requests, room);
   }
   ambulo__free(a, gap);
   ambulo__free(a, added);

@@ -7,13 +7,13 @@
 static const double shares[] = {0.5, 0.35, 0.65};
 enum { SHARES = sizeof shares / sizeof *shares };
 
-/* eq. (chord); within what keeps two weights apart */
+/* eq. (chord); where noise hides it, the middle */
 static double tie(const ambulo__front *f, int a, int b) {
   const ambulo__front_point *A = &f->point[a], *B = &f->point[b];
   double ga = ambulo__front_total(f, A->weight, b) - A->total;
   double gb = ambulo__front_total(f, B->weight, a) - B->total;
   if (!(ga > 0.0) || !(gb > 0.0)) return 0.5;
-  return fmin(0.98, fmax(0.02, ga / (ga + gb)));
+  return ga / (ga + gb);
 }
 
 static int find(const ambulo__front *f, const double *weight) {

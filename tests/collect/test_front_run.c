@@ -1,9 +1,9 @@
 /* Fronts by the program itself, of a problem whose front is known by formula; stopped, resumed,
  * refused.
  *
- * A rod turns from q = 0 at rest for one second and would be at 1, and is free at the end. The terms are kinematic: with
- * y = q - 1 and the weights a of the acceleration and b of the posture, the best of
- * int a y''^2 + b y^2 dt has
+ * A rod turns from q = 0 at rest for one second and would be at 1, and is free at the end. The
+ * terms are kinematic: with y = q - 1 and the weights a of the acceleration and b of the posture,
+ * the best of int a y''^2 + b y^2 dt has
  *
  *     a y'''' + b y = 0,  y(0) = -1, y'(0) = 0, y''(1) = y'''(1) = 0,
  *
@@ -18,12 +18,12 @@ static const char model[] =
     "  - {name: rod, parent: none, joint: revolute, dh: [-1.5708, 0, 1, 0], coordinate: {name: "
     "pin, range: [-3, 3]},\n"
     "     body: {mass: 1, com: [-0.5, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0]}}\n";
-static const char problem[] =
-    "ambulo: 1\nkind: problem\nname: swing\nmodel: one.yaml\n"
-    "angles: radians\ntime: {duration: 1.0, intervals: 200}\ntrajectory: {intervals: 50, degree: 4}\n"
-    "ends: {kind: free, initial: {pin: 0}, initial_speed: {pin: 0}}\n"
-    "objective:\n  - {term: acceleration, weight: 0.02}\n"
-    "  - {term: posture, angles: {pin: 1}, scale: {pin: 1}}\n";
+static const char problem[] = "ambulo: 1\nkind: problem\nname: swing\nmodel: one.yaml\n"
+                              "angles: radians\ntime: {duration: 1.0, intervals: 200}\ntrajectory: "
+                              "{intervals: 50, degree: 4}\n"
+                              "ends: {kind: free, initial: {pin: 0}, initial_speed: {pin: 0}}\n"
+                              "objective:\n  - {term: acceleration, weight: 0.02}\n"
+                              "  - {term: posture, angles: {pin: 1}, scale: {pin: 1}}\n";
 static const char study[] = "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\n"
                             "front: {terms: [acceleration, posture], points: 9}\n"
                             "outputs: [objective, verdict]\n";
@@ -181,9 +181,9 @@ static void resumed_runs_give_the_same_bytes(void **state) {
   assert_int_equal(end.done, all);
   assert_true(end.resumed >= all - 1);
   for (int i = 0; i < 2; i++)
-    assert_int_equal(ambulo_batch_collect(scratch_path(state, i ? "wild" : "calm"), NULL, NULL,
-                                          &census),
-                     AMBULO_OK);
+    assert_int_equal(
+        ambulo_batch_collect(scratch_path(state, i ? "wild" : "calm"), NULL, NULL, &census),
+        AMBULO_OK);
   same_file(state, "results.csv");
   same_file(state, "results.jsonl");
   same_file(state, "front.svg");
@@ -255,13 +255,84 @@ static void the_picture_has_links(void **state) {
   ambulo_sweep_free(sweep);
 }
 
+/* a third term that would have the rod elsewhere */
+static void three_terms_have_three_panels(void **state) {
+  char whole[2048];
+  ambulo_sweep *sweep = load(state, study);
+  ambulo_sweep_free(sweep);
+  (void)snprintf(whole, sizeof whole,
+                 "%s  - {term: posture, name: back, angles: {pin: -1}, scale: {pin: 1}}\n",
+                 problem);
+  scratch_write(scratch_path(state, "p.yaml"), whole);
+  scratch_write(scratch_path(state, "s.yaml"),
+                "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\nstart_from: neighbour\n"
+                "front: {terms: [acceleration, posture, back], points: 14}\n");
+  assert_int_equal(ambulo_sweep_load(scratch_path(state, "s.yaml"), NULL, NULL, &sweep), AMBULO_OK);
+  ambulo_batch_progress end;
+  ambulo_batch_census census;
+  const char *folder = scratch_path(state, "b");
+  assert_int_equal(run(sweep, folder, 2, 0, 0, NULL, &end), AMBULO_OK);
+  assert_int_equal(ambulo_batch_collect(folder, NULL, NULL, &census), AMBULO_OK);
+  assert_true(census.front.terms == 3 && census.front.points >= 14);
+  assert_int_equal(census.front.left_out, 0);
+  assert_true(census.front.largest_gap < 5.0 * census.front.mean_gap);
+  char *svg = read_whole(scratch_path(state, "b/front.svg"));
+  int links = 0;
+  for (const char *at = svg; (at = strstr(at, "<a href=")) != NULL; at++) links++;
+  assert_true(links >= 3 * census.front.points);
+  free(svg);
+  ambulo_sweep_free(sweep);
+}
+
+/* Solves by a script: J_1 = 1 - J_0 - 0.1 sin 2 pi J_0, whose second half is not convex; the best
+ * of 200 motions. $9 and $11 are weights as --set has them. */
+static const char wave_worker[] =
+    "#!/bin/sh\n"
+    "for a in \"$@\"; do case $a in objective?0?.weight=*) u=${a#*=} ;; objective?1?.weight=*) "
+    "v=${a#*=} ;; esac; done\n"
+    "mkdir -p \"$5\" && cd \"$5\" || exit 4\n"
+    "awk -v u=$u -v v=$v 'BEGIN { best = 1e9; for (i = 0; i <= 200; i++) { s = i / 200; w = 1 - s "
+    "- "
+    "0.1 * sin(6.283185307 * s); t = u * s + v * w; if (t < best) { best = t; a = u * s; b = v * w "
+    "} "
+    "} printf \"{\\\"verdict\\\": \\\"optimal\\\", \\\"objective\\\": {\\\"total\\\": %.12g, "
+    "\\\"terms\\\": {\\\"acceleration\\\": %.12g, \\\"posture\\\": %.12g}}, \\\"audit\\\": "
+    "{\\\"violation\\\": {\\\"worst\\\": 1e-9}}}\\n\", best, a, b }' >summary.json\n"
+    "echo 'ambulo: 1' >solution.yaml\n";
+
+static void gaps_are_told(void **state) {
+  ambulo_sweep *sweep = load(state, study);
+  ambulo_batch_options o = ambulo_batch_options_default();
+  ambulo_batch_progress end;
+  ambulo_batch_census census;
+  const char *folder = scratch_path(state, "b");
+  scratch_write(scratch_path(state, "worker"), wave_worker);
+  assert_int_equal(chmod(scratch_path(state, "worker"), 0700), 0);
+  o.program = scratch_path(state, "worker");
+  assert_int_equal(ambulo_batch_run(sweep, folder, &o, NULL, NULL, &end), AMBULO_OK);
+  assert_true(end.failed == 0 && end.done > 9);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo_batch_collect(folder, NULL, list, &census), AMBULO_OK);
+  assert_int_equal(census.front.refused, 1);
+  assert_message(list, 0, "no weights lead between the points");
+  assert_message(list, 0, "acceleration 0.285 to 1)");
+  char *svg = read_whole(scratch_path(state, "b/front.svg"));
+  assert_non_null(strstr(svg, "stroke-dasharray=\"3 5\""));
+  free(svg);
+  ambulo_diagnostics_free(list);
+  ambulo_sweep_free(sweep);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(the_front_is_the_known_one, scratch_open, scratch_close),
-      cmocka_unit_test_setup_teardown(resumed_runs_give_the_same_bytes, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(resumed_runs_give_the_same_bytes, scratch_open,
+                                      scratch_close),
       cmocka_unit_test_setup_teardown(other_inputs_are_refused, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(without_ends_there_is_no_front, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(the_picture_has_links, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(three_terms_have_three_panels, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(gaps_are_told, scratch_open, scratch_close),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,8 +68,8 @@ static void points_are_even(void **state) {
   }
 }
 
-/* what one term costs in another unit changes neither the places nor the number of points much: ends are asked
- * for again until the shares there are right */
+/* what one term costs in another unit changes neither the places nor the number of points much:
+ * ends are asked for again until the shares there are right */
 static void units_do_not_matter(void **state) {
   (void)state;
   for (int power = -4; power <= 4; power += 2) {

@@ -68,9 +68,10 @@ static void ends_are_cases(void **state) {
 }
 
 static void faults_are_told_with_their_place(void **state) {
-  refused(state, "front: {terms: [rest, torqe_squared]}\n",
-          "s.yaml:5:23: error[E_SCHEMA]: unknown term (got 'torqe_squared'); expected a term of the "
-          "base problem's objective\n  hint: did you mean 'torque_squared'?");
+  refused(
+      state, "front: {terms: [rest, torqe_squared]}\n",
+      "s.yaml:5:23: error[E_SCHEMA]: unknown term (got 'torqe_squared'); expected a term of the "
+      "base problem's objective\n  hint: did you mean 'torque_squared'?");
   refused(state, "front: {terms: [rest, posture]}\n", "unknown term (got 'posture')");
   refused(state, "front: {terms: [rest]}\n",
           "s.yaml:5:16: error[E_SCHEMA]: a front of 1 term; expected two or three");
@@ -83,7 +84,8 @@ static void faults_are_told_with_their_place(void **state) {
           "the term 'torque_rate' has no weight in the base problem; expected a positive one");
   refused(state, "front: {terms: rest}\n", "'terms' is no list");
   refused(state, "front: {points: 3}\n", "missing required key 'terms'");
-  refused(state, "front: {terms: [rest, acceleration], points: 2}\n", "got '2'; expected a whole number from 3 to 500");
+  refused(state, "front: {terms: [rest, acceleration], points: 2}\n",
+          "got '2'; expected a whole number from 3 to 500");
   refused(state, "front: {terms: [rest, acceleration], point: 9}\n", "did you mean 'points'?");
   refused(state, "front: {terms: [rest, acceleration], least: 0.5}\n", "got '0.5'");
   refused(state, "front: {terms: [rest, acceleration]}\naxes: []\n",
@@ -140,8 +142,9 @@ static void memory_may_run_out_anywhere(void **state) {
     ambulo_sweep *s = NULL, *t = NULL;
     ambulo__front_request request = {{1.0, 2.0}, -1, {-1, -1}, -1};
     int index;
-    ambulo_status status = load(state, "front: {terms: [rest, torque_squared]}\n"
-                                       "outputs: [objective]\n",
+    ambulo_status status = load(state,
+                                "front: {terms: [rest, torque_squared]}\n"
+                                "outputs: [objective]\n",
                                 &allocator, NULL, &s);
     if (!status) status = ambulo__sweep_clone_front(s, &t);
     if (!status) status = ambulo__sweep_append_point(t, &request, NULL, &index);
@@ -157,7 +160,8 @@ static void memory_may_run_out_anywhere(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(ends_are_cases, scratch_open, scratch_close),
-      cmocka_unit_test_setup_teardown(faults_are_told_with_their_place, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(faults_are_told_with_their_place, scratch_open,
+                                      scratch_close),
       cmocka_unit_test_setup_teardown(points_are_appended_once, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(memory_may_run_out_anywhere, scratch_open, scratch_close),
   };
