@@ -1,7 +1,8 @@
 /* sweep/sweep.c - reading a sweep file.
  *
  * Reading order: sweep.h, sweep.c, sweep_axis.c, sweep_values.c, filter.c, sweep_cases.c,
- * sweep_chains.c, sweep_check.c, sweep_append.c, sweep_front.c, sweep_front_cases.c, units.h.
+ * sweep_chains.c, sweep_check.c, sweep_append.c, sweep_front.c, sweep_front_cases.c,
+ * sweep_front_clone.c, units.h.
  */
 #include "sweep/sweep.h"
 #include "ambulo/mechanics.h"

@@ -151,11 +151,11 @@ ambulo_status ambulo__sweep_append(ambulo_sweep *sweep, const char *name,
  * first anchors cases. The document knows the faults; E_MEMORY. */
 ambulo_status ambulo__sweep_read_front(ambulo_sweep *sweep, const ambulo__yaml_node *root);
 ambulo_status ambulo__sweep_build_front(ambulo_sweep *sweep, const ambulo__yaml_node *root);
-/* sweep_front_cases.c: a sweep of the same front without cases, which may grow; free with
+/* sweep_front_clone.c: a sweep of the same front without cases, which may grow; free with
  * ambulo_sweep_free. E_MEMORY. */
 ambulo_status ambulo__sweep_clone_front(const ambulo_sweep *sweep, ambulo_sweep **clone);
-/* Adds the case of a request, whose points have the places of the cases; *index as of
- * ambulo__sweep_append, as are errors. */
+/* sweep_front_cases.c: adds the case of a request, whose points have the places of the cases;
+ * *index as of ambulo__sweep_append, as are errors. */
 ambulo_status ambulo__sweep_append_point(ambulo_sweep *sweep, const ambulo__front_request *request,
                                          ambulo_diagnostics *diagnostics, int *index);
 
