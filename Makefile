@@ -97,7 +97,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all help setup demo check tests run-tests bench bench-table4 bench-peers \
+.PHONY: all help setup demo check tests run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers \
@@ -120,6 +120,7 @@ help:
 	@echo 'make lint         format, static analysis, folder order, sizes, symbols, callers, test mirror'
 	@echo 'make format       clang-format everything'
 	@echo 'make bench        time every layer; results and changes in bench/results'
+	@echo 'make bench-table1 three formulations of the same problems, as in Table 1 of the source paper'
 	@echo 'make bench-table4 the nine cells of Table 4 of the source paper'
 	@echo 'make bench-peers  mechanics and solves beside other programs, in one run'
 	@echo 'make setup        only install what is missing'
@@ -228,6 +229,10 @@ sanitize: build/.ready-test
 bench: build/.ready-build
 	$(submake) $(BENCHES)
 	@for program in $(BENCHES); do OPENBLAS_NUM_THREADS=1 $$program || exit 1; done
+
+bench-table1: build/.ready-build
+	$(submake) $(OUT)/bench/table1
+	@OPENBLAS_NUM_THREADS=1 $(OUT)/bench/table1
 
 bench-table4: build/.ready-build
 	$(submake) $(OUT)/bench/table4
