@@ -5,7 +5,7 @@
  *
  * Reading order: channels.h, row_kind.h, row_table.h, gait.h, phases.h, schedule.c, expand.c,
  * ends.c; bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c,
- * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c.
+ * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c; collision.h.
  */
 #ifndef AMBULO_GAIT_GAIT_H
 #define AMBULO_GAIT_GAIT_H
