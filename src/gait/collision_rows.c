@@ -4,6 +4,9 @@
  * ground's height h. A box with heading psi has the axes
  *
  *     cos(psi) f + sin(psi) l,   cos(psi) l - sin(psi) f,   n
+ *
+ * D is the radii, the margin and what parts that pass come nearer between two nodes than at them
+ * (gait/feet_apart.c), which vanishes on a fine grid.
  */
 #include "base/instant.h"
 #include "base/vector.h"
@@ -43,7 +46,8 @@ static ambulo__solid pair_of(const ambulo__gait_context *context, ambulo_capsule
                          .other = channel_of(context, pair.other),
                          .about = -1,
                          .radius = one->radius + other->radius};
-  solid.distance = solid.radius + context->definition->collision.margin;
+  solid.distance = solid.radius + context->definition->collision.margin +
+                   ambulo__passing_allowance(context->definition);
   solid.weight[0] = ambulo__solid_weight(length_of(one), one->radius);
   solid.weight[1] = ambulo__solid_weight(length_of(other), other->radius);
   return solid;
@@ -103,7 +107,8 @@ static void rows_of_capsule(const ambulo__gait_context *context, int index, int 
   ambulo__solid solid = ambulo__solid_of_obstacle(context->definition, index);
   solid.one = channel_of(context, capsule);
   solid.radius += own->radius;
-  solid.distance = solid.radius + obstacle->margin;
+  solid.distance =
+      solid.radius + obstacle->margin + ambulo__passing_allowance(context->definition);
   solid.weight[0] = ambulo__solid_weight(length_of(own), own->radius);
   for (int node = 0; node < context->nodes; node++)
     ambulo__row_solid(table, AMBULO__KIND_OBSTACLE, own->name, obstacle->name, node,
