@@ -7,12 +7,13 @@
  * with s the scale (px per metre), r_ref a point that moves with the whole body, v its mean
  * speed along f: the true place, with the walking direction stretched by the constant factor
  * that spreads the figures over the time axis. Where the ground is not level each figure stands on
- * the piece of it that is below it.
+ * the piece of it that is below it, and among the pieces of obstacles beside it.
  */
 #include <math.h>
 
 #include "gait/contact_frame.h"
 #include "picture/gait_ground.h"
+#include "picture/gait_obstacles.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
 #include "picture/svg.h"
@@ -268,6 +269,29 @@ static void draw_ground_below(const strip *s, double t, ambulo__text_buffer *tex
   ambulo__svg_path_end(text);
 }
 
+/* what of the obstacles is beside a figure, as far as halfway to the next */
+static void draw_obstacles(const strip *s, const ambulo__stride *stride, double t,
+                           ambulo__text_buffer *text) {
+  double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
+  double origin = s->start + s->speed * t;
+  for (int i = 0; i < ambulo_problem_obstacle_count(stride->problem); i++) {
+    ambulo__outline o = ambulo__obstacle_outline(stride->problem, i);
+    double from[2] = {fmax(o.from - origin, -half), o.high}, page[2];
+    double to = fmin(o.to - origin, half), middle = 0.5 * (o.from + o.to) - origin;
+    to_page(s, t, from, page);
+    if (!(to > from[0]) || !isfinite(page[0] + page[1])) continue;
+    if (o.is_round && fabs(middle) > half) continue;
+    if (!o.is_round) {
+      ambulo__svg_rectangle(text, "obstacle", page[0], page[1], s->scale * (to - from[0]),
+                            s->scale * (o.high - o.low));
+      continue;
+    }
+    double center[2] = {middle, 0.5 * (o.low + o.high)};
+    to_page(s, t, center, page);
+    ambulo__svg_circle(text, "obstacle", page[0], page[1], 0.5 * s->scale * (o.high - o.low));
+  }
+}
+
 static void draw_level_ground(const strip *s, ambulo__text_buffer *text) {
   double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
   ambulo__svg_rectangle(text, "soil", left, s->base, width, soil_depth);
@@ -281,6 +305,7 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
   for (int k = 0; k < stride->samples; k++) {
     double t = stride->times[k];
     ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
+    draw_obstacles(s, stride, t, text);
     ambulo__svg_group_begin(text, "figure");
     draw_side(s, t, AMBULO__LEFT, "left", text);
     draw_side(s, t, AMBULO__MIDDLE, "trunk", text);
