@@ -46,8 +46,16 @@ ambulo_status ambulo__reach_rows(const ambulo__gait_context *context, ambulo__ro
 /* A place along forward, left and up above the ground's height, in the world, m. */
 void ambulo__world_place(const ambulo_problem_definition *definition, const double place[3],
                          double world[3]);
-/* An obstacle in the world: its kind, place and sizes, the rest 0. */
-struct ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *definition,
-                                               int obstacle);
+/* What rows keep clear of, in the world, as gait/solid.h has it; where channels begin is left 0. Of
+ * two capsules; of an obstacle by itself, radius, distance and the first weight without a capsule's;
+ * of a capsule and an obstacle. */
+ambulo__solid ambulo__solid_of_pair(const ambulo_problem_definition *definition,
+                                    ambulo_capsule_pair pair);
+ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *definition, int obstacle);
+ambulo__solid ambulo__solid_near_obstacle(const ambulo_problem_definition *definition, int obstacle,
+                                          int capsule);
+/* How many capsules keep clear of an obstacle, and the i-th of them. */
+int ambulo__obstacle_capsules(const ambulo_problem_definition *definition, int obstacle);
+int ambulo__obstacle_capsule(const ambulo_problem_definition *definition, int obstacle, int i);
 
 #endif

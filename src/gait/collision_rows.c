@@ -38,16 +38,12 @@ static int channel_of(const ambulo__gait_context *context, int capsule) {
 
 /* ----------------------------------------------------------------- one another */
 
-static ambulo__solid pair_of(const ambulo__gait_context *context, ambulo_capsule_pair pair) {
-  const ambulo_capsule *one = &context->model->capsules[pair.one];
-  const ambulo_capsule *other = &context->model->capsules[pair.other];
-  ambulo__solid solid = {.kind = AMBULO__SOLID_MOVING,
-                         .one = channel_of(context, pair.one),
-                         .other = channel_of(context, pair.other),
-                         .about = -1,
-                         .radius = one->radius + other->radius};
-  solid.distance = solid.radius + context->definition->collision.margin +
-                   ambulo__passing_allowance(context->definition);
+ambulo__solid ambulo__solid_of_pair(const ambulo_problem_definition *d, ambulo_capsule_pair pair) {
+  const ambulo_capsule *one = &d->model->capsules[pair.one];
+  const ambulo_capsule *other = &d->model->capsules[pair.other];
+  ambulo__solid solid = {
+      .kind = AMBULO__SOLID_MOVING, .about = -1, .radius = one->radius + other->radius};
+  solid.distance = solid.radius + d->collision.margin + ambulo__passing_allowance(d);
   solid.weight[0] = ambulo__solid_weight(length_of(one), one->radius);
   solid.weight[1] = ambulo__solid_weight(length_of(other), other->radius);
   return solid;
@@ -60,7 +56,9 @@ void ambulo__collision_rows(const ambulo__gait_context *context, ambulo__row_tab
   int nodes = ambulo__distinct_nodes(context, AMBULO__OF_PLACES);
   for (int k = 0; d->collision.mode != AMBULO_COLLISION_OFF && k < d->collision.pair_count; k++) {
     const ambulo_capsule_pair *pair = &d->collision.pairs[k];
-    ambulo__solid solid = pair_of(context, *pair);
+    ambulo__solid solid = ambulo__solid_of_pair(d, *pair);
+    solid.one = channel_of(context, pair->one);
+    solid.other = channel_of(context, pair->other);
     for (int node = 0; node < nodes; node++)
       ambulo__row_solid(table, AMBULO__KIND_COLLISION, capsules[pair->one].name,
                         capsules[pair->other].name, node, context->times[node], &solid);
@@ -82,7 +80,7 @@ static void place_box(const ambulo_problem_definition *d, const ambulo_obstacle 
   }
 }
 
-struct ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *d, int index) {
+ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *d, int index) {
   const ambulo_obstacle *obstacle = &d->obstacles[index];
   ambulo__solid solid = {.about = index};
   if (obstacle->shape == AMBULO_OBSTACLE_BOX) {
@@ -100,29 +98,38 @@ struct ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *
   return solid;
 }
 
-static void rows_of_capsule(const ambulo__gait_context *context, int index, int capsule,
-                            ambulo__row_table *table) {
-  const ambulo_capsule *own = &context->model->capsules[capsule];
-  const ambulo_obstacle *obstacle = &context->definition->obstacles[index];
-  ambulo__solid solid = ambulo__solid_of_obstacle(context->definition, index);
-  solid.one = channel_of(context, capsule);
+ambulo__solid ambulo__solid_near_obstacle(const ambulo_problem_definition *d, int index,
+                                          int capsule) {
+  const ambulo_capsule *own = &d->model->capsules[capsule];
+  ambulo__solid solid = ambulo__solid_of_obstacle(d, index);
   solid.radius += own->radius;
-  solid.distance =
-      solid.radius + obstacle->margin + ambulo__passing_allowance(context->definition);
+  solid.distance = solid.radius + d->obstacles[index].margin + ambulo__passing_allowance(d);
   solid.weight[0] = ambulo__solid_weight(length_of(own), own->radius);
-  for (int node = 0; node < context->nodes; node++)
-    ambulo__row_solid(table, AMBULO__KIND_OBSTACLE, own->name, obstacle->name, node,
-                      context->times[node], &solid);
+  return solid;
+}
+
+int ambulo__obstacle_capsules(const ambulo_problem_definition *d, int index) {
+  const ambulo_obstacle *obstacle = &d->obstacles[index];
+  return obstacle->capsules ? obstacle->capsule_count : d->model->capsule_count;
+}
+
+int ambulo__obstacle_capsule(const ambulo_problem_definition *d, int index, int i) {
+  const ambulo_obstacle *obstacle = &d->obstacles[index];
+  return obstacle->capsules ? obstacle->capsules[i] : i;
 }
 
 /* (14.h) of obstacles */
 void ambulo__obstacle_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
   const ambulo_problem_definition *d = context->definition;
   for (int o = 0; o < d->obstacle_count; o++) {
-    const ambulo_obstacle *obstacle = &d->obstacles[o];
-    int count = obstacle->capsules ? obstacle->capsule_count : context->model->capsule_count;
-    for (int i = 0; i < count; i++)
-      rows_of_capsule(context, o, obstacle->capsules ? obstacle->capsules[i] : i, table);
+    for (int i = 0; i < ambulo__obstacle_capsules(d, o); i++) {
+      int capsule = ambulo__obstacle_capsule(d, o, i);
+      ambulo__solid solid = ambulo__solid_near_obstacle(d, o, capsule);
+      solid.one = channel_of(context, capsule);
+      for (int node = 0; node < context->nodes; node++)
+        ambulo__row_solid(table, AMBULO__KIND_OBSTACLE, context->model->capsules[capsule].name,
+                          d->obstacles[o].name, node, context->times[node], &solid);
+    }
   }
 }
 

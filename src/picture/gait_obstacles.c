@@ -3,10 +3,12 @@
 
 #include "base/vector.h"
 #include "gait/collision.h"
+#include "picture/svg.h"
 
 #include <math.h>
 
 static const double across = 1e-6; /* m */
+static const double ring = 5.0;    /* px */
 
 static void widen(ambulo__outline *o, double forward, double up, double radius) {
   o->from = fmin(o->from, forward - radius);
@@ -37,4 +39,31 @@ ambulo__outline ambulo__obstacle_outline(const ambulo_problem *p, int obstacle) 
     widen(&o, ambulo__dot(m->forward, r), ambulo__dot(m->up, r) - ground, 0.0);
   }
   return o;
+}
+
+static void draw_outline(const ambulo__outline *o, const ambulo__figure_view *v,
+                         ambulo__text_buffer *text) {
+  double from = fmax(o->from - v->origin, -v->half), to = fmin(o->to - v->origin, v->half);
+  double middle = 0.5 * (o->from + o->to) - v->origin, top = v->base - v->scale * o->high;
+  if (o->is_round && fabs(middle) <= v->half)
+    ambulo__svg_circle(text, "obstacle", v->x + v->scale * middle,
+                       v->base - 0.5 * v->scale * (o->low + o->high),
+                       0.5 * v->scale * (o->high - o->low));
+  if (!o->is_round && to > from)
+    ambulo__svg_rectangle(text, "obstacle", v->x + v->scale * from, top, v->scale * (to - from),
+                          v->scale * (o->high - o->low));
+}
+
+void ambulo__gait_obstacles_draw(const ambulo_problem *p, const ambulo__figure_view *v,
+                                 ambulo__text_buffer *text) {
+  for (int i = 0; i < p->definition.obstacle_count; i++) {
+    ambulo__outline outline = ambulo__obstacle_outline(p, i);
+    draw_outline(&outline, v, text);
+  }
+  for (int i = 0; i < p->definition.reach_count; i++) {
+    const ambulo_reach *reach = &p->definition.reaches[i];
+    if (v->time < reach->from - 0.5 * v->apart || v->time >= reach->to + 0.5 * v->apart) continue;
+    ambulo__svg_circle(text, "place", v->x + v->scale * (reach->place[0] - v->origin),
+                       v->base - v->scale * reach->place[2], ring);
+  }
 }

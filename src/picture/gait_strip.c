@@ -269,27 +269,25 @@ static void draw_ground_below(const strip *s, double t, ambulo__text_buffer *tex
   ambulo__svg_path_end(text);
 }
 
-/* what of the obstacles is beside a figure, as far as halfway to the next */
-static void draw_obstacles(const strip *s, const ambulo__stride *stride, double t,
-                           ambulo__text_buffer *text) {
+/* figures that walk, and not only stand beside their own later ones */
+static int walks(const strip *s) {
+  return s->scale * fabs(s->speed) * s->panel->duration > s->panel->width / most_stretch;
+}
+
+/* obstacles and places beside a figure: as far as halfway to the next, or in its reach */
+static void draw_surroundings(const strip *s, const ambulo__stride *stride, double t,
+                              ambulo__text_buffer *text) {
   double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
-  double origin = s->start + s->speed * t;
-  for (int i = 0; i < ambulo_problem_obstacle_count(stride->problem); i++) {
-    ambulo__outline o = ambulo__obstacle_outline(stride->problem, i);
-    double from[2] = {fmax(o.from - origin, -half), o.high}, page[2];
-    double to = fmin(o.to - origin, half), middle = 0.5 * (o.from + o.to) - origin;
-    to_page(s, t, from, page);
-    if (!(to > from[0]) || !isfinite(page[0] + page[1])) continue;
-    if (o.is_round && fabs(middle) > half) continue;
-    if (!o.is_round) {
-      ambulo__svg_rectangle(text, "obstacle", page[0], page[1], s->scale * (to - from[0]),
-                            s->scale * (o.high - o.low));
-      continue;
-    }
-    double center[2] = {middle, 0.5 * (o.low + o.high)};
-    to_page(s, t, center, page);
-    ambulo__svg_circle(text, "obstacle", page[0], page[1], 0.5 * s->scale * (o.high - o.low));
-  }
+  if (!walks(s)) half = fmax(-s->left, s->right) + around;
+  ambulo__figure_view view = {.origin = s->start + s->speed * t,
+                              .half = half,
+                              .x = ambulo__panel_time(s->panel, t),
+                              .base = s->base,
+                              .scale = s->scale,
+                              .time = t,
+                              .apart = stride->duration / (double)(stride->samples - 1)};
+  if (!isfinite(view.origin)) return;
+  ambulo__gait_obstacles_draw(stride->problem, &view, text);
 }
 
 static void draw_level_ground(const strip *s, ambulo__text_buffer *text) {
@@ -305,7 +303,7 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
   for (int k = 0; k < stride->samples; k++) {
     double t = stride->times[k];
     ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
-    draw_obstacles(s, stride, t, text);
+    draw_surroundings(s, stride, t, text);
     ambulo__svg_group_begin(text, "figure");
     draw_side(s, t, AMBULO__LEFT, "left", text);
     draw_side(s, t, AMBULO__MIDDLE, "trunk", text);
@@ -328,7 +326,7 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
   double true_width = s->scale * fabs(s->speed) * s->panel->duration;
   ambulo__text_buffer label;
   ambulo__text_init_part(&label, text);
-  if (true_width > s->panel->width / most_stretch) {
+  if (walks(s)) {
     ambulo__text_append(&label, "side view, walking direction stretched ");
     ambulo__label_number(&label, s->panel->width / true_width, 1);
     ambulo__text_append(&label, "\xc3\x97");
