@@ -47,7 +47,7 @@ ambulo_status ambulo__reach_rows(const ambulo__gait_context *context, ambulo__ro
 void ambulo__world_place(const ambulo_problem_definition *definition, const double place[3],
                          double world[3]);
 /* What rows keep clear of, in the world, as gait/solid.h has it; where channels begin is left 0. Of
- * two capsules; of an obstacle by itself, radius, distance and the first weight without a capsule's;
+ * two capsules; of an obstacle by itself, without a capsule's radius, distance and weights;
  * of a capsule and an obstacle. */
 ambulo__solid ambulo__solid_of_pair(const ambulo_problem_definition *definition,
                                     ambulo_capsule_pair pair);

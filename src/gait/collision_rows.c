@@ -88,13 +88,10 @@ ambulo__solid ambulo__solid_of_obstacle(const ambulo_problem_definition *d, int 
     place_box(d, obstacle, &solid);
     return solid;
   }
-  double u[3];
   solid.kind = AMBULO__SOLID_CAPSULE;
   solid.radius = obstacle->radius;
   ambulo__world_place(d, obstacle->from, solid.ends[0]);
   ambulo__world_place(d, obstacle->to, solid.ends[1]);
-  for (int i = 0; i < 3; i++) u[i] = solid.ends[1][i] - solid.ends[0][i];
-  solid.weight[1] = ambulo__solid_weight(sqrt(ambulo__dot(u, u)), obstacle->radius);
   return solid;
 }
 
@@ -105,6 +102,7 @@ ambulo__solid ambulo__solid_near_obstacle(const ambulo_problem_definition *d, in
   solid.radius += own->radius;
   solid.distance = solid.radius + d->obstacles[index].margin + ambulo__passing_allowance(d);
   solid.weight[0] = ambulo__solid_weight(length_of(own), own->radius);
+  if (solid.kind == AMBULO__SOLID_CAPSULE) solid.weight[1] = solid.weight[0];
   return solid;
 }
 

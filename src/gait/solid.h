@@ -9,6 +9,8 @@
  *     c = sqrt(V) - sqrt(D^2 + W) - P >= 0      m
  *     w_i = eps (length_i^2 + radius_i^2),  W = sum of w_i / 4,  eps = 1e-3
  *
+ * w_i of a capsule that stands still is that of the link's, so that it goes with no place.
+ *
  * As V - W is at most the squared distance, c >= 0 keeps D indeed; at most W / 2 D more, .5 mm of
  * two shanks. c is about the distance less D, in m. Its slopes are those of V by 2 sqrt(V), and of
  * P: they go on without a jump but where segments cross (V = 0: there they are taken as 0), and
@@ -33,7 +35,7 @@ typedef struct ambulo__solid {
   int about;         /* index of the obstacle; -1: a capsule that moves */
   double radius;     /* of both together, m */
   double distance;   /* D, m */
-  double weight[2];  /* w_i, m^2; [1] is 0 of a box */
+  double weight[2];  /* w_i, m^2; [1] of a box: 0 */
   double ends[2][3]; /* of a fixed capsule, world, m */
   double center[3], axes[3][3], half[3]; /* of a box: world, m; rows of axes are its directions */
 } ambulo__solid;
@@ -51,8 +53,9 @@ int ambulo__solid_channels(const ambulo__solid *solid, int channel[AMBULO__SOLID
 /* What air there is between the two, margin left out, without weights, m; negative: so far is one
  * inside the other. */
 double ambulo__solid_gap(const ambulo__solid *solid, const double *y, int stride);
-/* Slopes of the value by the obstacle's place: by_place[3], world; zero of what moves. */
+/* Slopes of the value by the obstacle's place, world: of a box by_place[0] by its middle, of a
+ * capsule by both its ends; the rest, and all of what moves, 0. */
 void ambulo__solid_by_place(const ambulo__solid *solid, const double *y, int stride,
-                            double by_place[3]);
+                            double by_place[2][3]);
 
 #endif
