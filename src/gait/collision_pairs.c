@@ -169,7 +169,7 @@ static ambulo_status keep_automatic(const ambulo_problem_definition *d,
       for (int b = a + 1; b < m->capsule_count; b++) {
         if (ambulo__links_are_neighbours(m, m->capsules[a].link, m->capsules[b].link)) continue;
         ambulo_capsule_pair pair = {a, b};
-        if (gap_at(&pose, pair) >= d->collision.margin)
+        if (gap_at(&pose, pair) >= 0.0)
           pairs->kept[pairs->kept_count++] = pair;
         else
           pairs->left[pairs->left_count++] = pair;

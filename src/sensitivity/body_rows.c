@@ -63,7 +63,7 @@ static int rows_of_reach(const ambulo_problem *p, int reach) {
   return nodes * (r->tolerance > 0.0 ? 6 : 3);
 }
 
-/* (S.13) of margins, places and tolerances */
+/* (S.19) of margins, places and tolerances */
 void ambulo__partials_of_bodies(const ambulo__stationary *s, ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   int reach = -1, left = 0;
