@@ -39,7 +39,10 @@ typedef struct ambulo_collision {
   double margin; /* air that they keep, m, >= 0 */
 } ambulo_collision;
 
-typedef enum ambulo_obstacle_shape { AMBULO_OBSTACLE_BOX, AMBULO_OBSTACLE_CAPSULE } ambulo_obstacle_shape;
+typedef enum ambulo_obstacle_shape {
+  AMBULO_OBSTACLE_BOX,
+  AMBULO_OBSTACLE_CAPSULE
+} ambulo_obstacle_shape;
 
 /* Something that stands still. Not with mirrored ends, where one step stands for both. */
 typedef struct ambulo_obstacle {

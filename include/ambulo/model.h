@@ -104,8 +104,8 @@ typedef struct ambulo_patch {
   int mirror; /* patch that takes its place in the mirror image (in a definition -1: itself) */
 } ambulo_patch;
 
-/* The room that a link takes up: all that is within `radius` of a line of its. Problems keep capsules
- * out of one another and out of obstacles (ambulo_collision in problem.h). */
+/* The room that a link takes up: all that is within `radius` of a line of its. Problems keep
+ * capsules out of one another and out of obstacles (ambulo_collision in problem.h). */
 typedef struct ambulo_capsule {
   const char *name; /* "shank_r" */
   int link;
@@ -213,9 +213,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
  * and forward, coordinate for coordinate as `mirror` and `mirror_sign` have it? Compared are, at
  * q = 0: which joint hangs on which, axes of joints, mass, centre of mass and inertia of what each
  * joint carries, and the points of the feet; within 1e-6 of their size (lengths: of the body's;
- * directions: rad). Points that no foot uses, patches, capsules, limits and `actuated` are not. Link frames
- * may be of either handedness. Each difference is a message with the names of both partners and
- * both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
+ * directions: rad). Points that no foot uses, patches, capsules, limits and `actuated` are not.
+ * Link frames may be of either handedness. Each difference is a message with the names of both
+ * partners and both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT,
+ * E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_check_mirror(
     const ambulo_model *model, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics);
 

@@ -95,9 +95,10 @@ static void print_capsules(const ambulo_model *model) {
   if (capsules) printf("\ncapsules (m, link frame)\n");
   for (int i = 0; i < capsules; i++) {
     const ambulo_capsule *c = ambulo_model_capsule(model, i);
-    printf("  %-3d %-12s %-12s radius %.4f, from %.4f %.4f %.4f to %.4f %.4f %.4f, mirror image %s\n",
-           i, c->name, ambulo_model_link(model, c->link)->name, c->radius, c->from[0], c->from[1],
-           c->from[2], c->to[0], c->to[1], c->to[2], ambulo_model_capsule(model, c->mirror)->name);
+    printf(
+        "  %-3d %-12s %-12s radius %.4f, from %.4f %.4f %.4f to %.4f %.4f %.4f, mirror image %s\n",
+        i, c->name, ambulo_model_link(model, c->link)->name, c->radius, c->from[0], c->from[1],
+        c->from[2], c->to[0], c->to[1], c->to[2], ambulo_model_capsule(model, c->mirror)->name);
   }
 }
 
@@ -218,8 +219,9 @@ static void print_obstacles(const ambulo_problem *problem) {
     const ambulo_obstacle *o = ambulo_problem_obstacle(problem, i);
     int is_box = o->shape == AMBULO_OBSTACLE_BOX;
     const double *a = is_box ? o->center : o->from, *b = is_box ? o->half : o->to;
-    printf("  %-12s %s %.4g %.4g %.4g %s %.4g %.4g %.4g", o->name, is_box ? "box about" : "bar from",
-           a[0], a[1], a[2], is_box ? "+-" : "to", b[0], b[1], b[2]);
+    printf("  %-12s %s %.4g %.4g %.4g %s %.4g %.4g %.4g", o->name,
+           is_box ? "box about" : "bar from", a[0], a[1], a[2], is_box ? "+-" : "to", b[0], b[1],
+           b[2]);
     if (!is_box) printf(", radius %.4g", o->radius);
     if (is_box && o->heading != 0.0) printf(", turned by %.4g degrees", degrees * o->heading);
     printf(", margin %.4g\n", o->margin);
@@ -229,7 +231,8 @@ static void print_obstacles(const ambulo_problem *problem) {
 static void print_bodies(const ambulo_problem *problem) {
   int far = ambulo_problem_pairs_too_far(problem);
   print_pairs(problem, "capsules that keep apart", ambulo_problem_pairs);
-  print_pairs(problem, "left out, for they overlap in the rest pose", ambulo_problem_pairs_left_out);
+  print_pairs(problem, "left out, for they overlap in the rest pose",
+              ambulo_problem_pairs_left_out);
   if (far) printf("\n%d other pairs are too far apart to meet\n", far);
   print_obstacles(problem);
 }
@@ -287,10 +290,11 @@ const ambulo__cli_command ambulo__cli_info = {
     .name = "info",
     .arguments = "MODEL.yaml|PROBLEM.yaml",
     .summary = "what was understood: links, masses, schedule, sizes",
-    .description =
-        "Prints links, masses, coordinates with their limits, points, feet, patches and capsules of\n"
-        "a model; for a problem also the unknowns, rows by family, objective terms, what keeps apart,\n"
-        "and the contact schedule with its footholds.",
+    .description = "Prints links, masses, coordinates with their limits, points, feet, patches and "
+                   "capsules of\n"
+                   "a model; for a problem also the unknowns, rows by family, objective terms, "
+                   "what keeps apart,\n"
+                   "and the contact schedule with its footholds.",
     .example = "ambulo info models/lower_body_18.yaml\n"
                "ambulo info models/yardstick_36.yaml",
     .options = options,

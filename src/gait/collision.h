@@ -1,6 +1,4 @@
-/* gait/collision.h - capsules that keep clear: which, of what, and their rows.
- *
- * Reading order: segments.h, segment_box.h, solid.h; collision_pairs.c, collision_rows.c. */
+/* gait/collision.h - capsules that keep clear: which, of what, and their rows. */
 #ifndef AMBULO_GAIT_COLLISION_H
 #define AMBULO_GAIT_COLLISION_H
 

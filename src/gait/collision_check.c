@@ -8,8 +8,8 @@
 #define REFUSE(diagnostics, ...)                                                                   \
   ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL, __VA_ARGS__)
 
-static const double farthest = 1e3; /* m, of places and sizes */
-static const double widest = 10.0;  /* m, of margins and tolerances */
+static const double farthest = 1e3;    /* m, of places and sizes */
+static const double widest = 10.0;     /* m, of margins and tolerances */
 static const double same_place = 1e-6; /* m */
 
 static int is_place(const double place[3]) {
@@ -64,8 +64,8 @@ static ambulo_status check_pairs(const ambulo_problem_definition *d, ambulo_diag
                   "model file",
                   d->model->name);
   if (!is_margin(c->margin))
-    status = REFUSE(list, "constraints.collision.margin is %g m; expected 0 to %g m", c->margin,
-                    widest);
+    status =
+        REFUSE(list, "constraints.collision.margin is %g m; expected 0 to %g m", c->margin, widest);
   for (int k = 0; c->mode == AMBULO_COLLISION_PAIRS && k < c->pair_count; k++) {
     ambulo_status one = check_pair(d, k, list);
     if (one) status = one;
@@ -175,11 +175,12 @@ static ambulo_status check_image(const ambulo_problem_definition *d, int index,
   if (image == (mover < 0 ? -1 : m->coordinates[mover].mirror) && off <= same_place &&
       fabs(own->radius - other->radius) <= same_place)
     return AMBULO_OK;
-  return REFUSE(list,
-                "ends.kind: mirrored ends, but capsule '%s' (radius %.6g m) is not the mirror image "
-                "of '%s' (radius %.6g m), by %.3g m at q = 0; expected the same place on the other "
-                "side, and the same radius",
-                own->name, own->radius, other->name, other->radius, off);
+  return REFUSE(
+      list,
+      "ends.kind: mirrored ends, but capsule '%s' (radius %.6g m) is not the mirror image "
+      "of '%s' (radius %.6g m), by %.3g m at q = 0; expected the same place on the other "
+      "side, and the same radius",
+      own->name, own->radius, other->name, other->radius, off);
 }
 
 ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *d,
@@ -192,9 +193,8 @@ ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *d,
                     "both; expected ends: {kind: free} or {kind: periodic}",
                     d->obstacles[0].name);
   if (d->reach_count > 0)
-    status = REFUSE(list,
-                    "ends.kind: mirrored ends, but constraints.reach asks for a place once; "
-                    "expected ends: {kind: free} or {kind: periodic}");
+    status = REFUSE(list, "ends.kind: mirrored ends, but constraints.reach asks for a place once; "
+                          "expected ends: {kind: free} or {kind: periodic}");
   for (int i = 0; i < d->model->capsule_count; i++) {
     if (d->model->capsules[i].mirror < i || !ambulo__capsule_is_used(d, i)) continue;
     if (check_image(d, i, list)) status = AMBULO_E_PROBLEM;

@@ -188,8 +188,8 @@ ambulo_status ambulo__pairs_create(const ambulo_problem_definition *d,
   memset(pairs, 0, sizeof *pairs);
   size_t n = (size_t)d->model->capsule_count;
   if (d->collision.mode == AMBULO_COLLISION_OFF) return AMBULO_OK;
-  size_t most = d->collision.mode == AMBULO_COLLISION_PAIRS ? 2 * (size_t)d->collision.pair_count
-                                                            : n * n / 2;
+  size_t most =
+      d->collision.mode == AMBULO_COLLISION_PAIRS ? 2 * (size_t)d->collision.pair_count : n * n / 2;
   pairs->kept = ambulo__alloc(allocator, most, sizeof *pairs->kept);
   pairs->left = ambulo__alloc(allocator, most, sizeof *pairs->left);
   ambulo_status status = pairs->kept && pairs->left ? AMBULO_OK : AMBULO_E_MEMORY;

@@ -22,8 +22,8 @@ void ambulo__world_place(const ambulo_problem_definition *d, const double place[
                          double world[3]) {
   const ambulo_model *m = d->model;
   for (int i = 0; i < 3; i++)
-    world[i] = place[0] * m->forward[i] + place[1] * m->left[i] +
-               (place[2] + d->ground_height) * m->up[i];
+    world[i] =
+        place[0] * m->forward[i] + place[1] * m->left[i] + (place[2] + d->ground_height) * m->up[i];
 }
 
 static double length_of(const ambulo_capsule *capsule) {

@@ -5,7 +5,8 @@
  *
  * Reading order: channels.h, row_kind.h, row_table.h, gait.h, phases.h, schedule.c, expand.c,
  * ends.c; bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c,
- * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c; collision.h.
+ * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c; segments.h, segment_box.h,
+ * solid.h, collision.h, collision_pairs.c, collision_rows.c.
  */
 #ifndef AMBULO_GAIT_GAIT_H
 #define AMBULO_GAIT_GAIT_H

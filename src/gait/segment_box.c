@@ -56,8 +56,7 @@ static double parabola(const double a[3], const double u[3], const double half[3
   return linear / square;
 }
 
-ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[3],
-                                           double weight) {
+ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[3], double weight) {
   double u[3], breaks[6], from = 0.0;
   const double *a = ends[0];
   ambulo__box_nearest n = {.at = 1.0};
@@ -123,8 +122,8 @@ static int over_edge(double ends[2][3], const double half[3], int k, way *w) {
   return 1;
 }
 
-double ambulo__box_depth(double ends[2][3], const double half[3], double out[3],
-                         double share[2]) {
+/* (14.h) P */
+double ambulo__box_depth(double ends[2][3], const double half[3], double out[3], double share[2]) {
   way best = through_face(ends, half, 0);
   for (int k = 1; k < 6; k++) {
     way other = {.depth = 0.0};

@@ -25,11 +25,9 @@ typedef struct ambulo__box_nearest {
 } ambulo__box_nearest;
 
 /* ends[0], ends[1]: a, b in the box's axes, m; half: h >= 0; weight: w. */
-ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[3],
-                                           double weight);
+ambulo__box_nearest ambulo__box_nearest_of(double ends[2][3], const double half[3], double weight);
 /* P, m. The way out: a segment's end i that moves by dx makes it shorter by share[i] * (out . dx);
  * set where P > 0. */
-double ambulo__box_depth(double ends[2][3], const double half[3], double out[3],
-                         double share[2]);
+double ambulo__box_depth(double ends[2][3], const double half[3], double out[3], double share[2]);
 
 #endif

@@ -33,16 +33,17 @@ static ambulo__segment_nearest at(const system *m, double s, double t) {
 static ambulo__segment_nearest on_a_side(const system *m) {
   ambulo__segment_nearest best = at(m, 0.0, cut(m->q / m->c));
   const ambulo__segment_nearest others[3] = {at(m, 1.0, cut((m->q + m->b) / m->c)),
-                                     at(m, cut(m->p / m->a), 0.0),
-                                     at(m, cut((m->p + m->b) / m->a), 1.0)};
+                                             at(m, cut(m->p / m->a), 0.0),
+                                             at(m, cut((m->p + m->b) / m->a), 1.0)};
   for (int i = 0; i < 3; i++) {
     if (others[i].value < best.value) best = others[i];
   }
   return best;
 }
 
+/* (14.h) V of two segments */
 ambulo__segment_nearest ambulo__segments_nearest(double one[2][3], double other[2][3],
-                                         const double weight[2]) {
+                                                 const double weight[2]) {
   system m = {.weight = {weight[0], weight[1]}};
   for (int i = 0; i < 3; i++) {
     m.u[i] = one[1][i] - one[0][i];

@@ -29,6 +29,6 @@ typedef struct ambulo__segment_nearest {
 
 /* one[0], one[1]: a, b; other: c, d; weight: w, v. They are only read. */
 ambulo__segment_nearest ambulo__segments_nearest(double one[2][3], double other[2][3],
-                                         const double weight[2]);
+                                                 const double weight[2]);
 
 #endif

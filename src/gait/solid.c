@@ -36,8 +36,7 @@ static void spread(const double e[3], double size, double at, double sign, doubl
   }
 }
 
-static apart from_capsule(double ends[2][3], double other[2][3],
-                          const double weight[2]) {
+static apart from_capsule(double ends[2][3], double other[2][3], const double weight[2]) {
   apart d = {.slope = {{0.0}}};
   ambulo__segment_nearest n = ambulo__segments_nearest(ends, other, weight);
   d.value = sqrt(n.value);

@@ -23,8 +23,8 @@ static void collision(const ambulo__advice *a) {
   double enough = ambulo__outward(margin - a->room, 0);
   what_happens(a, text, sizeof text);
   if (enough < 0.0) {
-    ambulo__advice_say(a, "%s: give them another way past each other, as footholds further apart do",
-                       text);
+    ambulo__advice_say(
+        a, "%s: give them another way past each other, as footholds further apart do", text);
     return;
   }
   ambulo__advice_say(a, "%s: keep a margin of %.4g m instead of %.4g m", text, enough, margin);

@@ -10,7 +10,8 @@
 enum { NAME_SIZE = AMBULO__MAX_NAME + 8 };
 
 /* both ends of a capsule */
-static void add_ends(const ambulo_capsule *capsule, ambulo_point *points, char (*names)[NAME_SIZE]) {
+static void add_ends(const ambulo_capsule *capsule, ambulo_point *points,
+                     char (*names)[NAME_SIZE]) {
   static const char *const ends[] = {"from", "to"};
   for (int end = 0; end < 2; end++) {
     (void)snprintf(names[end], NAME_SIZE, "%s.%s", capsule->name, ends[end]);
@@ -40,8 +41,7 @@ ambulo_status ambulo__model_with_capsule_points(const ambulo_model *m, const int
     count += 2;
   }
   if (!status) status = ambulo__model_copy(m, points, count, &own, diagnostics, extended);
-  if (!status)
-    memcpy((*extended)->capsule_point, first, (size_t)m->capsule_count * sizeof *first);
+  if (!status) memcpy((*extended)->capsule_point, first, (size_t)m->capsule_count * sizeof *first);
   ambulo__free(&own, points);
   ambulo__free(&own, names);
   ambulo__free(&own, first);

@@ -101,8 +101,8 @@ ambulo_status ambulo_model_adapt(const ambulo_model *model, const ambulo_conditi
   }
   ambulo_model *copy = NULL;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = ambulo__model_copy(model, model->points, model->point_count, allocator,
-                                            diagnostics, &copy);
+  ambulo_status status =
+      ambulo__model_copy(model, model->points, model->point_count, allocator, diagnostics, &copy);
   if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
   if (conditions->load_link >= 0)
     ambulo__model_carry(copy, conditions->load_link, conditions->load_mass,

@@ -15,8 +15,7 @@ static ambulo_status resolve_pairs(ambulo_problem *p) {
   ambulo__pairs pairs;
   ambulo_status status = ambulo__pairs_create(&p->definition, &p->allocator, &pairs);
   if (status) return status;
-  ambulo_capsule_pair *kept =
-      ambulo__alloc(&p->allocator, (size_t)pairs.kept_count, sizeof *kept);
+  ambulo_capsule_pair *kept = ambulo__alloc(&p->allocator, (size_t)pairs.kept_count, sizeof *kept);
   if (!kept) {
     ambulo__pairs_free(&p->allocator, &pairs);
     return AMBULO_E_MEMORY;
@@ -39,8 +38,8 @@ static ambulo_status extend_model(ambulo_problem *p, ambulo_diagnostics *diagnos
   }
   ambulo_status status = AMBULO_OK;
   if (missing > 0) {
-    status = ambulo__model_with_capsule_points(m, used, &p->allocator, diagnostics,
-                                               &p->extended_model);
+    status =
+        ambulo__model_with_capsule_points(m, used, &p->allocator, diagnostics, &p->extended_model);
     if (!status) p->definition.model = p->extended_model;
   }
   ambulo__free(&p->allocator, used);

@@ -107,8 +107,7 @@ static void copy_user_rows(const ambulo_problem_definition *from, const ambulo_a
 static void copy_obstacles(const ambulo_problem_definition *from, const ambulo_allocator *a,
                            ambulo_problem_definition *to, int *failed) {
   if (from->obstacle_count <= 0) return;
-  ambulo_obstacle *obstacles =
-      ambulo__alloc(a, (size_t)from->obstacle_count, sizeof *obstacles);
+  ambulo_obstacle *obstacles = ambulo__alloc(a, (size_t)from->obstacle_count, sizeof *obstacles);
   if (!obstacles) {
     *failed = 1;
     return;

@@ -64,8 +64,8 @@ struct ambulo_problem {
   ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
   ambulo_model *extended_model; /* `model` where capsules have rows (nlp/bodies.c); else NULL */
-  ambulo__pairs pairs;          /* what automatic collision came to; all 0 of a problem with others */
-  char *obstacle_names;         /* of the definition's obstacles, and of problems made from it */
+  ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
+  char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section *free; /* one block (reader/problem_free.h); NULL: nothing is free */
   const ambulo_model *model;
   ambulo__plan *plan;

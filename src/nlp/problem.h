@@ -32,8 +32,8 @@ void ambulo__definition_free(const ambulo_allocator *allocator,
                              ambulo_problem_definition *definition);
 /* A copy's pairs of capsules are these, which it frees, instead of those it had. */
 void ambulo__definition_set_pairs(const ambulo_allocator *allocator,
-                                  ambulo_problem_definition *definition,
-                                  ambulo_capsule_pair *pairs, int count);
+                                  ambulo_problem_definition *definition, ambulo_capsule_pair *pairs,
+                                  int count);
 /* The same problem on another grid: `intervals` time intervals and `spline_intervals`
  * intervals of the trajectory. Breakpoints of its own are kept only while their number
  * stays, and times of nodes of its own likewise: other numbers are distributed over the phases.

@@ -1,8 +1,8 @@
 /* reader/model_reader.h - a model file on its way to a definition (docs/model-format.md).
  *
  * The parts of the file are read in this order: subject and units, links, coordinates' mirror
- * images, points, feet, patches, capsules. Faults are recorded and reading goes on; ambulo__reader_status()
- * tells at the end. Names in the definition belong to the YAML document. */
+ * images, points, feet, patches, capsules. Faults are recorded and reading goes on;
+ * ambulo__reader_status() tells at the end. Names in the definition belong to the YAML document. */
 #ifndef AMBULO_READER_MODEL_READER_H
 #define AMBULO_READER_MODEL_READER_H
 

@@ -93,8 +93,8 @@ static void read_pairs(ambulo__problem_reader *reader, const ambulo__yaml_node *
                        ambulo_collision *collision) {
   static const char *const words[] = {"automatic", "off"};
   if (!node || ambulo__yaml_is(node, AMBULO__YAML_SCALAR)) {
-    collision->mode = ambulo__yaml_choice(node, words, 2, 0) ? AMBULO_COLLISION_OFF
-                                                             : AMBULO_COLLISION_AUTOMATIC;
+    collision->mode =
+        ambulo__yaml_choice(node, words, 2, 0) ? AMBULO_COLLISION_OFF : AMBULO_COLLISION_AUTOMATIC;
     return;
   }
   if (!list_of(node, "pairs of capsules, or 'automatic'")) return;

@@ -1,4 +1,5 @@
-/* report/approach_json.h - how near capsules come to one another and to obstacles, in summary.json. */
+/* report/approach_json.h - how near capsules come to one another and to obstacles, in summary.json.
+ */
 #ifndef AMBULO_REPORT_APPROACH_JSON_H
 #define AMBULO_REPORT_APPROACH_JSON_H
 

@@ -16,7 +16,7 @@ static void add_places(ambulo__parameters *p, int obstacle) {
   char label[AMBULO__PARAMETER_TEXT];
   for (int k = 0; k < (is_box ? 3 : 6); k++) {
     (void)snprintf(label, sizeof label, "%s of obstacle '%s', %s",
-                   is_box ? "place"
+                   is_box  ? "place"
                    : k < 3 ? "one end"
                            : "other end",
                    o->name, ways[k % 3]);

@@ -17,9 +17,9 @@
  *
  * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
  * place_rows.c; force_rows.c, support_side.c; contact_pull.h, contact_times.c, sharing_rows.c;
- * bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c, contact_split.h,
- * contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
- * event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
+ * bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
+ * contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h,
+ * event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
  * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
@@ -63,7 +63,7 @@ typedef struct ambulo__partials {
   double *obstacle_place; /* [obstacles][2][3]: of a box's middle, of a capsule's two ends; along
                              forward, left and up */
   double *reach_place, *reach_tolerance; /* [reaches][3], [reaches] */
-  double load;          /* kg: of the load (ambulo_model.load) */
+  double load;                           /* kg: of the load (ambulo_model.load) */
 } ambulo__partials;
 
 /* A solution: x* is the point that the workspace holds. */

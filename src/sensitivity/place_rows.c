@@ -182,8 +182,8 @@ static int add_gap(const place_row *p, ambulo__partials *partials) {
   double value = p->s->workspace->row_value[p->row - problem->table.rows];
   double by_distance = -p->pull * (1.0 + value / curved->of.apart.distance);
   partials->clearance.feet += by_distance;
-  partials->duration += by_distance * ambulo__passing_allowance(&problem->definition) /
-                        problem->definition.duration;
+  partials->duration +=
+      by_distance * ambulo__passing_allowance(&problem->definition) / problem->definition.duration;
   return 1;
 }
 

@@ -23,10 +23,10 @@ static void add(approaches *a, const ambulo__solid *solid, int one, int other) {
   a->solid[at].other = 6;
   a->capsule[0][at] = one;
   a->capsule[1][at] = other;
-  a->list[at] = (ambulo__approach){
-      m->capsules[one].name,
-      is_obstacle ? a->problem->definition.obstacles[solid->about].name : m->capsules[other].name,
-      is_obstacle, (double)NAN, (double)NAN};
+  a->list[at] = (ambulo__approach){m->capsules[one].name,
+                                   is_obstacle ? a->problem->definition.obstacles[solid->about].name
+                                               : m->capsules[other].name,
+                                   is_obstacle, (double)NAN, (double)NAN};
 }
 
 static void list_all(approaches *a) {

@@ -34,7 +34,8 @@ static int has(const ambulo_capsule_pair *pairs, int count, const char *one, con
   int found = 0;
   assert_true(a >= 0 && b >= 0);
   for (int k = 0; k < count; k++)
-    found += (pairs[k].one == a && pairs[k].other == b) || (pairs[k].one == b && pairs[k].other == a);
+    found +=
+        (pairs[k].one == a && pairs[k].other == b) || (pairs[k].one == b && pairs[k].other == a);
   return found;
 }
 

@@ -1,5 +1,6 @@
-/* Rows of capsules, obstacles and reaches on a shipped body: which, at which nodes, how large; their
- * gradients by row, by the reverse sweep and by differences, in any pose; the same after the reader.
+/* Rows of capsules, obstacles and reaches on a shipped body: which, at which nodes, how large;
+ * their gradients by row, by the reverse sweep and by differences, in any pose; the same after the
+ * reader.
  */
 #include "ambulo/ambulo.h"
 #include "nlp/nlp.h"
@@ -11,7 +12,8 @@ static const char task[] =
     "ambulo: 1\nkind: problem\nmodel: models/lower_body_21.yaml\nangles: degrees\n"
     "time: {duration: 1, intervals: 6}\ntrajectory: {intervals: 4}\nobjective: none\n"
     "obstacles:\n"
-    "  - {name: crate, center: [0.4, 0.1, 0.3], half_size: [0.2, 0.3, 0.3], heading: 30, margin: 0}\n"
+    "  - {name: crate, center: [0.4, 0.1, 0.3], half_size: [0.2, 0.3, 0.3], heading: 30, margin: "
+    "0}\n"
     "  - {name: rail, from: [0.2, -1, 1], to: [0.2, 1, 1.2], radius: 0.03, margin: 0.02,\n"
     "     capsules: [trunk, head]}\n"
     "constraints:\n"
@@ -70,8 +72,8 @@ static void rows_stand_at_their_nodes(void **state) {
   assert_int_equal(count(&f, "collision", "foot_r", "thigh_l"), 7);
   assert_int_equal(count(&f, "obstacle", NULL, "crate"), 10 * 7);
   assert_int_equal(count(&f, "obstacle", NULL, "rail"), 2 * 7);
-  assert_int_equal(count(&f, "reach", "head_top", NULL), 3);     /* equations, at one node */
-  assert_int_equal(count(&f, "reach", "knee_r", NULL), 3 * 6);   /* at 0, 1/6, 1/3 s */
+  assert_int_equal(count(&f, "reach", "head_top", NULL), 3);   /* equations, at one node */
+  assert_int_equal(count(&f, "reach", "knee_r", NULL), 3 * 6); /* at 0, 1/6, 1/3 s */
   assert_int_equal(ambulo_problem_equality_count(f.p), 3);
   /* standing, 0.17 m between the shanks' lines; D and the weights of the smoothed distance */
   double allowance = 0.25 / 6.0, distance = 0.1 + 0.005 + allowance;

@@ -16,8 +16,8 @@ static double value_at(double one[2][3], double other[2][3], const double weight
                        double t) {
   double sum = weight[0] * (s - 0.5) * (s - 0.5) + weight[1] * (t - 0.5) * (t - 0.5);
   for (int i = 0; i < 3; i++) {
-    double e = one[0][i] + s * (one[1][i] - one[0][i]) - other[0][i] -
-               t * (other[1][i] - other[0][i]);
+    double e =
+        one[0][i] + s * (one[1][i] - one[0][i]) - other[0][i] - t * (other[1][i] - other[0][i]);
     sum += e * e;
   }
   return sum;

@@ -135,8 +135,7 @@ static void slopes_by_place_are_those_of_the_value(void **state) {
   random_source random = {13};
   for (int trial = 0; trial < 200; trial++) {
     double y[CHANNELS], by_place[2][3];
-    ambulo__solid s =
-        solid_of(trial % 2 ? AMBULO__SOLID_CAPSULE : AMBULO__SOLID_BOX, &random);
+    ambulo__solid s = solid_of(trial % 2 ? AMBULO__SOLID_CAPSULE : AMBULO__SOLID_BOX, &random);
     scatter(&random, y);
     y[ONE + 1] += 0.8; /* outside */
     y[ONE + 4] += 0.8;

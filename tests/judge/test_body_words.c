@@ -23,13 +23,29 @@ static void what_happens_is_said(void **state) {
     ambulo_violation v;
     const char *words;
   } cases[] = {
-      {{.worst = 0.042, .family = "obstacle", .subject = "shank_l", .detail = "hurdle", .time = 0.31},
+      {{.worst = 0.042,
+        .family = "obstacle",
+        .subject = "shank_l",
+        .detail = "hurdle",
+        .time = 0.31},
        "shank_l is 0.012 m inside obstacle 'hurdle' at t = 0.31 s"},
-      {{.worst = 0.012, .family = "obstacle", .subject = "shank_l", .detail = "hurdle", .time = 0.31},
+      {{.worst = 0.012,
+        .family = "obstacle",
+        .subject = "shank_l",
+        .detail = "hurdle",
+        .time = 0.31},
        "shank_l comes within 0.018 m of obstacle 'hurdle' at t = 0.31 s, 0.012 m too near"},
-      {{.worst = 0.025, .family = "collision", .subject = "shank_l", .detail = "shank_r", .time = 1},
+      {{.worst = 0.025,
+        .family = "collision",
+        .subject = "shank_l",
+        .detail = "shank_r",
+        .time = 1},
        "shank_l is 0.005 m inside shank_r at t = 1 s"},
-      {{.worst = 0.005, .family = "collision", .subject = "shank_l", .detail = "shank_r", .time = 1},
+      {{.worst = 0.005,
+        .family = "collision",
+        .subject = "shank_l",
+        .detail = "shank_r",
+        .time = 1},
        "shank_l comes within 0.015 m of shank_r at t = 1 s, 0.005 m too near"}};
   ambulo_problem *p = task();
   char text[300];

@@ -32,7 +32,8 @@ static const miss cases[] = {
      "foot_l",
      "crate",
      -0.01,
-     "foot_l comes within 0.0307 m of obstacle 'crate' at t = 2.4 s, 0.01 m too near: keep a margin "
+     "foot_l comes within 0.0307 m of obstacle 'crate' at t = 2.4 s, 0.01 m too near: keep a "
+     "margin "
      "of 0.0198 m instead of 0.03 m",
      {"obstacles[crate].margin=0.0198"},
      1},

@@ -4,18 +4,20 @@
 #include "support/sensitivity_check.h"
 
 #define STANDING                                                                                   \
-  "time.intervals=10", "trajectory.intervals=6", "objective=[{term: torque_squared, scale: "       \
-                                                 "{default: 0.001}}, {term: upright, weight: 10, " \
-                                                 "points: [lumbar, head_top]}]"
+  "time.intervals=10", "trajectory.intervals=6",                                                   \
+      "objective=[{term: torque_squared, scale: "                                                  \
+      "{default: 0.001}}, {term: upright, weight: 10, "                                            \
+      "points: [lumbar, head_top]}]"
 
 /* a box that is turned, a bar; to be within a tolerance, and there */
 static void obstacles_and_places(void **state) {
   (void)state;
   static const setting c = {
       "models/reach_standing.yaml",
-      {STANDING, "obstacles=[{name: fence, center: [0.15, 0.1, 0.5], half_size: [0.1, 0.2, 0.3], "
-                 "heading: 20}, {name: bar, from: [0.1, -1, 1.4], to: [0.2, 1, 1.3], radius: 0.02, "
-                 "margin: 0.03, capsules: [head, trunk]}]",
+      {STANDING,
+       "obstacles=[{name: fence, center: [0.15, 0.1, 0.5], half_size: [0.1, 0.2, 0.3], "
+       "heading: 20}, {name: bar, from: [0.1, -1, 1.4], to: [0.2, 1, 1.3], radius: 0.02, "
+       "margin: 0.03, capsules: [head, trunk]}]",
        "constraints.reach=[{point: head_top, place: [0.45, 0.2, 1.5], at: 1.2, tolerance: 0.005}, "
        "{point: knee_l, place: [0.1, 0.1, 0.5], at: [0.7, 1.3]}]",
        "constraints.collision.margin=0.05"},

@@ -30,9 +30,9 @@ static void gaps_by_hand(void **state) {
   ambulo__approach *list = NULL;
   int count = 0;
   own = ambulo__allocator_or_default(NULL);
-  assert_int_equal(ambulo_problem_load_text(text, sizeof text - 1, "t", NULL, NULL, 0, NULL, NULL,
-                                            &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load_text(text, sizeof text - 1, "t", NULL, NULL, 0, NULL, NULL, &p),
+      AMBULO_OK);
   double *x = calloc((size_t)p->variables, sizeof *x);
   assert_int_equal(ambulo__approaches(p, x, 21, &own, &list, &count), AMBULO_OK);
   assert_int_equal(count, 3);
