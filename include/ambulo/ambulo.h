@@ -8,6 +8,7 @@
  *     sensitivity.h  what each number of a problem costs
  *     parameters.h   numbers of a problem that the solver chooses
  *     ground.h     parts of a problem: the ground's force, feet in the air
+ *     collision.h  parts of a problem: capsules, obstacles, places to reach
  *     report.h     results on disk, comparison with people
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
@@ -28,6 +29,7 @@
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"
+#include "ambulo/collision.h"
 #include "ambulo/evaluate.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"

@@ -104,6 +104,16 @@ typedef struct ambulo_patch {
   int mirror; /* patch that takes its place in the mirror image (in a definition -1: itself) */
 } ambulo_patch;
 
+/* The room that a link takes up: all that is within `radius` of a line of its. Problems keep
+ * capsules out of one another and out of obstacles (ambulo_collision in problem.h). */
+typedef struct ambulo_capsule {
+  const char *name; /* "shank_r" */
+  int link;
+  double from[3], to[3]; /* ends of the line, link frame, m; the same: a sphere */
+  double radius;         /* m, > 0 */
+  int mirror; /* capsule that takes its place in the mirror image (in a definition -1: itself) */
+} ambulo_capsule;
+
 /* ------------------------------------------------------------ build in code */
 
 /* Everything a model consists of. Arrays are borrowed during the call only.
@@ -126,6 +136,8 @@ typedef struct ambulo_model_definition {
   double stature; /* m; 0 if unknown */
   const ambulo_patch *patches;
   int patch_count;
+  const ambulo_capsule *capsules;
+  int capsule_count;
 } ambulo_model_definition;
 
 /* Gravity -9.81 along y, forward x, no links. */
@@ -201,9 +213,10 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_adapt(const ambulo_model 
  * and forward, coordinate for coordinate as `mirror` and `mirror_sign` have it? Compared are, at
  * q = 0: which joint hangs on which, axes of joints, mass, centre of mass and inertia of what each
  * joint carries, and the points of the feet; within 1e-6 of their size (lengths: of the body's;
- * directions: rad). Points that no foot uses, patches, limits and `actuated` are not. Link frames
- * may be of either handedness. Each difference is a message with the names of both partners and
- * both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT, E_MEMORY. */
+ * directions: rad). Points that no foot uses, patches, capsules, limits and `actuated` are not.
+ * Link frames may be of either handedness. Each difference is a message with the names of both
+ * partners and both numbers; `diagnostics` may be NULL. E_MODEL: not symmetric. E_ARGUMENT,
+ * E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_model_check_mirror(
     const ambulo_model *model, const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics);
 
@@ -217,16 +230,19 @@ AMBULO_API int ambulo_model_coordinate_count(const ambulo_model *model);
 AMBULO_API int ambulo_model_point_count(const ambulo_model *model);
 AMBULO_API int ambulo_model_foot_count(const ambulo_model *model);
 AMBULO_API int ambulo_model_patch_count(const ambulo_model *model);
+AMBULO_API int ambulo_model_capsule_count(const ambulo_model *model);
 AMBULO_API const ambulo_link *ambulo_model_link(const ambulo_model *model, int index);
 AMBULO_API const ambulo_coordinate *ambulo_model_coordinate(const ambulo_model *model, int index);
 AMBULO_API const ambulo_point *ambulo_model_point(const ambulo_model *model, int index);
 AMBULO_API const ambulo_foot *ambulo_model_foot(const ambulo_model *model, int index);
 AMBULO_API const ambulo_patch *ambulo_model_patch(const ambulo_model *model, int index);
+AMBULO_API const ambulo_capsule *ambulo_model_capsule(const ambulo_model *model, int index);
 AMBULO_API int ambulo_model_find_link(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_coordinate(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_point(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_foot(const ambulo_model *model, const char *name);
 AMBULO_API int ambulo_model_find_patch(const ambulo_model *model, const char *name);
+AMBULO_API int ambulo_model_find_capsule(const ambulo_model *model, const char *name);
 AMBULO_API double ambulo_model_mass(const ambulo_model *model);           /* kg, whole body */
 AMBULO_API double ambulo_model_stature(const ambulo_model *model);        /* m; 0 if unknown */
 AMBULO_API const double *ambulo_model_gravity(const ambulo_model *model); /* [3], m/s^2 */

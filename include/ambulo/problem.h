@@ -19,6 +19,7 @@
 #ifndef AMBULO_PROBLEM_H
 #define AMBULO_PROBLEM_H
 
+#include "ambulo/collision.h"
 #include "ambulo/ground.h"
 #include "ambulo/model.h"
 
@@ -272,6 +273,12 @@ typedef struct ambulo_problem_definition {
   int tube_count;
   const ambulo_tube *tubes; /* [tube_count]: rows on the distance from reference motions */
 
+  ambulo_collision collision;
+  const ambulo_obstacle *obstacles;
+  int obstacle_count;
+  const ambulo_reach *reaches;
+  int reach_count;
+
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;
   const ambulo_user_row *user_rows;
@@ -337,6 +344,16 @@ AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, i
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_limits(const ambulo_problem *problem,
                                                                 int index, ambulo_limited what,
                                                                 ambulo_limits *limits);
+/* The pairs of capsules that rows keep apart: as many as are returned, `pair` the index-th of them
+ * (NULL: only counted). Of AMBULO_COLLISION_AUTOMATIC also those that overlap in the rest pose and
+ * are left out, and how many are too far apart to meet. */
+AMBULO_API int ambulo_problem_pairs(const ambulo_problem *problem, int index,
+                                    ambulo_capsule_pair *pair);
+AMBULO_API int ambulo_problem_pairs_left_out(const ambulo_problem *problem, int index,
+                                             ambulo_capsule_pair *pair);
+AMBULO_API int ambulo_problem_pairs_too_far(const ambulo_problem *problem);
+AMBULO_API int ambulo_problem_obstacle_count(const ambulo_problem *problem);
+AMBULO_API const ambulo_obstacle *ambulo_problem_obstacle(const ambulo_problem *problem, int index);
 /* FNV-1a 64 of everything that was resolved (model, schedule, terms, grid). */
 AMBULO_API unsigned long long ambulo_problem_hash(const ambulo_problem *problem);
 

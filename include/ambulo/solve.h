@@ -197,7 +197,7 @@ typedef struct ambulo_nlopt_work {
  *                       straight line through its values at the nodes (which is how a table with
  *                       a line a node is drawn and integrated)                0.02 body weights
  *   ground_penetration, foot_strike, contact, clearance, zmp, free_moment, joint_limit,
- *   tracking_tube       violation of rows in m                                         0.001 m
+ *   tracking_tube, collision, obstacle, reach           violation of rows in m         0.001 m
  *   contact, clearance, joint_limit, tracking_tube      of rows in rad               0.005 rad
  *   pressure            of rows in m, times the share of the load on the foot          0.001 m
  *   normal_force, friction                                                    0.02 body weights

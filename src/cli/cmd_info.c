@@ -90,6 +90,18 @@ static void print_patches(const ambulo_model *model) {
   }
 }
 
+static void print_capsules(const ambulo_model *model) {
+  int capsules = ambulo_model_capsule_count(model);
+  if (capsules) printf("\ncapsules (m, link frame)\n");
+  for (int i = 0; i < capsules; i++) {
+    const ambulo_capsule *c = ambulo_model_capsule(model, i);
+    printf(
+        "  %-3d %-12s %-12s radius %.4f, from %.4f %.4f %.4f to %.4f %.4f %.4f, mirror image %s\n",
+        i, c->name, ambulo_model_link(model, c->link)->name, c->radius, c->from[0], c->from[1],
+        c->from[2], c->to[0], c->to[1], c->to[2], ambulo_model_capsule(model, c->mirror)->name);
+  }
+}
+
 /* its own mirror image, or the first difference */
 static void print_symmetry(const ambulo_model *model) {
   ambulo_diagnostics *differences = ambulo_diagnostics_create(NULL);
@@ -113,6 +125,7 @@ static void print_model(const ambulo_model *model) {
   print_coordinates(model);
   print_points(model);
   print_patches(model);
+  print_capsules(model);
 }
 
 /* ------------------------------------------------------------------- problem */
@@ -184,6 +197,46 @@ static void print_limits(const ambulo_problem *problem) {
   }
 }
 
+/* names of pairs, as many as fit on lines of six */
+static void print_pairs(const ambulo_problem *problem, const char *title,
+                        int (*get)(const ambulo_problem *, int, ambulo_capsule_pair *)) {
+  const ambulo_model *model = ambulo_problem_model(problem);
+  int count = get(problem, 0, NULL);
+  if (count == 0) return;
+  printf("\n%s\n", title);
+  for (int i = 0; i < count; i++) {
+    ambulo_capsule_pair pair = {0, 0};
+    (void)get(problem, i, &pair);
+    printf("%s%s and %s%s", i % 6 ? ", " : "  ", ambulo_model_capsule(model, pair.one)->name,
+           ambulo_model_capsule(model, pair.other)->name, i % 6 == 5 || i + 1 == count ? "\n" : "");
+  }
+}
+
+static void print_obstacles(const ambulo_problem *problem) {
+  int count = ambulo_problem_obstacle_count(problem);
+  if (count) printf("\nobstacles (m, along forward, left and up)\n");
+  for (int i = 0; i < count; i++) {
+    const ambulo_obstacle *o = ambulo_problem_obstacle(problem, i);
+    int is_box = o->shape == AMBULO_OBSTACLE_BOX;
+    const double *a = is_box ? o->center : o->from, *b = is_box ? o->half : o->to;
+    printf("  %-12s %s %.4g %.4g %.4g %s %.4g %.4g %.4g", o->name,
+           is_box ? "box about" : "bar from", a[0], a[1], a[2], is_box ? "+-" : "to", b[0], b[1],
+           b[2]);
+    if (!is_box) printf(", radius %.4g", o->radius);
+    if (is_box && o->heading != 0.0) printf(", turned by %.4g degrees", degrees * o->heading);
+    printf(", margin %.4g\n", o->margin);
+  }
+}
+
+static void print_bodies(const ambulo_problem *problem) {
+  int far = ambulo_problem_pairs_too_far(problem);
+  print_pairs(problem, "capsules that keep apart", ambulo_problem_pairs);
+  print_pairs(problem, "left out, for they overlap in the rest pose",
+              ambulo_problem_pairs_left_out);
+  if (far) printf("\n%d other pairs are too far apart to meet\n", far);
+  print_obstacles(problem);
+}
+
 static void print_problem(const ambulo_problem *problem) {
   static const char *const ends[] = {"free", "periodic", "mirrored"};
   int equalities = ambulo_problem_equality_count(problem);
@@ -208,6 +261,7 @@ static void print_problem(const ambulo_problem *problem) {
   if (ambulo_problem_term_count(problem) == 0) printf("  none: a feasible motion\n");
   print_families(problem);
   print_limits(problem);
+  print_bodies(problem);
   print_schedule(problem);
   printf("\n");
   print_model(ambulo_problem_model(problem));
@@ -236,11 +290,11 @@ const ambulo__cli_command ambulo__cli_info = {
     .name = "info",
     .arguments = "MODEL.yaml|PROBLEM.yaml",
     .summary = "what was understood: links, masses, schedule, sizes",
-    .description =
-        "Prints links, masses, coordinates with their limits, points, feet and patches of a model; "
-        "for a\n"
-        "problem also the unknowns, rows by family, objective terms and the contact schedule with\n"
-        "its footholds.",
+    .description = "Prints links, masses, coordinates with their limits, points, feet, patches and "
+                   "capsules of\n"
+                   "a model; for a problem also the unknowns, rows by family, objective terms, "
+                   "what keeps apart,\n"
+                   "and the contact schedule with its footholds.",
     .example = "ambulo info models/lower_body_18.yaml\n"
                "ambulo info models/yardstick_36.yaml",
     .options = options,

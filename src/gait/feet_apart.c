@@ -30,7 +30,7 @@ static double half_width(const ambulo__foot_outline *outline) {
   return half;
 }
 
-double ambulo__feet_apart_allowance(const ambulo_problem_definition *d) {
+double ambulo__passing_allowance(const ambulo_problem_definition *d) {
   return passing * sqrt(ambulo__model_size(d->model)) * d->duration / d->intervals;
 }
 
@@ -40,7 +40,7 @@ static double distance(const ambulo__gait_context *context, int foot, int other)
   ambulo__foot_outline two = ambulo__foot_outline_of(context->model, other);
   if (!one.moves_sideways || !two.moves_sideways) return 0.0;
   return half_width(&one) + half_width(&two) + context->definition->clearance.feet +
-         ambulo__feet_apart_allowance(context->definition);
+         ambulo__passing_allowance(context->definition);
 }
 
 /* 1 if a foot is in the air at a node, or comes there or leaves there; *before: until it */

@@ -5,7 +5,8 @@
  *
  * Reading order: channels.h, row_kind.h, row_table.h, gait.h, phases.h, schedule.c, expand.c,
  * ends.c; bounded.h; then a family of rows each: ground.c, foot_strike.c, contact_tube.c,
- * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c.
+ * clearance.c, feet_apart.c, zmp.c, reaction.c, limits.c, tube.c; segments.h, segment_box.h,
+ * solid.h, collision.h, collision_pairs.c, collision_rows.c.
  */
 #ifndef AMBULO_GAIT_GAIT_H
 #define AMBULO_GAIT_GAIT_H
@@ -95,8 +96,9 @@ int ambulo__is_strike(const ambulo_problem_definition *definition, int foot, con
 void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "clearance": gaps between a foot in the air and the others (m). */
 void ambulo__feet_apart_rows(const ambulo__gait_context *context, ambulo__row_table *table);
-/* How much further apart they are at the nodes, for what happens between them, m. */
-double ambulo__feet_apart_allowance(const ambulo_problem_definition *definition);
+/* How much further apart parts that pass each other are at the nodes, for what happens between
+ * them, m. */
+double ambulo__passing_allowance(const ambulo_problem_definition *definition);
 /* What part of the clearance height is due at s of the swing, and its slope by s (may be NULL). */
 double ambulo__clearance_part(double s, double *slope);
 /* The contact beside which a foot in the air stays: its nearest, the next one first; -1 if it has

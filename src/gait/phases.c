@@ -86,7 +86,8 @@ int ambulo__has_tip_rows(const ambulo_problem_definition *d) {
 ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__event_kind kind,
                                     const ambulo_allocator *allocator, ambulo__events *events) {
   events->count = 0;
-  events->time = ambulo__alloc(allocator, 8 * (size_t)d->contact_count, sizeof *events->time);
+  size_t most = 8 * (size_t)d->contact_count + 2 * (size_t)d->reach_count;
+  events->time = ambulo__alloc(allocator, most, sizeof *events->time);
   if (!events->time) return AMBULO_E_MEMORY;
   int swings = kind == AMBULO__EVENTS_OF_ROWS && ambulo__has_tip_rows(d);
   for (int i = 0; i < d->contact_count; i++) {
@@ -96,6 +97,10 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__
     if (!swings || c->foot < 0) continue;
     insert_swing(d, c->foot, c->from, events);
     insert_swing(d, c->foot, c->to, events);
+  }
+  for (int i = 0; kind == AMBULO__EVENTS_OF_ROWS && i < d->reach_count; i++) {
+    insert(events, d->reaches[i].from, d->duration);
+    insert(events, d->reaches[i].to, d->duration);
   }
   return AMBULO_OK;
 }

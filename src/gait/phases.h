@@ -20,7 +20,8 @@ typedef struct ambulo__events {
 typedef enum ambulo__event_kind {
   AMBULO__EVENTS_OF_CONTACTS, /* starts and ends of contacts */
   AMBULO__EVENTS_OF_ROWS      /* and where in a swing the foot's tip has to clear the ground, and
-                                 where the foot comes to edges of steps and is past them */
+                                 where the foot comes to edges of steps and is past them; and
+                                 when points have to be at places */
 } ambulo__event_kind;
 
 /* Freed with ambulo__free(allocator, events->time). Contacts need not be legal. E_MEMORY. */

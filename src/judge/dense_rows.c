@@ -17,6 +17,13 @@ static double load_share(const ambulo_problem *fine, const ambulo__table_row *ro
   return row->subject == fine->model->feet[0].name ? first : 1.0 - first;
 }
 
+/* names of obstacles belong to the problem that is judged, those of the finer one go with it */
+static const char *detail_of(const ambulo__dense *dense, const ambulo__table_row *row) {
+  const ambulo__solid *solid = ambulo__row_solid_of(&dense->fine->table, row);
+  int about = solid ? solid->about : -1;
+  return about < 0 ? row->detail : dense->problem->definition.obstacles[about].name;
+}
+
 static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dense_visitor visit,
                       void *user) {
   const ambulo_problem *fine = dense->fine;
@@ -25,7 +32,7 @@ static void visit_row(const ambulo__dense *dense, int r, int index, ambulo__dens
   ambulo__dense_sample sample = {.rule = index,
                                  .family = row->family,
                                  .subject = row->subject,
-                                 .detail = row->detail,
+                                 .detail = detail_of(dense, row),
                                  .unit = row->unit,
                                  .time = row->time,
                                  .value = ambulo__row_violation(fine, r, dense->row_value[r]),

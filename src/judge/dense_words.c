@@ -1,4 +1,5 @@
 /* judge/dense_words.c - a dense audit in words: a line a family that fails, and one sentence. */
+#include "judge/body_words.h"
 #include "judge/dense_audit.h"
 
 #include <math.h>
@@ -113,14 +114,15 @@ static void write_line(const wording *w, int i) {
   ambulo__dense_report *report = w->report;
   const ambulo_dense_family *f = &report->family[i];
   const ambulo_violation *v = &f->violation;
-  char value[80];
+  char value[80], place[300];
   char *line = report->line_text[report->view.line_count];
   (void)snprintf(value, sizeof value, "%.3g %s", v->worst, v->unit);
-  (void)snprintf(line, AMBULO__DENSE_LINE_SIZE,
-                 "%s: %s (%s%s%s, t = %.4g s; tolerance %.3g %s): %s%s%s", v->family,
-                 isfinite(v->worst) ? value : not_finite, v->subject, v->detail[0] ? " " : "",
-                 v->detail, v->time, f->tolerance, v->unit, f->advice, f->settings[0] ? "; " : "",
-                 f->settings);
+  if (!ambulo__bodies_in_words(w->problem, v, place, sizeof place))
+    (void)snprintf(place, sizeof place, "%s%s%s, t = %.4g s", v->subject, v->detail[0] ? " " : "",
+                   v->detail, v->time);
+  (void)snprintf(line, AMBULO__DENSE_LINE_SIZE, "%s: %s (%s; tolerance %.3g %s): %s%s%s", v->family,
+                 isfinite(v->worst) ? value : not_finite, place, f->tolerance, v->unit, f->advice,
+                 f->settings[0] ? "; " : "", f->settings);
   report->line[report->view.line_count++] = line;
 }
 

@@ -189,7 +189,7 @@ void ambulo__suggest(const ambulo_problem *p, const ambulo__remedy *remedy,
     matching_ends(&a);
   } else if (row->kind == AMBULO__KIND_TRACKING_TUBE) {
     tube(&a);
-  } else if (!ambulo__advise_feet(&a) && !ambulo__advise_forces(&a)) {
+  } else if (!ambulo__advise_feet(&a) && !ambulo__advise_forces(&a) && !ambulo__advise_bodies(&a)) {
     other(&a);
   }
   if (!remedy->single) mention_others(&out->conflict[remedy->conflict], out->suggestion);

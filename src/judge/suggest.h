@@ -24,5 +24,6 @@
 /* Each says what helps a row of its kinds; 0: the row is of none of them. */
 int ambulo__advise_feet(const ambulo__advice *a);   /* suggest_feet.c */
 int ambulo__advise_forces(const ambulo__advice *a); /* suggest_forces.c */
+int ambulo__advise_bodies(const ambulo__advice *a); /* suggest_bodies.c */
 
 #endif

@@ -11,6 +11,7 @@ enum {
   AMBULO__MAX_POINTS = 4096,
   AMBULO__MAX_FEET = 64,
   AMBULO__MAX_PATCHES = 64,
+  AMBULO__MAX_CAPSULES = 256,
   AMBULO__MAX_PARTS = 256, /* bodies merged into one link */
   AMBULO__MAX_NAME = 64
 };
@@ -55,5 +56,7 @@ void ambulo__check_links(ambulo__checker *c);
 void ambulo__check_coordinates(ambulo__checker *c);
 /* Points on links, feet and patches on points. */
 void ambulo__check_contacts(ambulo__checker *c);
+/* Capsules: links, sizes, mirror pairs. */
+void ambulo__check_capsules(ambulo__checker *c);
 
 #endif

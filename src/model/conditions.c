@@ -51,21 +51,23 @@ static int in_range(const ambulo_model *model, const ambulo_conditions *c) {
          isfinite(position);
 }
 
-/* built anew from its own parts; the directions are copied, not derived again, bit for bit */
-static ambulo_status copy_model(const ambulo_model *model, const ambulo_allocator *allocator,
-                                ambulo_diagnostics *diagnostics, ambulo_model **copy) {
+ambulo_status ambulo__model_copy(const ambulo_model *model, const ambulo_point *points,
+                                 int point_count, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo_model **copy) {
   ambulo_model_definition d = ambulo_model_definition_default();
   d.name = model->name;
   d.links = model->links;
   d.link_count = model->link_count;
   d.coordinates = model->coordinates;
   d.coordinate_count = model->coordinate_count;
-  d.points = model->points;
-  d.point_count = model->point_count;
+  d.points = points;
+  d.point_count = point_count;
   d.feet = model->feet;
   d.foot_count = model->foot_count;
   d.patches = model->patches;
   d.patch_count = model->patch_count;
+  d.capsules = model->capsules;
+  d.capsule_count = model->capsule_count;
   d.stature = model->stature;
   for (int i = 0; i < 3; i++) {
     d.gravity[i] = -9.81 * model->up[i];
@@ -80,6 +82,8 @@ static ambulo_status copy_model(const ambulo_model *model, const ambulo_allocato
   (*copy)->mass = model->mass;
   (*copy)->units = model->units;
   (*copy)->load = model->load;
+  memcpy((*copy)->capsule_point, model->capsule_point,
+         (size_t)model->capsule_count * sizeof *model->capsule_point);
   return AMBULO_OK;
 }
 
@@ -97,7 +101,8 @@ ambulo_status ambulo_model_adapt(const ambulo_model *model, const ambulo_conditi
   }
   ambulo_model *copy = NULL;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = copy_model(model, allocator, diagnostics, &copy);
+  ambulo_status status =
+      ambulo__model_copy(model, model->points, model->point_count, allocator, diagnostics, &copy);
   if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
   if (conditions->load_link >= 0)
     ambulo__model_carry(copy, conditions->load_link, conditions->load_mass,

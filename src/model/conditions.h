@@ -16,4 +16,10 @@ void ambulo__model_carry(ambulo_model *model, int link, double mass, const doubl
  * slope > 0, rad) and gravity is turned instead. */
 void ambulo__model_tilt(ambulo_model *model, double slope);
 
+/* Built anew from its own parts, but for its points, whose first model->point_count are its own;
+ * directions are copied, not derived again, bit for bit. Errors: as ambulo_model_create. */
+ambulo_status ambulo__model_copy(const ambulo_model *model, const ambulo_point *points,
+                                 int point_count, const ambulo_allocator *allocator,
+                                 ambulo_diagnostics *diagnostics, ambulo_model **copy);
+
 #endif

@@ -1,8 +1,8 @@
 /* model/model.c - building an immutable model from a definition, and freeing it.
  *
- * Reading order: model.h, model.c, model_check.c (link_check.c, body_check.c, contact_check.c),
- * query.c; segments.h and composite.h for the body as a whole, mirror_image.h for what it needs
- * them for.
+ * Reading order: model.h, model.c, model_check.c (link_check.c, body_check.c, contact_check.c,
+ * capsule_check.c), query.c; capsule_points.h; segments.h and composite.h for the body as a whole,
+ * mirror_image.h for what it needs them for.
  */
 #include <math.h>
 #include <string.h>
@@ -80,6 +80,7 @@ static size_t text_size(const ambulo_model_definition *d) {
   for (int i = 0; i < d->point_count; i++) size += strlen(d->points[i].name) + 1;
   for (int i = 0; i < d->foot_count; i++) size += strlen(d->feet[i].name) + 1;
   for (int i = 0; i < d->patch_count; i++) size += strlen(d->patches[i].name) + 1;
+  for (int i = 0; i < d->capsule_count; i++) size += strlen(d->capsules[i].name) + 1;
   return size;
 }
 
@@ -130,6 +131,17 @@ static void copy_contacts(ambulo_model *m, const ambulo_model_definition *d, con
   }
 }
 
+static void copy_capsules(ambulo_model *m, const ambulo_model_definition *d, const numbering *n,
+                          char **text) {
+  for (int i = 0; i < m->capsule_count; i++) {
+    m->capsules[i] = d->capsules[i];
+    m->capsules[i].name = keep(text, d->capsules[i].name);
+    m->capsules[i].link = n->place[d->capsules[i].link];
+    if (m->capsules[i].mirror < 0) m->capsules[i].mirror = i;
+    m->capsule_point[i] = -1;
+  }
+}
+
 /* up = -g/|g|; forward made horizontal; left = up x forward. */
 static void set_directions(ambulo_model *m, const double forward[3]) {
   const double *g = m->gravity;
@@ -156,8 +168,10 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   m->neutral = ambulo__alloc(a, 3 * (size_t)d->point_count, sizeof *m->neutral);
   m->feet = ambulo__alloc(a, (size_t)d->foot_count, sizeof *m->feet);
   m->patches = ambulo__alloc(a, (size_t)d->patch_count, sizeof *m->patches);
+  m->capsules = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsules);
+  m->capsule_point = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsule_point);
   return m->text && m->links && m->coordinates && m->coordinate_link && m->points && m->neutral &&
-         m->feet && m->patches;
+         m->feet && m->patches && m->capsules && m->capsule_point;
 }
 
 static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
@@ -175,11 +189,13 @@ static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
   m->point_count = d->point_count;
   m->foot_count = d->foot_count;
   m->patch_count = d->patch_count;
+  m->capsule_count = d->capsule_count;
   m->stature = d->stature;
   char *text = m->text;
   m->name = keep(&text, d->name);
   copy_links(m, d, &n, &text);
   copy_contacts(m, d, &n, &text);
+  copy_capsules(m, d, &n, &text);
   ambulo__neutral_points(m);
   memcpy(m->gravity, d->gravity, sizeof m->gravity);
   set_directions(m, d->forward);
@@ -226,5 +242,7 @@ void ambulo_model_free(ambulo_model *model) {
   ambulo__free(&a, model->neutral);
   ambulo__free(&a, model->feet);
   ambulo__free(&a, model->patches);
+  ambulo__free(&a, model->capsules);
+  ambulo__free(&a, model->capsule_point);
   ambulo__free(&a, model);
 }

@@ -40,6 +40,10 @@ struct ambulo_model {
   int foot_count;
   ambulo_patch *patches; /* [patch_count] */
   int patch_count;
+  ambulo_capsule *capsules; /* [capsule_count] */
+  int *capsule_point; /* [capsule_count]: the point at its `from`, before that at its `to`; -1: it
+                         has no points (model/capsule_points.h) */
+  int capsule_count;
 };
 
 /* Structural and physical checks of a definition, all of them, each with the
@@ -47,7 +51,8 @@ struct ambulo_model {
  * link i stands in a file. */
 #include "base/diagnostics.h"
 typedef struct ambulo__model_places {
-  const ambulo__place *links, *coordinates, *points, *feet, *patches; /* each may be NULL */
+  const ambulo__place *links, *coordinates, *points, *feet, *patches, *capsules; /* each may be
+                                                                                   NULL */
   ambulo__place model;
 } ambulo__model_places;
 ambulo_status ambulo__model_check(const ambulo_model_definition *definition,

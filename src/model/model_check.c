@@ -8,7 +8,8 @@
 
 static int counts_are_sane(const ambulo_model_definition *d) {
   return d->link_count >= 0 && d->coordinate_count >= 0 && d->point_count >= 0 &&
-         d->foot_count >= 0 && d->patch_count >= 0 && (d->links || d->link_count == 0) &&
+         d->foot_count >= 0 && d->patch_count >= 0 && d->capsule_count >= 0 &&
+         (d->capsules || d->capsule_count == 0) && (d->links || d->link_count == 0) &&
          (d->coordinates || d->coordinate_count == 0) && (d->points || d->point_count == 0) &&
          (d->feet || d->foot_count == 0) && (d->patches || d->patch_count == 0);
 }
@@ -24,7 +25,8 @@ static ambulo_status check_sizes(ambulo__checker *c) {
                {"coordinates", d->coordinate_count, AMBULO__MAX_LINKS},
                {"points", d->point_count, AMBULO__MAX_POINTS},
                {"feet", d->foot_count, AMBULO__MAX_FEET},
-               {"patches", d->patch_count, AMBULO__MAX_PATCHES}};
+               {"patches", d->patch_count, AMBULO__MAX_PATCHES},
+               {"capsules", d->capsule_count, AMBULO__MAX_CAPSULES}};
   for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
     if (sizes[i].count <= sizes[i].limit) continue;
     return ambulo__error(c->diagnostics, AMBULO_E_LIMIT, place, NULL,
@@ -130,6 +132,10 @@ static const char *patch_name(const ambulo_model_definition *d, int i) {
   return d->patches[i].name;
 }
 
+static const char *capsule_name(const ambulo_model_definition *d, int i) {
+  return d->capsules[i].name;
+}
+
 static const char *coordinate_name(const ambulo_model_definition *d, int i) {
   return d->coordinates[i].name;
 }
@@ -148,6 +154,7 @@ static void check_all_names(ambulo__checker *c) {
   check_names(c, "point", "points", d->point_count, point_name, p->points);
   check_names(c, "foot", "feet", d->foot_count, foot_name, p->feet);
   check_names(c, "patch", "patches", d->patch_count, patch_name, p->patches);
+  check_names(c, "capsule", "capsules", d->capsule_count, capsule_name, p->capsules);
 }
 
 /* --------------------------------------------------------------- the world */
@@ -193,5 +200,6 @@ ambulo_status ambulo__model_check(const ambulo_model_definition *definition,
   ambulo__check_links(&c);
   ambulo__check_coordinates(&c);
   ambulo__check_contacts(&c);
+  ambulo__check_capsules(&c);
   return c.status;
 }

@@ -33,11 +33,15 @@ static void to_world(const ambulo_model *model, int link, int is_point, double v
 }
 
 void ambulo__neutral_points(ambulo_model *model) {
-  for (int i = 0; i < model->point_count; i++) {
-    double *world = model->neutral + (size_t)(3 * i);
-    memcpy(world, model->points[i].position, 3 * sizeof *world);
-    to_world(model, model->points[i].link, 1, world);
-  }
+  for (int i = 0; i < model->point_count; i++)
+    ambulo__neutral_place(model, model->points[i].link, model->points[i].position,
+                          model->neutral + (size_t)(3 * i));
+}
+
+void ambulo__neutral_place(const ambulo_model *model, int link, const double local[3],
+                           double world[3]) {
+  memcpy(world, local, 3 * sizeof *world);
+  to_world(model, link, 1, world);
 }
 
 void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]) {

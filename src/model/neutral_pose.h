@@ -9,6 +9,9 @@
 
 /* Fills model->neutral, which has room for it; rows ask for these places at every node. */
 void ambulo__neutral_points(ambulo_model *model);
+/* World position at q = 0 of a place on a link, m. */
+void ambulo__neutral_place(const ambulo_model *model, int link, const double local[3],
+                           double world[3]);
 /* World position of a model's point at q = 0, m. */
 void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]);
 

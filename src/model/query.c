@@ -28,6 +28,10 @@ int ambulo_model_patch_count(const ambulo_model *model) {
   return model ? model->patch_count : 0;
 }
 
+int ambulo_model_capsule_count(const ambulo_model *model) {
+  return model ? model->capsule_count : 0;
+}
+
 const ambulo_link *ambulo_model_link(const ambulo_model *model, int index) {
   return model && index >= 0 && index < model->link_count ? &model->links[index] : NULL;
 }
@@ -46,6 +50,10 @@ const ambulo_foot *ambulo_model_foot(const ambulo_model *model, int index) {
 
 const ambulo_patch *ambulo_model_patch(const ambulo_model *model, int index) {
   return model && index >= 0 && index < model->patch_count ? &model->patches[index] : NULL;
+}
+
+const ambulo_capsule *ambulo_model_capsule(const ambulo_model *model, int index) {
+  return model && index >= 0 && index < model->capsule_count ? &model->capsules[index] : NULL;
 }
 
 int ambulo_model_find_link(const ambulo_model *model, const char *name) {
@@ -79,6 +87,13 @@ int ambulo_model_find_foot(const ambulo_model *model, const char *name) {
 int ambulo_model_find_patch(const ambulo_model *model, const char *name) {
   for (int i = 0; model && name && i < model->patch_count; i++) {
     if (strcmp(model->patches[i].name, name) == 0) return i;
+  }
+  return -1;
+}
+
+int ambulo_model_find_capsule(const ambulo_model *model, const char *name) {
+  for (int i = 0; model && name && i < model->capsule_count; i++) {
+    if (strcmp(model->capsules[i].name, name) == 0) return i;
   }
   return -1;
 }

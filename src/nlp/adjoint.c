@@ -73,8 +73,14 @@ void ambulo__adjoint_term(ambulo_workspace *workspace, int t, double objective_w
 }
 
 static void add_user_row(ambulo_workspace *workspace, int r, double lambda) {
-  int node = workspace->problem->table.rows[r].node;
+  const ambulo__row_table *table = &workspace->problem->table;
+  const ambulo__curved *curved = ambulo__row_curved_of(table, &table->rows[r]);
+  int node = table->rows[r].node, channel[AMBULO__CURVED_CHANNELS];
+  int count = curved ? ambulo__curved_channels(curved, channel) : 0;
   const double *slope = ambulo__user_slope(workspace, r);
+  for (int k = 0; k < count; k++)
+    *weight_at(workspace, node, channel[k]) += lambda * slope[channel[k]];
+  if (curved) return;
   for (int c = 0; c < workspace->channel_count; c++) {
     *weight_at(workspace, node, c) += lambda * slope[c];
   }

@@ -103,6 +103,25 @@ static void copy_user_rows(const ambulo_problem_definition *from, const ambulo_a
   }
 }
 
+/* names stay those of the first problem that had them (nlp/problem.c) */
+static void copy_obstacles(const ambulo_problem_definition *from, const ambulo_allocator *a,
+                           ambulo_problem_definition *to, int *failed) {
+  if (from->obstacle_count <= 0) return;
+  ambulo_obstacle *obstacles = ambulo__alloc(a, (size_t)from->obstacle_count, sizeof *obstacles);
+  if (!obstacles) {
+    *failed = 1;
+    return;
+  }
+  to->obstacles = obstacles;
+  to->obstacle_count = from->obstacle_count;
+  for (int i = 0; i < from->obstacle_count; i++) {
+    const ambulo_obstacle *source = &from->obstacles[i];
+    obstacles[i] = *source;
+    obstacles[i].capsules = copy_array(a, source->capsules, (size_t)source->capsule_count,
+                                       sizeof *source->capsules, failed);
+  }
+}
+
 ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
                                       const ambulo_allocator *a, ambulo_problem_definition *to) {
   int failed = 0;
@@ -111,6 +130,8 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   to->user_rows = NULL;
   to->tubes = NULL;
   to->tube_count = 0;
+  to->obstacles = NULL;
+  to->obstacle_count = 0;
   to->term_count = to->user_row_count = 0;
   to->name = copy_text(a, from->name ? from->name : "problem", &failed);
   size_t nodes = from->node_times ? (size_t)from->intervals + 1 : 0;
@@ -124,6 +145,11 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   copy_terms(from, a, to, &failed);
   copy_tubes(from, a, to, &failed);
   copy_user_rows(from, a, to, &failed);
+  copy_obstacles(from, a, to, &failed);
+  to->collision.pairs = copy_array(a, from->collision.pairs, (size_t)from->collision.pair_count,
+                                   sizeof *from->collision.pairs, &failed);
+  to->reaches =
+      copy_array(a, from->reaches, (size_t)from->reach_count, sizeof *from->reaches, &failed);
   return failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -134,6 +160,13 @@ static void release(const ambulo_allocator *a, const void *pointer) {
     void *owned;
   } view = {pointer};
   ambulo__free(a, view.owned);
+}
+
+void ambulo__definition_set_pairs(const ambulo_allocator *a, ambulo_problem_definition *d,
+                                  ambulo_capsule_pair *pairs, int count) {
+  release(a, d->collision.pairs);
+  d->collision.pairs = pairs;
+  d->collision.pair_count = count;
 }
 
 void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definition *d) {
@@ -154,6 +187,10 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->user_rows[i].name);
     release(a, d->user_rows[i].unit);
   }
+  for (int i = 0; i < d->obstacle_count; i++) release(a, d->obstacles[i].capsules);
+  release(a, d->obstacles);
+  release(a, d->collision.pairs);
+  release(a, d->reaches);
   release(a, d->terms);
   release(a, d->tubes);
   release(a, d->user_rows);

@@ -112,17 +112,23 @@ static double evaluate_terms(ambulo_workspace *workspace) {
   return total;
 }
 
+/* the slopes on its own channels; the others are never looked at (nlp/states.h) */
+static double curved_row_value(const ambulo_workspace *workspace, const ambulo__curved *row,
+                               int node, double *slope) {
+  const double *y = workspace->channel + ambulo__lane_index(node, workspace->channel_count, 0);
+  int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(row, channel);
+  for (int k = 0; k < count; k++) slope[channel[k]] = 0.0;
+  return ambulo__curved_value(row, y, AMBULO__LANES, slope);
+}
+
 static double user_row_value(ambulo_workspace *workspace, int row) {
   const ambulo_problem *p = workspace->problem;
   const ambulo__table_row *r = &p->table.rows[row];
   const ambulo__curved *curved = ambulo__row_curved_of(&p->table, r);
   double *slope = workspace->user_gradient +
                   (size_t)workspace->user_slot[row] * (size_t)workspace->channel_count;
+  if (curved) return curved_row_value(workspace, curved, r->node, slope);
   memset(slope, 0, (size_t)workspace->channel_count * sizeof *slope);
-  if (curved)
-    return ambulo__curved_value(
-        curved, workspace->channel + ambulo__lane_index(r->node, workspace->channel_count, 0),
-        AMBULO__LANES, slope);
   const ambulo_user_row *user = &p->definition.user_rows[r->user];
   ambulo__node_state_fill(workspace, r->node, workspace->node_state);
   ambulo_node_state state = ambulo__node_state_view(p, r->node, workspace->node_state);

@@ -62,11 +62,21 @@ static hash add_terms(hash h, const ambulo_problem *p) {
   return h;
 }
 
+static hash add_solid(hash h, const ambulo__solid *solid) {
+  h = add_numbers(add_integer(h, (int)solid->kind), &solid->distance, 1);
+  h = add_numbers(add_numbers(h, &solid->radius, 1), solid->weight, 2);
+  if (solid->kind == AMBULO__SOLID_CAPSULE) return add_numbers(h, solid->ends[0], 6);
+  if (solid->kind == AMBULO__SOLID_MOVING) return h;
+  h = add_numbers(add_numbers(h, solid->center, 3), solid->half, 3);
+  return add_numbers(h, solid->axes[0], 9);
+}
+
 static hash add_curved(hash h, const ambulo__curved *row) {
   const ambulo__arc *arc = &row->of.arc;
   int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(row, channel);
   for (int i = 0; i < count; i++) h = add_integer(h, channel[i]);
-  if (!row->is_arc) {
+  if (row->is == AMBULO__IS_SOLID) return add_solid(h, &row->of.solid);
+  if (row->is == AMBULO__IS_APART) {
     h = add_numbers(h, &row->of.apart.distance, 1);
     return add_numbers(h, row->of.apart.up, 3);
   }

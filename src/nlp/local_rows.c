@@ -55,7 +55,15 @@ void ambulo__channel_local_gradient(const ambulo_workspace *workspace, int node,
 static void add_user_row(const ambulo_workspace *workspace, int row, double factor,
                          double *gradient) {
   const double *slope = ambulo__user_slope(workspace, row);
-  int node = workspace->problem->table.rows[row].node;
+  const ambulo__row_table *table = &workspace->problem->table;
+  const ambulo__curved *curved = ambulo__row_curved_of(table, &table->rows[row]);
+  int node = table->rows[row].node, channel[AMBULO__CURVED_CHANNELS];
+  int count = curved ? ambulo__curved_channels(curved, channel) : 0;
+  for (int k = 0; k < count; k++) {
+    double by = factor * slope[channel[k]];
+    if (by != 0.0) add_channel(workspace, node, channel[k], by, gradient);
+  }
+  if (curved) return;
   for (int c = 0; c < workspace->channel_count; c++) {
     if (slope[c] != 0.0) add_channel(workspace, node, c, factor * slope[c], gradient);
   }

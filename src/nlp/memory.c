@@ -12,16 +12,27 @@
 #include "base/free_memory.h"
 #include "nlp/problem.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const double terms_of_a_row = 3.5; /* of walks; 1 of limits, 6 of centres of pressure */
 static const double growth = 1.5;         /* arrays that double are filled to 3/4 on average */
+
+/* of capsules and obstacles */
+static double solid_rows(const ambulo_problem *p) {
+  const ambulo_problem_definition *d = &p->definition;
+  double per_node = d->collision.pair_count;
+  for (int o = 0; o < d->obstacle_count; o++)
+    per_node += d->obstacles[o].capsules ? d->obstacles[o].capsule_count : p->model->capsule_count;
+  return per_node * p->nodes;
+}
 
 double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
   double lanes = 8.0 * p->blocks, word = sizeof(double);
   double bytes = 2.0 * lanes * word * ambulo__channel_count(&p->channels);
   bytes += word * (2.0 * p->variables + 1.5 * p->rows);
+  bytes += word * solid_rows(p) * ambulo__channel_count(&p->channels);
   bytes += word * (double)ambulo__plan_scratch(p->plan);
   if (!with_jacobians) return bytes;
   bytes += lanes * word * (pattern.count + 2.0 * pattern.dynamic_count);
@@ -29,9 +40,10 @@ double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
 }
 
 double ambulo__row_bytes(const ambulo_problem *p, double rows) {
-  (void)p;
   double row = sizeof(ambulo__table_row) + terms_of_a_row * sizeof(ambulo__row_term);
   double runs = sizeof(double) + terms_of_a_row * (sizeof(double) + sizeof(int));
+  double curved = solid_rows(p) / fmax(1.0, ambulo__rows_at_most(p));
+  row += curved * sizeof(ambulo__curved);
   return rows * (growth * row + runs + sizeof(double));
 }
 
@@ -43,9 +55,9 @@ double ambulo__rows_at_most(const ambulo_problem *p) {
       limits * p->coordinates + 2.0 * d->tube_count * p->coordinates + d->user_row_count;
   /* contacts, clearance, pressure and friction of a foot; support, friction and moments of all */
   per_node += 24.0 * ambulo_model_foot_count(p->model) + 16.0;
-  per_node += 18.0 * ambulo_model_patch_count(p->model);
+  per_node += 18.0 * ambulo_model_patch_count(p->model) + 6.0 * d->reach_count;
   double points = d->joint_limits == AMBULO_LIMIT_CONTROL_POINTS ? 2.0 * p->variables : 0.0;
-  return per_node * p->nodes + points + 6.0 * p->coordinates;
+  return per_node * p->nodes + solid_rows(p) + points + 6.0 * p->coordinates;
 }
 
 ambulo_status ambulo__check_memory(const ambulo_problem *p, ambulo_diagnostics *diagnostics) {

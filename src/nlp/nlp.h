@@ -14,6 +14,7 @@
 #define AMBULO_NLP_NLP_H
 
 #include "ambulo/solve.h"
+#include "gait/collision.h"
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
 #include "mechanics/plan.h"
@@ -62,6 +63,9 @@ struct ambulo_problem {
   ambulo_problem_definition definition; /* deep copy: every array belongs to the problem */
   ambulo_options file_options;          /* what the file asks of the solver; all 0: no file */
   ambulo_model *owned_model;            /* freed with the problem; NULL if the caller owns it */
+  ambulo_model *extended_model; /* `model` where capsules have rows (nlp/bodies.c); else NULL */
+  ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
+  char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section *free; /* one block (reader/problem_free.h); NULL: nothing is free */
   const ambulo_model *model;
   ambulo__plan *plan;

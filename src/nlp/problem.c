@@ -150,6 +150,10 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
     ambulo__reaction_rows(&context, &p->table);
   if (d->ground_reaction.kind == AMBULO_REACTION_SHARED) ambulo__sharing_rows(&context, &p->table);
   ambulo__limit_rows(&context, &p->table);
+  ambulo__collision_rows(&context, &p->table);
+  ambulo__obstacle_rows(&context, &p->table);
+  status = ambulo__reach_rows(&context, &p->table, diagnostics);
+  if (status) return status;
   ambulo__tube_rows(&context, &p->table);
   ambulo__end_rows(&context, &p->table);
   add_user_rows(p);
@@ -214,15 +218,19 @@ static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics 
   ambulo_status status = ambulo__mirror_check(&p->definition, &p->allocator, diagnostics);
   if (status == AMBULO_E_MEMORY) return status;
   ambulo_status terms = ambulo__mirror_terms_check(&p->definition, &p->allocator, diagnostics);
+  ambulo_status bodies = ambulo__collision_mirror_check(&p->definition, diagnostics);
+  if (bodies) status = bodies;
   return terms ? terms : status;
 }
 
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
+  ambulo_status status = ambulo__problem_add_bodies(p, diagnostics);
+  if (status) return status;
   p->model = p->definition.model;
   p->coordinates = ambulo_model_coordinate_count(p->model);
   p->channels.coordinates = p->coordinates;
   p->channels.points = ambulo_model_point_count(p->model);
-  ambulo_status status = build_grid(p, diagnostics);
+  status = build_grid(p, diagnostics);
   if (!status) status = build_plan(p, diagnostics);
   if (!status) status = ambulo__check_memory(p, diagnostics);
   ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
@@ -257,13 +265,36 @@ ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *de
   return AMBULO_OK;
 }
 
+/* with names of obstacles of its own */
+static ambulo_status create_named(const ambulo_problem_definition *definition,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
+  ambulo_status status = ambulo__definition_check(definition, diagnostics);
+  if (status || definition->obstacle_count == 0)
+    return status ? status
+                  : ambulo__problem_create_unnamed(definition, allocator, diagnostics, problem);
+  ambulo_problem_definition named = *definition;
+  ambulo_allocator own = ambulo__allocator_or_default(allocator);
+  ambulo_obstacle *obstacles = NULL;
+  char *names = NULL;
+  status = ambulo__obstacles_copy(definition, &own, &obstacles, &names);
+  if (status) return status;
+  named.obstacles = obstacles;
+  status = ambulo__problem_create_unnamed(&named, allocator, diagnostics, problem);
+  ambulo__free(&own, obstacles);
+  if (status)
+    ambulo__free(&own, names);
+  else
+    (*problem)->obstacle_names = names;
+  return status;
+}
+
 ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
   if (!problem) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status =
-      ambulo__problem_create_unnamed(definition, allocator, diagnostics, problem);
+  ambulo_status status = create_named(definition, allocator, diagnostics, problem);
   if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
   (*problem)->hash = ambulo__problem_hash_of(*problem);
   return AMBULO_OK;
@@ -283,6 +314,9 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->before);
   ambulo__free_aligned(&a, p->ground);
   ambulo__definition_free(&a, &p->definition);
+  ambulo__pairs_free(&a, &p->pairs);
+  ambulo__free(&a, p->obstacle_names);
+  ambulo_model_free(p->extended_model);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p->free);
   ambulo__free(&a, p);

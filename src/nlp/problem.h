@@ -7,6 +7,15 @@
 /* A problem of more rows is refused. */
 enum { AMBULO__MOST_ROWS = 50000000 };
 
+/* bodies.c: of a problem that was checked, the model with points on its capsules, and the pairs of
+ * automatic collision as pairs that are listed. E_MEMORY, E_MODEL, E_LIMIT. */
+ambulo_status ambulo__problem_add_bodies(ambulo_problem *problem, ambulo_diagnostics *diagnostics);
+/* A copy of the obstacles with copies of their names in *names, both freed by the caller; those of
+ * problems made from this one are the same. E_MEMORY. */
+ambulo_status ambulo__obstacles_copy(const ambulo_problem_definition *definition,
+                                     const ambulo_allocator *allocator, ambulo_obstacle **obstacles,
+                                     char **names);
+
 /* What ambulo_problem_definition_default() sets. */
 enum { AMBULO__DEFINITION_COOKIE = 0x616d6270 };
 
@@ -21,6 +30,10 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
                                       ambulo_problem_definition *to);
 void ambulo__definition_free(const ambulo_allocator *allocator,
                              ambulo_problem_definition *definition);
+/* A copy's pairs of capsules are these, which it frees, instead of those it had. */
+void ambulo__definition_set_pairs(const ambulo_allocator *allocator,
+                                  ambulo_problem_definition *definition, ambulo_capsule_pair *pairs,
+                                  int count);
 /* The same problem on another grid: `intervals` time intervals and `spline_intervals`
  * intervals of the trajectory. Breakpoints of its own are kept only while their number
  * stays, and times of nodes of its own likewise: other numbers are distributed over the phases.

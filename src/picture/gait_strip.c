@@ -7,12 +7,13 @@
  * with s the scale (px per metre), r_ref a point that moves with the whole body, v its mean
  * speed along f: the true place, with the walking direction stretched by the constant factor
  * that spreads the figures over the time axis. Where the ground is not level each figure stands on
- * the piece of it that is below it.
+ * the piece of it that is below it, and among the pieces of obstacles beside it.
  */
 #include <math.h>
 
 #include "gait/contact_frame.h"
 #include "picture/gait_ground.h"
+#include "picture/gait_obstacles.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
 #include "picture/svg.h"
@@ -268,6 +269,27 @@ static void draw_ground_below(const strip *s, double t, ambulo__text_buffer *tex
   ambulo__svg_path_end(text);
 }
 
+/* figures that walk, and not only stand beside their own later ones */
+static int walks(const strip *s) {
+  return s->scale * fabs(s->speed) * s->panel->duration > s->panel->width / most_stretch;
+}
+
+/* obstacles and places beside a figure: as far as halfway to the next, or in its reach */
+static void draw_surroundings(const strip *s, const ambulo__stride *stride, double t,
+                              ambulo__text_buffer *text) {
+  double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
+  if (!walks(s)) half = fmax(-s->left, s->right) + around;
+  ambulo__figure_view view = {.origin = s->start + s->speed * t,
+                              .half = half,
+                              .x = ambulo__panel_time(s->panel, t),
+                              .base = s->base,
+                              .scale = s->scale,
+                              .time = t,
+                              .apart = stride->duration / (double)(stride->samples - 1)};
+  if (!isfinite(view.origin)) return;
+  ambulo__gait_obstacles_draw(stride->problem, &view, text);
+}
+
 static void draw_level_ground(const strip *s, ambulo__text_buffer *text) {
   double left = s->panel->x - 70.0, width = s->panel->width + 150.0;
   ambulo__svg_rectangle(text, "soil", left, s->base, width, soil_depth);
@@ -281,6 +303,7 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
   for (int k = 0; k < stride->samples; k++) {
     double t = stride->times[k];
     ambulo__pose_at(&s->skeleton.pose, stride->q + (size_t)k * (size_t)stride->coordinates);
+    draw_surroundings(s, stride, t, text);
     ambulo__svg_group_begin(text, "figure");
     draw_side(s, t, AMBULO__LEFT, "left", text);
     draw_side(s, t, AMBULO__MIDDLE, "trunk", text);
@@ -303,7 +326,7 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
   double true_width = s->scale * fabs(s->speed) * s->panel->duration;
   ambulo__text_buffer label;
   ambulo__text_init_part(&label, text);
-  if (true_width > s->panel->width / most_stretch) {
+  if (walks(s)) {
     ambulo__text_append(&label, "side view, walking direction stretched ");
     ambulo__label_number(&label, s->panel->width / true_width, 1);
     ambulo__text_append(&label, "\xc3\x97");

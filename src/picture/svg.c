@@ -22,6 +22,8 @@ static const char style_sheet[] =
     ".ground{stroke:#8b96a2;stroke-width:1.5}\n"
     ".edge{fill:none;stroke:#8b96a2;stroke-width:1.5;stroke-linejoin:round}\n"
     ".soil{fill:#f3f5f7}\n"
+    ".place{fill:none;stroke:#1e8449;stroke-width:3}\n"
+    ".obstacle{fill:#cfd6dd;stroke:#6b7682;stroke-width:1.2}\n"
     ".trunk,.left,.right{fill:none;stroke-linecap:round;stroke-linejoin:round;stroke-width:3.4}\n"
     ".trunk{stroke:#1d2733}\n"
     ".left{stroke:#e0662f}\n"

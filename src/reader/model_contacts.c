@@ -1,4 +1,4 @@
-/* reader/model_contacts.c - `points`, `feet` and `patches` of a model file. */
+/* reader/model_contacts.c - `points`, `feet`, `patches` and `capsules` of a model file. */
 #include "reader/model_reader.h"
 
 void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list) {
@@ -95,5 +95,30 @@ void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list)
     reader->patches[i].mirror =
         ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "patch",
                                reader->patch_names, reader->definition.patch_count);
+  }
+}
+
+void ambulo__read_capsules(ambulo__reader *reader, const ambulo__yaml_node *list) {
+  for (int i = 0; i < reader->definition.capsule_count; i++) {
+    const ambulo__yaml_node *item = ambulo__yaml_item(list, i);
+    ambulo_capsule *capsule = &reader->capsules[i];
+    const char *name = ambulo__yaml_name(ambulo__yaml_require(item, "name"));
+    capsule->name = reader->capsule_names[i] = name;
+    reader->capsule_places[i] = ambulo__yaml_place(item);
+    capsule->link = ambulo__read_reference(ambulo__yaml_require(item, "link"), "link",
+                                           reader->link_names, reader->definition.link_count);
+    (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "from"), 3, reader->length,
+                              capsule->from);
+    (void)ambulo__read_vector(reader, ambulo__yaml_require(item, "to"), 3, reader->length,
+                              capsule->to);
+    capsule->radius =
+        ambulo__read_scaled(reader, ambulo__yaml_require(item, "radius"), reader->length, 0.0);
+    ambulo__yaml_expect(item, "mirror");
+    ambulo__yaml_close(item);
+  }
+  for (int i = 0; i < reader->definition.capsule_count; i++) {
+    reader->capsules[i].mirror =
+        ambulo__read_reference(ambulo__yaml_get(ambulo__yaml_item(list, i), "mirror"), "capsule",
+                               reader->capsule_names, reader->definition.capsule_count);
   }
 }

@@ -17,30 +17,35 @@ static int allocate(ambulo__reader *r) {
   const ambulo_allocator *a = &r->allocator;
   size_t links = (size_t)r->definition.link_count, points = (size_t)r->definition.point_count;
   size_t feet = (size_t)r->definition.foot_count, patches = (size_t)r->definition.patch_count;
-  size_t all = 2 * links + points + feet + patches;
+  size_t capsules = (size_t)r->definition.capsule_count;
+  size_t all = 2 * links + points + feet + patches + capsules;
   r->links = ambulo__alloc(a, links, sizeof *r->links);
   r->coordinates = ambulo__alloc(a, links, sizeof *r->coordinates);
   r->points = ambulo__alloc(a, points, sizeof *r->points);
   r->feet = ambulo__alloc(a, feet, sizeof *r->feet);
   r->patches = ambulo__alloc(a, patches, sizeof *r->patches);
+  r->capsules = ambulo__alloc(a, capsules, sizeof *r->capsules);
   r->link_places = ambulo__alloc(a, all, sizeof *r->link_places);
   r->link_names = ambulo__alloc(a, all, sizeof *r->link_names);
-  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->patches || !r->link_places ||
-      !r->link_names)
+  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->patches || !r->capsules ||
+      !r->link_places || !r->link_names)
     return 0;
   r->coordinate_places = r->link_places + links;
   r->point_places = r->coordinate_places + links;
   r->foot_places = r->point_places + points;
   r->patch_places = r->foot_places + feet;
+  r->capsule_places = r->patch_places + patches;
   r->coordinate_names = r->link_names + links;
   r->point_names = r->coordinate_names + links;
   r->foot_names = r->point_names + points;
   r->patch_names = r->foot_names + feet;
+  r->capsule_names = r->patch_names + patches;
   r->places.links = r->link_places;
   r->places.coordinates = r->coordinate_places;
   r->places.points = r->point_places;
   r->places.feet = r->foot_places;
   r->places.patches = r->patch_places;
+  r->places.capsules = r->capsule_places;
   return 1;
 }
 
@@ -51,6 +56,7 @@ static void release(ambulo__reader *r) {
   ambulo__free(a, r->points);
   ambulo__free(a, r->feet);
   ambulo__free(a, r->patches);
+  ambulo__free(a, r->capsules);
   ambulo__free(a, r->link_places);
   ambulo__free(a, r->link_names);
 }
@@ -91,11 +97,13 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
   const ambulo__yaml_node *points = ambulo__yaml_get(root, "points");
   const ambulo__yaml_node *feet = ambulo__yaml_get(root, "feet");
   const ambulo__yaml_node *patches = ambulo__yaml_get(root, "patches");
+  const ambulo__yaml_node *capsules = ambulo__yaml_get(root, "capsules");
   ambulo__yaml_close(root);
   int good = ambulo__read_count(r, links, "links", AMBULO__MAX_LINKS, &d->link_count);
   good &= ambulo__read_count(r, points, "points", AMBULO__MAX_POINTS, &d->point_count);
   good &= ambulo__read_count(r, feet, "feet", AMBULO__MAX_FEET, &d->foot_count);
   good &= ambulo__read_count(r, patches, "patches", AMBULO__MAX_PATCHES, &d->patch_count);
+  good &= ambulo__read_count(r, capsules, "capsules", AMBULO__MAX_CAPSULES, &d->capsule_count);
   if (!good) return;
   if (!allocate(r)) {
     r->status = AMBULO_E_MEMORY;
@@ -105,11 +113,13 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
   ambulo__read_points(r, points);
   ambulo__read_feet(r, feet);
   ambulo__read_patches(r, patches);
+  ambulo__read_capsules(r, capsules);
   d->links = r->links;
   d->coordinates = r->coordinates;
   d->points = r->points;
   d->feet = r->feet;
   d->patches = r->patches;
+  d->capsules = r->capsules;
 }
 
 /* ------------------------------------------------------------------- loading */

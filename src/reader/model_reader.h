@@ -1,8 +1,8 @@
 /* reader/model_reader.h - a model file on its way to a definition (docs/model-format.md).
  *
  * The parts of the file are read in this order: subject and units, links, coordinates' mirror
- * images, points, feet, patches. Faults are recorded and reading goes on; ambulo__reader_status()
- * tells at the end. Names in the definition belong to the YAML document. */
+ * images, points, feet, patches, capsules. Faults are recorded and reading goes on;
+ * ambulo__reader_status() tells at the end. Names in the definition belong to the YAML document. */
 #ifndef AMBULO_READER_MODEL_READER_H
 #define AMBULO_READER_MODEL_READER_H
 
@@ -27,9 +27,12 @@ typedef struct ambulo__reader {
   ambulo_point *points;           /* [point_count] */
   ambulo_foot *feet;              /* [foot_count] */
   ambulo_patch *patches;          /* [patch_count] */
+  ambulo_capsule *capsules;       /* [capsule_count] */
   ambulo__model_places places;
-  ambulo__place *link_places, *coordinate_places, *point_places, *foot_places, *patch_places;
-  const char **link_names, **coordinate_names, **point_names, **foot_names, **patch_names;
+  ambulo__place *link_places, *coordinate_places, *point_places, *foot_places, *patch_places,
+      *capsule_places;
+  const char **link_names, **coordinate_names, **point_names, **foot_names, **patch_names,
+      **capsule_names;
 } ambulo__reader;
 
 ambulo_status ambulo__reader_status(const ambulo__reader *reader);
@@ -71,5 +74,6 @@ void ambulo__read_body(ambulo__reader *reader, const ambulo__yaml_node *link_nod
 void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_feet(ambulo__reader *reader, const ambulo__yaml_node *list);
 void ambulo__read_patches(ambulo__reader *reader, const ambulo__yaml_node *list);
+void ambulo__read_capsules(ambulo__reader *reader, const ambulo__yaml_node *list);
 
 #endif

@@ -36,7 +36,9 @@ void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml
   d->speed_limits = ambulo__yaml_boolean(ambulo__yaml_get(section, "speed_limits"), 0);
   d->torque_limits = ambulo__yaml_boolean(ambulo__yaml_get(section, "torque_limits"), 0);
   ambulo__read_contact_rows(reader, section);
-  ambulo__yaml_expect(section, "tubes"); /* read with the schedule known */
+  ambulo__yaml_expect(section, "tubes");     /* read with the schedule known */
+  ambulo__yaml_expect(section, "collision"); /* with the model known */
+  ambulo__yaml_expect(section, "reach");
   ambulo__yaml_close(section);
 }
 

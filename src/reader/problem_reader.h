@@ -96,6 +96,8 @@ const double *ambulo__read_tracked_motion(ambulo__problem_reader *reader,
 const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                                           const ambulo__yaml_node *node, int samples,
                                           double *scale);
+/* `constraints.collision`, `constraints.reach`, `obstacles`. */
+void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `constraints.tubes`; after the time and the schedule. */
 void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 

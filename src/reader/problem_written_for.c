@@ -55,6 +55,7 @@ static void scale_gaps(ambulo_problem_definition *d, double longer) {
                        &c->outward,
                        &c->inward,
                        &c->feet,
+                       &d->collision.margin,
                        &r->moment_arm,
                        &r->free_moment,
                        &r->heel_pressure[0],

@@ -71,6 +71,14 @@ static void settle_swing(ambulo__event_map *map, int foot, double time) {
   for (int i = 0; i < edges; i++) settle_share(map, air, edge[i]);
 }
 
+/* what is asked for at a time of its own: an event that would carry it along is unclear */
+static void hold(ambulo__event_map *map, double time) {
+  int row = ambulo__event_at(&map->rows, time);
+  if (row < 0) return;
+  sum was = {{map->source[2 * row], map->source[2 * row + 1]}, {0.0, 0.0}};
+  blur(map, &was);
+}
+
 static void settle_all(ambulo__event_map *map) {
   const ambulo_problem_definition *d = &map->problem->definition;
   for (int e = 0; e < map->contacts.count; e++)
@@ -79,6 +87,10 @@ static void settle_all(ambulo__event_map *map) {
     if (d->contacts[c].foot < 0) continue;
     settle_swing(map, d->contacts[c].foot, d->contacts[c].from);
     settle_swing(map, d->contacts[c].foot, d->contacts[c].to);
+  }
+  for (int i = 0; i < d->reach_count; i++) {
+    hold(map, d->reaches[i].from);
+    hold(map, d->reaches[i].to);
   }
 }
 

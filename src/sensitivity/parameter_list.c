@@ -52,6 +52,7 @@ static double size_of(const ambulo__problem_keys *keys, const char *name) {
                                         "constraints.clearance.outward",
                                         "constraints.clearance.inward",
                                         "constraints.clearance.feet",
+                                        "constraints.collision.margin",
                                         "ground_reaction.moment_arm",
                                         "ground_reaction.free_moment",
                                         "ground_reaction.pressure."};

@@ -54,6 +54,7 @@ static void add_contact_rows(ambulo__parameters *p) {
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, d->ground_height, by->ground_height,
                           "height of the ground", "constraints.ground_height");
   add_clearance(p);
+  ambulo__parameters_of_bodies(p);
 }
 
 static void add_tube(ambulo__parameters *p, int t, int i) {

@@ -22,6 +22,10 @@ ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__poo
   partials->price = ambulo__pool_doubles(pool, 2 * terms * n);
   partials->node_time = ambulo__pool_doubles(pool, (size_t)problem->nodes);
   partials->contact_time = ambulo__pool_doubles(pool, 2 * (size_t)d->contact_count);
+  partials->obstacle_margin = ambulo__pool_doubles(pool, (size_t)d->obstacle_count);
+  partials->obstacle_place = ambulo__pool_doubles(pool, 6 * (size_t)d->obstacle_count);
+  partials->reach_place = ambulo__pool_doubles(pool, 3 * (size_t)d->reach_count);
+  partials->reach_tolerance = ambulo__pool_doubles(pool, (size_t)d->reach_count);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
@@ -48,6 +52,7 @@ ambulo_status ambulo__partials_at(const ambulo_problem *problem, ambulo_workspac
   if (status) return status;
   ambulo__partials_of_places(&s, partials);
   ambulo__partials_of_bounds(&s, partials);
+  ambulo__partials_of_bodies(&s, partials);
   ambulo__partials_of_terms(&s, partials);
   status = ambulo__partials_of_forces(&s, partials);
   if (!status) status = take_adjoints(&s, pool);

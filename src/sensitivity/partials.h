@@ -17,9 +17,9 @@
  *
  * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
  * place_rows.c; force_rows.c, support_side.c; contact_pull.h, contact_times.c, sharing_rows.c;
- * bound_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c, contact_split.h,
- * contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h, event_rates.c,
- * event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
+ * bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
+ * contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h,
+ * event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
  * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
@@ -59,7 +59,11 @@ typedef struct ambulo__partials {
   double log_mass;      /* of the mass m wherever it stands in rows and terms, torques left out:
                            dL/d ln m */
   double body;          /* dL/d ln of the mass of all bodies but the load, in every place */
-  double load;          /* kg: of the load (ambulo_model.load) */
+  double collision_margin, *obstacle_margin; /* m; [obstacles] */
+  double *obstacle_place; /* [obstacles][2][3]: of a box's middle, of a capsule's two ends; along
+                             forward, left and up */
+  double *reach_place, *reach_tolerance; /* [reaches][3], [reaches] */
+  double load;                           /* kg: of the load (ambulo_model.load) */
 } ambulo__partials;
 
 /* A solution: x* is the point that the workspace holds. */
@@ -82,6 +86,7 @@ ambulo_status ambulo__partials_at(const ambulo_problem *problem, ambulo_workspac
 void ambulo__partials_of_places(const ambulo__stationary *s, ambulo__partials *partials);
 ambulo_status ambulo__partials_of_forces(const ambulo__stationary *s, ambulo__partials *partials);
 void ambulo__partials_of_bounds(const ambulo__stationary *s, ambulo__partials *partials);
+void ambulo__partials_of_bodies(const ambulo__stationary *s, ambulo__partials *partials);
 void ambulo__partials_of_terms(const ambulo__stationary *s, ambulo__partials *partials);
 /* 1: the offset of coordinate i is the body weight, whose pull that of the mass has. */
 int ambulo__offset_is_weight(const ambulo_problem *problem, const ambulo_term *term, int i);

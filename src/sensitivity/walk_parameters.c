@@ -61,7 +61,8 @@ static void by_lengths(const ambulo__parameters *p, double by[2]) {
 
 static int moves_with_duration(const ambulo_problem *problem) {
   const ambulo_problem_definition *d = &problem->definition;
-  int follows = d->user_row_count > 0 || d->breakpoints || d->node_times || d->tube_count > 0;
+  int follows = d->user_row_count > 0 || d->breakpoints || d->node_times || d->tube_count > 0 ||
+                d->reach_count > 0;
   for (int t = 0; t < d->term_count; t++) follows |= d->terms[t].function || d->terms[t].reference;
   if (d->contact_count > 0) follows |= !problem->keys.gait || problem->keys.times;
   return !follows;

@@ -1,0 +1,73 @@
+/* ambulo/collision.h - bodies that take up room: parts of problem.h.
+ *
+ * A model's capsules (ambulo_capsule in model.h) keep clear of one another and of obstacles, and a
+ * point of a body comes to a place at a time. Places are along forward, along left and up from the
+ * world's origin, the third above the ground's height; m. Rows stand at the nodes:
+ *
+ *   collision  distance of two capsules' segments - (r1 + r2 + margin) >= 0              m
+ *   obstacle   the same of a capsule and an obstacle                                     m
+ *   reach      |point - place| <= tolerance along each of the three                      m
+ *
+ * The distance is smoothed (docs/equations.md, 14.h): at least so much is kept, and up to .5 mm
+ * more. */
+#ifndef AMBULO_COLLISION_H
+#define AMBULO_COLLISION_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ambulo_collision_mode {
+  AMBULO_COLLISION_OFF,
+  AMBULO_COLLISION_PAIRS, /* those that are listed */
+  /* All pairs but those of links that hang on one another by joints alone, those that overlap in
+   * the rest pose (all coordinates 0, or as near as their ranges let them), and those that come no
+   * nearer than 0.1 m (of a body of 1.75 m) in any of 1024 poses within the ranges. */
+  AMBULO_COLLISION_AUTOMATIC
+} ambulo_collision_mode;
+
+/* Two capsules of the model, by index. */
+typedef struct ambulo_capsule_pair {
+  int one, other;
+} ambulo_capsule_pair;
+
+/* With mirrored ends the mirror image of each pair is kept apart too. */
+typedef struct ambulo_collision {
+  ambulo_collision_mode mode;
+  const ambulo_capsule_pair *pairs; /* [pair_count] */
+  int pair_count;
+  double margin; /* air that they keep, m, >= 0 */
+} ambulo_collision;
+
+typedef enum ambulo_obstacle_shape {
+  AMBULO_OBSTACLE_BOX,
+  AMBULO_OBSTACLE_CAPSULE
+} ambulo_obstacle_shape;
+
+/* Something that stands still. Not with mirrored ends, where one step stands for both. */
+typedef struct ambulo_obstacle {
+  const char *name; /* "hurdle"; no two have the same */
+  ambulo_obstacle_shape shape;
+  double center[3], half[3]; /* of a box: its middle; half its size along its own forward, left and
+                                up, > 0 */
+  double heading;            /* of a box, about up, turned to the left, rad */
+  double from[3], to[3];     /* of a capsule: ends of its line */
+  double radius;             /* of a capsule, > 0 */
+  double margin;             /* air that capsules keep from it, m, >= 0 */
+  const int *capsules;       /* [capsule_count] of the model, which keep clear; NULL: all */
+  int capsule_count;
+} ambulo_obstacle;
+
+/* A point of the model is at a place from one time to another, or at one time. */
+typedef struct ambulo_reach {
+  int point;
+  double place[3];
+  double from, to;  /* s; nodes within 1e-9 s of [from, to], at least one; on a grid on events both
+                       are events */
+  double tolerance; /* along each axis, m; 0: equations */
+} ambulo_reach;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

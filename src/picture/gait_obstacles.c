@@ -1,0 +1,69 @@
+/* picture/gait_obstacles.c - see gait_obstacles.h. */
+#include "picture/gait_obstacles.h"
+
+#include "base/vector.h"
+#include "gait/collision.h"
+#include "picture/svg.h"
+
+#include <math.h>
+
+static const double across = 1e-6; /* m */
+static const double ring = 5.0;    /* px */
+
+static void widen(ambulo__outline *o, double forward, double up, double radius) {
+  o->from = fmin(o->from, forward - radius);
+  o->to = fmax(o->to, forward + radius);
+  o->low = fmin(o->low, up - radius);
+  o->high = fmax(o->high, up + radius);
+}
+
+ambulo__outline ambulo__obstacle_outline(const ambulo_problem *p, int obstacle) {
+  ambulo__outline o = {INFINITY, -INFINITY, INFINITY, -INFINITY, 0};
+  ambulo__solid solid = ambulo__solid_of_obstacle(&p->definition, obstacle);
+  const ambulo_model *m = p->model;
+  double ground = p->definition.ground_height;
+  if (solid.kind == AMBULO__SOLID_CAPSULE) {
+    for (int e = 0; e < 2; e++)
+      widen(&o, ambulo__dot(m->forward, solid.ends[e]), ambulo__dot(m->up, solid.ends[e]) - ground,
+            solid.radius);
+    o.is_round = fmax(o.to - o.from, o.high - o.low) < 2.0 * solid.radius + across;
+    return o;
+  }
+  for (int corner = 0; corner < 8; corner++) {
+    double r[3];
+    for (int i = 0; i < 3; i++) {
+      r[i] = solid.center[i];
+      for (int k = 0; k < 3; k++)
+        r[i] += (corner >> k & 1 ? 1.0 : -1.0) * solid.half[k] * solid.axes[k][i];
+    }
+    widen(&o, ambulo__dot(m->forward, r), ambulo__dot(m->up, r) - ground, 0.0);
+  }
+  return o;
+}
+
+static void draw_outline(const ambulo__outline *o, const ambulo__figure_view *v,
+                         ambulo__text_buffer *text) {
+  double from = fmax(o->from - v->origin, -v->half), to = fmin(o->to - v->origin, v->half);
+  double middle = 0.5 * (o->from + o->to) - v->origin, top = v->base - v->scale * o->high;
+  if (o->is_round && fabs(middle) <= v->half)
+    ambulo__svg_circle(text, "obstacle", v->x + v->scale * middle,
+                       v->base - 0.5 * v->scale * (o->low + o->high),
+                       0.5 * v->scale * (o->high - o->low));
+  if (!o->is_round && to > from)
+    ambulo__svg_rectangle(text, "obstacle", v->x + v->scale * from, top, v->scale * (to - from),
+                          v->scale * (o->high - o->low));
+}
+
+void ambulo__gait_obstacles_draw(const ambulo_problem *p, const ambulo__figure_view *v,
+                                 ambulo__text_buffer *text) {
+  for (int i = 0; i < p->definition.obstacle_count; i++) {
+    ambulo__outline outline = ambulo__obstacle_outline(p, i);
+    draw_outline(&outline, v, text);
+  }
+  for (int i = 0; i < p->definition.reach_count; i++) {
+    const ambulo_reach *reach = &p->definition.reaches[i];
+    if (v->time < reach->from - 0.5 * v->apart || v->time >= reach->to + 0.5 * v->apart) continue;
+    ambulo__svg_circle(text, "place", v->x + v->scale * (reach->place[0] - v->origin),
+                       v->base - v->scale * reach->place[2], ring);
+  }
+}

@@ -1,0 +1,95 @@
+/* A copy of a model with the ends of some capsules among its points; which links are neighbours. */
+#include "model/capsule_points.h"
+#include "model/neutral_pose.h"
+#include "support/messages.h"
+#include "support/test.h"
+
+#include <string.h>
+
+static ambulo_model *body(const char *name) {
+  ambulo_model *m = NULL;
+  char path[100];
+  (void)snprintf(path, sizeof path, "models/%s.yaml", name);
+  assert_int_equal(ambulo_model_load(path, NULL, NULL, NULL, &m), AMBULO_OK);
+  return m;
+}
+
+static void ends_are_points(void **state) {
+  (void)state;
+  ambulo_model *m = body("lower_body_18"), *extended = NULL, *more = NULL;
+  int used[64] = {0}, head = ambulo_model_find_capsule(m, "head");
+  int foot = ambulo_model_find_capsule(m, "foot_l");
+  used[foot] = 1;
+  assert_int_equal(ambulo__model_with_capsule_points(m, used, NULL, NULL, &extended), AMBULO_OK);
+  assert_int_equal(extended->point_count, m->point_count + 2);
+  assert_int_equal(extended->capsule_point[foot], m->point_count);
+  assert_int_equal(extended->capsule_point[head], -1);
+  assert_int_equal(m->capsule_point[foot], -1);
+  const ambulo_point *to = ambulo_model_point(extended, m->point_count + 1);
+  assert_string_equal(to->name, "foot_l.to");
+  assert_int_equal(to->link, m->capsules[foot].link);
+  assert_memory_equal(to->position, m->capsules[foot].to, sizeof to->position);
+  double world[3], place[3];
+  ambulo__neutral_point(extended, m->point_count + 1, world);
+  ambulo__neutral_place(m, to->link, m->capsules[foot].to, place);
+  assert_memory_equal(world, place, sizeof world);
+  used[head] = 1; /* those that have points keep them */
+  assert_int_equal(ambulo__model_with_capsule_points(extended, used, NULL, NULL, &more), AMBULO_OK);
+  assert_int_equal(more->point_count, m->point_count + 4);
+  assert_int_equal(more->capsule_point[foot], m->point_count);
+  assert_int_equal(more->capsule_point[head], m->point_count + 2);
+  ambulo_model_free(more);
+  ambulo_model_free(extended);
+  ambulo_model_free(m);
+}
+
+static void a_point_of_that_name_is_in_the_way(void **state) {
+  (void)state;
+  static const char text[] =
+      "ambulo: 1\nkind: model\nname: rod\nunits: {angle: degrees}\nlinks:\n"
+      "  - {name: rod, parent: none, joint: revolute, dh: [0, 0, 1, 0],\n"
+      "     body: {mass: 1, com: [0, 0, 0], gyration: [1, 1, 1]}}\n"
+      "points: [{name: c.to, link: rod, position: [0, 0, 0]}]\n"
+      "capsules: [{name: c, link: rod, from: [0, 0, 0], to: [1, 0, 0], radius: 0.1}]\n";
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_model *m = NULL, *extended = NULL;
+  int used = 1;
+  assert_int_equal(ambulo_model_load_text(text, sizeof text - 1, "t", NULL, NULL, NULL, &m), 0);
+  assert_int_equal(ambulo__model_with_capsule_points(m, &used, NULL, list, &extended),
+                   AMBULO_E_MODEL);
+  assert_message(list, 0, "two points are named 'c.to'");
+  assert_null(extended);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(m);
+}
+
+static int neighbours(const ambulo_model *m, const char *one, const char *other) {
+  int a = ambulo_model_find_link(m, one), b = ambulo_model_find_link(m, other);
+  assert_true(a >= 0 && b >= 0);
+  int answer = ambulo__links_are_neighbours(m, a, b);
+  assert_int_equal(answer, ambulo__links_are_neighbours(m, b, a));
+  return answer;
+}
+
+/* across links without a mass, whatever joints there are */
+static void neighbours_are_joined_by_joints_alone(void **state) {
+  (void)state;
+  ambulo_model *m = body("lower_body_21");
+  assert_true(neighbours(m, "thigh_l", "pelvis"));
+  assert_true(neighbours(m, "thorax", "pelvis"));
+  assert_true(neighbours(m, "foot_r", "shank_r"));
+  assert_true(neighbours(m, "talus_r", "foot_r")); /* parts of one joint */
+  assert_true(neighbours(m, "thigh_l", "thigh_l"));
+  assert_false(neighbours(m, "thigh_l", "thigh_r"));
+  assert_false(neighbours(m, "thorax", "thigh_l"));
+  assert_false(neighbours(m, "thigh_l", "foot_l"));
+  assert_false(neighbours(m, "shank_l", "foot_r"));
+  ambulo_model_free(m);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(ends_are_points),
+                                     cmocka_unit_test(a_point_of_that_name_is_in_the_way),
+                                     cmocka_unit_test(neighbours_are_joined_by_joints_alone)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,98 @@
+/* The shipped tasks among obstacles, from zero: all solve and hold between their nodes; on a grid
+ * ten times as fine as the nodes every capsule keeps clear, and each body does what is asked. */
+#include "ambulo/ambulo.h"
+#include "nlp/nlp.h"
+#include "stride/approach.h"
+#include "support/shared_data.h"
+#include "support/test.h"
+
+enum { FINER = 10 };
+
+typedef struct task {
+  ambulo_problem *p;
+  ambulo_result *result;
+  ambulo__approach *list;
+  int count;
+} task;
+
+static void open_task(task *k, const char *name) {
+  char path[512];
+  snprintf(path, sizeof path, "%s/models/%s.yaml", AMBULO_SOURCE_DIR, name);
+  assert_int_equal(ambulo_problem_load(path, NULL, 0, NULL, NULL, &k->p), AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(k->p);
+  assert_int_equal(ambulo_solve(k->p, &options, NULL, NULL, NULL, &k->result), AMBULO_OK);
+  assert_int_equal(ambulo_result_verdict(k->result), AMBULO_OPTIMAL);
+  assert_int_equal(ambulo_result_dense_audit(k->result)->failing, 0);
+  ambulo_allocator own = ambulo__allocator_or_default(NULL);
+  int samples = FINER * (k->p->nodes - 1) + 1;
+  assert_int_equal(
+      ambulo__approaches(k->p, ambulo_result_x(k->result), samples, &own, &k->list, &k->count),
+      AMBULO_OK);
+}
+
+static void close_task(task *k) {
+  free(k->list);
+  ambulo_result_free(k->result);
+  ambulo_problem_free(k->p);
+}
+
+/* margins are kept to a millimetre, of obstacles and of legs; the least gap to an obstacle */
+static double expect_margins(const task *k, double obstacle, double legs) {
+  double least = INFINITY;
+  assert_true(k->count > 8);
+  for (int i = 0; i < k->count; i++) {
+    const ambulo__approach *a = &k->list[i];
+    double margin = a->is_obstacle ? obstacle : legs;
+    if (!(a->gap >= margin - 0.001))
+      print_error("%s and %s: %g m at %g s\n", a->capsule, a->other, a->gap, a->time);
+    assert_true(a->gap >= margin - 0.001);
+    if (a->is_obstacle) least = fmin(least, a->gap);
+  }
+  return least;
+}
+
+static void over_a_beam(void **state) {
+  (void)state;
+  task k;
+  open_task(&k, "step_over");
+  assert_true(expect_margins(&k, 0.02, 0.01) < 0.03); /* and hardly higher than it has to */
+  close_task(&k);
+}
+
+static void under_a_ceiling(void **state) {
+  (void)state;
+  task k;
+  open_task(&k, "doorway");
+  assert_true(expect_margins(&k, 0.03, 0.01) < 0.04);
+  close_task(&k);
+}
+
+/* the place is reached at its time, within the tolerance along each axis */
+static void to_a_place_behind_a_fence(void **state) {
+  (void)state;
+  task k;
+  open_task(&k, "reach_standing");
+  (void)expect_margins(&k, 0.02, 0.01);
+  const ambulo_reach *reach = &k.p->definition.reaches[0];
+  ambulo_workspace *workspace = NULL;
+  assert_int_equal(ambulo_workspace_create(k.p, NULL, &workspace), AMBULO_OK);
+  assert_int_equal(ambulo__evaluate(workspace, ambulo_result_x(k.result)), AMBULO_OK);
+  int node = 0;
+  while (k.p->times[node] < 1.2 - 1e-9) node++;
+  assert_close(k.p->times[node], 1.2, 1e-9);
+  const double place[3] = {reach->place[0], reach->place[2], -reach->place[1]}; /* x, y, z */
+  for (int axis = 0; axis < 3; axis++) {
+    int channel = ambulo__channel_point(&k.p->channels, reach->point, axis);
+    double at = workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
+    assert_true(fabs(at - place[axis]) <= reach->tolerance + 1e-6);
+  }
+  ambulo_workspace_free(workspace);
+  close_task(&k);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(over_a_beam),
+                                     cmocka_unit_test(under_a_ceiling),
+                                     cmocka_unit_test(to_a_place_behind_a_fence)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
