@@ -28,6 +28,7 @@
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"
+#include "ambulo/device.h"
 #include "ambulo/evaluate.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"

@@ -19,6 +19,7 @@
 #ifndef AMBULO_PROBLEM_H
 #define AMBULO_PROBLEM_H
 
+#include "ambulo/device.h"
 #include "ambulo/ground.h"
 #include "ambulo/model.h"
 
@@ -271,6 +272,9 @@ typedef struct ambulo_problem_definition {
   int end_value_count;
   int tube_count;
   const ambulo_tube *tubes; /* [tube_count]: rows on the distance from reference motions */
+
+  const ambulo_device *devices; /* what the body wears (ambulo/device.h) */
+  int device_count;
 
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;

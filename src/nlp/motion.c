@@ -7,6 +7,7 @@
  */
 #include "nlp/nlp.h"
 
+#include "device/told.h"
 #include "gait/effector.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@
 
 typedef struct dense {
   ambulo__lane_map *map;
-  double *channel, *scratch, *ground;
+  double *channel, *scratch, *ground, *told, *room;
 } dense;
 
 static void dense_free(const ambulo_allocator *a, dense *d) {
@@ -22,6 +23,8 @@ static void dense_free(const ambulo_allocator *a, dense *d) {
   ambulo__free_aligned(a, d->channel);
   ambulo__free_aligned(a, d->scratch);
   ambulo__free_aligned(a, d->ground);
+  ambulo__free_aligned(a, d->told);
+  ambulo__free_aligned(a, d->room);
 }
 
 static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocator *a,
@@ -32,8 +35,10 @@ static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocato
   d->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof(double));
   ambulo_status status =
       ambulo__lane_map_create(p->basis, times, count, p->coordinates, a, &d->map);
-  if (!status && (!d->channel || !d->scratch)) status = AMBULO_E_MEMORY;
+  d->room = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), sizeof(double));
+  if (!status && (!d->channel || !d->scratch || !d->room)) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__ground_fill(p, a, times, count, &d->ground);
+  if (!status) status = ambulo__devices_tell(&p->definition, a, times, count, &d->told);
   return status;
 }
 
@@ -178,7 +183,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
   if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
     return AMBULO_E_ARGUMENT;
   if (!times_valid(p, times, count)) return AMBULO_E_ARGUMENT;
-  dense d = {NULL, NULL, NULL, NULL};
+  dense d = {NULL, NULL, NULL, NULL, NULL, NULL};
   const ambulo_allocator *a = &workspace->allocator;
   ambulo_status status = dense_create(p, a, times, count, &d);
   if (!status) {
@@ -187,8 +192,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
     for (int b = 0; b < ambulo__block_count(count); b++) {
       double *y = d.channel + (size_t)b * stride;
-      p->kernels->outputs(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(p, d.ground, b),
-                          y + 3 * d8, d.scratch);
+      ambulo__mechanics_block(p, d.ground, d.told, b, y, d.scratch, d.room);
     }
     int finite = unpack(&d, channels, 0, c, count, motion->q);
     finite &= unpack(&d, channels, c, c, count, motion->qd);

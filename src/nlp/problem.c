@@ -9,6 +9,7 @@
  */
 #include "nlp/problem.h"
 #include "base/instant.h"
+#include "device/told.h"
 #include "gait/phases.h"
 #include "gait/contact_load.h"
 #include "gait/patch_rows.h"
@@ -176,6 +177,7 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
     ambulo__schedule_before(d, p->times, p->nodes, p->active, p->before);
   }
   status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
+  if (!status) status = ambulo__devices_check_strides(d, diagnostics);
   ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
   if (!status) status = ends;
   ends = ambulo__schedule_check_ends(d, diagnostics);
@@ -214,7 +216,8 @@ static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics 
   ambulo_status status = ambulo__mirror_check(&p->definition, &p->allocator, diagnostics);
   if (status == AMBULO_E_MEMORY) return status;
   ambulo_status terms = ambulo__mirror_terms_check(&p->definition, &p->allocator, diagnostics);
-  return terms ? terms : status;
+  ambulo_status devices = ambulo__devices_mirror_check(&p->definition, diagnostics);
+  return terms ? terms : devices ? devices : status;
 }
 
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
@@ -222,14 +225,18 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->coordinates = ambulo_model_coordinate_count(p->model);
   p->channels.coordinates = p->coordinates;
   p->channels.points = ambulo_model_point_count(p->model);
+  p->channels.devices = p->definition.device_count;
   ambulo_status status = build_grid(p, diagnostics);
   if (!status) status = build_plan(p, diagnostics);
+  if (!status) status = ambulo__devices_create(&p->definition, &p->allocator, &p->devices);
   if (!status) status = ambulo__check_memory(p, diagnostics);
   ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
   if (symmetry == AMBULO_E_MEMORY) return symmetry;
   if (!status) status = build_schedule(p, diagnostics);
   if (!status) status = symmetry;
   if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
+  if (!status)
+    status = ambulo__devices_tell(&p->definition, &p->allocator, p->times, p->nodes, &p->told);
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
@@ -282,6 +289,8 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->active);
   ambulo__free(&a, p->before);
   ambulo__free_aligned(&a, p->ground);
+  ambulo__free_aligned(&a, p->told);
+  ambulo__devices_free(p->devices);
   ambulo__definition_free(&a, &p->definition);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p->free);
