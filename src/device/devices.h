@@ -109,5 +109,8 @@ ambulo_status ambulo__devices_mirror_check(const ambulo_problem_definition *defi
 /* The mirror image of a device on a body that is symmetric, with the name and the points of the
  * device itself. */
 ambulo_device ambulo__device_mirrored(const ambulo_model *model, const ambulo_device *device);
+/* Which device takes the place of one in the mirror image; -1: none. *sign: of its effort and
+ * coordinate there. */
+int ambulo__device_partner(const ambulo_problem_definition *definition, int device, double *sign);
 
 #endif

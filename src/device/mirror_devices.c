@@ -118,13 +118,28 @@ static int same_clock(const ambulo_device *a, const ambulo_device *b) {
   return !a->clutch || (same(a->from, b->from) && same(a->to, b->to) && same(a->ramp, b->ramp));
 }
 
+static int is_like(const ambulo_model *m, const ambulo_device *a, const ambulo_device *b) {
+  return same_site(m, a, b) && same_law(a, b) && same_clock(a, b);
+}
+
 static int count_like(const ambulo_problem_definition *d, const ambulo_device *one) {
   int count = 0;
-  for (int i = 0; i < d->device_count; i++) {
-    const ambulo_device *other = &d->devices[i];
-    count += same_site(d->model, one, other) && same_law(one, other) && same_clock(one, other);
-  }
+  for (int i = 0; i < d->device_count; i++) count += is_like(d->model, one, &d->devices[i]);
   return count;
+}
+
+/* of several that are alike, the one that is as far down among them as the device is among its own
+ */
+int ambulo__device_partner(const ambulo_problem_definition *d, int device, double *sign) {
+  const ambulo_device *own = &d->devices[device];
+  ambulo_device image = ambulo__device_mirrored(d->model, own);
+  int before = 0;
+  *sign = own->coordinate >= 0 ? d->model->coordinates[own->coordinate].mirror_sign : 1.0;
+  for (int i = 0; i < device; i++) before += is_like(d->model, own, &d->devices[i]);
+  for (int i = 0; i < d->device_count; i++) {
+    if (is_like(d->model, &image, &d->devices[i]) && before-- == 0) return i;
+  }
+  return -1;
 }
 
 ambulo_status ambulo__devices_mirror_check(const ambulo_problem_definition *d,

@@ -169,6 +169,22 @@ static ambulo_status fill_effectors(const ambulo_problem *p, const dense *d,
   return AMBULO_OK;
 }
 
+/* effort, place and power of every device at sample k */
+static void fill_devices(const ambulo_problem *p, const dense *d, int k,
+                         const ambulo_motion *motion) {
+  int channels = ambulo__channel_count(&p->channels), n = p->channels.devices;
+  const double *q = d->channel + ambulo__lane_index(k, channels, 0);
+  const double *told = d->told + ambulo__lane_index(k, n, 0);
+  for (int i = 0; i < n; i++) {
+    ambulo__device_state state = ambulo__device_at(
+        p->devices, i, q, q + (size_t)p->coordinates * AMBULO__LANES, told, d->room);
+    size_t at = (size_t)k * (size_t)n + (size_t)i;
+    if (motion->device_effort) motion->device_effort[at] = state.effort;
+    if (motion->device_along) motion->device_along[at] = state.along;
+    if (motion->device_power) motion->device_power[at] = state.power;
+  }
+}
+
 /* within the motion, but for rounding */
 static int times_valid(const ambulo_problem *p, const double *times, int count) {
   double last = p->definition.duration, slack = 1e-9 * last;
@@ -201,6 +217,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c, 6, count, motion->wrench);
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
+    for (int k = 0; p->devices && k < count; k++) fill_devices(p, &d, k, motion);
     status = fill_effectors(p, &d, a, times, count, motion);
     if (!status && !finite) status = AMBULO_E_NUMERIC;
   }
