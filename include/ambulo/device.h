@@ -68,6 +68,8 @@ typedef struct ambulo_device {
   int point_count;           /* joined by cubics that stay between their points (pchip) */
   int foot;                  /* whose stride counts; -1: nothing goes by it */
   int clutch;                /* 1: engaged over a part of the stride only */
+  int image_of;              /* of a file's `mirror`: the device whose mirror image it is, so that
+                                a number of that moves both; -1: it stands for itself */
   double from, to, ramp;     /* of the clutch, shares of the stride; from > to: past its end */
 } ambulo_device;
 

@@ -181,8 +181,9 @@ typedef enum ambulo_term_kind {
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
   AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
   AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
-  AMBULO_FORCE_RATE    /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
+  AMBULO_FORCE_RATE,   /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
                           nodes; needs ground reaction */
+  AMBULO_DEVICE_EFFORT /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
@@ -205,6 +206,7 @@ typedef struct ambulo_term {
                                     negative, for positive torque, > 0; NULL: 1 */
   int point[2];                  /* model points of AMBULO_UPRIGHT; length: of q = 0 */
   double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
+  const double *device_scale;    /* [device_count] of AMBULO_DEVICE_EFFORT, >= 0; NULL: 1 */
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;

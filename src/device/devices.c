@@ -50,6 +50,7 @@ ambulo_device ambulo_device_default(ambulo_device_kind kind) {
                          .smoothing = 0.01,
                          .amount = 1.0,
                          .foot = -1,
+                         .image_of = -1,
                          .ramp = 0.05};
 }
 

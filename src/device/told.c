@@ -79,24 +79,24 @@ static double fraction(double x) {
   return x - floor(x);
 }
 
-/* (D.8) w and its slope by the share of the stride */
-static double window_of(const ambulo_device *device, double share, double *slope) {
+typedef struct window {
+  double value, by_share, by_from, by_to, by_ramp;
+} window;
+
+/* (D.8) w and its slopes */
+static window window_of(const ambulo_device *device, double share) {
   double length = fraction(device->to - device->from), v = fraction(share - device->from);
-  double rise, fall;
-  if (v > length) {
-    *slope = 0.0;
-    return 0.0;
-  }
-  double up = step_of(v / device->ramp, &rise);
-  double down = step_of((length - v) / device->ramp, &fall);
-  *slope = (rise * down - up * fall) / device->ramp;
-  return up * down;
+  double r = device->ramp, rise, fall;
+  if (v > length) return (window){0.0, 0.0, 0.0, 0.0, 0.0};
+  double up = step_of(v / r, &rise), down = step_of((length - v) / r, &fall);
+  double since = rise * down / r, until = up * fall / r; /* by v, by l - v */
+  return (window){up * down, since - until, -since, until, -(since * v + until * (length - v)) / r};
 }
 
 ambulo__device_told ambulo__device_told_at(const ambulo_problem_definition *d, int device,
                                            double time) {
   const ambulo_device *one = &d->devices[device];
-  ambulo__device_told told = {1.0, 0.0, {0.0, 0.0}, {-1, -1}};
+  ambulo__device_told told = {.factor = 1.0, .contact = {-1, -1}};
   int profiled = one->kind == AMBULO_DEVICE_ACTUATOR;
   double value = 1.0, slope = 0.0;
   if (profiled && one->clock == AMBULO_DEVICE_BY_TIME)
@@ -106,18 +106,23 @@ ambulo__device_told ambulo__device_told_at(const ambulo_problem_definition *d, i
   told.by_time = slope;
   ambulo__stride_now now;
   if (!(by_stride || one->clutch) || !ambulo__stride_at(d, one->foot, time, &now)) return told;
-  double window = 1.0, opening = 0.0, profile = 1.0, change = 0.0;
-  double stride = now.begin[1] - now.begin[0];
-  if (one->clutch) window = window_of(one, now.share, &opening);
+  double profile = 1.0, change = 0.0, stride = now.begin[1] - now.begin[0];
+  window w = {.value = 1.0};
+  if (one->clutch) w = window_of(one, now.share);
   if (by_stride)
     profile = ambulo__device_curve(one->points, one->point_count, 1.0, now.share, &change);
-  double by_share = value * (opening * profile + window * change) / stride;
-  told.factor = value * window * profile;
-  told.by_time = slope * window * profile + by_share;
+  double by_share = value * (w.by_share * profile + w.value * change) / stride;
+  told.factor = value * w.value * profile;
+  told.by_time = slope * w.value * profile + by_share;
+  told.by_from = value * profile * w.by_from;
+  told.by_to = value * profile * w.by_to;
+  told.by_ramp = value * profile * w.by_ramp;
   told.by_strike[0] = -by_share * (1.0 - now.share);
   told.by_strike[1] = -by_share * now.share;
-  told.contact[0] = now.contact[0];
-  told.contact[1] = now.contact[1];
+  for (int i = 0; i < 2; i++) {
+    told.strike[i] = now.begin[i];
+    told.contact[i] = now.contact[i];
+  }
   return told;
 }
 

@@ -9,7 +9,9 @@
  * the stride (gait/stride_clock.h), per s; `contact`: with whose `from` they are, -1: none. */
 typedef struct ambulo__device_told {
   double factor, by_time, by_strike[2];
+  double strike[2]; /* s */
   int contact[2];
+  double by_from, by_to, by_ramp; /* of a clutch */
 } ambulo__device_told;
 
 ambulo__device_told ambulo__device_told_at(const ambulo_problem_definition *definition, int device,

@@ -201,6 +201,8 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                   "objective[%d] (%s): no forces on feet without ground_reaction; expected kind "
                   "shared or two_step",
                   t, info->name);
+  if (term->kind == AMBULO_DEVICE_EFFORT && d->device_count == 0)
+    return REFUSE(list, "objective[%d] (%s): there are no devices", t, info->name);
   if (term->kind == AMBULO_TRACKING && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
   if (ambulo__is_user_term(term) && !term->function)
@@ -254,6 +256,7 @@ static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t
       {passive, "", term->passive, 4 * n, -largest, largest},
       {strength, "", term->strength, 6 * n, -largest, largest},
       {reference, "", term->reference, n * samples, -largest, largest},
+      {scale, "", term->device_scale, d->device_count, 0.0, largest},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }

@@ -58,6 +58,7 @@ static hash add_terms(hash h, const ambulo_problem *p) {
     h = add_numbers(add_numbers(h, term->passive, 4 * d), term->strength, 6 * d);
     h = add_integer(add_integer(h, term->point[0]), term->point[1]);
     h = add_numbers(h, term->reference, (size_t)p->nodes * d);
+    h = add_numbers(h, term->device_scale, (size_t)p->definition.device_count);
   }
   return h;
 }

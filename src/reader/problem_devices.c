@@ -244,6 +244,7 @@ void ambulo__read_devices(ambulo__problem_reader *reader, const ambulo__yaml_nod
     count++;
     if (!mirrored) continue;
     image[images] = ambulo__device_mirrored(reader->model, device);
+    image[images].image_of = count - 1;
     image[images++].name = mirrored_name(reader, device->name);
   }
   for (int i = 0; i < images; i++) devices[count++] = image[i];

@@ -125,8 +125,9 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   ambulo__read_written_for(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
   ambulo__read_constraints(reader, ambulo__reader_section(root, "constraints"));
-  static const char *const others[] = {"trajectory", "contacts", "ends",            "objective",
-                                       "ground",     "load",     "ground_reaction", "devices"};
+  static const char *const others[] = {"trajectory",      "contacts", "ends",
+                                       "objective",       "ground",   "load",
+                                       "ground_reaction", "devices"};
   for (int i = 0; i < 8; i++) ambulo__yaml_expect(root, others[i]);
   reader->gait = ambulo__reader_section(root, "gait");
   ambulo__read_time(reader, root);

@@ -5,7 +5,8 @@
  * keeps that. With a the acceleration of a point at p, c the centre of mass, m the whole mass:
  *
  *     load m_l at p       force per kg a - g at p,  dc/dm_l = (p - c) / m
- *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays
+ *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays. Of
+ *                         torques without devices, which do not grow with the body (devices.c)
  *     bodies alone        d/d ln m_b = d/d ln m - m_l d/dm_l, and likewise of m in rows and terms
  *     slope               force -m_b dg/ds on the centre of each body,
  *                         dg/ds = |g| (sin s n - cos s f)
@@ -133,7 +134,7 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
   const ambulo_problem *p = s->problem;
   ambulo__node_forces f;
   ambulo_status status = ambulo__node_forces_create(s, pool, &f);
-  double turn[3], all = 0.0, mass = p->model->mass, load = p->model->load.mass;
+  double turn[3], all = partials->of_devices, mass = p->model->mass, load = p->model->load.mass;
   if (status) return status;
   turn_of_gravity(p->model, turn);
   for (int node = 0; node < p->nodes; node++) {

@@ -277,6 +277,7 @@ ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   ambulo__parameters_of_walk(p);
   ambulo__parameters_of_events(p);
   add_body(p);
+  ambulo__parameters_of_devices(p);
   ambulo__parameters_of_terms(p);
   add_contact_rows(p);
   add_tubes(p);

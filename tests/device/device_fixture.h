@@ -155,7 +155,7 @@ static inline void reference_slopes(const ambulo_model *m, int link, const numbe
 /* s, and ds/dq */
 static inline number reference_along(const ambulo_model *m, const ambulo_device *v, const number *q,
                                      number *slope) {
-  number a[3], b[3], u[3], square = 0;
+  number a[3], b[3], u[3], square = 1e-18; /* (1 nm)^2, as in the source */
   memset(slope, 0, (size_t)m->coordinate_count * sizeof *slope);
   if (v->coordinate >= 0) {
     slope[v->coordinate] = 1;

@@ -72,7 +72,7 @@ static void check_gradients(device_case *c) {
     else
       ambulo__devices_add_effort(c->devices, kept, row - c->d, gradient);
     for (int k = 0; k < 2 * c->d; k++)
-      assert_close(sign * gradient[k] / size, creal(want[k * rows + row]) / size, 1e-11);
+      assert_close(sign * gradient[k] / size, creal(want[k * rows + row]) / size, 2e-12);
   }
   free(kept);
 }
@@ -103,7 +103,7 @@ static void check_reverse(device_case *c) {
       for (int i = 0; i < c->d; i++) sum -= y[i * AMBULO__LANES + lane] * creal(want[k * rows + i]);
       for (int i = 0; i < c->n; i++)
         sum += e[i * AMBULO__LANES + lane] * creal(want[k * rows + c->d + i]);
-      assert_close(got[k % c->d * AMBULO__LANES + lane] / size, sum / size, 1e-11);
+      assert_close(got[k % c->d * AMBULO__LANES + lane] / size, sum / size, 2e-12);
     }
   }
 }
