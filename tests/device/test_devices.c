@@ -44,6 +44,7 @@ static void test_forces_are_those_of_the_reference(void **state) {
   each_case(check_forces);
 }
 
+/* r of a sharp spring bends within 1 cm: what rounding leaves of a length counts a hundred times. */
 /* rows of the reference: slope[2 d][d + n], of the forces and efforts */
 static void reference_jacobian(const device_case *c, int lane, number *jacobian) {
   int rows = c->d + c->n;
@@ -72,7 +73,7 @@ static void check_gradients(device_case *c) {
     else
       ambulo__devices_add_effort(c->devices, kept, row - c->d, gradient);
     for (int k = 0; k < 2 * c->d; k++)
-      assert_close(sign * gradient[k] / size, creal(want[k * rows + row]) / size, 2e-12);
+      assert_close(sign * gradient[k] / size, creal(want[k * rows + row]) / size, 3e-11);
   }
   free(kept);
 }
@@ -103,7 +104,7 @@ static void check_reverse(device_case *c) {
       for (int i = 0; i < c->d; i++) sum -= y[i * AMBULO__LANES + lane] * creal(want[k * rows + i]);
       for (int i = 0; i < c->n; i++)
         sum += e[i * AMBULO__LANES + lane] * creal(want[k * rows + c->d + i]);
-      assert_close(got[k % c->d * AMBULO__LANES + lane] / size, sum / size, 2e-12);
+      assert_close(got[k % c->d * AMBULO__LANES + lane] / size, sum / size, 3e-11);
     }
   }
 }
