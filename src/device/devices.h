@@ -109,6 +109,10 @@ ambulo_status ambulo__devices_mirror_check(const ambulo_problem_definition *defi
 /* The mirror image of a device on a body that is symmetric, with the name and the points of the
  * device itself. */
 ambulo_device ambulo__device_mirrored(const ambulo_model *model, const ambulo_device *device);
+/* 1 if a place of one link is the mirror image of a place of another, within 1e-6 m, and moves with
+ * the partner. */
+int ambulo__places_mirror(const ambulo_model *model, int link, const double position[3],
+                          int other_link, const double other[3]);
 /* Which device takes the place of one in the mirror image; -1: none. *sign: of its effort and
  * coordinate there. */
 int ambulo__device_partner(const ambulo_problem_definition *definition, int device, double *sign);

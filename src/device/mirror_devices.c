@@ -73,13 +73,26 @@ static int same(double a, double b) {
   return a == b || fabs(a - b) <= AMBULO__MIRROR_TOLERANCE * fmax(fabs(a), fabs(b));
 }
 
+static int same_place(const ambulo_model *m, int link, const double position[3], int other_link,
+                      const double other[3]) {
+  double own[3], its[3], square = 0.0;
+  ambulo__neutral_place(m, link, position, own);
+  ambulo__neutral_place(m, other_link, other, its);
+  for (int i = 0; i < 3; i++) square += (own[i] - its[i]) * (own[i] - its[i]);
+  return sqrt(square) <= 1e-6 && mover_of(m, link) == mover_of(m, other_link);
+}
+
+int ambulo__places_mirror(const ambulo_model *m, int link, const double position[3], int other_link,
+                          const double other[3]) {
+  double image[3];
+  memcpy(image, position, sizeof image);
+  mirror_point(m, &link, image);
+  return same_place(m, link, image, other_link, other);
+}
+
 static int same_point(const ambulo_model *m, const ambulo_device *a, int end,
                       const ambulo_device *b, int other) {
-  double own[3], its[3], square = 0.0;
-  ambulo__neutral_place(m, a->link[end], a->position[end], own);
-  ambulo__neutral_place(m, b->link[other], b->position[other], its);
-  for (int i = 0; i < 3; i++) square += (own[i] - its[i]) * (own[i] - its[i]);
-  return sqrt(square) <= 1e-6 && mover_of(m, a->link[end]) == mover_of(m, b->link[other]);
+  return same_place(m, a->link[end], a->position[end], b->link[other], b->position[other]);
 }
 
 static int same_site(const ambulo_model *m, const ambulo_device *a, const ambulo_device *b) {

@@ -45,6 +45,7 @@ typedef struct ambulo__problem_keys {
   int step_time;    /* gait.step_time is there, one number */
   int times;        /* as a list */
   int duration;     /* time.duration is there */
+  int loads;        /* `load` is a list */
   ambulo_gait walk; /* what the keys of the gait come to */
   ambulo__phase_kind by_speed[AMBULO__PHASES];
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */

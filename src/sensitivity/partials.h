@@ -74,8 +74,8 @@ typedef struct ambulo__partials {
   double *device;       /* [devices][AMBULO__DEVICE_NUMBERS] */
   double log_mass;      /* of the mass m wherever it stands in rows and terms, torques left out:
                            dL/d ln m */
-  double body;          /* dL/d ln of the mass of all bodies but the load, in every place */
-  double load;          /* kg: of the load (ambulo_model.load) */
+  double body;          /* dL/d ln of the mass of all bodies but the loads, in every place */
+  double load[AMBULO__MOST_LOADS]; /* kg: of ambulo_model.loads */
 } ambulo__partials;
 
 /* A solution: x* is the point that the workspace holds. */

@@ -56,6 +56,17 @@ static void a_mirrored_step_on_events(void **state) {
   check(&c, NULL);
 }
 
+static void several_loads(void **state) {
+  (void)state;
+  static const setting c = {"models/walk_normal.yaml",
+                            {"time.intervals=24", "trajectory.intervals=9",
+                             "load=[{link: pelvis, mass: 12, position: [-0.2, 0.4, 0]}, "
+                             "{link: foot_r, mass: 1.5, position: [0.05, 0, 0]}, "
+                             "{link: foot_l, mass: 1.5, position: [0.05, 0, 0]}]"},
+                            {"load[0].mass", "load[1].mass", "subject.mass", "ground.slope"}};
+  check(&c, NULL);
+}
+
 /* a strike inside the motion is an event: strides move with it */
 static void strikes_that_move(void **state) {
   (void)state;
@@ -80,8 +91,8 @@ static void strikes_that_move(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(springs_on_four_steps),
-                                     cmocka_unit_test(a_mirrored_step_on_events),
-                                     cmocka_unit_test(strikes_that_move)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(springs_on_four_steps), cmocka_unit_test(a_mirrored_step_on_events),
+      cmocka_unit_test(several_loads), cmocka_unit_test(strikes_that_move)};
   return cmocka_run_group_tests_name("sensitivity/devices", tests, NULL, NULL);
 }
