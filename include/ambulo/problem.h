@@ -336,6 +336,8 @@ AMBULO_API double ambulo_problem_ground_height(const ambulo_problem *problem); /
 AMBULO_API ambulo_ends ambulo_problem_ends(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
+AMBULO_API int ambulo_problem_device_count(const ambulo_problem *problem);
+AMBULO_API const ambulo_device *ambulo_problem_device(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
 /* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with
