@@ -105,7 +105,9 @@ ambulo__device_told ambulo__device_told_at(const ambulo_problem_definition *d, i
   told.factor = value;
   told.by_time = slope;
   ambulo__stride_now now;
-  if (!(by_stride || one->clutch) || !ambulo__stride_at(d, one->foot, time, &now)) return told;
+  if (!by_stride && !one->clutch) return told;
+  if (!ambulo__stride_at(d, one->foot, time, &now)) /* device_check.c refuses that */
+    return (ambulo__device_told){.contact = {-1, -1}};
   double profile = 1.0, change = 0.0, stride = now.begin[1] - now.begin[0];
   window w = {.value = 1.0};
   if (one->clutch) w = window_of(one, now.share);

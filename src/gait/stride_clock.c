@@ -11,9 +11,9 @@
 
 int ambulo__stride_at(const ambulo_problem_definition *d, int foot, double time,
                       ambulo__stride_now *now) {
-  int last = ambulo__image_periods(d);
+  int last = ambulo__image_periods(d) + 1; /* the stride that begins at T ends 3 T after 0 */
   *now = (ambulo__stride_now){{-INFINITY, INFINITY}, {-1, -1}, 0.0};
-  if (last == 0) return 0;
+  if (d->ends == AMBULO_ENDS_FREE) return 0;
   for (int i = 0; i < d->contact_count; i++) {
     for (int period = -last; period <= last; period++) {
       if (ambulo__image_effector(d, i, period) != foot) continue;

@@ -44,7 +44,8 @@ static void test_forces_are_those_of_the_reference(void **state) {
   each_case(check_forces);
 }
 
-/* r of a sharp spring bends within 1 cm: what rounding leaves of a length counts a hundred times. */
+/* r of a sharp spring bends within 1 cm: what rounding leaves of a length counts a hundred times.
+ */
 /* rows of the reference: slope[2 d][d + n], of the forces and efforts */
 static void reference_jacobian(const device_case *c, int lane, number *jacobian) {
   int rows = c->d + c->n;
