@@ -108,8 +108,7 @@ static void test_profiles_and_padding(void **state) {
   const double times[] = {0, 0.1, 0.35, 1.0};
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   double *told = NULL, slope;
-  assert_int_equal(ambulo__devices_tell(&d, &a, times, 4, &told),
-                   AMBULO_OK);
+  assert_int_equal(ambulo__devices_tell(&d, &a, times, 4, &told), AMBULO_OK);
   for (int k = 0; k < AMBULO__LANES; k++)
     assert_close(told[k],
                  ambulo__device_curve(points, point_count, 0, times[k < 4 ? k : 3], &slope), 0);
@@ -123,8 +122,7 @@ static void test_profiles_and_padding(void **state) {
     assert_close(at.by_time, slope / 1.1, 1e-10);
   }
   d.device_count = 0;
-  assert_int_equal(ambulo__devices_tell(&d, &a, times, 4, &told),
-                   AMBULO_OK);
+  assert_int_equal(ambulo__devices_tell(&d, &a, times, 4, &told), AMBULO_OK);
   assert_null(told);
   ambulo_model_free(model);
 }
