@@ -165,7 +165,7 @@ ambulo_status ambulo__devices_mirror_check(const ambulo_problem_definition *d,
     status =
         REFUSE(list,
                "devices[%d]: '%s' has no equal on the other side of the body; expected 'mirror: "
-               "yes', or a device of the same numbers there, with mirrored ends",
+               "true', or a device of the same numbers there, with mirrored ends",
                i, d->devices[i].name);
   }
   return status;
