@@ -22,7 +22,7 @@ static const double touching = 1e-9; /* t, m */
 typedef struct element {
   const ambulo_device *device;
   double sense; /* g */
-  ambulo__path path[2];
+  ambulo__device_path path[2];
   int count;       /* n */
   int *coordinate; /* [n] */
   size_t kept;     /* where its part of what is kept of a node begins */
@@ -129,10 +129,6 @@ void ambulo__devices_free(ambulo__devices *devices) {
   }
   ambulo__free(&a, devices->elements);
   ambulo__free(&a, devices);
-}
-
-int ambulo__devices_count(const ambulo__devices *devices) {
-  return devices ? devices->count : 0;
 }
 
 size_t ambulo__devices_scratch(const ambulo__devices *devices) {

@@ -35,8 +35,7 @@ typedef struct ambulo__devices ambulo__devices;
  * E_MEMORY. */
 ambulo_status ambulo__devices_create(const ambulo_problem_definition *definition,
                                      const ambulo_allocator *allocator, ambulo__devices **devices);
-void ambulo__devices_free(ambulo__devices *devices);       /* accepts NULL */
-int ambulo__devices_count(const ambulo__devices *devices); /* 0 of NULL */
+void ambulo__devices_free(ambulo__devices *devices); /* accepts NULL */
 
 /* Doubles that apply and reverse need to work with; what is kept of a node for its derivatives. */
 size_t ambulo__devices_scratch(const ambulo__devices *devices);

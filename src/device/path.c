@@ -65,12 +65,13 @@ static int link_at(const ambulo_model *model, int link, int depth) {
 
 ambulo_status ambulo__path_create(const ambulo_model *model, int common, int link,
                                   const double position[3], const ambulo_allocator *allocator,
-                                  ambulo__path *path) {
+                                  ambulo__device_path *path) {
   int first = depth_of(model, common) + 1, last = depth_of(model, link), count = 0;
   const double place[12] = {1, 0, 0, position[0], 0, 1, 0, position[1], 0, 0, 1, position[2]};
   for (int depth = first; depth <= last; depth++)
     count += moves(ambulo_model_link(model, link_at(model, link, depth)));
-  *path = (ambulo__path){.joints = ambulo__alloc(allocator, (size_t)count, sizeof *path->joints)};
+  *path = (ambulo__device_path){.joints =
+                                    ambulo__alloc(allocator, (size_t)count, sizeof *path->joints)};
   if (!path->joints) return AMBULO_E_MEMORY;
   double *frame = path->start;
   memcpy(frame, identity, sizeof identity);
@@ -91,13 +92,13 @@ ambulo_status ambulo__path_create(const ambulo_model *model, int common, int lin
   return AMBULO_OK;
 }
 
-void ambulo__path_free(const ambulo_allocator *allocator, ambulo__path *path) {
+void ambulo__path_free(const ambulo_allocator *allocator, ambulo__device_path *path) {
   ambulo__free(allocator, path->joints);
 }
 
 /* (D.4) z x (p - o), z */
-void ambulo__path_point(const ambulo__path *path, const double *q, double point[3], double *axis,
-                        double *slope) {
+void ambulo__path_point(const ambulo__device_path *path, const double *q, double point[3],
+                        double *axis, double *slope) {
   double frame[12];
   memcpy(frame, path->start, sizeof frame);
   for (int i = 0; i < path->count; i++) {

@@ -23,23 +23,23 @@ typedef struct ambulo__path_joint {
   double after[12];     /* to the next joint, rows of 3 x 4; behind the last: to the point */
 } ambulo__path_joint;
 
-typedef struct ambulo__path {
+typedef struct ambulo__device_path {
   double start[12]; /* from the common frame to the first joint; to the point where there is none */
   int count;
   ambulo__path_joint *joints; /* [count] */
-} ambulo__path;
+} ambulo__device_path;
 
 /* From link `common` (-1: the world) down to a point of `link`. E_MEMORY. */
 ambulo_status ambulo__path_create(const ambulo_model *model, int common, int link,
                                   const double position[3], const ambulo_allocator *allocator,
-                                  ambulo__path *path);
-void ambulo__path_free(const ambulo_allocator *allocator, ambulo__path *path);
+                                  ambulo__device_path *path);
+void ambulo__path_free(const ambulo_allocator *allocator, ambulo__device_path *path);
 /* The deepest link that carries both, or is one of them; -1: the world. */
 int ambulo__path_common(const ambulo_model *model, const int link[2]);
 
 /* Where the point is, with axis[count][3] and slope[count][3] = dp/dq of the joints; q has a stride
  * of AMBULO__LANES. */
-void ambulo__path_point(const ambulo__path *path, const double *q, double point[3], double *axis,
-                        double *slope);
+void ambulo__path_point(const ambulo__device_path *path, const double *q, double point[3],
+                        double *axis, double *slope);
 
 #endif

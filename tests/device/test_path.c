@@ -7,7 +7,7 @@
 static void check_path(const ambulo_model *m, int link, const double local[3], const double *lanes,
                        const double *q) {
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  ambulo__path path;
+  ambulo__device_path path;
   ambulo__pose pose;
   double point[3], world[3], axis[3 * most_coordinates], slope[3 * most_coordinates];
   assert_int_equal(ambulo__path_create(m, -1, link, local, &a, &path), AMBULO_OK);
