@@ -30,6 +30,7 @@
 
 #include "ambulo/batch.h"
 #include "ambulo/collision.h"
+#include "ambulo/device.h"
 #include "ambulo/evaluate.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"

@@ -71,12 +71,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambu
  * pressure cop [count][feet][3] (m; NaN in the air), its free moment about the normal
  * free_moment [count][feet] (N m), and the same of each patch of the model, patch_...
  * [count][patches]: zeros and a NaN centre where it is not in contact. Without ground reaction
- * these are filled with NaN. E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not
+ * these are filled with NaN. Of devices (ambulo/device.h) effort, coordinate or length, and power
+ * on the body, [count][devices] (N m or N; rad or m; W); tau is what they leave to the person.
+ * E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not
  * finite; the outputs are filled all the same. */
 typedef struct ambulo_motion {
   double *q, *qd, *qdd, *tau, *wrench, *points, *zmp;
   double *grf, *cop, *free_moment;
   double *patch_force, *patch_cop, *patch_free_moment;
+  double *device_effort, *device_along, *device_power;
 } ambulo_motion;
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_problem *problem,
                                                                 ambulo_workspace *workspace,

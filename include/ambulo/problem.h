@@ -20,6 +20,7 @@
 #define AMBULO_PROBLEM_H
 
 #include "ambulo/collision.h"
+#include "ambulo/device.h"
 #include "ambulo/ground.h"
 #include "ambulo/model.h"
 
@@ -181,8 +182,9 @@ typedef enum ambulo_term_kind {
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
   AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
   AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
-  AMBULO_FORCE_RATE    /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
+  AMBULO_FORCE_RATE,   /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
                           nodes; needs ground reaction */
+  AMBULO_DEVICE_EFFORT /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
 } ambulo_term_kind;
 
 typedef struct ambulo_term {
@@ -205,6 +207,7 @@ typedef struct ambulo_term {
                                     negative, for positive torque, > 0; NULL: 1 */
   int point[2];                  /* model points of AMBULO_UPRIGHT; length: of q = 0 */
   double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
+  const double *device_scale;    /* [device_count] of AMBULO_DEVICE_EFFORT, >= 0; NULL: 1 */
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;
@@ -278,6 +281,8 @@ typedef struct ambulo_problem_definition {
   int obstacle_count;
   const ambulo_reach *reaches;
   int reach_count;
+  const ambulo_device *devices; /* what the body wears (ambulo/device.h) */
+  int device_count;
 
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;
@@ -337,6 +342,8 @@ AMBULO_API double ambulo_problem_ground_height(const ambulo_problem *problem); /
 AMBULO_API ambulo_ends ambulo_problem_ends(const ambulo_problem *problem);
 AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
+AMBULO_API int ambulo_problem_device_count(const ambulo_problem *problem);
+AMBULO_API const ambulo_device *ambulo_problem_device(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
 /* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with

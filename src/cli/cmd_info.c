@@ -237,6 +237,55 @@ static void print_bodies(const ambulo_problem *problem) {
   print_obstacles(problem);
 }
 
+/* "180 N m/rad above 2 degrees", or what its kind has */
+static void print_law(const ambulo_device *v, int turns) {
+  static const char *const sides[] = {"from", "above", "below"};
+  const char *force = turns ? "N m" : "N", *place = turns ? "degrees" : "m";
+  const char *unit = turns ? "rad" : "m";
+  double scale = turns ? degrees : 1.0;
+  switch (v->kind) {
+  case AMBULO_DEVICE_SPRING:
+    printf("spring    %g %s/%s %s %g %s", v->stiffness, force, unit, sides[v->side],
+           scale * v->rest, place);
+    if (v->pretension != 0.0) printf(", %g %s there", v->pretension, force);
+    return;
+  case AMBULO_DEVICE_DAMPER:
+    printf("damper    %g %s s/%s", v->damping, force, unit);
+    return;
+  case AMBULO_DEVICE_ACTUATOR:
+    break;
+  }
+  printf("actuator  %g ", v->amount);
+  if (v->clock == AMBULO_DEVICE_CONSTANT) {
+    printf("%s", force);
+  } else {
+    printf("times a profile of %d points by %s", v->point_count,
+           v->clock == AMBULO_DEVICE_BY_TIME ? "time" : "stride");
+  }
+}
+
+static void print_devices(const ambulo_problem *problem) {
+  const ambulo_model *model = ambulo_problem_model(problem);
+  int count = ambulo_problem_device_count(problem);
+  if (count) printf("\ndevices\n");
+  for (int i = 0; i < count; i++) {
+    const ambulo_device *v = ambulo_problem_device(problem, i);
+    const ambulo_coordinate *at = ambulo_model_coordinate(model, v->coordinate);
+    printf("  %-3d %-22s ", i, v->name);
+    print_law(v, at && at->type == AMBULO_REVOLUTE);
+    if (at) {
+      printf(", at %s", at->name);
+    } else {
+      printf(", from %s to %s", ambulo_model_link(model, v->link[0])->name,
+             ambulo_model_link(model, v->link[1])->name);
+    }
+    if (v->clutch)
+      printf(", engaged from %g to %g of the stride of %s", v->from, v->to,
+             ambulo_model_foot(model, v->foot)->name);
+    printf("\n");
+  }
+}
+
 static void print_problem(const ambulo_problem *problem) {
   static const char *const ends[] = {"free", "periodic", "mirrored"};
   int equalities = ambulo_problem_equality_count(problem);
@@ -263,6 +312,7 @@ static void print_problem(const ambulo_problem *problem) {
   print_limits(problem);
   print_bodies(problem);
   print_schedule(problem);
+  print_devices(problem);
   printf("\n");
   print_model(ambulo_problem_model(problem));
 }

@@ -32,6 +32,7 @@ static void comment(const ambulo__motion_table *table, ambulo__text_buffer *text
                             "s^2; tau N m or N; zmp m, world axes");
   if (table->feet || table->patches)
     ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal");
+  if (table->devices) ambulo__text_append(text, "; device N m or N, rad or m, W");
   if (table->wrench) ambulo__text_append(text, "; wrench N, N m about the origin, world axes");
   if (table->residual)
     ambulo__text_append(text, "; residual N, N m about the centre of mass, world axes");
@@ -51,6 +52,17 @@ static void wrench_header(const char *name, ambulo__text_buffer *text) {
     ambulo__text_append_format(text, ",%s.%s.%c", name, i < 3 ? "force" : "moment", "xyz"[i % 3]);
 }
 
+static void device_header(const ambulo__motion_table *table, ambulo__text_buffer *text) {
+  for (int i = 0; i < table->devices; i++) {
+    const ambulo_device *device = &table->device[i];
+    int at_joint = device->coordinate >= 0;
+    int turns = at_joint && table->model->coordinates[device->coordinate].type == AMBULO_REVOLUTE;
+    ambulo__text_append_format(text, ",device.%s.%s,device.%s.%s,device.%s.power", device->name,
+                               turns ? "torque" : "force", device->name, turns ? "angle" : "length",
+                               device->name);
+  }
+}
+
 static void header(const ambulo__motion_table *table, ambulo__text_buffer *text) {
   static const char *const prefixes[] = {",q.", ",qd.", ",qdd.", ",tau."};
   comment(table, text);
@@ -60,6 +72,7 @@ static void header(const ambulo__motion_table *table, ambulo__text_buffer *text)
   for (int foot = 0; foot < table->feet; foot++) force_header(table->model->feet[foot].name, text);
   for (int i = 0; i < table->patches; i++)
     force_header(table->model->patches[table->patch[i]].name, text);
+  device_header(table, text);
   if (table->wrench) wrench_header("wrench", text);
   if (table->residual) wrench_header("residual", text);
   if (table->power) coordinates(table->model, ",power.", text);
@@ -100,6 +113,12 @@ void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *
       numbers(text, table->free_moment + i, 1);
     }
     patch_numbers(table, k, text);
+    for (int i = 0; i < table->devices; i++) {
+      size_t one = (size_t)k * (size_t)table->devices + (size_t)i;
+      numbers(text, table->effort + one, 1);
+      numbers(text, table->along + one, 1);
+      numbers(text, table->device_power + one, 1);
+    }
     if (table->wrench) {
       numbers(text, table->wrench + 6 * (size_t)k + 3, 3);
       numbers(text, table->wrench + 6 * (size_t)k, 3);

@@ -2,6 +2,7 @@
 #ifndef AMBULO_FORMAT_MOTION_CSV_H
 #define AMBULO_FORMAT_MOTION_CSV_H
 
+#include "ambulo/device.h"
 #include "base/text_buffer.h"
 #include "model/model.h"
 
@@ -16,6 +17,9 @@ typedef struct ambulo__motion_table {
   int patches;      /* with columns of their own: patch[patches], which of the model's */
   const int *patch; /* their numbers are [samples][patches of the model][3], ... */
   const double *patch_force, *patch_cop, *patch_free_moment;
+  int devices;                                 /* 0: none */
+  const ambulo_device *device;                 /* [devices] */
+  const double *effort, *along, *device_power; /* [samples][devices] */
   /* of an inverse dynamics; each may be NULL */
   const double *wrench;   /* [samples][6]: moment about the origin, force */
   const double *residual; /* [samples][6]: force, moment about the centre of mass */
@@ -24,7 +28,8 @@ typedef struct ambulo__motion_table {
 
 /* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time:
  * time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
- * cop.<foot>.x|y|z, free_moment.<foot>, the same of the patches; of an inverse dynamics
+ * cop.<foot>.x|y|z, free_moment.<foot>, the same of the patches; for each device
+ * device.<name>.torque|force, .angle|length, .power; of an inverse dynamics
  * wrench.force.x|y|z, wrench.moment.x|y|z, the same of residual, and power.*; a value that does not
  * exist (the ZMP in flight) is "nan". */
 void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text);

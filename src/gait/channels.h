@@ -24,6 +24,9 @@
  * or, where contacts share the load, r = 6:
  *
  *   reaction [s][6]     N, N m             n         force, moment about the contact's centre
+ *
+ * Behind all of these the efforts of the devices [v], N m or N (device/devices.h). tau is what they
+ * leave to the person.
  */
 #ifndef AMBULO_GAIT_CHANNELS_H
 #define AMBULO_GAIT_CHANNELS_H
@@ -33,6 +36,7 @@ typedef struct ambulo__channels {
   int feet;      /* of the model, with ground reaction; else 0 */
   int slots;     /* of ground reaction; the first are the feet's */
   int slot_rows; /* 4 or 6 */
+  int devices;
 } ambulo__channels;
 
 static inline int ambulo__channel_q(const ambulo__channels *c, int i) {
@@ -71,8 +75,11 @@ static inline int ambulo__channel_free_moment(const ambulo__channels *c, int foo
 static inline int ambulo__channel_center(const ambulo__channels *c, int axis) {
   return ambulo__channel_foot_force(c, c->slots, axis);
 }
+static inline int ambulo__channel_effort(const ambulo__channels *c, int device) {
+  return ambulo__channel_foot_force(c, c->slots, c->slots ? 3 : 0) + device;
+}
 static inline int ambulo__channel_count(const ambulo__channels *c) {
-  return ambulo__channel_foot_force(c, c->slots, c->slots ? 3 : 0);
+  return ambulo__channel_effort(c, c->devices);
 }
 /* First channel that the mechanics computes. */
 static inline int ambulo__channel_outputs(const ambulo__channels *c) {

@@ -88,21 +88,21 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
   size_t stride = (size_t)ambulo__channel_count(&p->channels) * AMBULO__LANES;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof *scratch);
+  double *room = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), sizeof *room);
   dense->channel = ambulo__alloc_aligned(a, stride * (size_t)p->blocks, sizeof *dense->channel);
   dense->row_value = ambulo__alloc_aligned(a, (size_t)p->rows, sizeof *dense->row_value);
   ambulo_status status = AMBULO_E_MEMORY;
-  if (scratch && dense->channel && dense->row_value) {
+  if (scratch && room && dense->channel && dense->row_value) {
     double *c = dense->channel;
     ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
-    for (int b = 0; b < p->blocks; b++, c += stride) {
-      p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, b),
-                          c + 3 * d8, scratch);
-    }
+    for (int b = 0; b < p->blocks; b++, c += stride)
+      ambulo__mechanics_block(p, p->ground, p->told, b, c, scratch, room);
     ambulo__row_runs_values(&p->row_runs, dense->channel, dense->row_value);
     curved_values(p, dense);
     status = AMBULO_OK;
   }
   ambulo__free_aligned(a, scratch);
+  ambulo__free_aligned(a, room);
   return status;
 }
 

@@ -27,7 +27,15 @@ void ambulo__model_carry(ambulo_model *model, int link, double mass, const doubl
   memcpy(carrier->com, whole.com, sizeof whole.com);
   memcpy(carrier->inertia, whole.inertia, sizeof whole.inertia);
   model->mass += mass;
-  model->load = (ambulo__model_load){link, mass, {position[0], position[1], position[2]}};
+  if (model->load_count == AMBULO__MOST_LOADS) return;
+  model->loads[model->load_count++] =
+      (ambulo__model_load){link, mass, {position[0], position[1], position[2]}};
+}
+
+double ambulo__model_load_mass(const ambulo_model *model) {
+  double sum = 0.0;
+  for (int i = 0; i < model->load_count; i++) sum += model->loads[i].mass;
+  return sum;
 }
 
 void ambulo__model_tilt(ambulo_model *model, double slope) {
@@ -81,9 +89,10 @@ ambulo_status ambulo__model_copy(const ambulo_model *model, const ambulo_point *
   memcpy((*copy)->left, model->left, sizeof model->left);
   (*copy)->mass = model->mass;
   (*copy)->units = model->units;
-  (*copy)->load = model->load;
   memcpy((*copy)->capsule_point, model->capsule_point,
          (size_t)model->capsule_count * sizeof *model->capsule_point);
+  memcpy((*copy)->loads, model->loads, sizeof model->loads);
+  (*copy)->load_count = model->load_count;
   return AMBULO_OK;
 }
 

@@ -11,11 +11,12 @@ typedef struct ambulo__model_units {
   double mass;                         /* of bodies: the subject's, where they are shares of it */
 } ambulo__model_units;
 
-/* The last mass that was put on a link (model/conditions.h): part of that link's body. */
+/* A mass that was put on a link (model/conditions.h): part of that link's body. */
 typedef struct ambulo__model_load {
   int link;
-  double mass, position[3]; /* kg, 0: none; link frame, m */
+  double mass, position[3]; /* kg; link frame, m */
 } ambulo__model_load;
+enum { AMBULO__MOST_LOADS = 16 }; /* that are known of; more count as the body's own */
 
 /* Arrays are owned by the model. Links stand in topological order: every parent
  * before its children (a definition in another order is sorted, names kept). */
@@ -27,7 +28,8 @@ struct ambulo_model {
   double up[3], forward[3], left[3];
   double mass, stature;
   ambulo__model_units units;
-  ambulo__model_load load;
+  ambulo__model_load loads[AMBULO__MOST_LOADS]; /* [load_count], in the order in which they came */
+  int load_count;
   ambulo_link *links; /* [link_count] */
   int link_count;
   ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */
@@ -66,6 +68,8 @@ ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
 
 /* Stature by 1.75 m, the body for which lengths of the engine are stated; 1: stature unknown. */
 double ambulo__model_size(const ambulo_model *model);
+/* All that it carries, kg. */
+double ambulo__model_load_mass(const ambulo_model *model);
 /* The body weight m |g|, N: what forces are measured by. */
 double ambulo__model_weight(const ambulo_model *model);
 

@@ -48,6 +48,18 @@ void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]
   memcpy(world, model->neutral + (size_t)(3 * point), 3 * sizeof *world);
 }
 
+void ambulo__neutral_local(const ambulo_model *model, int link, const double world[3],
+                           double position[3]) {
+  double origin[3] = {0.0, 0.0, 0.0};
+  to_world(model, link, 1, origin);
+  for (int k = 0; k < 3; k++) {
+    double axis[3] = {k == 0, k == 1, k == 2};
+    to_world(model, link, 0, axis);
+    position[k] = 0.0;
+    for (int i = 0; i < 3; i++) position[k] += axis[i] * (world[i] - origin[i]);
+  }
+}
+
 static void link_axis(const ambulo_model *model, int link, double axis[3]) {
   axis[0] = axis[1] = 0.0;
   axis[2] = 1.0;

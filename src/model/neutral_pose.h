@@ -14,6 +14,9 @@ void ambulo__neutral_place(const ambulo_model *model, int link, const double loc
                            double world[3]);
 /* World position of a model's point at q = 0, m. */
 void ambulo__neutral_point(const ambulo_model *model, int point, double world[3]);
+/* The other way round: the place of a link that stands there at q = 0. */
+void ambulo__neutral_local(const ambulo_model *model, int link, const double world[3],
+                           double position[3]);
 
 /* World direction (unit) of the joint axis of a coordinate at q = 0. */
 void ambulo__neutral_axis(const ambulo_model *model, int coordinate, double axis[3]);

@@ -124,6 +124,11 @@ void ambulo__adjoint_block(ambulo_workspace *workspace, int block) {
   p->kernels->reverse(p->plan, c + d8, c + 2 * d8, ground, w + 3 * d8, g, g + d8, g + 2 * d8,
                       workspace->scratch);
   for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
+  if (!p->devices) return;
+  const double *effort = w + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
+  const ambulo__device_adjoints adjoints = {w + 3 * d8, effort, w, w + d8};
+  ambulo__devices_reverse(p->devices, c, c + d8, ambulo__told_block(p, p->told, block), c + 3 * d8,
+                          &adjoints, workspace->device_scratch);
 }
 
 void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {

@@ -202,6 +202,8 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                   "objective[%d] (%s): no forces on feet without ground_reaction; expected kind "
                   "shared or two_step",
                   t, info->name);
+  if (term->kind == AMBULO_DEVICE_EFFORT && d->device_count == 0)
+    return REFUSE(list, "objective[%d] (%s): there are no devices", t, info->name);
   if (term->kind == AMBULO_TRACKING && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
   if (ambulo__is_user_term(term) && !term->function)
@@ -255,6 +257,7 @@ static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t
       {passive, "", term->passive, 4 * n, -largest, largest},
       {strength, "", term->strength, 6 * n, -largest, largest},
       {reference, "", term->reference, n * samples, -largest, largest},
+      {scale, "", term->device_scale, d->device_count, 0.0, largest},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }
@@ -309,7 +312,8 @@ static int arrays_are_there(const ambulo_problem_definition *d) {
   return listed(d->contacts, d->contact_count) && listed(d->terms, d->term_count) &&
          listed(d->end_values, d->end_value_count) && listed(d->tubes, d->tube_count) &&
          listed(d->user_rows, d->user_row_count) && listed(d->obstacles, d->obstacle_count) &&
-         listed(d->reaches, d->reach_count) && listed(d->collision.pairs, d->collision.pair_count);
+         listed(d->reaches, d->reach_count) &&
+         listed(d->collision.pairs, d->collision.pair_count) && listed(d->devices, d->device_count);
 }
 
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
@@ -324,7 +328,8 @@ ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
   if (!status) status = ambulo__tubes_check(d, diagnostics);
   ambulo_status numbers[] = {
       check_task(d, diagnostics), check_clearance(&d->clearance, diagnostics),
-      check_reaction(&d->ground_reaction, diagnostics), ambulo__collision_check(d, diagnostics)};
+      check_reaction(&d->ground_reaction, diagnostics), ambulo__collision_check(d, diagnostics),
+      ambulo__devices_check(d, diagnostics)};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     if (numbers[i]) status = numbers[i];
   }

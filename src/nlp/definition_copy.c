@@ -61,8 +61,29 @@ static void copy_terms(const ambulo_problem_definition *from, const ambulo_alloc
     terms[t].strength = source->strength_is_limits
                             ? limits_as_strength(a, from->model, source->price, failed)
                             : copy_array(a, source->strength, 6 * d, sizeof(double), failed);
+    terms[t].device_scale =
+        copy_array(a, source->device_scale, (size_t)from->device_count, sizeof(double), failed);
     terms[t].price = copy_array(a, source->price, 2 * d, sizeof(double), failed);
     terms[t].reference = copy_array(a, source->reference, nodes * d, sizeof(double), failed);
+  }
+}
+
+static void copy_devices(const ambulo_problem_definition *from, const ambulo_allocator *a,
+                         ambulo_problem_definition *to, int *failed) {
+  if (from->device_count <= 0) return;
+  ambulo_device *devices = ambulo__alloc(a, (size_t)from->device_count, sizeof *devices);
+  if (!devices) {
+    *failed = 1;
+    return;
+  }
+  to->devices = devices;
+  to->device_count = from->device_count;
+  for (int i = 0; i < from->device_count; i++) {
+    const ambulo_device *source = &from->devices[i];
+    size_t points = source->point_count > 0 ? (size_t)source->point_count : 0;
+    devices[i] = *source;
+    devices[i].name = copy_text(a, source->name, failed);
+    devices[i].points = copy_array(a, source->points, points, 2 * sizeof(double), failed);
   }
 }
 
@@ -128,6 +149,8 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   *to = *from;
   to->terms = NULL;
   to->user_rows = NULL;
+  to->devices = NULL;
+  to->device_count = 0;
   to->tubes = NULL;
   to->tube_count = 0;
   to->obstacles = NULL;
@@ -143,6 +166,7 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   to->end_values = copy_array(a, from->end_values, (size_t)from->end_value_count,
                               sizeof *from->end_values, &failed);
   copy_terms(from, a, to, &failed);
+  copy_devices(from, a, to, &failed);
   copy_tubes(from, a, to, &failed);
   copy_user_rows(from, a, to, &failed);
   copy_obstacles(from, a, to, &failed);
@@ -177,7 +201,12 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->terms[t].passive);
     release(a, d->terms[t].strength);
     release(a, d->terms[t].price);
+    release(a, d->terms[t].device_scale);
     release(a, d->terms[t].reference);
+  }
+  for (int i = 0; i < d->device_count; i++) {
+    release(a, d->devices[i].name);
+    release(a, d->devices[i].points);
   }
   for (int t = 0; t < d->tube_count; t++) {
     release(a, d->tubes[t].reference);
@@ -192,6 +221,7 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
   release(a, d->collision.pairs);
   release(a, d->reaches);
   release(a, d->terms);
+  release(a, d->devices);
   release(a, d->tubes);
   release(a, d->user_rows);
   release(a, d->name);

@@ -28,12 +28,15 @@ static double channel_at(const ambulo_workspace *workspace, int node, int channe
   return workspace->channel[ambulo__lane_index(node, workspace->channel_count, channel)];
 }
 
-static void compute_block(ambulo_workspace *workspace, int block) {
-  const ambulo_problem *p = workspace->problem;
+void ambulo__mechanics_block(const ambulo_problem *p, const double *ground, const double *told,
+                             int block, double *c, double *scratch, double *device_scratch) {
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
-  double *c = block_of(workspace, workspace->channel, block);
-  p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, block),
-                      c + 3 * d8, workspace->scratch);
+  p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, ground, block),
+                      c + 3 * d8, scratch);
+  if (!p->devices) return;
+  double *effort = c + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
+  ambulo__devices_apply(p->devices, c, c + d8, ambulo__told_block(p, told, block), c + 3 * d8,
+                        effort, device_scratch);
 }
 
 static void compute_channels(ambulo_workspace *workspace, const double *x) {
@@ -42,7 +45,9 @@ static void compute_channels(ambulo_workspace *workspace, const double *x) {
   size_t stride = (size_t)workspace->channel_count * AMBULO__LANES;
   double *c = workspace->channel;
   ambulo__lane_map_forward(p->map, x, c, c + d8, c + 2 * d8, NULL, stride);
-  for (int block = 0; block < p->blocks; block++) compute_block(workspace, block);
+  for (int block = 0; block < p->blocks; block++)
+    ambulo__mechanics_block(p, p->ground, p->told, block, block_of(workspace, c, block),
+                            workspace->scratch, workspace->device_scratch);
 }
 
 static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
@@ -180,6 +185,17 @@ ambulo_status ambulo__evaluate(ambulo_workspace *workspace, const double *x) {
   return AMBULO_OK;
 }
 
+static void keep_devices(ambulo_workspace *workspace) {
+  const ambulo_problem *p = workspace->problem;
+  size_t entries = ambulo__devices_entries(p->devices);
+  for (int k = 0; k < p->nodes; k++) {
+    const double *q = workspace->channel + ambulo__lane_index(k, workspace->channel_count, 0);
+    ambulo__devices_keep(p->devices, q, q + (size_t)p->coordinates * AMBULO__LANES,
+                         p->told + ambulo__lane_index(k, p->channels.devices, 0),
+                         workspace->device_kept + (size_t)k * entries);
+  }
+}
+
 ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const double *x) {
   ambulo_status status = ambulo__evaluate(workspace, x);
   if (status || workspace->has_jacobian) return status;
@@ -196,6 +212,7 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
                          workspace->scratch);
     ambulo__wrench_gather(workspace, b);
   }
+  if (p->devices) keep_devices(workspace);
   workspace->jacobians++;
   workspace->has_jacobian = 1;
   workspace->seconds_evaluate += ambulo__seconds_now() - start;

@@ -111,6 +111,9 @@ static void name_channel(const ambulo_problem *p, int channel, ambulo_fault *fau
   } else if (point < 3 * p->channels.points) {
     fault->by = "points";
     fault->of = ambulo_model_point(p->model, point / 3)->name;
+  } else if (channel >= ambulo__channel_effort(&p->channels, 0)) {
+    fault->by = "device";
+    fault->of = p->definition.devices[channel - ambulo__channel_effort(&p->channels, 0)].name;
   } else {
     fault->by = "reaction";
     fault->of = "ground";

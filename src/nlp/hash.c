@@ -58,6 +58,7 @@ static hash add_terms(hash h, const ambulo_problem *p) {
     h = add_numbers(add_numbers(h, term->passive, 4 * d), term->strength, 6 * d);
     h = add_integer(add_integer(h, term->point[0]), term->point[1]);
     h = add_numbers(h, term->reference, (size_t)p->nodes * d);
+    h = add_numbers(h, term->device_scale, (size_t)p->definition.device_count);
   }
   return h;
 }
@@ -83,6 +84,21 @@ static hash add_curved(hash h, const ambulo__curved *row) {
   double number[] = {arc->sign, arc->room, arc->radius, arc->length, arc->flat, arc->along};
   h = add_numbers(h, number, sizeof number / sizeof *number);
   return add_numbers(add_numbers(h, arc->forward, 3), arc->up, 3);
+}
+
+static hash add_devices(hash h, const ambulo_problem *p) {
+  for (int i = 0; i < p->definition.device_count; i++) {
+    const ambulo_device *v = &p->definition.devices[i];
+    double numbers[] = {v->stiffness, v->rest, v->pretension, v->smoothing, v->damping,
+                        v->amount,    v->from, v->to,         v->ramp};
+    h = add_integer(add_text(h, v->name), (int)v->kind * 16 + (int)v->side * 4 + (int)v->clock);
+    h = add_integer(add_integer(h, v->coordinate), v->clutch * 16 + v->foot);
+    h = add_numbers(h, numbers, sizeof numbers / sizeof *numbers);
+    for (int end = 0; end < 2; end++)
+      h = add_numbers(add_integer(h, v->link[end]), v->position[end], 3);
+    for (int k = 0; k < v->point_count; k++) h = add_numbers(h, v->points[k], 2);
+  }
+  return h;
 }
 
 static hash add_rows(hash h, const ambulo_problem *p) {
@@ -112,5 +128,5 @@ unsigned long long ambulo__problem_hash_of(const ambulo_problem *p) {
   if (p->definition.grid != AMBULO_GRID_UNIFORM) h = add_numbers(h, p->times, (size_t)p->nodes);
   h = add_numbers(h, p->ground,
                   (size_t)(p->blocks * ambulo__plan_ground_entries(p->plan)) * AMBULO__LANES);
-  return add_rows(add_terms(h, p), p);
+  return add_rows(add_devices(add_terms(h, p), p), p);
 }

@@ -4,7 +4,7 @@
  * nodes in blocks of 8:
  *
  *     values      8 B a channel and node, twice (channels and their adjoints)
- *     Jacobians   8 B (E + 2 D) a node, and 3 x 48 d B with ground reaction
+ *     Jacobians   8 B (E + 2 D) a node, and 3 x 48 d B with ground reaction; what devices keep
  *     scratch     of inverse dynamics in one block of nodes, once
  *     a row       its table (names, time, terms), its place in the runs, its value
  */
@@ -36,6 +36,7 @@ double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   bytes += word * (double)ambulo__plan_scratch(p->plan);
   if (!with_jacobians) return bytes;
   bytes += lanes * word * (pattern.count + 2.0 * pattern.dynamic_count);
+  bytes += word * p->nodes * (double)ambulo__devices_entries(p->devices);
   return bytes + 3.0 * word * p->nodes * ambulo__wrench_entries(p);
 }
 

@@ -7,6 +7,7 @@
  */
 #include "nlp/nlp.h"
 
+#include "device/told.h"
 #include "gait/effector.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@
 
 typedef struct dense {
   ambulo__lane_map *map;
-  double *channel, *scratch, *ground;
+  double *channel, *scratch, *ground, *told, *room;
 } dense;
 
 static void dense_free(const ambulo_allocator *a, dense *d) {
@@ -22,6 +23,8 @@ static void dense_free(const ambulo_allocator *a, dense *d) {
   ambulo__free_aligned(a, d->channel);
   ambulo__free_aligned(a, d->scratch);
   ambulo__free_aligned(a, d->ground);
+  ambulo__free_aligned(a, d->told);
+  ambulo__free_aligned(a, d->room);
 }
 
 static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocator *a,
@@ -32,8 +35,10 @@ static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocato
   d->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof(double));
   ambulo_status status =
       ambulo__lane_map_create(p->basis, times, count, p->coordinates, a, &d->map);
-  if (!status && (!d->channel || !d->scratch)) status = AMBULO_E_MEMORY;
+  d->room = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), sizeof(double));
+  if (!status && (!d->channel || !d->scratch || !d->room)) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__ground_fill(p, a, times, count, &d->ground);
+  if (!status) status = ambulo__devices_tell(&p->definition, a, times, count, &d->told);
   return status;
 }
 
@@ -164,6 +169,22 @@ static ambulo_status fill_effectors(const ambulo_problem *p, const dense *d,
   return AMBULO_OK;
 }
 
+/* effort, place and power of every device at sample k */
+static void fill_devices(const ambulo_problem *p, const dense *d, int k,
+                         const ambulo_motion *motion) {
+  int channels = ambulo__channel_count(&p->channels), n = p->channels.devices;
+  const double *q = d->channel + ambulo__lane_index(k, channels, 0);
+  const double *told = d->told + ambulo__lane_index(k, n, 0);
+  for (int i = 0; i < n; i++) {
+    ambulo__device_state state = ambulo__device_at(
+        p->devices, i, q, q + (size_t)p->coordinates * AMBULO__LANES, told, d->room);
+    size_t at = (size_t)k * (size_t)n + (size_t)i;
+    if (motion->device_effort) motion->device_effort[at] = state.effort;
+    if (motion->device_along) motion->device_along[at] = state.along;
+    if (motion->device_power) motion->device_power[at] = state.power;
+  }
+}
+
 /* within the motion, but for rounding */
 static int times_valid(const ambulo_problem *p, const double *times, int count) {
   double last = p->definition.duration, slack = 1e-9 * last;
@@ -178,7 +199,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
   if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
     return AMBULO_E_ARGUMENT;
   if (!times_valid(p, times, count)) return AMBULO_E_ARGUMENT;
-  dense d = {NULL, NULL, NULL, NULL};
+  dense d = {NULL, NULL, NULL, NULL, NULL, NULL};
   const ambulo_allocator *a = &workspace->allocator;
   ambulo_status status = dense_create(p, a, times, count, &d);
   if (!status) {
@@ -187,8 +208,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     ambulo__lane_map_forward(d.map, x, d.channel, d.channel + d8, d.channel + 2 * d8, NULL, stride);
     for (int b = 0; b < ambulo__block_count(count); b++) {
       double *y = d.channel + (size_t)b * stride;
-      p->kernels->outputs(p->plan, y, y + d8, y + 2 * d8, ambulo__ground_block(p, d.ground, b),
-                          y + 3 * d8, d.scratch);
+      ambulo__mechanics_block(p, d.ground, d.told, b, y, d.scratch, d.room);
     }
     int finite = unpack(&d, channels, 0, c, count, motion->q);
     finite &= unpack(&d, channels, c, c, count, motion->qd);
@@ -197,6 +217,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c, 6, count, motion->wrench);
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
+    for (int k = 0; p->devices && k < count; k++) fill_devices(p, &d, k, motion);
     status = fill_effectors(p, &d, a, times, count, motion);
     if (!status && !finite) status = AMBULO_E_NUMERIC;
   }

@@ -14,6 +14,7 @@
 #define AMBULO_NLP_NLP_H
 
 #include "ambulo/solve.h"
+#include "device/devices.h"
 #include "gait/collision.h"
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
@@ -45,6 +46,7 @@ typedef struct ambulo__problem_keys {
   int step_time;    /* gait.step_time is there, one number */
   int times;        /* as a list */
   int duration;     /* time.duration is there */
+  int loads;        /* `load` is a list */
   ambulo_gait walk; /* what the keys of the gait come to */
   ambulo__phase_kind by_speed[AMBULO__PHASES];
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
@@ -75,11 +77,13 @@ struct ambulo_problem {
   ambulo__channels channels;
   int coordinates, control_points, variables;
   int nodes, blocks;
-  double *times;      /* [nodes], s; not equally spaced in general */
-  double *quadrature; /* [nodes], trapezoidal weights, s */
-  int *active;        /* [nodes][feet] contact index or -1 */
-  int *before;        /* [nodes][feet] just before the node; NULL but for grids on events */
-  double *ground;     /* [blocks][entries][8], nlp/ground.c; NULL without ground reaction */
+  double *times;            /* [nodes], s; not equally spaced in general */
+  double *quadrature;       /* [nodes], trapezoidal weights, s */
+  int *active;              /* [nodes][feet] contact index or -1 */
+  int *before;              /* [nodes][feet] just before the node; NULL but for grids on events */
+  double *ground;           /* [blocks][entries][8], nlp/ground.c; NULL without ground reaction */
+  ambulo__devices *devices; /* NULL without */
+  double *told;             /* [blocks][devices][8], device/told.h; NULL without */
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;
@@ -107,6 +111,8 @@ struct ambulo_workspace {
   double *motion_scratch; /* ... for one output's gradient by q, qd, qdd: [3][d] */
   double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
                              without ground reaction */
+  double *device_scratch; /* device/devices.h; NULL without devices */
+  double *device_kept;    /* [nodes][ambulo__devices_entries] */
   ambulo_fault fault;     /* of the last E_NUMERIC */
   double *fault_scratch;  /* [variables]: while it is looked for */
   long evaluations, jacobians;
@@ -157,6 +163,18 @@ static inline const double *ambulo__ground_block(const ambulo_problem *problem,
                                                  const double *ground, int block) {
   size_t entries = (size_t)ambulo__plan_ground_entries(problem->plan);
   return ground ? ground + (size_t)block * entries * AMBULO__LANES : NULL;
+}
+
+/* The outputs of a block of nodes from its q, qd and qdd, the first channels: inverse dynamics and
+ * what the devices leave of it. `ground` and `told` are the problem's or of other times; the
+ * scratch is the kernels' and the devices' (may be NULL without). */
+void ambulo__mechanics_block(const ambulo_problem *problem, const double *ground,
+                             const double *told, int block, double *channel, double *scratch,
+                             double *device_scratch);
+/* A block of `told`; NULL without devices. */
+static inline const double *ambulo__told_block(const ambulo_problem *problem, const double *told,
+                                               int block) {
+  return told ? told + (size_t)block * (size_t)problem->channels.devices * AMBULO__LANES : NULL;
 }
 
 /* ------------------------------------------------------------- local rows */

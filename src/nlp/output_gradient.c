@@ -89,14 +89,25 @@ static double *wrench_factor(const ambulo_problem *p, const ambulo__row_part *pa
   return row < 3 ? &f->moment[row] : &f->force[row - 3];
 }
 
+/* what devices add to the gradient of a torque, or all of that of an effort; 1: the latter */
+static int add_devices(const ambulo_workspace *workspace, int node, int output, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  int device = output - ambulo__plan_rows(p->plan);
+  const double *kept = workspace->device_kept + (size_t)node * ambulo__devices_entries(p->devices);
+  if (output < p->coordinates) ambulo__devices_add_torque(p->devices, kept, output, gradient);
+  if (device >= 0) ambulo__devices_add_effort(p->devices, kept, device, gradient);
+  return device >= 0;
+}
+
 void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
                              double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const int entries = ambulo__plan_get_pattern(p->plan).count;
   ambulo__row_part part[AMBULO__MOST_PARTS];
   wrench_factors wrench = {{0.0}, {0.0}, {0.0}};
-  int parts = ambulo__plan_parts(p->plan, output, part), reacts = 0;
   memset(gradient, 0, 3 * (size_t)p->coordinates * sizeof *gradient);
+  if (p->devices && add_devices(workspace, node, output, gradient)) return;
+  int parts = ambulo__plan_parts(p->plan, output, part), reacts = 0;
   for (int k = 0; k < parts; k++) {
     double factor = part[k].factor, *sum = wrench_factor(p, &part[k], &wrench);
     if (part[k].times >= 0) {

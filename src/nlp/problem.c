@@ -9,6 +9,7 @@
  */
 #include "nlp/problem.h"
 #include "base/instant.h"
+#include "device/told.h"
 #include "gait/phases.h"
 #include "gait/contact_load.h"
 #include "gait/patch_rows.h"
@@ -180,6 +181,7 @@ static ambulo_status build_schedule(ambulo_problem *p, ambulo_diagnostics *diagn
     ambulo__schedule_before(d, p->times, p->nodes, p->active, p->before);
   }
   status = ambulo__schedule_check_reach(d, p->times, p->nodes, p->active, diagnostics);
+  if (!status) status = ambulo__devices_check_strides(d, diagnostics);
   ambulo_status ends = ambulo__ends_check(d, p->nodes, p->active, &p->allocator, diagnostics);
   if (!status) status = ends;
   ends = ambulo__schedule_check_ends(d, diagnostics);
@@ -219,8 +221,9 @@ static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics 
   if (status == AMBULO_E_MEMORY) return status;
   ambulo_status terms = ambulo__mirror_terms_check(&p->definition, &p->allocator, diagnostics);
   ambulo_status bodies = ambulo__collision_mirror_check(&p->definition, diagnostics);
+  ambulo_status devices = ambulo__devices_mirror_check(&p->definition, diagnostics);
   if (bodies) status = bodies;
-  return terms ? terms : status;
+  return terms ? terms : devices ? devices : status;
 }
 
 static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
@@ -230,14 +233,18 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   p->coordinates = ambulo_model_coordinate_count(p->model);
   p->channels.coordinates = p->coordinates;
   p->channels.points = ambulo_model_point_count(p->model);
+  p->channels.devices = p->definition.device_count;
   status = build_grid(p, diagnostics);
   if (!status) status = build_plan(p, diagnostics);
+  if (!status) status = ambulo__devices_create(&p->definition, &p->allocator, &p->devices);
   if (!status) status = ambulo__check_memory(p, diagnostics);
   ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
   if (symmetry == AMBULO_E_MEMORY) return symmetry;
   if (!status) status = build_schedule(p, diagnostics);
   if (!status) status = symmetry;
   if (!status) status = ambulo__ground_fill(p, &p->allocator, p->times, p->nodes, &p->ground);
+  if (!status)
+    status = ambulo__devices_tell(&p->definition, &p->allocator, p->times, p->nodes, &p->told);
   if (!status) status = build_rows(p, diagnostics);
   if (status) return status;
   p->kernels = ambulo__kernels_select();
@@ -313,6 +320,8 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free(&a, p->active);
   ambulo__free(&a, p->before);
   ambulo__free_aligned(&a, p->ground);
+  ambulo__free_aligned(&a, p->told);
+  ambulo__devices_free(p->devices);
   ambulo__definition_free(&a, &p->definition);
   ambulo__pairs_free(&a, &p->pairs);
   ambulo__free(&a, p->obstacle_names);

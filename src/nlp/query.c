@@ -41,6 +41,14 @@ ambulo_ends ambulo_problem_ends(const ambulo_problem *p) {
 int ambulo_problem_contact_count(const ambulo_problem *p) {
   return p->definition.contact_count;
 }
+int ambulo_problem_device_count(const ambulo_problem *p) {
+  return p->definition.device_count;
+}
+
+const ambulo_device *ambulo_problem_device(const ambulo_problem *p, int index) {
+  return index >= 0 && index < p->definition.device_count ? &p->definition.devices[index] : NULL;
+}
+
 int ambulo_problem_term_count(const ambulo_problem *p) {
   return p->definition.term_count;
 }

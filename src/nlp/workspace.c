@@ -22,6 +22,11 @@ static ambulo_status allocate_jacobians(ambulo_workspace *w, const ambulo_proble
     w->wrench[o] = ambulo__alloc_aligned(a, wrench, word);
     gathered += w->wrench[o] != NULL;
   }
+  if (p->devices) {
+    size_t kept = (size_t)p->nodes * ambulo__devices_entries(p->devices);
+    w->device_kept = ambulo__alloc_aligned(a, kept, word);
+    if (!w->device_kept) return AMBULO_E_MEMORY;
+  }
   int complete = w->jq && w->jqd && w->jqdd && gathered == 3 * grounded;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
@@ -43,6 +48,9 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
+  if (p->devices)
+    w->device_scratch = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), word);
+  if (p->devices && !w->device_scratch) return AMBULO_E_MEMORY;
   int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch &&
                  w->row_value && w->term_value && w->user_gradient && w->user_slot &&
                  w->node_state && w->motion_scratch && w->fault_scratch;
@@ -105,7 +113,9 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->fault_scratch,
                        w->wrench[0],
                        w->wrench[1],
-                       w->wrench[2]};
+                       w->wrench[2],
+                       w->device_scratch,
+                       w->device_kept};
   for (size_t i = 0; i < sizeof aligned / sizeof *aligned; i++)
     ambulo__free_aligned(&a, aligned[i]);
   ambulo__free(&a, w->user_slot);

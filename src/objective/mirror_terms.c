@@ -13,6 +13,7 @@
  */
 #include "objective/mirror_terms.h"
 
+#include "device/devices.h"
 #include "gait/gait.h"
 #include "model/mirror_image.h"
 #include "model/segments.h"
@@ -50,7 +51,7 @@ static int same(double a, double b) {
 
 static int is_by_coordinate(ambulo_term_kind kind) {
   return kind != AMBULO_USER_TERM && kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE &&
-         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE;
+         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE && kind != AMBULO_DEVICE_EFFORT;
 }
 
 static int has_offset(ambulo_term_kind kind) {
@@ -225,6 +226,23 @@ static ambulo_status check_line(const ambulo_problem_definition *d, const ambulo
       fabs(line[2]) < AMBULO__MIRROR_TOLERANCE ? 0.0 : line[2], term->weight);
 }
 
+/* ---------------------------------------------------------------------- devices */
+
+static ambulo_status check_devices(const ambulo_problem_definition *d, int t,
+                                   ambulo_diagnostics *list) {
+  const double *scale = d->terms[t].device_scale;
+  for (int i = 0; scale && i < d->device_count; i++) {
+    double sign;
+    int partner = ambulo__device_partner(d, i, &sign);
+    if (partner < 0 || same(scale[i], scale[partner])) continue;
+    return REFUSE(list,
+                  "objective[%d] (device_effort): the scale of '%s' is %.6g, that of its mirror "
+                  "image '%s' %.6g; expected the same with mirrored ends",
+                  t, d->devices[i].name, scale[i], d->devices[partner].name, scale[partner]);
+  }
+  return AMBULO_OK;
+}
+
 ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *d,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *list) {
@@ -237,6 +255,7 @@ ambulo_status ambulo__mirror_terms_check(const ambulo_problem_definition *d,
     ambulo_status one = AMBULO_OK;
     if (is_by_coordinate(d->terms[t].kind)) one = check_coordinates(d, t, list);
     if (d->terms[t].kind == AMBULO_UPRIGHT) one = check_line(d, &segments, t, list);
+    if (d->terms[t].kind == AMBULO_DEVICE_EFFORT) one = check_devices(d, t, list);
     if (one) status = one;
   }
   ambulo__segments_free(&segments);

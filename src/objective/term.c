@@ -16,6 +16,7 @@ const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
       [AMBULO_GROUND_FORCE] = {.name = "ground_force", .uses_tau = 1},
       [AMBULO_CLEARANCE] = {.name = "clearance", .uses_q = 1},
       [AMBULO_FORCE_RATE] = {.name = "force_rate", .uses_tau = 1},
+      [AMBULO_DEVICE_EFFORT] = {.name = "device_effort", .uses_q = 1},
       [AMBULO_USER_SQUARE] = {.name = "user_square", .uses_tau = 1, .uses_qdd = 1, .uses_q = 1},
   };
   int index = (int)kind;
@@ -43,6 +44,7 @@ int ambulo__term_is_simple(const ambulo_term *term) {
   case AMBULO_GROUND_FORCE:
   case AMBULO_CLEARANCE:
   case AMBULO_FORCE_RATE:
+  case AMBULO_DEVICE_EFFORT:
     break;
   }
   return 0;
@@ -91,6 +93,8 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *cont
     return ambulo__clearance_forms(context);
   case AMBULO_FORCE_RATE:
     return ambulo__force_rate_forms(context, node);
+  case AMBULO_DEVICE_EFFORT:
+    return ambulo__device_effort_forms(context);
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:
   case AMBULO_ACCELERATION:
@@ -128,6 +132,9 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *cont
     break;
   case AMBULO_FORCE_RATE:
     ambulo__force_rate_form(context, node, j, form);
+    break;
+  case AMBULO_DEVICE_EFFORT:
+    ambulo__device_effort_form(term, context, node, j, form);
     break;
   case AMBULO_TORQUE_SQUARED:
   case AMBULO_TORQUE_ABSOLUTE:

@@ -115,6 +115,9 @@ void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_contex
 void ambulo__strength_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                            int i, ambulo__form *form);
 
+int ambulo__device_effort_forms(const ambulo__term_context *context);
+void ambulo__device_effort_form(const ambulo_term *term, const ambulo__term_context *context,
+                                int node, int i, ambulo__form *form);
 int ambulo__force_rate_forms(const ambulo__term_context *context, int node);
 void ambulo__force_rate_form(const ambulo__term_context *context, int node, int j,
                              ambulo__form *form);

@@ -53,11 +53,10 @@ void ambulo__chart_grid(ambulo__gait_chart *c, ambulo__text_buffer *text) {
   ambulo__text_free(&label);
 }
 
-void ambulo__chart_curve(const ambulo__gait_chart *c, int column, ambulo__side side,
-                         ambulo__text_buffer *text) {
-  static const char *const styles[] = {"trunk curve", "left curve", "right curve"};
+static void trace(const ambulo__gait_chart *c, int column, const char *style,
+                  ambulo__text_buffer *text) {
   int pen_down = 0;
-  ambulo__svg_path_begin(text, styles[side]);
+  ambulo__svg_path_begin(text, style);
   for (int k = 0; k < c->stride->samples; k++) {
     size_t at = (size_t)k * (size_t)c->columns + (size_t)column;
     double value = c->factor * c->values[at];
@@ -72,6 +71,41 @@ void ambulo__chart_curve(const ambulo__gait_chart *c, int column, ambulo__side s
     }
   }
   ambulo__svg_path_end(text);
+}
+
+void ambulo__chart_curve(const ambulo__gait_chart *c, int column, ambulo__side side,
+                         ambulo__text_buffer *text) {
+  static const char *const styles[] = {"trunk curve", "left curve", "right curve"};
+  trace(c, column, styles[side], text);
+}
+
+static ambulo__gait_chart of_devices(const ambulo__gait_chart *c) {
+  ambulo__gait_chart efforts = *c;
+  efforts.values = c->stride->effort;
+  efforts.columns = c->stride->devices;
+  return efforts;
+}
+
+static int is_at(const ambulo__gait_chart *c, int device, int coordinate) {
+  return c->stride->problem->definition.devices[device].coordinate == coordinate;
+}
+
+void ambulo__chart_widen_devices(ambulo__gait_chart *c, int coordinate) {
+  for (int i = 0; i < c->stride->devices; i++) {
+    ambulo__gait_chart efforts = of_devices(c);
+    if (!is_at(c, i, coordinate)) continue;
+    ambulo__chart_range(&efforts, &i, 1);
+    c->low = fmin(c->low, efforts.low);
+    c->high = fmax(c->high, efforts.high);
+  }
+}
+
+void ambulo__chart_devices(const ambulo__gait_chart *c, int coordinate, ambulo__text_buffer *text) {
+  static const char *const styles[] = {"trunk worn", "left worn", "right worn"};
+  const ambulo__gait_chart efforts = of_devices(c);
+  ambulo__side side = ambulo__coordinate_side(c->stride->model, coordinate);
+  for (int i = 0; i < c->stride->devices; i++)
+    if (is_at(c, i, coordinate)) trace(&efforts, i, styles[side], text);
 }
 
 /* mean + factor * band at the samples from, from + step, ..., before `to` */

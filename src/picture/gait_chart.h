@@ -24,6 +24,10 @@ void ambulo__chart_grid(ambulo__gait_chart *chart, ambulo__text_buffer *text);
 /* One column in the colour of a side; gaps where it is not finite. */
 void ambulo__chart_curve(const ambulo__gait_chart *chart, int column, ambulo__side side,
                          ambulo__text_buffer *text);
+/* The efforts of devices at a coordinate, in the unit shown: room for them, and their curves. */
+void ambulo__chart_widen_devices(ambulo__gait_chart *chart, int coordinate);
+void ambulo__chart_devices(const ambulo__gait_chart *chart, int coordinate,
+                           ambulo__text_buffer *text);
 /* A curve of people in the same colours: a pale band where there are deviations, a dashed line
  * elsewhere. */
 void ambulo__chart_people(const ambulo__gait_chart *chart, const ambulo__people_curve *people,

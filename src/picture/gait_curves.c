@@ -101,14 +101,17 @@ static void draw_chart(ambulo__gait_chart *c, int coordinate, const char *quanti
   for (int j = 0; j < count; j++) {
     beside[j] = ambulo__people_coordinate(people, quantity, pair[j]);
     ambulo__chart_widen(c, &beside[j]);
+    if (c->values == c->stride->tau) ambulo__chart_widen_devices(c, pair[j]);
   }
   ambulo__chart_grid(c, text);
   for (int j = count - 1; j >= 0; j--) {
     ambulo__chart_people(c, &beside[j], text);
     people->shown[beside[j].file] |= beside[j].curve != NULL;
   }
-  for (int j = count - 1; j >= 0; j--)
+  for (int j = count - 1; j >= 0; j--) {
     ambulo__chart_curve(c, pair[j], ambulo__coordinate_side(model, pair[j]), text);
+    if (c->values == c->stride->tau) ambulo__chart_devices(c, pair[j], text);
+  }
   ambulo__panel axis = c->box;
   axis.y += c->box.height;
   ambulo__time_axis(&axis, 4, "s", text);

@@ -10,12 +10,14 @@
  * the piece of it that is below it, and among the pieces of obstacles beside it.
  */
 #include <math.h>
+#include <string.h>
 
 #include "gait/contact_frame.h"
 #include "picture/gait_ground.h"
 #include "picture/gait_obstacles.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
+#include "picture/gait_worn.h"
 #include "picture/svg.h"
 
 enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, EXTENT_SAMPLES = 61 };
@@ -209,6 +211,28 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
   }
 }
 
+/* what the body wears and carries */
+static void draw_worn(const strip *s, const ambulo__stride *stride, int sample,
+                      ambulo__text_buffer *text) {
+  for (int i = 0; i < ambulo__worn_count(stride); i++) {
+    double t = stride->times[sample], page[2][2];
+    ambulo__worn mark;
+    if (!ambulo__worn_at(stride, sample, i, &mark)) continue;
+    for (int e = 0; e < 2; e++) {
+      ambulo__bone bone = {.link = {-1, mark.link[e]}};
+      double at[2];
+      memcpy(bone.at[1], mark.at[e], sizeof bone.at[1]);
+      flat_point(s, &bone, 1, t, at);
+      to_page(s, t, at, page[e]);
+    }
+    if (!isfinite(page[0][0] + page[0][1] + page[1][0] + page[1][1])) continue;
+    if (mark.radius > 0.0)
+      ambulo__svg_circle(text, mark.style, page[0][0], page[0][1], s->scale * mark.radius);
+    else
+      ambulo__svg_line(text, mark.style, page[0][0], page[0][1], page[1][0], page[1][1]);
+  }
+}
+
 /* the surface that a patch in contact rests on, as long as the patch */
 static void draw_patches(const strip *s, const ambulo__stride *stride, double t,
                          ambulo__text_buffer *text) {
@@ -311,6 +335,7 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
     draw_side(s, t, AMBULO__RIGHT, "right", text);
     draw_contacts(s, stride, t, text);
     draw_patches(s, stride, t, text);
+    draw_worn(s, stride, k, text);
     if (!s->model->foot_count) draw_pivot(s, t, text);
     ambulo__svg_group_end(text);
   }

@@ -61,6 +61,16 @@ static void subtitle(const ambulo_problem *problem, const ambulo_result *result,
   if (audit->violation.unit) ambulo__text_append_format(out, " %s", audit->violation.unit);
 }
 
+static void device_legend(const ambulo_problem *problem, double right, ambulo__text_buffer *text) {
+  int count = ambulo_problem_device_count(problem), at_joints = 0;
+  for (int i = 0; i < count; i++) at_joints |= ambulo_problem_device(problem, i)->coordinate >= 0;
+  double left = right - (at_joints ? 296.0 : 120.0);
+  if (count == 0) return;
+  ambulo__svg_line(text, "device", left, 41.5, left + 20.0, 41.5);
+  ambulo__svg_label(text, "device-text", left + 30.0, 46.0,
+                    at_joints ? "device (its torque: dotted)" : "device");
+}
+
 static void heading(const ambulo_problem *problem, const ambulo_result *result, int sides,
                     ambulo__text_buffer *text) {
   const char *name = ambulo_problem_name(problem);
@@ -73,8 +83,9 @@ static void heading(const ambulo_problem *problem, const ambulo_result *result, 
   subtitle(problem, result, &line);
   ambulo__svg_label(text, "subtitle", margin, 69.0, ambulo__text_data(&line));
   ambulo__text_free(&line);
-  if (!sides) return;
   double right = page_width - margin;
+  device_legend(problem, sides ? right - 168.0 : right, text);
+  if (!sides) return;
   ambulo__svg_line(text, "left-mark", right - 146.0, 41.5, right - 126.0, 41.5);
   ambulo__svg_label(text, "left-text", right - 116.0, 46.0, "left");
   ambulo__svg_line(text, "right-mark", right - 70.0, 41.5, right - 50.0, 41.5);

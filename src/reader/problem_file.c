@@ -125,10 +125,10 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
   ambulo__read_written_for(reader, root);
   ambulo__read_solver(reader, ambulo__reader_section(root, "solver"));
   ambulo__read_constraints(reader, ambulo__reader_section(root, "constraints"));
-  static const char *const others[] = {"trajectory",      "contacts", "ends",
-                                       "objective",       "ground",   "load",
-                                       "ground_reaction", "obstacles"};
-  for (int i = 0; i < 8; i++) ambulo__yaml_expect(root, others[i]);
+  static const char *const others[] = {"trajectory",      "contacts",  "ends",
+                                       "objective",       "ground",    "load",
+                                       "ground_reaction", "obstacles", "devices"};
+  for (int i = 0; i < 9; i++) ambulo__yaml_expect(root, others[i]);
   reader->gait = ambulo__reader_section(root, "gait");
   ambulo__read_time(reader, root);
   if (reader->model) {
@@ -138,6 +138,7 @@ static void read_sections(ambulo__problem_reader *reader, const ambulo__yaml_nod
     ambulo__read_tubes(reader, root);
     ambulo__read_trajectory(reader, root);
     ambulo__read_ends(reader, ambulo__reader_section(root, "ends"));
+    ambulo__read_devices(reader, ambulo__yaml_get(root, "devices"));
     ambulo__read_objective(reader, ambulo__yaml_require(root, "objective"));
     ambulo__scale_to_subject(reader);
   }

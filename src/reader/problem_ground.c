@@ -48,8 +48,7 @@ static void unknown_link(ambulo__problem_reader *reader, const ambulo__yaml_node
                            "unknown link (got '%s'); expected a link of the model", name);
 }
 
-static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
-  if (!section) return;
+static void read_one_load(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   double position[3] = {0.0, 0.0, 0.0};
   const ambulo__yaml_node *node = ambulo__yaml_require(section, "link");
   const char *name = ambulo__yaml_name(node);
@@ -59,6 +58,23 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   int link = name[0] ? ambulo_model_find_link(reader->model, name) : -1;
   if (name[0] && link < 0) unknown_link(reader, node, name);
   if (link >= 0 && placed) ambulo__model_carry(reader->model, link, mass, position);
+}
+
+/* one mapping, or a list of them */
+static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return;
+  reader->keys.loads = ambulo__yaml_is(node, AMBULO__YAML_SEQUENCE);
+  if (!reader->keys.loads) {
+    read_one_load(reader, node);
+    return;
+  }
+  int count = ambulo__yaml_items(node);
+  if (count > AMBULO__MOST_LOADS) {
+    (void)ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "%d loads; expected at most %d", count,
+                             AMBULO__MOST_LOADS);
+    return;
+  }
+  for (int i = 0; i < count; i++) read_one_load(reader, ambulo__yaml_item(node, i));
 }
 
 /* ------------------------------------------------------------ ground reaction */
@@ -146,7 +162,7 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
 
 void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root) {
   read_slope(reader, ambulo__reader_section(root, "ground"));
-  read_load(reader, ambulo__reader_section(root, "load"));
+  read_load(reader, ambulo__yaml_get(root, "load"));
   read_reaction(reader, ambulo__reader_section(root, "ground_reaction"));
 }
 

@@ -176,6 +176,22 @@ static double *read_posture_scale(ambulo__problem_reader *reader, const ambulo__
   return scale;
 }
 
+/* of devices by name, as read_scale of coordinates */
+static double *read_device_scale(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  int count = reader->definition.device_count;
+  int by_name = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
+  double rest =
+      ambulo__yaml_number_in(by_name ? ambulo__yaml_get(node, "default") : node, 0.0, 1e12, 1.0);
+  double *scale = ambulo__reader_alloc(reader, (size_t)count, sizeof *scale);
+  for (int i = 0; scale && i < count; i++) {
+    const char *name = reader->definition.devices[i].name;
+    const ambulo__yaml_node *value = by_name && name ? ambulo__yaml_get(node, name) : NULL;
+    scale[i] = ambulo__yaml_number_in(value, 0.0, 1e12, rest);
+  }
+  if (by_name) ambulo__yaml_close(node);
+  return scale;
+}
+
 static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                          ambulo_term *term) {
   switch (term->kind) {
@@ -204,6 +220,9 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:
     break;
+  case AMBULO_DEVICE_EFFORT:
+    term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));
+    break;
   case AMBULO_FORCE_RATE:
     if (reader->definition.ground_reaction.kind == AMBULO_REACTION_NONE)
       (void)ambulo__yaml_error(ambulo__yaml_get(node, "term"), AMBULO_E_PROBLEM, NULL,
@@ -223,19 +242,20 @@ static int has_smoothing(ambulo_term_kind kind) {
 
 static int has_scale(ambulo_term_kind kind) {
   return kind != AMBULO_UPRIGHT && kind != AMBULO_GROUND_FORCE && kind != AMBULO_POSTURE &&
-         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE;
+         kind != AMBULO_CLEARANCE && kind != AMBULO_FORCE_RATE && kind != AMBULO_DEVICE_EFFORT;
 }
 
 /* 0: there is none, which was said */
 static int read_kind(const ambulo__yaml_node *node, ambulo_term_kind *kind) {
-  static const char *const words[] = {"torque_squared",   "torque_absolute", "acceleration",
-                                      "tracking",         "torque_power",    "torque_rate",
-                                      "mechanical_power", "posture",         "upright",
-                                      "ground_force",     "clearance",       "force_rate"};
+  static const char *const words[] = {
+      "torque_squared", "torque_absolute",  "acceleration", "tracking", "torque_power",
+      "torque_rate",    "mechanical_power", "posture",      "upright",  "ground_force",
+      "clearance",      "force_rate",       "device_effort"};
   static const ambulo_term_kind kinds[] = {
       AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE, AMBULO_ACCELERATION,     AMBULO_TRACKING,
       AMBULO_TORQUE_POWER,   AMBULO_TORQUE_RATE,     AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,
-      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,        AMBULO_FORCE_RATE};
+      AMBULO_UPRIGHT,        AMBULO_GROUND_FORCE,    AMBULO_CLEARANCE,        AMBULO_FORCE_RATE,
+      AMBULO_DEVICE_EFFORT};
   int choice = ambulo__yaml_choice(node, words, (int)(sizeof kinds / sizeof *kinds), -1);
   if (choice >= 0) *kind = kinds[choice];
   return choice >= 0;

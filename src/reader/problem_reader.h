@@ -98,6 +98,8 @@ const double *ambulo__read_sampled_motion(ambulo__problem_reader *reader,
                                           double *scale);
 /* `constraints.collision`, `constraints.reach`, `obstacles`. */
 void ambulo__read_bodies(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* `devices`: springs, dampers and actuators that the body wears. */
+void ambulo__read_devices(ambulo__problem_reader *reader, const ambulo__yaml_node *list);
 /* `constraints.tubes`; after the time and the schedule. */
 void ambulo__read_tubes(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 

@@ -99,6 +99,7 @@ static factors factors_of(const ambulo_term *term, int turns, double longer, dou
   case AMBULO_GROUND_FORCE:
   case AMBULO_CLEARANCE:
   case AMBULO_FORCE_RATE:
+  case AMBULO_DEVICE_EFFORT: /* a device is what it is, whoever wears it */
     break;
   }
   return (factors){1.0, 1.0};

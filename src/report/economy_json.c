@@ -10,7 +10,8 @@ static const double shortest_way = 0.01; /* m: nothing is said by the metre of l
 static void work(ambulo__json *json, const ambulo__stride *s, const ambulo__economy *e) {
   const ambulo_model *m = s->model;
   double metabolic = ambulo__economy_metabolic(e);
-  double way = e->distance * (m->mass - m->load.mass); /* by the person, whatever is carried */
+  double way =
+      e->distance * (m->mass - ambulo__model_load_mass(m)); /* by the person, whatever is carried */
   ambulo__json_open(json, "work", '{');
   ambulo__json_number(json, "positive", e->positive_sum);
   ambulo__json_number(json, "negative", e->negative_sum);

@@ -1,6 +1,7 @@
 /* report/report.c - the result folder, all or nothing.
  *
- * Reading order: report.c, summary_json.h, summary_json.c, solution_yaml.c, versions.c.
+ * Reading order: report.c, summary_json.h, summary_json.c, devices_json.h, solution_yaml.c,
+ * versions.c.
  */
 #include "ambulo/report.h"
 
@@ -93,6 +94,11 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
       .patch_force = stride.patch_force,
       .patch_cop = stride.patch_cop,
       .patch_free_moment = stride.patch_free_moment,
+      .devices = stride.devices,
+      .device = problem->definition.devices,
+      .effort = stride.effort,
+      .along = stride.along,
+      .device_power = stride.power,
   };
   ambulo__motion_csv(&table, text);
   status = write_text(folder, "motion.csv", text, diagnostics);

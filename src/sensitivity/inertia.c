@@ -5,7 +5,8 @@
  * keeps that. With a the acceleration of a point at p, c the centre of mass, m the whole mass:
  *
  *     load m_l at p       force per kg a - g at p,  dc/dm_l = (p - c) / m
- *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays
+ *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays. Of
+ *                         torques without devices, which do not grow with the body (devices.c)
  *     bodies alone        d/d ln m_b = d/d ln m - m_l d/dm_l, and likewise of m in rows and terms
  *     slope               force -m_b dg/ds on the centre of each body,
  *                         dg/ds = |g| (sin s n - cos s f)
@@ -20,15 +21,15 @@
 #include <math.h>
 #include <string.h>
 
-static double pull_of_load(ambulo__node_forces *f) {
+static double pull_of_load(ambulo__node_forces *f, const ambulo__model_load *load) {
   const ambulo_model *model = f->s->problem->model;
   const ambulo__channels *channels = &f->s->problem->channels;
   double place[3], force[3];
-  ambulo__pose_point(&f->pose, model->load.link, model->load.position, place);
-  ambulo__node_forces_acceleration(f, model->load.link, place, force);
+  ambulo__pose_point(&f->pose, load->link, load->position, place);
+  ambulo__node_forces_acceleration(f, load->link, place, force);
   for (int i = 0; i < 3; i++) force[i] -= model->gravity[i];
   ambulo__node_forces_clear(f);
-  ambulo__node_forces_add(f, model->load.link, place, force);
+  ambulo__node_forces_add(f, load->link, place, force);
   int center = ambulo__channel_center(channels, 0);
   for (int i = 0; channels->feet && i < 3; i++) {
     double c = ambulo__stationary_channel(f->s, f->node, center + i);
@@ -133,22 +134,24 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
   const ambulo_problem *p = s->problem;
   ambulo__node_forces f;
   ambulo_status status = ambulo__node_forces_create(s, pool, &f);
-  double turn[3], all = 0.0, mass = p->model->mass, load = p->model->load.mass;
+  double turn[3], all = partials->of_devices, mass = p->model->mass;
+  const ambulo_model *m = p->model;
   if (status) return status;
   turn_of_gravity(p->model, turn);
   for (int node = 0; node < p->nodes; node++) {
     ambulo__node_forces_at(&f, node);
     all += pull_of_all(&f);
     partials->slope += pull_of_slope(&f, turn);
-    if (load > 0.0) partials->load += pull_of_load(&f);
+    for (int i = 0; i < m->load_count; i++) partials->load[i] += pull_of_load(&f, &m->loads[i]);
     if (p->channels.feet) add_ground(&f, partials);
   }
   ambulo__node_forces_free(&f);
   partials->log_mass += pull_of_offsets(p, partials);
-  partials->body = all - load * partials->load;
+  partials->body = all;
+  for (int i = 0; i < m->load_count; i++) partials->body -= m->loads[i].mass * partials->load[i];
   if (mass > 0.0) {
-    partials->body += (mass - load) / mass * partials->log_mass;
-    partials->load += partials->log_mass / mass;
+    partials->body += (mass - ambulo__model_load_mass(m)) / mass * partials->log_mass;
+    for (int i = 0; i < m->load_count; i++) partials->load[i] += partials->log_mass / mass;
   }
   return AMBULO_OK;
 }

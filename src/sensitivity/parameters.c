@@ -187,6 +187,38 @@ static double by_written_for(const ambulo__parameters *p) {
   return sum;
 }
 
+/* with mirrored ends, the load on the other side that moves along; i itself in the middle */
+static int partner_of_load(const ambulo_problem *problem, int i) {
+  const ambulo_model *m = problem->model;
+  const ambulo__model_load *load = &m->loads[i];
+  if (problem->definition.ends != AMBULO_ENDS_MIRRORED) return i;
+  for (int k = 0; k < m->load_count; k++) {
+    const ambulo__model_load *other = &m->loads[k];
+    if (ambulo__places_mirror(m, load->link, load->position, other->link, other->position))
+      return k;
+  }
+  return i;
+}
+
+static void add_loads(ambulo__parameters *p) {
+  const ambulo_model *model = p->problem->model;
+  for (int i = 0; i < model->load_count; i++) {
+    double mass = model->loads[i].mass;
+    int partner = partner_of_load(p->problem, i);
+    if (partner < i) continue; /* said before */
+    if (!p->problem->keys.loads && model->load_count == 1) {
+      ambulo__parameter_add(p, AMBULO__MASS, mass, p->partials->load[i], "load", "load.mass");
+      continue;
+    }
+    char label[AMBULO__PARAMETER_TEXT];
+    (void)snprintf(label, sizeof label, "load on %s%s", model->links[model->loads[i].link].name,
+                   partner != i ? AMBULO__BOTH_OF_A_PAIR : "");
+    double by = p->partials->load[i] + (partner != i ? p->partials->load[partner] : 0.0);
+    ambulo__parameter_add(p, AMBULO__MASS, mass, by, label, "load[%d].mass", i);
+    if (partner != i) ambulo__parameter_with(p, 1.0, "load[%d].mass", partner);
+  }
+}
+
 static void add_body(ambulo__parameters *p) {
   const ambulo_model *model = p->problem->model;
   const double *g = model->gravity;
@@ -195,13 +227,11 @@ static void add_body(ambulo__parameters *p) {
     along[0] -= g[i] * model->up[i];
     along[1] -= g[i] * model->forward[i];
   }
-  if (mass == 0.0) mass = model->mass - model->load.mass; /* made from C */
+  if (mass == 0.0) mass = model->mass - ambulo__model_load_mass(model); /* made from C */
   double by_mass = p->partials->body + by_strength(p->problem, p->partials) + by_written_for(p);
   if (mass > 0.0 && model->units.mass != 1.0 && isfinite(by_mass))
     ambulo__parameter_add(p, AMBULO__MASS, mass, by_mass / mass, "body mass", "subject.mass");
-  if (model->load.mass > 0.0)
-    ambulo__parameter_add(p, AMBULO__MASS, model->load.mass, p->partials->load, "load",
-                          "load.mass");
+  add_loads(p);
   if (p->problem->definition.contact_count > 0)
     ambulo__parameter_add(p, AMBULO__ANGLE, atan2(along[1], along[0]), p->partials->slope, "slope",
                           "ground.slope");
@@ -278,6 +308,7 @@ ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   ambulo__parameters_of_walk(p);
   ambulo__parameters_of_events(p);
   add_body(p);
+  ambulo__parameters_of_devices(p);
   ambulo__parameters_of_terms(p);
   add_contact_rows(p);
   add_tubes(p);

@@ -16,11 +16,12 @@
  * problem's definition; parameters.c makes of them what a file's keys say. All by hand.
  *
  * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
- * place_rows.c; force_rows.c, support_side.c; contact_pull.h, contact_times.c, sharing_rows.c;
- * bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c, ground_split.c,
- * contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c; event_rates.h,
- * event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c, walk_parameters.c,
- * time_parameters.c, term_parameters.c, words.c, sensitivities.c.
+ * place_rows.c; force_rows.c, support_side.c; devices.c; contact_pull.h, contact_times.c,
+ * sharing_rows.c; bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c,
+ * ground_split.c, contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c;
+ * event_rates.h, event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c,
+ * walk_parameters.c, time_parameters.c, device_parameters.c, term_parameters.c, words.c,
+ * sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
 #define AMBULO_SENSITIVITY_PARTIALS_H
@@ -28,6 +29,20 @@
 #include "gait/foot_outline.h"
 #include "linear/pool.h"
 #include "nlp/nlp.h"
+
+/* Numbers of a device, in this order. */
+enum {
+  AMBULO__DEVICE_STIFFNESS,
+  AMBULO__DEVICE_REST,
+  AMBULO__DEVICE_PRETENSION,
+  AMBULO__DEVICE_SMOOTHING,
+  AMBULO__DEVICE_DAMPING,
+  AMBULO__DEVICE_AMOUNT,
+  AMBULO__DEVICE_FROM,
+  AMBULO__DEVICE_TO,
+  AMBULO__DEVICE_RAMP,
+  AMBULO__DEVICE_NUMBERS
+};
 
 /* dL/dp of the members of a definition of the same names, per their SI units (those of J and of a
  * row's multiplier in it). Members that are no numbers are unused. */
@@ -56,14 +71,16 @@ typedef struct ambulo__partials {
   double *event_time;   /* [events], s: where contacts begin and end, inside (0, T) */
   double *event;        /* [events]: of an event, with all contacts, nodes and knots that go along;
                            NaN where something else is there at the same time */
+  double of_devices;    /* dL/d ln of the torques that devices have taken over from the person */
+  double *device;       /* [devices][AMBULO__DEVICE_NUMBERS] */
   double log_mass;      /* of the mass m wherever it stands in rows and terms, torques left out:
                            dL/d ln m */
-  double body;          /* dL/d ln of the mass of all bodies but the load, in every place */
+  double body;          /* dL/d ln of the mass of all bodies but the loads, in every place */
   double collision_margin, *obstacle_margin; /* m; [obstacles] */
   double *obstacle_place; /* [obstacles][2][3]: of a box's middle, of a capsule's two ends; along
                              forward, left and up */
   double *reach_place, *reach_tolerance; /* [reaches][3], [reaches] */
-  double load;                           /* kg: of the load (ambulo_model.load) */
+  double load[AMBULO__MOST_LOADS];       /* kg: of ambulo_model.loads */
 } ambulo__partials;
 
 /* A solution: x* is the point that the workspace holds. */
@@ -92,6 +109,9 @@ void ambulo__partials_of_terms(const ambulo__stationary *s, ambulo__partials *pa
 int ambulo__offset_is_weight(const ambulo_problem *problem, const ambulo_term *term, int i);
 /* Through torques and forces; needs the adjoints of the channels, and log_mass. */
 ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__pool *pool,
+                                          ambulo__partials *partials);
+/* Through efforts and torques; needs the adjoints of the channels. E_MEMORY. */
+ambulo_status ambulo__partials_of_devices(const ambulo__stationary *s, ambulo__pool *pool,
                                           ambulo__partials *partials);
 /* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);

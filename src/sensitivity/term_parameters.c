@@ -150,7 +150,8 @@ void ambulo__parameters_of_terms(ambulo__parameters *p) {
       ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, t.term->height, p->partials->height[k],
                             "height that swinging feet keep", "objective[%s].height", t.item);
     if (t.term->kind == AMBULO_UPRIGHT || t.term->kind == AMBULO_GROUND_FORCE ||
-        t.term->kind == AMBULO_CLEARANCE || t.term->kind == AMBULO_FORCE_RATE || t.term->function)
+        t.term->kind == AMBULO_CLEARANCE || t.term->kind == AMBULO_FORCE_RATE ||
+        t.term->kind == AMBULO_DEVICE_EFFORT || t.term->function)
       continue;
     for (int i = 0; i < problem->coordinates; i++) add_coordinate(&t, i);
   }

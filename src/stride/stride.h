@@ -29,6 +29,8 @@ typedef struct ambulo__stride {
   double *free_moment;        /* [samples][feet], about the normal, N m */
   int patches;                /* of the model; 0 unless contacts share the load */
   double *patch_force, *patch_cop, *patch_free_moment; /* likewise, [samples][patches] */
+  int devices;
+  double *effort, *along, *power; /* [samples][devices]: N m or N; rad or m; W on the body */
 } ambulo__stride;
 
 /* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced
@@ -46,6 +48,9 @@ void ambulo__stride_mirror_place(const ambulo__stride *stride, double *place);
 /* Its parts for the feet (stride_feet.c): arrays, and the mirror image of sample k in place. */
 ambulo_status ambulo__stride_feet_allocate(ambulo__stride *stride);
 void ambulo__stride_feet_mirror(ambulo__stride *stride, int k);
+/* The same for the devices (stride_devices.c). */
+ambulo_status ambulo__stride_devices_allocate(ambulo__stride *stride);
+void ambulo__stride_devices_mirror(ambulo__stride *stride, int k);
 
 /* Force on a patch at sample k, N. */
 const double *ambulo__stride_patch_force(const ambulo__stride *stride, int k, int patch);
@@ -55,5 +60,12 @@ double ambulo__stride_patch_peak(const ambulo__stride *stride, int patch);
 double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
                             const double direction[3]);
 double ambulo__stride_peak(const ambulo__stride *stride, int foot);
+
+/* A device over the stride: its effort where it is largest in size, N m or N; the work that it does
+ * on the body, and that the body does on it (negative), J. */
+typedef struct ambulo__device_work {
+  double peak, positive, negative;
+} ambulo__device_work;
+ambulo__device_work ambulo__stride_device_work(const ambulo__stride *stride, int device);
 
 #endif

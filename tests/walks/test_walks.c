@@ -24,8 +24,16 @@ static ambulo_result *solve_from_zero(const ambulo_problem *problem) {
 
 static void every_walk_is_solved_from_zero(void **state) {
   (void)state;
-  static const char *const walks[] = {"walk",        "walk_normal",     "walk_loaded",
-                                      "walk_uphill", "walk_asymmetric", "walk_tracking"};
+  static const char *const walks[] = {"walk",
+                                      "walk_normal",
+                                      "walk_loaded",
+                                      "walk_uphill",
+                                      "walk_asymmetric",
+                                      "walk_tracking",
+                                      "walk_ankle_exoskeleton",
+                                      "walk_knee_brace",
+                                      "walk_backpack",
+                                      "walk_exotendon"};
   for (size_t i = 0; i < sizeof walks / sizeof *walks; i++) {
     ambulo_problem *problem = load_walk(walks[i]);
     ambulo_result *result = solve_from_zero(problem);
