@@ -4,14 +4,22 @@
 
 #include "gait/apart.h"
 #include "gait/arc.h"
+#include "gait/spin.h"
 
 enum { AMBULO__CURVED_CHANNELS = AMBULO__ARC_CHANNELS };
 
+typedef enum ambulo__curved_form {
+  AMBULO__CURVED_ARC,   /* of an arc that rolls */
+  AMBULO__CURVED_APART, /* of a point and a segment */
+  AMBULO__CURVED_SPIN   /* of the root wrench about the centre of mass */
+} ambulo__curved_form;
+
 typedef struct ambulo__curved {
-  int is_arc;
+  ambulo__curved_form form;
   union {
-    ambulo__arc arc;     /* of an arc that rolls */
-    ambulo__apart apart; /* of a point and a segment */
+    ambulo__arc arc;
+    ambulo__apart apart;
+    ambulo__spin spin;
   } of;
 } ambulo__curved;
 
@@ -19,14 +27,19 @@ typedef struct ambulo__curved {
  * slope [channels] unless NULL. */
 static inline double ambulo__curved_value(const ambulo__curved *row, const double *y, int stride,
                                           double *slope) {
-  return row->is_arc ? ambulo__arc_value(&row->of.arc, y, stride, slope)
-                     : ambulo__apart_value(&row->of.apart, y, stride, slope);
+  if (row->form == AMBULO__CURVED_ARC) return ambulo__arc_value(&row->of.arc, y, stride, slope);
+  return row->form == AMBULO__CURVED_SPIN ? ambulo__spin_value(&row->of.spin, y, stride, slope)
+                                          : ambulo__apart_value(&row->of.apart, y, stride, slope);
 }
 /* The channels on which it stands: returns how many of channel[AMBULO__CURVED_CHANNELS]. */
 static inline int ambulo__curved_channels(const ambulo__curved *row,
                                           int channel[AMBULO__CURVED_CHANNELS]) {
-  if (row->is_arc) return ambulo__arc_channels(&row->of.arc, channel);
-  const int first[3] = {row->of.apart.point, row->of.apart.from, row->of.apart.to};
+  if (row->form == AMBULO__CURVED_ARC) return ambulo__arc_channels(&row->of.arc, channel);
+  const ambulo__apart *apart = &row->of.apart;
+  const ambulo__spin *spin = &row->of.spin;
+  int is_spin = row->form == AMBULO__CURVED_SPIN;
+  const int first[3] = {is_spin ? spin->moment : apart->point, is_spin ? spin->force : apart->from,
+                        is_spin ? spin->center : apart->to};
   for (int i = 0; i < 9; i++) channel[i] = first[i / 3] + i % 3;
   return 9;
 }

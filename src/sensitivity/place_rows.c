@@ -178,7 +178,7 @@ static double add_way(place_row *p, const ambulo__span *air, double s, ambulo__p
 static int add_gap(const place_row *p, ambulo__partials *partials) {
   const ambulo_problem *problem = p->s->problem;
   const ambulo__curved *curved = ambulo__row_curved_of(&problem->table, p->row);
-  if (!curved || curved->is_arc) return 0;
+  if (!curved || curved->form != AMBULO__CURVED_APART) return 0;
   double value = p->s->workspace->row_value[p->row - problem->table.rows];
   double by_distance = -p->pull * (1.0 + value / curved->of.apart.distance);
   partials->clearance.feet += by_distance;
