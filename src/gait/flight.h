@@ -10,6 +10,9 @@
  * first node has what is just before the last. */
 int ambulo__in_flight(const ambulo__gait_context *context, int node);
 
+/* What of the tolerance holds at such a node: 1 inside, less where a contact begins or ends. */
+double ambulo__flight_share(const ambulo__gait_context *context, int node);
+
 /* "flight": no force, no moment about the centre of mass, within ground_reaction.flight_tolerance.
  */
 void ambulo__flight_rows(const ambulo__gait_context *context, ambulo__row_table *table);

@@ -2,8 +2,6 @@
  * how large it is. */
 #include "judge/suggest.h"
 
-#include "gait/flight.h"
-
 #include <math.h>
 #include <stdio.h>
 
@@ -122,9 +120,10 @@ static void free_moment(const ambulo__advice *a) {
 /* a force is in body weights, a moment about the centre of mass in those times m */
 static void flight(const ambulo__advice *a) {
   int is_force = a->row->measure == AMBULO__BODY_WEIGHTS;
-  double arm = is_force ? 1.0 : ambulo__flight_arm(a->problem->model);
-  double bound = a->problem->definition.ground_reaction.flight_tolerance;
-  double enough = ambulo__outward(bound + a->room / arm, 1);
+  const ambulo__curved *spin = ambulo__row_curved_of(&a->problem->table, a->row);
+  double bound = spin ? spin->of.spin.bound : a->row->constant;
+  double tolerance = a->problem->definition.ground_reaction.flight_tolerance;
+  double enough = ambulo__outward(tolerance * (1.0 + a->room / bound), 1);
   ambulo__advice_say(a,
                      "in flight the %s would have to be %s by %.4g body weights%s more at t = %.4g "
                      "s: give the contacts more time, or let more force be left in flight",

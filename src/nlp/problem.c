@@ -47,7 +47,7 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
                           .moment_arm = 0.2,
                           .slant = 0.2,
                           .loading_rate = 15.0,
-                          .flight_tolerance = 0.005},
+                          .flight_tolerance = 0.002},
       .ends_order = 1,
   };
   return definition;

@@ -71,8 +71,7 @@ static int is_by_speed(const ambulo__yaml_node *node) {
   return ambulo__yaml_choice(node, words, 1, -1) == 0;
 }
 
-/* none without stature or gravity; a speed that could not be read is a comfortable one */
-static void find_number(ambulo__problem_reader *reader, double speed) {
+void ambulo__read_speed_number(ambulo__problem_reader *reader, double speed) {
   const double *g = reader->model->gravity;
   double stature = ambulo_model_stature(reader->model);
   double unit = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * fmax(stature, 0.0));
@@ -83,7 +82,7 @@ static void find_number(ambulo__problem_reader *reader, double speed) {
 
 int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
                         double value[AMBULO__PHASES]) {
-  find_number(reader, speed);
+  ambulo__read_speed_number(reader, speed);
   int all_by_speed = is_by_speed(node);
   int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
   if (all_by_speed && !(reader->keys.speed_unit > 0.0)) {

@@ -71,6 +71,9 @@ void ambulo__read_schedule(ambulo__problem_reader *reader, const ambulo__yaml_no
  * reader->keys how they go with it. 0 after an error. */
 int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
                         double value[AMBULO__PHASES]);
+/* The speed number of a walk at `speed`, m/s, in reader->keys; none without stature or gravity. A
+ * speed that could not be read is a comfortable one. */
+void ambulo__read_speed_number(ambulo__problem_reader *reader, double speed);
 void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
 /* `written_for`, before all that it scales; and what it scales, once all is read. */
 void ambulo__read_written_for(ambulo__problem_reader *reader, const ambulo__yaml_node *root);

@@ -167,7 +167,7 @@ static void add_flight(const force_row *p, ambulo__partials *partials) {
   double bound = spin ? spin->of.spin.bound : p->row->constant;
   int r = (int)(p->row - problem->table.rows);
   partials->reaction.flight_tolerance +=
-      p->pull * (spin ? ambulo__flight_arm(problem->model) : 1.0);
+      p->pull * bound / problem->definition.ground_reaction.flight_tolerance;
   partials->log_mass -= p->pull * (p->s->workspace->row_value[r] - bound);
 }
 
