@@ -360,6 +360,8 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
   const walking_pace pace = read_pace(section);
   read_step_lengths(reader, section, &pace, &gait);
+  static const char *const landings[] = {"heel", "forefoot"};
+  gait.forefoot = ambulo__yaml_choice(ambulo__yaml_get(section, "landing"), landings, 2, 0);
   double longer = reader->keys.longer > 0.0 ? reader->keys.longer : 1.0;
   gait.step_width = longer * ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0,
                                                     10.0, neutral_width(reader->model) / longer);
