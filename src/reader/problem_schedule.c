@@ -293,36 +293,6 @@ static double given_step_time(const ambulo__problem_reader *reader, const walkin
   return ambulo__gait_strike(&timed, steps) / (double)steps;
 }
 
-/* a function {comfortable, slope} of the speed number u: H (comfortable + slope (u - 0.31)) */
-static double read_length_function(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
-                                   const walking_pace *pace) {
-  ambulo__problem_keys *keys = &reader->keys;
-  double stature = ambulo_model_stature(reader->model);
-  double constant =
-      ambulo__yaml_number_in(ambulo__yaml_require(node, "comfortable"), 0.0, 5.0, 0.4);
-  double slope = ambulo__yaml_number_in(ambulo__yaml_require(node, "slope"), -10.0, 10.0, 0.0);
-  ambulo__yaml_close(node);
-  ambulo__read_speed_number(reader, pace->speed);
-  if (!(keys->speed_unit > 0.0) || isnan(pace->speed)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                             "a step length by speed, but %s; expected a length",
-                             isnan(pace->speed) ? "no gait.speed" : "no stature or no gravity");
-    return 1.0;
-  }
-  double length = constant + slope * (keys->speed_number - AMBULO__COMFORTABLE_NUMBER);
-  if (!(length > 0.0)) {
-    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
-                             "steps of %.4g statures at a speed of %.4g sqrt(g H); expected a "
-                             "length above 0",
-                             length, keys->speed_number);
-    return 1.0;
-  }
-  keys->length_function = 1;
-  keys->length_constant = constant;
-  keys->length_slope = slope * stature;
-  return length * stature;
-}
-
 /* one length, two, a function of the speed, that of the speed and a time, or that which people
  * choose at the speed */
 static void read_step_lengths(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
@@ -337,7 +307,7 @@ static void read_step_lengths(ambulo__problem_reader *reader, const ambulo__yaml
     gait->step_length = lengths[0];
     gait->other_step_length = lengths[1];
   } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
-    gait->step_length = read_length_function(reader, node, pace);
+    gait->step_length = ambulo__read_step_length(reader, node, pace->speed);
   } else if (!node && !isnan(by_time)) {
     gait->step_length = by_time;
   } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
