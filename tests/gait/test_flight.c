@@ -112,6 +112,23 @@ static void rows_are_the_wrench_about_the_centre(void **state) {
   row_fixture_close(&f);
 }
 
+/* a fifth of the tolerance where a contact ends or begins: all channels are zero here */
+static void less_is_left_beside_a_contact(void **state) {
+  (void)state;
+  row_fixture f;
+  prepare(&f, 0);
+  row_event(&f, 2, WALKER_RIGHT, 0);
+  row_event(&f, 4, WALKER_LEFT, -1);
+  ambulo__flight_rows(&f.context, &f.table);
+  static const char *const details[] = {"pushed up", "pushed forward", "tipped forward"};
+  for (int k = 2; k < ROW_NODES; k++)
+    for (int i = 0; i < 3; i++) {
+      int row = row_find(&f, "flight", "body", details[i], f.times[k]);
+      assert_close(row_value(&f, row), k == 3 ? 0.02 : 0.2 * 0.02, 1e-15);
+    }
+  row_fixture_close(&f);
+}
+
 static void a_planar_body_has_three(void **state) {
   (void)state;
   row_fixture f;
@@ -184,6 +201,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_holds_in_flight),
                                      cmocka_unit_test(ends_that_match_share_a_flight),
                                      cmocka_unit_test(rows_are_the_wrench_about_the_centre),
+                                     cmocka_unit_test(less_is_left_beside_a_contact),
                                      cmocka_unit_test(a_planar_body_has_three),
                                      cmocka_unit_test(contacts_have_no_rows_there),
                                      cmocka_unit_test(hands_hold_a_body_too),
