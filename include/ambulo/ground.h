@@ -58,6 +58,9 @@ typedef struct ambulo_ground_reaction {
   double loading_rate; /* of a contact's normal force, body weights per s: at most this times the
                           time since it began and until it ends, setting in over 6.5 ms (of a body
                           of 1.75 m; as the root of the stature); negative: no rows */
+  double flight_tolerance; /* while nothing touches the body: force on it at most, body weights, and
+                              moment about its centre of mass, body weights times 1 m (of a body of
+                              1.75 m; as the stature); > 0 */
 } ambulo_ground_reaction;
 
 /* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;

@@ -93,6 +93,7 @@ typedef struct ambulo_gait {
   /* Steps that differ: the steps to odd strikes take step_length and step_time, those to even
    * ones these. 0: the same as the first. A stride lasts their sum. */
   double other_step_length, other_step_time; /* m, s */
+  int forefoot; /* 1: down on the toes, not on the heel, from heel_strike to foot_flat */
 } ambulo_gait;
 
 /* Writes at most `capacity` contacts that meet [0, steps * step_time] and sets
@@ -258,8 +259,8 @@ typedef struct ambulo_problem_definition {
    * orientation_tolerance (twice that on the toes), of its pitch when flat as well; on the heel
    * toes up to 30 degrees, on the toes heel up. */
   double contact_tolerance, orientation_tolerance;
-  double strike_pitch[2]; /* with a tolerance: pitch at the first node of a contact on the heel,
-                             rad; off unless rising */
+  double strike_pitch[2]; /* with a tolerance: pitch at the first node of a contact on the heel, or
+                             of one on the toes where both are at most 0, rad; off unless rising */
   ambulo_clearance clearance;
   ambulo_ground_reaction ground_reaction;
 

@@ -19,13 +19,16 @@
  * of it is on the other side of an edge without having passed over.
  *
  * A rigid foot turns about its ball at push-off, and its tip dips where people's toes bend:
- * asking the tip to clear at once forces a jump. The ball is the toe centre, or the corner ahead.
+ * asking the tip to clear at once forces a jump. Likewise where the foot comes down on its toes: on
+ * the way down, c falling, the tip has to be over c - D (1 - c / h) only, D how far it is ahead of
+ * the ball. The ball is the toe centre, or the corner ahead.
  */
 #include "gait/contact_frame.h"
 #include "gait/foot_frame.h"
 #include "gait/loading.h"
 #include "gait/step_edge.h"
 #include "gait/swing.h"
+#include "model/neutral_pose.h"
 #include "base/instant.h"
 
 #include <math.h>
@@ -138,13 +141,29 @@ double ambulo__clearance_part(double s, double *slope) {
   return fmax(0.0, part);
 }
 
+double ambulo__tip_drop(const ambulo_problem_definition *d, int foot, double time, double s) {
+  ambulo__span air = ambulo__air_span(d, foot, time);
+  const ambulo_foot *f = &d->model->feet[foot];
+  double slope, tip[3], ball[3], square = 0.0;
+  (void)ambulo__clearance_part(s, &slope);
+  int lands = air.to - air.from <= AMBULO__INSTANT; /* where the motion ends */
+  if ((slope >= 0.0 && !lands) || !f->has_tip || air.ends < 0) return 0.0;
+  if (d->contacts[air.ends].mode != AMBULO_CONTACT_TOE) return 0.0;
+  ambulo__neutral_point(d->model, f->tip, tip);
+  ambulo__neutral_point(d->model, f->toe_center, ball);
+  for (int i = 0; i < 3; i++) square += (tip[i] - ball[i]) * (tip[i] - ball[i]);
+  return sqrt(square);
+}
+
 static void swing_rows(const swing *w) {
   const ambulo_clearance *c = &w->context->definition->clearance;
   const ambulo_foot *foot = &w->context->model->feet[w->foot];
-  double low = c->height * ambulo__clearance_part(w->phase, NULL);
+  const ambulo__gait_context *context = w->context;
+  double part = ambulo__clearance_part(w->phase, NULL), low = c->height * part;
+  double drop = ambulo__tip_drop(context->definition, w->foot, context->times[w->node], w->phase);
   height_bounds(w, foot->heel_center, 1, 0.5 * low);
   height_bounds(w, foot->toe_center, 1, low);
-  if (foot->has_tip) height_bounds(w, foot->tip, w->tip, low);
+  if (foot->has_tip) height_bounds(w, foot->tip, w->tip, low - drop * (1.0 - part));
   if (!ambulo__foot_outline_of(w->context->model, w->foot).moves_sideways) return;
   ambulo__linear yaw = ambulo__foot_yaw(w->context, w->foot, w->surface.left);
   ambulo__linear roll = ambulo__foot_roll(w->context, w->foot, w->surface.up);

@@ -7,6 +7,7 @@
  *     -e <= f.(r - p) <= e,   -e <= l.(r - p) <= e,   -e <= n.(r - p) <= e         m
  *     -o <= yaw, roll <= o      (twice that on the toes)                             rad
  *     heel   0 <= pitch <= sin 30 deg;  at the first node strike_pitch               rad
+ *     toe    where it comes down on its toes, and strike_pitch is of toes that point down, the same
  *     flat   -o <= pitch <= o                toe   -0.95 <= pitch <= 0
  *
  * Feet with arcs roll on their heel and on their toes: there C, the arc's centre, is held at its
@@ -66,23 +67,24 @@ int ambulo__is_strike(const ambulo_problem_definition *d, int foot, const double
          times[node] - span.from < step * (1.0 - 1e-6);
 }
 
+int ambulo__is_pitched(const ambulo_problem_definition *d, const ambulo_contact *contact,
+                       const double *times, int nodes, int node) {
+  const double *pitch = d->strike_pitch;
+  ambulo_contact_mode mode = pitch[1] <= 0.0 ? AMBULO_CONTACT_TOE : AMBULO_CONTACT_HEEL;
+  return pitch[0] < pitch[1] && contact->mode == mode &&
+         ambulo__is_strike(d, contact->foot, times, nodes, node);
+}
+
 /* what one contact allows */
-static void pitch_range(const tube *t, ambulo_contact_mode mode, double range[2]) {
+static void pitch_range(const tube *t, const ambulo_contact *contact, double range[2]) {
   const ambulo__gait_context *context = t->context;
   const ambulo_problem_definition *d = context->definition;
   double o = d->orientation_tolerance;
-  range[0] = -o;
-  range[1] = o;
-  if (mode == AMBULO_CONTACT_TOE) {
-    range[0] = -most_heel_up;
-    range[1] = 0.0;
-  } else if (mode == AMBULO_CONTACT_HEEL) {
-    int foot = t->contact[0]->foot;
-    int strike = d->strike_pitch[0] < d->strike_pitch[1] &&
-                 ambulo__is_strike(d, foot, context->times, context->nodes, t->node);
-    range[0] = strike ? sin(d->strike_pitch[0]) : 0.0;
-    range[1] = strike ? sin(d->strike_pitch[1]) : most_toes_up;
-  }
+  int toe = contact->mode == AMBULO_CONTACT_TOE, heel = contact->mode == AMBULO_CONTACT_HEEL;
+  range[0] = toe ? -most_heel_up : heel ? 0.0 : -o;
+  range[1] = toe ? 0.0 : heel ? most_toes_up : o;
+  if (!ambulo__is_pitched(d, contact, context->times, context->nodes, t->node)) return;
+  for (int i = 0; i < 2; i++) range[i] = sin(d->strike_pitch[i]);
 }
 
 /* each side is that of the contact which leaves less room */
@@ -92,7 +94,7 @@ static void pitch_bounds(const tube *t) {
   ambulo__contact_frame frame = ambulo__contact_frame_of(t->context->definition, t->contact[0]);
   ambulo__linear pitch = ambulo__foot_pitch(t->context, t->contact[0]->foot, frame.up);
   for (int i = 0; i < t->contacts; i++) {
-    pitch_range(t, t->contact[i]->mode, one);
+    pitch_range(t, t->contact[i], one);
     if (one[0] > range[0]) before[0] = t->before[i];
     if (one[1] < range[1]) before[1] = t->before[i];
     range[0] = fmax(range[0], one[0]);

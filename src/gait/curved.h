@@ -5,17 +5,24 @@
 #include "gait/apart.h"
 #include "gait/arc.h"
 #include "gait/solid.h"
+#include "gait/spin.h"
 
 enum { AMBULO__CURVED_CHANNELS = AMBULO__SOLID_CHANNELS };
 
-typedef enum ambulo__curve { AMBULO__IS_ARC, AMBULO__IS_APART, AMBULO__IS_SOLID } ambulo__curve;
+typedef enum ambulo__curved_form {
+  AMBULO__CURVED_ARC,   /* of an arc that rolls */
+  AMBULO__CURVED_APART, /* of a point and a segment */
+  AMBULO__CURVED_SOLID, /* of a capsule and another, or an obstacle */
+  AMBULO__CURVED_SPIN   /* of the root wrench about the centre of mass */
+} ambulo__curved_form;
 
 typedef struct ambulo__curved {
-  ambulo__curve is;
+  ambulo__curved_form form;
   union {
-    ambulo__arc arc;     /* of an arc that rolls */
-    ambulo__apart apart; /* of a point and a segment */
-    ambulo__solid solid; /* of a capsule and another, or an obstacle */
+    ambulo__arc arc;
+    ambulo__apart apart;
+    ambulo__solid solid;
+    ambulo__spin spin;
   } of;
 } ambulo__curved;
 
@@ -23,16 +30,28 @@ typedef struct ambulo__curved {
  * slope [channels] unless NULL. */
 static inline double ambulo__curved_value(const ambulo__curved *row, const double *y, int stride,
                                           double *slope) {
-  if (row->is == AMBULO__IS_ARC) return ambulo__arc_value(&row->of.arc, y, stride, slope);
-  if (row->is == AMBULO__IS_SOLID) return ambulo__solid_value(&row->of.solid, y, stride, slope);
+  switch (row->form) {
+  case AMBULO__CURVED_ARC:
+    return ambulo__arc_value(&row->of.arc, y, stride, slope);
+  case AMBULO__CURVED_SOLID:
+    return ambulo__solid_value(&row->of.solid, y, stride, slope);
+  case AMBULO__CURVED_SPIN:
+    return ambulo__spin_value(&row->of.spin, y, stride, slope);
+  case AMBULO__CURVED_APART:
+    break;
+  }
   return ambulo__apart_value(&row->of.apart, y, stride, slope);
 }
 /* The channels on which it stands: returns how many of channel[AMBULO__CURVED_CHANNELS]. */
 static inline int ambulo__curved_channels(const ambulo__curved *row,
                                           int channel[AMBULO__CURVED_CHANNELS]) {
-  if (row->is == AMBULO__IS_ARC) return ambulo__arc_channels(&row->of.arc, channel);
-  if (row->is == AMBULO__IS_SOLID) return ambulo__solid_channels(&row->of.solid, channel);
-  const int first[3] = {row->of.apart.point, row->of.apart.from, row->of.apart.to};
+  if (row->form == AMBULO__CURVED_ARC) return ambulo__arc_channels(&row->of.arc, channel);
+  if (row->form == AMBULO__CURVED_SOLID) return ambulo__solid_channels(&row->of.solid, channel);
+  const ambulo__apart *apart = &row->of.apart;
+  const ambulo__spin *spin = &row->of.spin;
+  int is_spin = row->form == AMBULO__CURVED_SPIN;
+  const int first[3] = {is_spin ? spin->moment : apart->point, is_spin ? spin->force : apart->from,
+                        is_spin ? spin->center : apart->to};
   for (int i = 0; i < 9; i++) channel[i] = first[i / 3] + i % 3;
   return 9;
 }

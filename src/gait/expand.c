@@ -7,7 +7,7 @@
  *
  *     t_s = ceil(s / 2) Ts + floor(s / 2) Ts',   x_s likewise,   stride S = Ts + Ts'
  *
- *     on its heel   from  t_s + heel_strike S   to  t_s + foot_flat S
+ *     on its heel   from  t_s + heel_strike S   to  t_s + foot_flat S    (forefoot: on its toes)
  *     flat          from  t_s + foot_flat S     to  t_s + heel_off S
  *     on its toes   from  t_s + heel_off S      to  t_s + toe_off S
  *
@@ -28,9 +28,10 @@ static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
     if (!isfinite(lengths[i])) return 0;
   }
   return model->foot_count == 2 && gait->first_foot >= 0 && gait->first_foot < 2 &&
-         gait->steps >= 1 && gait->steps <= MOST_STEPS && gait->step_time > 0.0 &&
-         isfinite(gait->step_time) && gait->other_step_time >= 0.0 &&
-         isfinite(gait->other_step_time) && gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
+         (gait->forefoot == 0 || gait->forefoot == 1) && gait->steps >= 1 &&
+         gait->steps <= MOST_STEPS && gait->step_time > 0.0 && isfinite(gait->step_time) &&
+         gait->other_step_time >= 0.0 && isfinite(gait->other_step_time) &&
+         gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
          gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
          gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
 }
@@ -90,6 +91,7 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
   double stride = ambulo__gait_strike(gait, 2);
   const double fraction[] = {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off};
   int left = left_foot(model);
+  ambulo_contact_mode landing = gait->forefoot ? AMBULO_CONTACT_TOE : AMBULO_CONTACT_HEEL;
   /* a foot is down for less than one stride and strikes at most half a stride early */
   for (int step = -3; step <= gait->steps + 1; step++) {
     int foot = step % 2 == 0 ? gait->first_foot : 1 - gait->first_foot;
@@ -98,7 +100,7 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
     for (int mode = AMBULO_CONTACT_HEEL; mode <= AMBULO_CONTACT_TOE; mode++) {
       ambulo_contact contact = {
           .foot = foot,
-          .mode = (ambulo_contact_mode)mode,
+          .mode = mode == AMBULO_CONTACT_HEEL ? landing : (ambulo_contact_mode)mode,
           .from = strike + fraction[mode] * stride,
           .to = strike + fraction[mode + 1] * stride,
           .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width}};

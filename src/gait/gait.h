@@ -92,6 +92,10 @@ void ambulo__contact_tube_rows(const ambulo__gait_context *context, ambulo__row_
 /* 1 at the first node of a loaded foot's contact; of times[nodes], s. */
 int ambulo__is_strike(const ambulo_problem_definition *definition, int foot, const double *times,
                       int nodes, int node);
+/* 1 if strike_pitch is about a contact at that node: there it begins, on the heel, or on the toes
+ * where strike_pitch is of toes that point down. */
+int ambulo__is_pitched(const ambulo_problem_definition *definition, const ambulo_contact *contact,
+                       const double *times, int nodes, int node);
 /* "clearance": heights, directions and track of a foot in the air (m, rad). */
 void ambulo__clearance_rows(const ambulo__gait_context *context, ambulo__row_table *table);
 /* "clearance": gaps between a foot in the air and the others (m). */
@@ -101,6 +105,10 @@ void ambulo__feet_apart_rows(const ambulo__gait_context *context, ambulo__row_ta
 double ambulo__passing_allowance(const ambulo_problem_definition *definition);
 /* What part of the clearance height is due at s of the swing, and its slope by s (may be NULL). */
 double ambulo__clearance_part(double s, double *slope);
+/* How far below its clearance the tip of a foot that comes down on its toes may be as it lands, m;
+ * 0 of other swings, and before the clearance falls. */
+double ambulo__tip_drop(const ambulo_problem_definition *definition, int foot, double time,
+                        double s);
 /* The contact beside which a foot in the air stays: its nearest, the next one first; -1 if it has
  * none. *is_left: its track is the left one of the two feet's. */
 int ambulo__swing_track(const ambulo_problem_definition *definition, int foot, double time,

@@ -46,6 +46,7 @@ static const ambulo__row_kind_entry kinds[AMBULO__ROW_KINDS] = {
     {"pressure", M, M, AMBULO__AT_TIMES, NONE, 1.0},
     {"friction", WEIGHTS, WEIGHTS, AMBULO__AT_TIMES, NONE, 1.0},
     {"free_moment", M, M, AMBULO__AT_TIMES, NONE, 1.0},
+    {"flight", M, M, AMBULO__AT_TIMES, NONE, 30.0},
     {"joint_limit", M, RAD, AMBULO__AT_TIMES, AMBULO_LIMITED_POSITION, 1.0},
     {"speed_limit", AMBULO__METRES_PER_SECOND, AMBULO__RADIANS_PER_SECOND, AMBULO__AT_TIMES,
      AMBULO_LIMITED_SPEED, 1.0},

@@ -121,19 +121,25 @@ static void append_curved(ambulo__row_table *table, ambulo__row_kind kind, const
 
 void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                      const char *detail, int node, double time, const ambulo__arc *arc) {
-  ambulo__curved row = {.is = AMBULO__IS_ARC, .of.arc = *arc};
+  ambulo__curved row = {.form = AMBULO__CURVED_ARC, .of.arc = *arc};
   append_curved(table, kind, subject, detail, node, time, &row);
 }
 
 void ambulo__row_apart(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                        const char *detail, int node, double time, const ambulo__apart *apart) {
-  ambulo__curved row = {.is = AMBULO__IS_APART, .of.apart = *apart};
+  ambulo__curved row = {.form = AMBULO__CURVED_APART, .of.apart = *apart};
   append_curved(table, kind, subject, detail, node, time, &row);
 }
 
 void ambulo__row_solid(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                        const char *detail, int node, double time, const ambulo__solid *solid) {
-  ambulo__curved row = {.is = AMBULO__IS_SOLID, .of.solid = *solid};
+  ambulo__curved row = {.form = AMBULO__CURVED_SOLID, .of.solid = *solid};
+  append_curved(table, kind, subject, detail, node, time, &row);
+}
+
+void ambulo__row_spin(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                      const char *detail, int node, double time, const ambulo__spin *spin) {
+  ambulo__curved row = {.form = AMBULO__CURVED_SPIN, .of.spin = *spin};
   append_curved(table, kind, subject, detail, node, time, &row);
 }
 

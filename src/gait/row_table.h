@@ -69,13 +69,15 @@ void ambulo__row_begin(ambulo__row_table *table, ambulo__row_kind kind, const ch
 void ambulo__row_user(ambulo__row_table *table, const ambulo_user_row *user, int index, int node,
                       double time);
 /* Adds a row at a node, not negative, in m, that is a function of an arc; of a point and a segment;
- * of a capsule and what it keeps clear of. */
+ * of a capsule and what it keeps clear of; of the root wrench. */
 void ambulo__row_arc(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                      const char *detail, int node, double time, const ambulo__arc *arc);
 void ambulo__row_apart(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                        const char *detail, int node, double time, const ambulo__apart *apart);
 void ambulo__row_solid(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
                        const char *detail, int node, double time, const ambulo__solid *solid);
+void ambulo__row_spin(ambulo__row_table *table, ambulo__row_kind kind, const char *subject,
+                      const char *detail, int node, double time, const ambulo__spin *spin);
 /* What a curved row is a function of; NULL: the row is linear, or the caller's. */
 static inline const ambulo__curved *ambulo__row_curved_of(const ambulo__row_table *table,
                                                           const ambulo__table_row *row) {
@@ -85,13 +87,13 @@ static inline const ambulo__curved *ambulo__row_curved_of(const ambulo__row_tabl
 static inline const ambulo__arc *ambulo__row_arc_of(const ambulo__row_table *table,
                                                     const ambulo__table_row *row) {
   const ambulo__curved *curved = ambulo__row_curved_of(table, row);
-  return curved && curved->is == AMBULO__IS_ARC ? &curved->of.arc : NULL;
+  return curved && curved->form == AMBULO__CURVED_ARC ? &curved->of.arc : NULL;
 }
 /* The capsules of a row; NULL: it has none. */
 static inline const ambulo__solid *ambulo__row_solid_of(const ambulo__row_table *table,
                                                         const ambulo__table_row *row) {
   const ambulo__curved *curved = ambulo__row_curved_of(table, row);
-  return curved && curved->is == AMBULO__IS_SOLID ? &curved->of.solid : NULL;
+  return curved && curved->form == AMBULO__CURVED_SOLID ? &curved->of.solid : NULL;
 }
 /* Adds a term to the row begun last. Zero coefficients are skipped. */
 void ambulo__row_term_add(ambulo__row_table *table, int node, int channel, double coefficient);

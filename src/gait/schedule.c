@@ -7,6 +7,7 @@
  */
 #include "gait/contact_frame.h"
 #include "gait/effector.h"
+#include "gait/flight.h"
 #include "gait/gait.h"
 #include "gait/loading.h"
 #include "base/instant.h"
@@ -118,6 +119,16 @@ static double next_contact(const ambulo_problem_definition *definition, double t
   return next;
 }
 
+/* contacts that share the load leave a body that nothing touches in flight */
+static ambulo_status check_flight(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  ambulo__span flight;
+  if (!(d->minimum_force > 0.0) || !ambulo__flight_span(d, &flight)) return AMBULO_OK;
+  return REFUSE(list, "'--set ground_reaction.minimum_force=null' leaves it out",
+                "ground_reaction.minimum_force: nothing presses on the ground from %.6g s to %.6g "
+                "s, where the body is in flight (got %g body weights); expected none",
+                flight.from, flight.to, d->minimum_force);
+}
+
 static ambulo_status check_gaps(const ambulo_problem_definition *definition,
                                 ambulo_diagnostics *list) {
   ambulo_status status = AMBULO_OK;
@@ -129,13 +140,23 @@ static ambulo_status check_gaps(const ambulo_problem_definition *definition,
       continue;
     }
     double next = next_contact(definition, time + AMBULO__INSTANT);
-    status = REFUSE(list, "rows on contacts, zmp and ground_reaction need support at all times",
+    status = REFUSE(list,
+                    "rows on contacts, zmp and ground_reaction need support at all times; with "
+                    "ground_reaction: {kind: shared} and no zmp the body may fly",
                     "contacts: no foot%s touches the ground from %.6g s to %.6g s; "
                     "expected at least one contact at every time",
                     definition->model->patch_count ? " and no patch" : "", time, next);
     time = next;
   }
   return status;
+}
+
+static ambulo_status check_support(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  if (d->support == AMBULO_SUPPORT_OFF && d->ground_reaction.kind == AMBULO_REACTION_SHARED)
+    return check_flight(d, list);
+  int is_needed = d->ground_penetration || d->foot_strike || d->support != AMBULO_SUPPORT_OFF ||
+                  d->ground_reaction.kind != AMBULO_REACTION_NONE;
+  return is_needed ? check_gaps(d, list) : AMBULO_OK;
 }
 
 void ambulo__schedule_before(const ambulo_problem_definition *d, const double *times, int nodes,
@@ -176,11 +197,8 @@ ambulo_status ambulo__schedule_fill(const ambulo_problem_definition *definition,
   }
   if (status) return status;
   status = check_overlaps(definition, diagnostics);
-  int needs_support = definition->ground_penetration || definition->foot_strike ||
-                      definition->support != AMBULO_SUPPORT_OFF ||
-                      definition->ground_reaction.kind != AMBULO_REACTION_NONE;
-  ambulo_status gaps = needs_support ? check_gaps(definition, diagnostics) : AMBULO_OK;
-  if (!status) status = gaps;
+  ambulo_status support = check_support(definition, diagnostics);
+  if (!status) status = support;
   if (status) return status;
   status = check_level(definition, diagnostics);
   if (status) return status;

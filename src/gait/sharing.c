@@ -19,6 +19,7 @@
  */
 #include "gait/bounded.h"
 #include "gait/contact_load.h"
+#include "gait/flight.h"
 #include "gait/sharing.h"
 #include "model/neutral_pose.h"
 
@@ -158,7 +159,9 @@ void ambulo__sharing_rows(const ambulo__gait_context *context, ambulo__row_table
   one c = {.context = context, .table = table};
   c.planar = !ambulo__model_moves_sideways(model);
   c.weight = ambulo__model_weight(model);
-  for (c.node = 0; c.node < context->nodes; c.node++)
+  for (c.node = 0; c.node < context->nodes; c.node++) {
+    if (ambulo__in_flight(context, c.node)) continue;
     for (int slot = 0; slot < slots.count; slot++) slot_rows(&c, outlines, &slots, slot);
+  }
   ambulo__free(&table->allocator, outlines);
 }

@@ -5,7 +5,7 @@
 
 #include "nlp/nlp.h"
 
-enum { AMBULO__DENSE_RULES = 22 };
+enum { AMBULO__DENSE_RULES = 24 };
 
 /* What helps where more intervals do not. */
 typedef enum ambulo__dense_remedy {

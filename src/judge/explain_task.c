@@ -1,7 +1,8 @@
-/* judge/explain_task.c - says so when a gait that failed asks for what is no walk (gait/task.h).
- */
+/* judge/explain_task.c - says so when a gait without flight that failed asks for what is no walk
+ * (gait/task.h). */
 #include "judge/explain.h"
 
+#include "gait/flight.h"
 #include "gait/task.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ static void speed(const ambulo__task *t, ambulo__explanation *out) {
   }
   ambulo__explain_line(out,
                        "  running is how people move so fast, from about %.2g m/s on legs of %.3g "
-                       "m (Froude number 0.5); it has flight, which contacts here do not",
+                       "m (Froude number 0.5); it has flight: gait.phases.toe_off below 0.5",
                        runs, t->leg);
 }
 
@@ -49,7 +50,8 @@ void ambulo__explain_task(const ambulo_problem *problem, ambulo__explanation *ou
   const ambulo_problem_definition *d = &problem->definition;
   ambulo__task task = ambulo__task_of(d);
   int before = out->view.line_count;
-  if (!task.is_gait) return;
+  ambulo__span flight;
+  if (!task.is_gait || ambulo__flight_span(d, &flight)) return;
   speed(&task, out);
   step(&task, out);
   grade(d, &task, out);

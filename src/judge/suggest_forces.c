@@ -117,6 +117,20 @@ static void free_moment(const ambulo__advice *a) {
   if (enough <= 10.0) ambulo__advice_set(a, "ground_reaction.free_moment=%.6g", enough);
 }
 
+/* a force is in body weights, a moment about the centre of mass in those times m */
+static void flight(const ambulo__advice *a) {
+  int is_force = a->row->measure == AMBULO__BODY_WEIGHTS;
+  const ambulo__curved *spin = ambulo__row_curved_of(&a->problem->table, a->row);
+  double bound = spin ? spin->of.spin.bound : a->row->constant;
+  double tolerance = a->problem->definition.ground_reaction.flight_tolerance;
+  double enough = ambulo__outward(tolerance * (1.0 + a->room / bound), 1);
+  ambulo__advice_say(a,
+                     "in flight the %s would have to be %s by %.4g body weights%s more at t = %.4g "
+                     "s: give the contacts more time, or let more force be left in flight",
+                     a->row->subject, a->row->detail, a->give, is_force ? "" : " m", a->row->time);
+  if (enough <= 1.0) ambulo__advice_set(a, "ground_reaction.flight_tolerance=%.6g", enough);
+}
+
 /* the foot that the row's contact belongs to; -1 */
 static int foot_of(const ambulo__advice *a) {
   const ambulo_model *m = a->problem->model;
@@ -229,6 +243,9 @@ int ambulo__advise_forces(const ambulo__advice *a) {
     return 1;
   case AMBULO__KIND_FREE_MOMENT:
     free_moment(a);
+    return 1;
+  case AMBULO__KIND_FLIGHT:
+    flight(a);
     return 1;
   case AMBULO__KIND_PRESSURE:
     pressure(a);

@@ -99,6 +99,7 @@ static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diag
       {"ground_reaction.moment_arm", "m", &r->moment_arm, 1, 1e-6, longest},
       {"ground_reaction.slant", "", &r->slant, 1, 1e-6, largest},
       {"ground_reaction.loading_rate", "1/s", &r->loading_rate, 1, -largest, largest},
+      {"ground_reaction.flight_tolerance", "body weights", &r->flight_tolerance, 1, 1e-6, largest},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }

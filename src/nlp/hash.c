@@ -76,8 +76,12 @@ static hash add_curved(hash h, const ambulo__curved *row) {
   const ambulo__arc *arc = &row->of.arc;
   int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(row, channel);
   for (int i = 0; i < count; i++) h = add_integer(h, channel[i]);
-  if (row->is == AMBULO__IS_SOLID) return add_solid(h, &row->of.solid);
-  if (row->is == AMBULO__IS_APART) {
+  if (row->form == AMBULO__CURVED_SOLID) return add_solid(h, &row->of.solid);
+  if (row->form == AMBULO__CURVED_SPIN) {
+    const double of_spin[] = {row->of.spin.sign, row->of.spin.bound};
+    return add_numbers(add_numbers(h, of_spin, 2), row->of.spin.axis, 3);
+  }
+  if (row->form == AMBULO__CURVED_APART) {
     h = add_numbers(h, &row->of.apart.distance, 1);
     return add_numbers(h, row->of.apart.up, 3);
   }

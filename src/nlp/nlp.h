@@ -35,19 +35,21 @@ typedef enum ambulo__phase_kind {
 /* Which keys the problem's file has, for advice in its words; all 0: the problem was made from C.
  */
 typedef struct ambulo__problem_keys {
-  int file;         /* it was read from a file */
-  int gait;         /* the contacts come from `gait` */
-  int steps;        /* of the gait */
-  int unlike_steps; /* two step lengths or times that differ */
-  int speed;        /* gait.speed is there: with it the step length decides on the duration */
-  int travel;       /* ends.travel is there */
-  int length;       /* gait.step_length is there */
-  int lengths;      /* as a list */
-  int step_time;    /* gait.step_time is there, one number */
-  int times;        /* as a list */
-  int duration;     /* time.duration is there */
-  int loads;        /* `load` is a list */
-  ambulo_gait walk; /* what the keys of the gait come to */
+  int file;            /* it was read from a file */
+  int gait;            /* the contacts come from `gait` */
+  int steps;           /* of the gait */
+  int unlike_steps;    /* two step lengths or times that differ */
+  int speed;           /* gait.speed is there: with it the step length decides on the duration */
+  int travel;          /* ends.travel is there */
+  int length;          /* gait.step_length is there */
+  int lengths;         /* as a list */
+  int length_function; /* as a function of the speed number */
+  double length_constant, length_slope; /* of it: at the comfortable number; by it, m */
+  int step_time;                        /* gait.step_time is there, one number */
+  int times;                            /* as a list */
+  int duration;                         /* time.duration is there */
+  int loads;                            /* `load` is a list */
+  ambulo_gait walk;                     /* what the keys of the gait come to */
   ambulo__phase_kind by_speed[AMBULO__PHASES];
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
   double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */

@@ -13,6 +13,7 @@
 #include "gait/phases.h"
 #include "gait/contact_load.h"
 #include "gait/patch_rows.h"
+#include "gait/flight.h"
 #include "gait/sharing.h"
 #include "nlp/memory.h"
 #include "objective/mirror_terms.h"
@@ -46,7 +47,8 @@ ambulo_problem_definition ambulo_problem_definition_default(void) {
                           .arc_pressure = 0.0045,
                           .moment_arm = 0.2,
                           .slant = 0.2,
-                          .loading_rate = 15.0},
+                          .loading_rate = 15.0,
+                          .flight_tolerance = 0.002},
       .ends_order = 1,
   };
   return definition;
@@ -149,7 +151,10 @@ static ambulo_status build_rows(ambulo_problem *p, ambulo_diagnostics *diagnosti
   if (status) return status;
   if (d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP)
     ambulo__reaction_rows(&context, &p->table);
-  if (d->ground_reaction.kind == AMBULO_REACTION_SHARED) ambulo__sharing_rows(&context, &p->table);
+  if (d->ground_reaction.kind == AMBULO_REACTION_SHARED) {
+    ambulo__sharing_rows(&context, &p->table);
+    ambulo__flight_rows(&context, &p->table);
+  }
   ambulo__limit_rows(&context, &p->table);
   ambulo__collision_rows(&context, &p->table);
   ambulo__obstacle_rows(&context, &p->table);

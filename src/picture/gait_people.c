@@ -7,6 +7,7 @@
 
 #include "ambulo/report.h"
 #include "base/vector.h"
+#include "gait/flight.h"
 #include "model/neutral_pose.h"
 #include "stride/strikes.h"
 
@@ -24,8 +25,10 @@ static int is_level(const ambulo_problem *problem) {
 
 int ambulo__gait_is_walk(const ambulo_problem *problem) {
   ambulo_ends ends = ambulo_problem_ends(problem);
+  ambulo__span flight;
   return (ends == AMBULO_ENDS_MIRRORED || ends == AMBULO_ENDS_PERIODIC) &&
-         problem->definition.travel != 0.0 && problem->model->foot_count == 2 && is_level(problem);
+         problem->definition.travel != 0.0 && problem->model->foot_count == 2 &&
+         is_level(problem) && !ambulo__flight_span(&problem->definition, &flight);
 }
 
 /* ------------------------------------------------------------------- strikes */

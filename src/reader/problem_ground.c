@@ -120,9 +120,10 @@ static void warn_of_others(const ambulo__yaml_node *section, int kind) {
   static const struct {
     const char *key;
     int kind;
-  } own[] = {{"transfer", AMBULO_REACTION_TWO_STEP}, {"exponent", AMBULO_REACTION_TWO_STEP},
-             {"shear", AMBULO_REACTION_TWO_STEP},    {"moment_arm", AMBULO_REACTION_SHARED},
-             {"slant", AMBULO_REACTION_SHARED},      {"loading_rate", AMBULO_REACTION_SHARED}};
+  } own[] = {{"transfer", AMBULO_REACTION_TWO_STEP},      {"exponent", AMBULO_REACTION_TWO_STEP},
+             {"shear", AMBULO_REACTION_TWO_STEP},         {"moment_arm", AMBULO_REACTION_SHARED},
+             {"slant", AMBULO_REACTION_SHARED},           {"loading_rate", AMBULO_REACTION_SHARED},
+             {"flight_tolerance", AMBULO_REACTION_SHARED}};
   for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
     const ambulo__yaml_node *node = ambulo__yaml_get(section, own[i].key);
     if (!node || kind == AMBULO_REACTION_NONE || kind == own[i].kind) continue;
@@ -151,6 +152,8 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
       ambulo__yaml_number_in(ambulo__yaml_get(section, "moment_arm"), 1e-3, 10.0, r->moment_arm);
   r->slant = ambulo__yaml_number_in(ambulo__yaml_get(section, "slant"), 1e-2, 100.0, r->slant);
   r->loading_rate = read_bound(ambulo__yaml_get(section, "loading_rate"), 1e4, r->loading_rate);
+  r->flight_tolerance = ambulo__yaml_number_in(ambulo__yaml_get(section, "flight_tolerance"), 1e-6,
+                                               1.0, r->flight_tolerance);
   r->friction = read_bound(ambulo__yaml_get(section, "friction"), 10.0, r->friction);
   r->free_moment = read_bound(ambulo__yaml_get(section, "free_moment"), 10.0, r->free_moment);
   int is_split = kind == AMBULO_REACTION_TWO_STEP;

@@ -1,11 +1,13 @@
-/* reader/problem_phases.c - `gait.phases` of a problem file: when heel, sole and toes come and go.
+/* reader/problem_phases.c - `gait.phases` of a problem file: when heel, sole and toes come and go;
+ * and steps whose length is a function of the speed.
  *
  * A phase is a share f of the stride, or a function of the speed number u = v / sqrt(g H), H the
  * stature:
  *
  *     f(u) = comfortable + slope (u - 0.31)
  *
- * 0.31 is 1.28 m/s for 1.75 m. When the file says nothing, textbook timing of comfortable walking
+ * and so is the length of a step, in statures, where the file says a function of it. 0.31 is 1.28
+ * m/s for 1.75 m. When the file says nothing, textbook timing of comfortable walking
  * at every speed (foot flat at 8 %, heel rise after 38 %, toe-off at 62 %; Perry, Gait Analysis,
  * 1992). With `by_speed` the stance is shorter the faster people walk, by 3.5 % of the stride for
  * 1 m/s (Kirtley, Whittle & Jefferson, J Biomed Eng 7:282-288, 1985), -0.145 for 1 of u at 1.75 m;
@@ -71,8 +73,7 @@ static int is_by_speed(const ambulo__yaml_node *node) {
   return ambulo__yaml_choice(node, words, 1, -1) == 0;
 }
 
-/* none without stature or gravity; a speed that could not be read is a comfortable one */
-static void find_number(ambulo__problem_reader *reader, double speed) {
+void ambulo__read_speed_number(ambulo__problem_reader *reader, double speed) {
   const double *g = reader->model->gravity;
   double stature = ambulo_model_stature(reader->model);
   double unit = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * fmax(stature, 0.0));
@@ -81,9 +82,38 @@ static void find_number(ambulo__problem_reader *reader, double speed) {
   reader->keys.speed_number = isfinite(speed) ? speed / unit : AMBULO__COMFORTABLE_NUMBER;
 }
 
+double ambulo__read_step_length(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                double speed) {
+  ambulo__problem_keys *keys = &reader->keys;
+  double stature = ambulo_model_stature(reader->model);
+  double constant =
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "comfortable"), 0.0, 5.0, 0.4);
+  double slope = ambulo__yaml_number_in(ambulo__yaml_require(node, "slope"), -10.0, 10.0, 0.0);
+  ambulo__yaml_close(node);
+  ambulo__read_speed_number(reader, speed);
+  if (!(keys->speed_unit > 0.0) || isnan(speed)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "a step length by speed, but %s; expected a length",
+                             isnan(speed) ? "no gait.speed" : "no stature or no gravity");
+    return 1.0;
+  }
+  double length = constant + slope * (keys->speed_number - AMBULO__COMFORTABLE_NUMBER);
+  if (!(length > 0.0)) {
+    (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL,
+                             "steps of %.4g statures at a speed of %.4g sqrt(g H); expected a "
+                             "length above 0",
+                             length, keys->speed_number);
+    return 1.0;
+  }
+  keys->length_function = 1;
+  keys->length_constant = constant;
+  keys->length_slope = slope * stature;
+  return length * stature;
+}
+
 int ambulo__read_phases(ambulo__problem_reader *reader, const ambulo__yaml_node *node, double speed,
                         double value[AMBULO__PHASES]) {
-  find_number(reader, speed);
+  ambulo__read_speed_number(reader, speed);
   int all_by_speed = is_by_speed(node);
   int is_mapping = ambulo__yaml_is(node, AMBULO__YAML_MAPPING);
   if (all_by_speed && !(reader->keys.speed_unit > 0.0)) {

@@ -293,10 +293,10 @@ static double given_step_time(const ambulo__problem_reader *reader, const walkin
   return ambulo__gait_strike(&timed, steps) / (double)steps;
 }
 
-/* one length, two, that of the speed and a time, or that which people choose at the speed */
-static void read_step_lengths(const ambulo__problem_reader *reader,
-                              const ambulo__yaml_node *section, const walking_pace *pace,
-                              ambulo_gait *gait) {
+/* one length, two, a function of the speed, that of the speed and a time, or that which people
+ * choose at the speed */
+static void read_step_lengths(ambulo__problem_reader *reader, const ambulo__yaml_node *section,
+                              const walking_pace *pace, ambulo_gait *gait) {
   const double walk_ratio = 0.0035, usual = 1.75; /* statures per (step / min) at m */
   const ambulo__yaml_node *node = ambulo__yaml_get(section, "step_length");
   double stature = ambulo_model_stature(reader->model);
@@ -306,6 +306,8 @@ static void read_step_lengths(const ambulo__problem_reader *reader,
     (void)ambulo__yaml_numbers(node, 2, lengths);
     gait->step_length = lengths[0];
     gait->other_step_length = lengths[1];
+  } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
+    gait->step_length = ambulo__read_step_length(reader, node, pace->speed);
   } else if (!node && !isnan(by_time)) {
     gait->step_length = by_time;
   } else if (!node && ambulo__yaml_get(section, "speed") && stature > 0.0) {
@@ -328,6 +330,8 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
   const walking_pace pace = read_pace(section);
   read_step_lengths(reader, section, &pace, &gait);
+  static const char *const landings[] = {"heel", "forefoot"};
+  gait.forefoot = ambulo__yaml_choice(ambulo__yaml_get(section, "landing"), landings, 2, 0);
   double longer = reader->keys.longer > 0.0 ? reader->keys.longer : 1.0;
   gait.step_width = longer * ambulo__yaml_number_in(ambulo__yaml_get(section, "step_width"), 0.0,
                                                     10.0, neutral_width(reader->model) / longer);
@@ -347,7 +351,7 @@ static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *s
   reader->keys.speed = ambulo__yaml_get(section, "speed") != NULL;
   const ambulo__yaml_node *length = ambulo__yaml_get(section, "step_length");
   const ambulo__yaml_node *time = ambulo__yaml_get(section, "step_time");
-  reader->keys.length = length != NULL;
+  reader->keys.length = length && !reader->keys.length_function;
   reader->keys.lengths = is_list(length);
   reader->keys.step_time = time && !is_list(time);
   reader->keys.times = is_list(time);

@@ -13,6 +13,8 @@
 #include "report/reaction_json.h"
 #include "stride/strikes.h"
 
+#include <math.h>
+
 static void objective(ambulo__json *json, const ambulo_problem *problem,
                       const ambulo_result *result) {
   const double *terms = ambulo_result_terms(result);
@@ -259,6 +261,7 @@ static void gait(ambulo__json *json, const ambulo_problem *problem) {
   const ambulo_gait *walk = &problem->keys.walk;
   if (!problem->keys.gait) return;
   double steps = walk->steps, duration = ambulo_problem_duration(problem);
+  double stride = ambulo__gait_strike(walk, 2), duty = walk->toe_off - walk->heel_strike;
   double travel = ambulo__gait_place(walk, walk->steps);
   ambulo__json_open(json, "gait", '{');
   ambulo__json_number(json, "steps", steps);
@@ -267,6 +270,9 @@ static void gait(ambulo__json *json, const ambulo_problem *problem) {
   ambulo__json_number(json, "step_width", walk->step_width);
   ambulo__json_number(json, "speed", travel / duration);
   ambulo__json_number(json, "stride_frequency", steps / (2.0 * duration));
+  ambulo__json_number(json, "duty_factor", duty);
+  ambulo__json_number(json, "contact_time", duty * stride);
+  ambulo__json_number(json, "flight_time", fmax(0.0, 0.5 - duty) * stride);
   ambulo__json_close(json, '}');
 }
 

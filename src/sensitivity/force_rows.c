@@ -19,6 +19,7 @@
 #include "sensitivity/partials.h"
 #include "base/vector.h"
 
+#include "gait/flight.h"
 #include "gait/gait.h"
 #include "gait/loading.h"
 #include "model/neutral_pose.h"
@@ -159,6 +160,17 @@ static int is_of_contact(const force_row *p) {
          ambulo__sharing_channel(problem, p->row) >= first;
 }
 
+/* a row of gait/flight.c: c = b +- (...) / W, b = e or e h */
+static void add_flight(const force_row *p, ambulo__partials *partials) {
+  const ambulo_problem *problem = p->s->problem;
+  const ambulo__curved *spin = ambulo__row_curved_of(&problem->table, p->row);
+  double bound = spin ? spin->of.spin.bound : p->row->constant;
+  int r = (int)(p->row - problem->table.rows);
+  partials->reaction.flight_tolerance +=
+      p->pull * bound / problem->definition.ground_reaction.flight_tolerance;
+  partials->log_mass -= p->pull * (p->s->workspace->row_value[r] - bound);
+}
+
 /* (S.5) -phi, n.F / W, 1 */
 static void add_row(const force_row *p, int planar, ambulo__partials *partials) {
   int r = (int)(p->row - p->s->problem->table.rows);
@@ -185,6 +197,10 @@ static void add_row(const force_row *p, int planar, ambulo__partials *partials) 
     break;
   case AMBULO__KIND_FREE_MOMENT:
     partials->reaction.free_moment += p->pull;
+    break;
+  case AMBULO__KIND_FLIGHT:
+    add_flight(p, partials);
+    of_forces = 0;
     break;
   default:
     of_forces = 0;

@@ -7,6 +7,7 @@
 #include "sensitivity/parameters.h"
 
 #include "gait/bounds.h"
+#include "gait/flight.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -120,6 +121,10 @@ static void add_sharing(ambulo__parameters *p) {
   if (r->loading_rate >= 0.0)
     ambulo__parameter_add(p, AMBULO__LOADING_RATE, r->loading_rate, by->loading_rate,
                           "loading rate of contacts", "ground_reaction.loading_rate");
+  ambulo__span flight;
+  if (ambulo__flight_span(&p->problem->definition, &flight))
+    ambulo__parameter_add(p, AMBULO__RATIO, r->flight_tolerance, by->flight_tolerance,
+                          "force that is left in flight", "ground_reaction.flight_tolerance");
 }
 
 static void add_ground(ambulo__parameters *p) {

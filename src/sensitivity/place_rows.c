@@ -69,9 +69,7 @@ static void add_pitch(const place_row *p, const ambulo_contact *contact,
   const ambulo_problem *problem = p->s->problem;
   const ambulo_problem_definition *d = &problem->definition;
   if (contact->mode == AMBULO_CONTACT_FLAT) partials->orientation_tolerance += p->pull;
-  int strikes = contact->mode == AMBULO_CONTACT_HEEL && d->strike_pitch[0] < d->strike_pitch[1] &&
-                ambulo__is_strike(d, contact->foot, problem->times, problem->nodes, p->row->node);
-  if (!strikes) return;
+  if (!ambulo__is_pitched(d, contact, problem->times, problem->nodes, p->row->node)) return;
   int is_upper = ambulo__dot(p->first, p->frame.up) < 0.0;
   double slope = cos(d->strike_pitch[is_upper]);
   partials->strike_pitch[is_upper] += p->pull * (is_upper ? slope : -slope);
@@ -104,13 +102,16 @@ static void add_swing(const place_row *p, double s, const ambulo__span *air, dou
   if (air->ends >= 0) partials->contact_time[2 * air->ends] -= pull * s;
 }
 
-/* low = H' part(s); returns dL/ds */
+/* low = H' part(s), of a tip less D (1 - part(s)); returns dL/ds */
 static double add_low(const place_row *p, double s, ambulo__partials *partials) {
   const ambulo_problem_definition *d = &p->s->problem->definition;
   int is_heel = p->point == p->s->problem->model->feet[p->foot].heel_center;
   double slope, pull = -p->pull * (is_heel ? 0.5 : 1.0);
   partials->clearance.height += pull * ambulo__clearance_part(s, &slope);
-  return pull * d->clearance.height * slope;
+  const ambulo_foot *foot = &p->s->problem->model->feet[p->foot];
+  int is_tip = foot->has_tip && p->point == foot->tip;
+  double drop = is_tip ? ambulo__tip_drop(d, p->foot, p->row->time, s) : 0.0;
+  return pull * (d->clearance.height + drop) * slope;
 }
 
 /* the bound; returns dL/ds */
@@ -178,7 +179,7 @@ static double add_way(place_row *p, const ambulo__span *air, double s, ambulo__p
 static int add_gap(const place_row *p, ambulo__partials *partials) {
   const ambulo_problem *problem = p->s->problem;
   const ambulo__curved *curved = ambulo__row_curved_of(&problem->table, p->row);
-  if (!curved || curved->is != AMBULO__IS_APART) return 0;
+  if (!curved || curved->form != AMBULO__CURVED_APART) return 0;
   double value = p->s->workspace->row_value[p->row - problem->table.rows];
   double by_distance = -p->pull * (1.0 + value / curved->of.apart.distance);
   partials->clearance.feet += by_distance;

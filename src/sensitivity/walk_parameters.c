@@ -8,8 +8,10 @@
  *                      dT/dL = dx_steps/dL / v where the time follows from a speed v
  *     step time S      steps dL/dT; at a speed v that the length follows from, L = v S, also v
  * dL/dL speed v          dL/dT dT/dv, dT/dv = -T / v where the length follows from it too, as
- * sqrt(v): dT/dv = -T / (2 v), and dL/dL L / (2 v); where it follows from it and a time, dL/dL S
- * alone step width W     sum dL/dplace_l place_l / W
+ * sqrt(v), L' = dL/dv = L / (2 v), or as H (c + s (u - 0.31)), u = v / sqrt(g H), L' = H s /
+ * sqrt(g H): dT/dv = (steps L' - T) / v, and dL/dL L'; where it follows from it and a time, dL/dL S
+ * alone. Of such a function, dL/dc = H, dL/ds = H (u - 0.31), as of a step length.
+ * step width W     sum dL/dplace_l place_l / W
  *
  * Each of them but the width adds dL/dv dv/dp through phases by speed (time_parameters.c), where
  * v = x_steps / T: dv/dp = (dx_steps/dp - v dT/dp) / T; without those dL/dv it is left out.
@@ -109,8 +111,10 @@ static void add_speed(ambulo__parameters *p, double by_length) {
   if (length_follows(keys)) {
     length = duration / steps;
   } else {
-    length = keys->length ? 0.0 : gait->step_length / (2.0 * speed);
-    by = -(keys->length ? 1.0 : 0.5) * p->partials->duration * duration / speed;
+    length = keys->length            ? 0.0
+             : keys->length_function ? keys->length_slope / keys->speed_unit
+                                     : gait->step_length / (2.0 * speed);
+    by = p->partials->duration * (steps * length - duration) / speed;
   }
   by += length * by_length + ambulo__phases_by_speed(p);
   if (!isfinite(by)) return;
@@ -127,11 +131,26 @@ static void add_times(ambulo__parameters *p, double by_length) {
   if (length_follows(keys) || (moves && !by_time)) add_speed(p, by_length);
 }
 
+/* `by`: by 1 m of each step */
+static void add_length_function(ambulo__parameters *p, double by) {
+  const ambulo__problem_keys *keys = &p->problem->keys;
+  double stature = ambulo_model_stature(p->problem->model), steps = keys->walk.steps;
+  double beyond = keys->speed_number - AMBULO__COMFORTABLE_NUMBER;
+  ambulo__parameter_add(p, AMBULO__RATIO, keys->length_constant, stature * by,
+                        "step length at a comfortable speed", "gait.step_length.comfortable");
+  ambulo__parameter_travels(p, steps * stature);
+  ambulo__parameter_add(p, AMBULO__RATIO, keys->length_slope / stature, stature * beyond * by,
+                        "step length by speed", "gait.step_length.slope");
+  ambulo__parameter_travels(p, steps * stature * beyond);
+}
+
 static void add_lengths(ambulo__parameters *p, const double by[2]) {
   const ambulo__problem_keys *keys = &p->problem->keys;
   const ambulo_gait *gait = &keys->walk;
   int follows_speed = keys->speed && !keys->duration && !keys->step_time && !keys->times;
-  if (!keys->length || (follows_speed && !moves_with_duration(p->problem))) return;
+  if ((!keys->length && !keys->length_function) ||
+      (follows_speed && !moves_with_duration(p->problem)))
+    return;
   double slower = 0.0, count[2];
   if (follows_speed)
     slower = p->partials->duration * p->problem->definition.duration /
@@ -139,6 +158,10 @@ static void add_lengths(ambulo__parameters *p, const double by[2]) {
   count_steps(gait->steps, count);
   double faster = with_phases(p, 0.0, 0.0, follows_speed ? 0.0 : 1.0); /* of 1 m of the walk */
   if (!isfinite(faster)) return;
+  if (keys->length_function) {
+    add_length_function(p, by[0] + by[1] + (slower + faster) * gait->steps);
+    return;
+  }
   if (!keys->lengths) {
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, gait->step_length,
                           by[0] + by[1] + (slower + faster) * gait->steps, "step length",

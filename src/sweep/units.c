@@ -43,11 +43,20 @@ static const char *unit_of_column(const char *column, const ambulo_model *model)
 
 const char *ambulo__unit_of_output(const char *output, const ambulo_model *model) {
   static const char *const reductions[] = {"max(", "min(", "mean(", "range("};
-  static const pair tails[] = {
-      {"duration", "s"},        {"body.mass", "kg"},     {"impulse_forward", "N s"},
-      {"impulse_up", "N s"},    {"impulse_left", "N s"}, {"peak", "body weights"},
-      {".time", "s"},           {"gait.step_time", "s"}, {"gait.step_length", "m"},
-      {"gait.step_width", "m"}, {"gait.speed", "m/s"},   {"gait.stride_frequency", "Hz"}};
+  static const pair tails[] = {{"duration", "s"},
+                               {"body.mass", "kg"},
+                               {"impulse_forward", "N s"},
+                               {"impulse_up", "N s"},
+                               {"impulse_left", "N s"},
+                               {"peak", "body weights"},
+                               {".time", "s"},
+                               {"gait.step_time", "s"},
+                               {"gait.step_length", "m"},
+                               {"gait.step_width", "m"},
+                               {"gait.speed", "m/s"},
+                               {"gait.stride_frequency", "Hz"},
+                               {"gait.contact_time", "s"},
+                               {"gait.flight_time", "s"}};
   char column[128];
   for (size_t i = 0; i < sizeof reductions / sizeof *reductions; i++) {
     size_t head = strlen(reductions[i]), length = strlen(output);

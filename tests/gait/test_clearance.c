@@ -42,6 +42,31 @@ static void heights_follow_the_swing(void **state) {
   row_fixture_close(&f);
 }
 
+/* a foot that comes down on its toes: its tip may be lower on the way down, as far as it is ahead
+ * of the ball once it is there */
+static void a_tip_that_lands_may_be_low(void **state) {
+  (void)state;
+  static const ambulo_contact landing[] = {
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.1, .place = {0.0, -0.08}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, 0.1}},
+      {WALKER_RIGHT, AMBULO_CONTACT_TOE, 0.8, 1.0, .place = {0.6, -0.1}}};
+  row_fixture f;
+  open_with(&f, 0);
+  double ahead = 0.0, tip[3], ball[3]; /* swing: 0.1 to 0.8 s */
+  ambulo__neutral_point(f.model, f.model->feet[WALKER_RIGHT].tip, tip);
+  ambulo__neutral_point(f.model, f.model->feet[WALKER_RIGHT].toe_center, ball);
+  for (int i = 0; i < 3; i++) ahead = hypot(ahead, tip[i] - ball[i]);
+  double part = 6.0 * (0.8 - 0.75) / 0.7;
+  f.definition.contacts = landing;
+  f.table.row_count = 0;
+  ambulo__clearance_rows(&f.context, &f.table);
+  assert_true(ahead > 0.01 && part < 1.0);
+  expect(&f, "r_toe_in", "low", 0.5, -0.02);
+  expect(&f, "r_toe_in", "low", 0.75, -(0.02 * part - ahead * (1.0 - part)));
+  expect(&f, "r_toe", "low", 0.75, -0.02 * part);
+  row_fixture_close(&f);
+}
+
 /* at 0.25 s the foot has just left (s = 0.1875 all the same), at 0.75 s it comes down */
 static void swings_hold_at_both_their_ends(void **state) {
   (void)state;
@@ -138,6 +163,7 @@ static void planar_feet_only_have_heights(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(heights_follow_the_swing),
+                                     cmocka_unit_test(a_tip_that_lands_may_be_low),
                                      cmocka_unit_test(swings_hold_at_both_their_ends),
                                      cmocka_unit_test(the_last_swing_ends_at_the_last_node),
                                      cmocka_unit_test(the_track_is_that_of_the_next_foothold),

@@ -138,6 +138,33 @@ static void arcs_hold_feet_that_roll(void **state) {
   row_fixture_close(&f);
 }
 
+/* toes that point down as they land: at the first node of a contact on the toes, and of no other */
+static void a_foot_may_land_on_its_toes(void **state) {
+  (void)state;
+  static const ambulo_contact landing[] = {
+      {WALKER_LEFT, AMBULO_CONTACT_TOE, 0.0, 0.3, .place = {0.6, 0.1}},
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.3, 0.6, .place = {0.6, 0.1}}};
+  row_fixture f;
+  prepare(&f, 0);
+  f.definition.contacts = landing;
+  f.definition.contact_count = 2;
+  f.definition.strike_pitch[0] = -0.3;
+  f.definition.strike_pitch[1] = -0.1;
+  for (int k = 0; k < 3; k++) f.active[2 * k + WALKER_LEFT] = k == 2;
+  ambulo__contact_tube_rows(&f.context, &f.table);
+  expect(&f, "left", "toes low", 0.0, sin(0.3));
+  expect(&f, "left", "toes high", 0.0, -sin(0.1));
+  expect(&f, "left", "toes low", 0.25, 0.95);
+  expect(&f, "left", "toes high", 0.25, 0.0);
+  expect(&f, "left", "toes low", 0.5, 0.01);
+  /* pitches of a heel are not about it */
+  f.definition.strike_pitch[1] = 0.1;
+  f.table.row_count = 0;
+  ambulo__contact_tube_rows(&f.context, &f.table);
+  expect(&f, "left", "toes low", 0.0, 0.95);
+  row_fixture_close(&f);
+}
+
 /* the pitch of a strike is asked at the first node of a contact, however far the next is */
 static void a_strike_is_the_first_node_of_any_grid(void **state) {
   (void)state;
@@ -188,6 +215,7 @@ int main(void) {
       cmocka_unit_test(planar_feet_have_four_places_and_a_pitch),
       cmocka_unit_test(events_hold_what_ends_and_what_begins),
       cmocka_unit_test(arcs_hold_feet_that_roll),
+      cmocka_unit_test(a_foot_may_land_on_its_toes),
       cmocka_unit_test(a_strike_is_the_first_node_of_any_grid),
       cmocka_unit_test(the_last_node_of_a_repeating_motion_has_none)};
   return cmocka_run_group_tests(tests, NULL, NULL);

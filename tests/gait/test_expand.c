@@ -67,6 +67,32 @@ static void the_last_instant_counts(void **state) {
   ambulo_model_free(model);
 }
 
+/* toes, sole, toes; a stance of less than half a stride leaves times without contact */
+static void feet_may_land_on_their_toes(void **state) {
+  (void)state;
+  ambulo_model *model = walker_create(0);
+  ambulo_gait gait = two_steps();
+  ambulo_contact contacts[16];
+  int count = 0;
+  gait.heel_strike = 0.0;
+  gait.heel_off = 4.0 / 14.0;
+  gait.toe_off = 5.0 / 14.0;
+  gait.forefoot = 1;
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 16, &count), AMBULO_OK);
+  assert_int_equal(count, 7);
+  for (int i = 0; i < 6; i++) {
+    assert_int_equal(contacts[i].foot, i < 3 ? WALKER_LEFT : WALKER_RIGHT);
+    assert_int_equal(contacts[i].mode, i % 3 == 1 ? AMBULO_CONTACT_FLAT : AMBULO_CONTACT_TOE);
+    if (i % 3) assert_close(contacts[i].from, contacts[i - 1].to, 1e-14);
+  }
+  assert_close(contacts[2].to, 0.5, 1e-14);
+  assert_close(contacts[3].from, 0.7, 1e-14);
+  assert_int_equal(contacts[6].mode, AMBULO_CONTACT_TOE);
+  gait.forefoot = 2;
+  assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 16, &count), AMBULO_E_ARGUMENT);
+  ambulo_model_free(model);
+}
+
 static void impossible_gaits_are_refused(void **state) {
   (void)state;
   ambulo_model *model = walker_create(0);
@@ -122,6 +148,7 @@ static void steps_may_alternate(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(steps_may_alternate), cmocka_unit_test(the_table_is_as_written_by_hand),
-      cmocka_unit_test(the_last_instant_counts), cmocka_unit_test(impossible_gaits_are_refused)};
+      cmocka_unit_test(the_last_instant_counts), cmocka_unit_test(feet_may_land_on_their_toes),
+      cmocka_unit_test(impossible_gaits_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

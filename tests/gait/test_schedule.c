@@ -90,6 +90,44 @@ static void contradictions_are_named(void **state) {
   expect_refusal(NULL, 0, "no foot touches the ground from 0 s to 1 s");
 }
 
+/* only contacts that share the load, with no zero-moment point, let a body fly */
+static void who_may_fly(void **state) {
+  (void)state;
+  static const ambulo_contact hop[] = {
+      {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 0.3, .place = {0, 0}},
+      {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.45, 1.0, .place = {0, 0}}};
+  static const struct {
+    ambulo_reaction_kind kind;
+    ambulo_support support;
+    double minimum_force;
+    const char *phrase;
+  } cases[] = {{AMBULO_REACTION_SHARED, AMBULO_SUPPORT_OFF, -1.0, NULL},
+               {AMBULO_REACTION_SHARED, AMBULO_SUPPORT_OFF, 0.0, NULL},
+               {AMBULO_REACTION_SHARED, AMBULO_SUPPORT_OFF, 0.2,
+                "ground_reaction.minimum_force: nothing presses on the ground from 0.3 s to 0.45 "
+                "s, where the body is in flight (got 0.2 body weights); expected none"},
+               {AMBULO_REACTION_SHARED, AMBULO_SUPPORT_BOX, -1.0,
+                "no foot touches the ground from 0.3 s to 0.45 s"},
+               {AMBULO_REACTION_TWO_STEP, AMBULO_SUPPORT_OFF, -1.0,
+                "no foot touches the ground from 0.3 s to 0.45 s"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    row_fixture f;
+    row_fixture_open(&f, 0);
+    f.definition.contacts = hop;
+    f.definition.contact_count = 2;
+    f.definition.ground_reaction.kind = cases[i].kind;
+    f.definition.support = cases[i].support;
+    f.definition.minimum_force = cases[i].minimum_force;
+    ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+    int active[10];
+    assert_int_equal(ambulo__schedule_fill(&f.definition, times, 5, active, list),
+                     cases[i].phrase ? AMBULO_E_PROBLEM : AMBULO_OK);
+    if (cases[i].phrase) expect_message(list, cases[i].phrase);
+    ambulo_diagnostics_free(list);
+    row_fixture_close(&f);
+  }
+}
+
 static void rows_without_contact_need_no_support(void **state) {
   (void)state;
   row_fixture f;
@@ -154,6 +192,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_belong_to_half_open_spans),
                                      cmocka_unit_test(nodes_on_events_know_what_was_before),
                                      cmocka_unit_test(contradictions_are_named),
+                                     cmocka_unit_test(who_may_fly),
                                      cmocka_unit_test(rows_without_contact_need_no_support),
                                      cmocka_unit_test(patches_are_checked_too)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -206,7 +206,7 @@ static void feet_that_pass_agree_with_central_differences(void **state) {
   for (int r = 0; r < f.m; r++) {
     const ambulo__curved *curved =
         ambulo__row_curved_of(&f.problem->table, &f.problem->table.rows[r]);
-    if (!curved || curved->is != AMBULO__IS_APART) continue;
+    if (!curved || curved->form != AMBULO__CURVED_APART) continue;
     weights[r] = cos(gaps++);
   }
   assert_true(gaps > 20);

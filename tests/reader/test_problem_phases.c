@@ -54,6 +54,28 @@ static void people_stand_for_less_of_a_fast_stride(void **state) {
   assert_close(one.toe_off - two.toe_off, 0.035, 2e-4);
 }
 
+/* statures of a step, as a function of the speed number; the step time follows */
+static void step_lengths_go_with_the_speed(void **state) {
+  (void)state;
+  ambulo_gait run = walk_of("speed: 3, step_length: {comfortable: 0.36, slope: 0.6}");
+  double length = 1.75 * (0.36 + 0.6 * (number_of(3.0) - 0.31));
+  assert_close(run.step_length, length, 1e-14);
+  assert_close(run.step_time, length / 3.0, 1e-14);
+  assert_int_equal(run.forefoot, 0);
+  run = walk_of("speed: 3, landing: forefoot");
+  assert_int_equal(run.forefoot, 1);
+  run = walk_of("speed: 3, landing: heel");
+  assert_int_equal(run.forefoot, 0);
+  expect_refusal(WALK "step_time: 0.5, step_length: {comfortable: 0.36, slope: 0.6}}\n",
+                 AMBULO_E_PROBLEM, "a step length by speed, but no gait.speed; expected a length");
+  expect_refusal(WALK "speed: 9, step_length: {comfortable: 0.36, slope: -0.6}}\n",
+                 AMBULO_E_PROBLEM, "expected a length above 0");
+  expect_refusal(WALK "speed: 1, step_length: {comfortable: 0.36}}\n", AMBULO_E_SCHEMA, "slope");
+  expect_refusal(YARDSTICK "speed: 1, step_length: {comfortable: 0.36, slope: 0.1}}\n",
+                 AMBULO_E_PROBLEM, "no stature or no gravity");
+  expect_refusal(WALK "speed: 1, landing: toes}\n", AMBULO_E_SCHEMA, "forefoot");
+}
+
 static void functions_are_read(void **state) {
   (void)state;
   ambulo_gait walk = walk_of("speed: 1.6, phases: {foot_flat: 0.09, heel_off: {slope: 0.1}, "
@@ -150,6 +172,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(textbook_timing_is_the_default_at_every_speed),
       cmocka_unit_test(people_stand_for_less_of_a_fast_stride),
+      cmocka_unit_test(step_lengths_go_with_the_speed),
       cmocka_unit_test(functions_are_read),
       cmocka_unit_test(phases_follow_the_number_and_not_the_speed),
       cmocka_unit_test(lengths_and_times_make_the_speed),

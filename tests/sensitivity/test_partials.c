@@ -156,6 +156,29 @@ static void a_walk_on_shared_arcs(void **state) {
   check(&c, NULL);
 }
 
+/* nothing holds the body for part of the step; steps and phases are functions of the speed */
+static void a_run(void **state) {
+  (void)state;
+  static const setting heel = {
+      "models/run.yaml",
+      {"time.intervals=32", "trajectory.intervals=12", "written_for=null"},
+      {"ground_reaction.flight_tolerance", "ground_reaction.loading_rate", "gait.speed",
+       "gait.step_length.comfortable", "gait.step_length.slope", "gait.phases.toe_off.comfortable",
+       "gait.phases.heel_off.comfortable", "gait.step_width", "subject.mass",
+       "constraints.strike_pitch[1]", "constraints.clearance.height", "ground_reaction.friction"}};
+  static const setting forefoot = {
+      "models/run_forefoot.yaml",
+      {"time.intervals=32", "trajectory.intervals=12",
+       "load={link: thorax, mass: 8, position: "
+       "[-0.1, 0.1, 0]}"},
+      {"ground_reaction.flight_tolerance", "constraints.strike_pitch[0]",
+       "constraints.strike_pitch[1]", "constraints.clearance.height",
+       "gait.phases.foot_flat.comfortable", "gait.phases.toe_off.comfortable", "gait.speed",
+       "load.mass", "ground_reaction.pressure.arc"}};
+  check(&heel, NULL);
+  check(&forefoot, NULL);
+}
+
 /* no step length: it follows from the speed, and the time from both */
 static void a_walk_at_a_speed(void **state) {
   (void)state;
@@ -266,6 +289,7 @@ int main(void) {
       cmocka_unit_test(breakpoints_stay_in_seconds),
       cmocka_unit_test(a_walk_under_load),
       cmocka_unit_test(a_walk_with_other_terms),
+      cmocka_unit_test(a_run),
       cmocka_unit_test(a_walk_at_a_speed),
       cmocka_unit_test(a_walk_on_shared_contacts),
       cmocka_unit_test(a_walk_on_shared_contacts_on_events),

@@ -1,0 +1,294 @@
+/* The shipped runs, from zero: in flight the centre of mass falls and the angular momentum about it
+ * stays, at ten times as many times as there are nodes; contacts and forces are those of a runner.
+ *
+ * Momenta are found apart from inverse dynamics, from where the bodies of the links are at q and a
+ * little along qd to either side. */
+#include "support/scratch.h"
+#include "support/shared_data.h"
+
+#include "ambulo/ambulo.h"
+#include "gait/flight.h"
+#include "mechanics/pose.h"
+#include "nlp/problem.h"
+
+typedef struct run {
+  ambulo_problem *problem;
+  ambulo_result *result;
+  ambulo_workspace *workspace;
+} run;
+
+static run solve_run(const char *name, const char *speed) {
+  char path[SCRATCH_PATH];
+  const char *settings[] = {speed};
+  run r = {NULL, NULL, NULL};
+  snprintf(path, sizeof path, "%s/models/%s.yaml", AMBULO_SOURCE_DIR, name);
+  assert_int_equal(ambulo_problem_load(path, settings, speed != NULL, NULL, NULL, &r.problem),
+                   AMBULO_OK);
+  ambulo_options options = ambulo_problem_options(r.problem);
+  assert_int_equal(ambulo_solve(r.problem, &options, NULL, NULL, NULL, &r.result), AMBULO_OK);
+  assert_int_equal(ambulo_workspace_create(r.problem, NULL, &r.workspace), AMBULO_OK);
+  ambulo_verdict verdict = ambulo_result_verdict(r.result);
+  double violation = ambulo_result_audit(r.result)->violation.worst;
+  if (verdict != AMBULO_OPTIMAL || !(violation <= 1e-6))
+    print_error("%s: %s, violation %g\n", name, ambulo_verdict_name(verdict), violation);
+  assert_true(verdict == AMBULO_OPTIMAL && violation <= 1e-6);
+  return r;
+}
+
+static void free_run(run *r) {
+  ambulo_workspace_free(r->workspace);
+  ambulo_result_free(r->result);
+  ambulo_problem_free(r->problem);
+}
+
+/* ------------------------------------------------------------------- momenta */
+
+enum { COORDINATES = 21, FEET = 2, LINKS = 40 };
+
+static const double apart = 1e-5; /* s: between the poses */
+
+typedef struct momenta {
+  double linear[3], angular[3]; /* N s; N m s about the centre of mass */
+} momenta;
+
+/* a x b, times factor */
+static void add_cross(const double a[3], const double b[3], double factor, double c[3]) {
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    c[i] += factor * (a[j] * b[k] - a[k] * b[j]);
+  }
+}
+
+/* I omega of a link's own body, world axes: of R' R^T = omega x, R in the frame's first columns */
+static void add_own(const ambulo_link *link, const double *before, const double *now,
+                    const double *after, double sum[3]) {
+  double omega[3] = {0.0}, local[3] = {0.0};
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    for (int c = 0; c < 3; c++)
+      omega[i] += (after[4 * k + c] - before[4 * k + c]) / (2.0 * apart) * now[4 * j + c];
+  }
+  for (int c = 0; c < 3; c++)
+    for (int i = 0; i < 3; i++) local[c] += now[4 * i + c] * omega[i];
+  const double *I = link->inertia;
+  const double spin[3] = {I[0] * local[0] + I[3] * local[1] + I[4] * local[2],
+                          I[3] * local[0] + I[1] * local[1] + I[5] * local[2],
+                          I[4] * local[0] + I[5] * local[1] + I[2] * local[2]};
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 3; c++) sum[i] += now[4 * i + c] * spin[c];
+}
+
+static momenta momenta_of(const ambulo_model *m, ambulo__pose pose[3], const double *q,
+                          const double *qd) {
+  momenta sum = {{0.0}, {0.0}};
+  double moved[COORDINATES], center[3][3];
+  for (int s = 0; s < 3; s++) {
+    for (int i = 0; i < COORDINATES; i++) moved[i] = q[i] + (s - 1) * apart * qd[i];
+    ambulo__pose_at(&pose[s], moved);
+    ambulo__pose_center_of_mass(&pose[s], center[s]);
+  }
+  for (int i = 0; i < 3; i++)
+    sum.linear[i] = m->mass * (center[2][i] - center[0][i]) / (2.0 * apart);
+  for (int l = 0; l < m->link_count; l++) {
+    const ambulo_link *link = &m->links[l];
+    double at[3][3], arm[3], velocity[3];
+    for (int s = 0; s < 3; s++) ambulo__pose_point(&pose[s], l, link->com, at[s]);
+    for (int i = 0; i < 3; i++) {
+      arm[i] = at[1][i] - center[1][i];
+      velocity[i] = (at[2][i] - center[2][i] - at[0][i] + center[0][i]) / (2.0 * apart);
+    }
+    add_cross(arm, velocity, link->mass, sum.angular);
+    add_own(link, pose[0].frames + 12 * l, pose[1].frames + 12 * l, pose[2].frames + 12 * l,
+            sum.angular);
+  }
+  return sum;
+}
+
+/* what the flight tolerance lets momenta change by in the time since the flight began, and half as
+ * much again between the nodes */
+static void momenta_are_those_of_a_body_in_flight(run *r) {
+  enum { MOST = 400 };
+  const ambulo_model *m = ambulo_problem_model(r->problem);
+  static double times[MOST], q[MOST * COORDINATES], qd[MOST * COORDINATES];
+  ambulo__span flight;
+  ambulo__pose pose[3];
+  int count = 0;
+  assert_int_equal(ambulo__flight_span(&r->problem->definition, &flight), 1);
+  for (int k = 0; k + 1 < r->problem->nodes; k++)
+    for (int s = 0; s < 10; s++) {
+      double from = r->problem->times[k], t = from + 0.1 * s * (r->problem->times[k + 1] - from);
+      if (t >= flight.from && t <= flight.to && count < MOST) times[count++] = t;
+    }
+  assert_true(count > 100 && count < MOST && m->coordinate_count == COORDINATES);
+  ambulo_motion motion = {.q = q, .qd = qd};
+  assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result),
+                                         count, times, &motion),
+                   AMBULO_OK);
+  for (int s = 0; s < 3; s++) assert_int_equal(ambulo__pose_create(m, NULL, &pose[s]), AMBULO_OK);
+  momenta first = momenta_of(m, pose, q, qd);
+  double e = r->problem->definition.ground_reaction.flight_tolerance, weight = m->mass * 9.81;
+  for (int k = 1; k < count; k++) {
+    momenta now = momenta_of(m, pose, q + k * COORDINATES, qd + k * COORDINATES);
+    double since = times[k] - times[0], most = 1.5 * e * weight * since + 1e-5;
+    for (int i = 0; i < 3; i++) {
+      double fallen = first.linear[i] + m->mass * m->gravity[i] * since;
+      if (!(fabs(now.linear[i] - fallen) <= most &&
+            fabs(now.angular[i] - first.angular[i]) <= most))
+        print_error("axis %d, %g s: %g N s, %g N m s, at most %g\n", i, times[k],
+                    now.linear[i] - fallen, now.angular[i] - first.angular[i], most);
+      assert_true(fabs(now.linear[i] - fallen) <= most);
+      assert_true(fabs(now.angular[i] - first.angular[i]) <= most);
+    }
+  }
+  for (int s = 0; s < 3; s++) ambulo__pose_free(&pose[s]);
+}
+
+/* -------------------------------------------------------------------- forces */
+
+enum { SAMPLES = 401 };
+
+typedef struct force_curve {
+  double up[SAMPLES]; /* of the foot that strikes at 0, body weights */
+  double contact;     /* s above 2 % of the body weight */
+  double peak, swing; /* swing: largest knee angle, rad */
+  int peaks;          /* maxima above half a body weight */
+} force_curve;
+
+static force_curve forces_of(run *r) {
+  static double times[SAMPLES], grf[3 * FEET * SAMPLES], q[COORDINATES * SAMPLES];
+  const ambulo_model *m = ambulo_problem_model(r->problem);
+  double duration = ambulo_problem_duration(r->problem);
+  int foot = ambulo_problem_contact_at(r->problem, 1, 0.05) >= 0;
+  int knee[2] = {ambulo_model_find_coordinate(m, "knee_angle_l"),
+                 ambulo_model_find_coordinate(m, "knee_angle_r")};
+  force_curve f = {.peak = 0.0};
+  for (int k = 0; k < SAMPLES; k++) times[k] = duration * k / (SAMPLES - 1.0);
+  ambulo_motion motion = {.grf = grf, .q = q};
+  assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result),
+                                         SAMPLES, times, &motion),
+                   AMBULO_OK);
+  for (int k = 0; k < SAMPLES; k++) {
+    f.up[k] = grf[3 * FEET * k + 3 * foot + 1] / (m->mass * 9.81);
+    f.contact += f.up[k] > 0.02 ? times[1] : 0.0;
+    f.peak = fmax(f.peak, f.up[k]);
+    for (int side = 0; side < 2; side++) f.swing = fmax(f.swing, q[k * COORDINATES + knee[side]]);
+    assert_true(f.up[k] > -0.01);
+  }
+  for (int k = 1; k + 1 < SAMPLES; k++)
+    f.peaks += f.up[k] > 0.5 && f.up[k] > f.up[k - 1] && f.up[k] >= f.up[k + 1];
+  return f;
+}
+
+typedef struct person {
+  const char *name, *speed;
+  double contact; /* s: Hamner & Delp (2013), one runner */
+} person;
+
+static const person people[] = {
+    {"run", "gait.speed=2", 0.3445}, {"run", NULL, 0.292},
+    {"run", "gait.speed=4", 0.251},  {"run", "gait.speed=5", 0.219},
+    {"run_forefoot", NULL, 0.292},   {"run_forefoot", "gait.speed=2", 0.3445}};
+
+/* contact within 15 % of people's, one peak of 1.8 to 2.8 body weights, knees of 85 to 110 degrees
+ */
+static void runners_bounce_on_bent_knees(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof people / sizeof *people; i++) {
+    run r = solve_run(people[i].name, people[i].speed);
+    force_curve f = forces_of(&r);
+    double ratio = f.contact / people[i].contact, degrees = f.swing * 57.29577951308232;
+    int good = fabs(ratio - 1.0) <= 0.15 && f.peak >= 1.8 && f.peak <= 2.8 && f.peaks == 1 &&
+               degrees >= 85.0 && degrees <= 110.0;
+    if (!good)
+      print_error("%s %s: contact %.3f of people's, %d peaks, %.2f body weights, knee %.0f\n",
+                  people[i].name, people[i].speed ? people[i].speed : "", ratio, f.peaks, f.peak,
+                  degrees);
+    assert_true(good);
+    momenta_are_those_of_a_body_in_flight(&r);
+    free_run(&r);
+  }
+}
+
+/* ------------------------------------------------------- measured against people */
+
+/* column `mean` of a variable and condition of a table (quantity, variable, condition, percent,
+ * mean, sd, n) at percents 0, 1 ... 100 */
+static void read_curve(const char *path, const char *variable, const char *condition,
+                       double mean[101]) {
+  char line[200], name[60], when[30];
+  double percent, value;
+  int found = 0;
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  while (fgets(line, sizeof line, file)) {
+    if (sscanf(line, "%*[^,],%59[^,],%29[^,],%lf,%lf", name, when, &percent, &value) != 4) continue;
+    if (strcmp(name, variable) || strcmp(when, condition)) continue;
+    mean[(int)(percent + 0.5)] = value;
+    found++;
+  }
+  fclose(file);
+  assert_int_equal(found, 101);
+}
+
+static double correlation(const double *a, const double *b, int n) {
+  double ma = 0.0, mb = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  for (int i = 0; i < n; i++) {
+    ma += a[i] / n;
+    mb += b[i] / n;
+  }
+  for (int i = 0; i < n; i++) {
+    aa += (a[i] - ma) * (a[i] - ma);
+    bb += (b[i] - mb) * (b[i] - mb);
+    ab += (a[i] - ma) * (b[i] - mb);
+  }
+  return ab / sqrt(aa * bb);
+}
+
+/* the leg that strikes at 0 over its stride: its own half, then the mirror image's of the other */
+static void leg_curve(run *r, const char *joint, double angle[101]) {
+  static double times[101], q[101 * COORDINATES];
+  const ambulo_model *m = ambulo_problem_model(r->problem);
+  double duration = ambulo_problem_duration(r->problem);
+  char name[40];
+  for (int k = 0; k < 101; k++) times[k] = duration * (k <= 50 ? k : k - 50) / 50.0;
+  ambulo_motion motion = {.q = q};
+  assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result), 101,
+                                         times, &motion),
+                   AMBULO_OK);
+  for (int k = 0; k < 101; k++) {
+    snprintf(name, sizeof name, "%s_%s", joint, k <= 50 ? "l" : "r");
+    angle[k] = q[k * COORDINATES + ambulo_model_find_coordinate(m, name)];
+  }
+}
+
+static void angles_go_as_those_of_a_runner(void **state) {
+  (void)state;
+  static const struct {
+    const char *joint, *curve;
+    double r;
+  } joints[] = {{"hip_flexion", "hip_flexion_r", 0.94},
+                {"knee_angle", "knee_angle_r", 0.92},
+                {"ankle_angle", "ankle_angle_r", 0.9}};
+  static const char *const speeds[2][2] = {{"gait.speed=2", "run_2.0"}, {NULL, "run_3.0"}};
+  char path[300];
+  double angle[101], mean[101];
+  if (!shared_data_path("motions/hamner2013_one_subject_run_2_3.csv", path, sizeof path)) skip();
+  for (int s = 0; s < 2; s++) {
+    run r = solve_run("run", speeds[s][0]);
+    for (int j = 0; j < 3; j++) {
+      leg_curve(&r, joints[j].joint, angle);
+      read_curve(path, joints[j].curve, speeds[s][1], mean);
+      double found = correlation(angle, mean, 101);
+      if (!(found >= joints[j].r))
+        print_error("%s, %s: r %.3f\n", joints[j].joint, speeds[s][1], found);
+      assert_true(found >= joints[j].r);
+    }
+    free_run(&r);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(runners_bounce_on_bent_knees),
+                                     cmocka_unit_test(angles_go_as_those_of_a_runner)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
