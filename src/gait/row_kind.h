@@ -48,13 +48,13 @@ typedef enum ambulo__row_kind {
   AMBULO__KIND_SPEED_LIMIT,
   AMBULO__KIND_TORQUE_LIMIT,
   AMBULO__KIND_TRACKING_TUBE,
+  AMBULO__KIND_COLLISION,
+  AMBULO__KIND_OBSTACLE,
+  AMBULO__KIND_REACH,
   AMBULO__KIND_INITIAL_STATE,
   AMBULO__KIND_FINAL_STATE,
   AMBULO__KIND_PERIODIC,
   AMBULO__KIND_MIRRORED,
-  AMBULO__KIND_COLLISION,
-  AMBULO__KIND_OBSTACLE,
-  AMBULO__KIND_REACH,
   AMBULO__KIND_USER, /* the caller's own, under whatever name */
   /* of no row: what is asked of a motion between its nodes beside them */
   AMBULO__KIND_SLIP,

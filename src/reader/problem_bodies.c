@@ -99,6 +99,9 @@ static void read_pairs(ambulo__problem_reader *reader, const ambulo__yaml_node *
   }
   if (!list_of(node, "pairs of capsules, or 'automatic'")) return;
   int count = ambulo__yaml_items(node), good = 0;
+  if (count == 0)
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                             "an empty list; expected pairs of capsules, 'automatic' or 'off'");
   ambulo_capsule_pair *pairs = ambulo__reader_alloc(reader, (size_t)count, sizeof *pairs);
   for (int i = 0; pairs && i < count; i++)
     good += read_pair(reader, ambulo__yaml_item(node, i), &pairs[good]);

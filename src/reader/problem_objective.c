@@ -133,6 +133,9 @@ static void read_strength(ambulo__problem_reader *reader, const ambulo__yaml_nod
     term->strength_is_limits = ambulo__yaml_choice(node, words, 1, -1) == 0;
     term->price = read_prices(reader, scale);
   } else {
+    if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING) && ambulo__yaml_pairs(node) == 0)
+      (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
+                               "an empty mapping; expected 'limits', or curves of coordinates");
     term->strength = read_curves(reader, node, 6);
   }
 }

@@ -102,6 +102,8 @@ static const struct {
     {"constraints: {collision: {pairs: [[trunk, head]]}}\n",
      "'trunk' and 'head' are parts of one rigid body", AMBULO_E_PROBLEM},
     {"constraints: {collision: {pairs: all}}\n", "automatic", AMBULO_E_SCHEMA},
+    {"constraints: {collision: {pairs: []}}\n", "an empty list; expected pairs of capsules",
+     AMBULO_E_SCHEMA},
     {"constraints: {collision: {pairs: {a: b}}}\n", "expected a list of pairs of capsules",
      AMBULO_E_SCHEMA},
     {"constraints: {collision: {margin: -0.1}}\n", "-0.1", AMBULO_E_SCHEMA},

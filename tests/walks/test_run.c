@@ -107,7 +107,7 @@ static momenta momenta_of(const ambulo_model *m, ambulo__pose pose[3], const dou
 /* what the flight tolerance lets momenta change by in the time since the flight began, and half as
  * much again between the nodes */
 static void momenta_are_those_of_a_body_in_flight(run *r) {
-  enum { MOST = 400 };
+  enum { MOST = 800 };
   const ambulo_model *m = ambulo_problem_model(r->problem);
   static double times[MOST], q[MOST * COORDINATES], qd[MOST * COORDINATES];
   ambulo__span flight;
