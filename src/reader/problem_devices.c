@@ -230,9 +230,11 @@ static int read_device(ambulo__problem_reader *reader, const ambulo__yaml_node *
 
 void ambulo__read_devices(ambulo__problem_reader *reader, const ambulo__yaml_node *list) {
   int given = list ? ambulo__yaml_items(list) : 0, count = 0, images = 0;
-  if (given > MOST_DEVICES) {
-    (void)ambulo__yaml_error(list, AMBULO_E_LIMIT, NULL, "%d devices; expected at most %d", given,
-                             MOST_DEVICES);
+  if (!list) return;
+  if (given < 1 || given > MOST_DEVICES) {
+    if (ambulo__yaml_is(list, AMBULO__YAML_SEQUENCE))
+      (void)ambulo__yaml_error(list, AMBULO_E_SCHEMA, NULL, "%d devices; expected 1 to %d", given,
+                               MOST_DEVICES);
     return;
   }
   ambulo_device *devices = ambulo__reader_alloc(reader, 2 * (size_t)given, sizeof *devices);

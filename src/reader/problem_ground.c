@@ -69,8 +69,8 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *n
     return;
   }
   int count = ambulo__yaml_items(node);
-  if (count > AMBULO__MOST_LOADS) {
-    (void)ambulo__yaml_error(node, AMBULO_E_LIMIT, NULL, "%d loads; expected at most %d", count,
+  if (count < 1 || count > AMBULO__MOST_LOADS) {
+    (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL, "%d loads; expected 1 to %d", count,
                              AMBULO__MOST_LOADS);
     return;
   }

@@ -60,7 +60,7 @@ static double *some_motion(const ambulo_problem *p) {
 static void test_person_and_devices_are_inverse_dynamics(void **state) {
   (void)state;
   worn bare, dressed;
-  open(&bare, "devices=[]");
+  open(&bare, "name=bare");
   open(&dressed, "devices=[" EXO ", " BAND ", " BRAKE "]");
   double *x = some_motion(bare.problem);
   move(&bare, x);
