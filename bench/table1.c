@@ -250,12 +250,14 @@ static double report_problem(const char *name, int is_dependent, int starts, dou
   for (int i = 0; i <= starts; i++) free_start(&from[i]);
   const line *last = &l[INCLUSION];
   for (int k = 0; k < formulations; k++) {
-    printf("%-15s %-22s %4d %4d %4d %6.1f%% %8.0f %9.4f %7.1f %3d/%-3d %3d/%-3d %10.5g %+7.2f%% "
-           "%8.0e\n",
+    char best[40] = "         -        -";
+    if (l[k].feasible > 0)
+      (void)snprintf(best, sizeof best, "%10.5g %+7.2f%%", l[k].best,
+                     100.0 * (l[k].best / last->best - 1.0));
+    printf("%-15s %-22s %4d %4d %4d %6.1f%% %8.0f %9.4f %7.1f %3d/%-3d %3d/%-3d %s %8.0e\n",
            k ? "" : name, kind_name[k], l[k].unknowns, l[k].equalities, l[k].inequalities,
            100.0 * l[k].density, l[k].evaluations, l[k].seconds, l[k].seconds / last->seconds,
-           l[k].feasible, l[k].starts, l[k].good, l[k].starts, l[k].best,
-           100.0 * (l[k].best / last->best - 1.0), l[k].error);
+           l[k].feasible, l[k].starts, l[k].good, l[k].starts, best, l[k].error);
     (void)fflush(stdout);
   }
   printf("%-15s %-22s %4d %4d %4d %7s %8ld %9.4f %7.3f %7s %7s %10.5g %+7.2f%%\n", "",
