@@ -60,8 +60,8 @@ static void rows_are_those_of_an_evaluation(void **state) {
   for (int r = 0; r < dense.fine->rows; r++) {
     const ambulo__table_row *row = &dense.fine->table.rows[r];
     const ambulo__curved *curved = ambulo__row_curved_of(&dense.fine->table, row);
-    arcs += curved && curved->is_arc;
-    gaps += curved && !curved->is_arc;
+    arcs += curved && curved->form == AMBULO__CURVED_ARC;
+    gaps += curved && curved->form == AMBULO__CURVED_APART;
     if (row->node >= 0) assert_close(dense.row_value[r], workspace->row_value[r], 1e-12);
   }
   assert_true(arcs > 50 && gaps > 50);
