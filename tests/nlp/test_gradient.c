@@ -186,14 +186,10 @@ static void rows_on_unknowns_and_terms_on_one_channel(void **state) {
 }
 
 /* by row, by the reverse sweep and by central differences; any body pose */
-static void feet_that_pass_agree_with_central_differences(void **state) {
-  (void)state;
-  static const char *const settings[] = {"constraints.clearance.feet=0.01", "time.intervals=16",
-                                         "trajectory.intervals=6"};
+static void expect_curved_rows(const char *path, const char *const settings[3], const char *family,
+                               ambulo__curved_form form) {
   fixture f = {.model = NULL};
-  assert_int_equal(
-      ambulo_problem_load("models/walk_normal.yaml", settings, 3, NULL, NULL, &f.problem),
-      AMBULO_OK);
+  assert_int_equal(ambulo_problem_load(path, settings, 3, NULL, NULL, &f.problem), AMBULO_OK);
   f.n = f.problem->variables;
   f.m = f.problem->rows;
   assert_int_equal(ambulo_workspace_create(f.problem, NULL, &f.workspace), AMBULO_OK);
@@ -201,18 +197,32 @@ static void feet_that_pass_agree_with_central_differences(void **state) {
   f.gradient = calloc((size_t)f.n, sizeof *f.gradient);
   double *weights = calloc((size_t)f.m, sizeof *weights);
   for (int j = 0; j < f.n; j++) f.x[j] = 0.2 * sin(3.0 * j);
-  expect_agreement(&f, "clearance");
-  int gaps = 0;
+  expect_agreement(&f, family);
+  int rows = 0;
   for (int r = 0; r < f.m; r++) {
     const ambulo__curved *curved =
         ambulo__row_curved_of(&f.problem->table, &f.problem->table.rows[r]);
-    if (!curved || curved->form != AMBULO__CURVED_APART) continue;
-    weights[r] = cos(gaps++);
+    if (!curved || curved->form != form) continue;
+    weights[r] = cos(rows++);
   }
-  assert_true(gaps > 20);
+  assert_true(rows > 20);
   expect_sum_of_rows(&f, 0.0, weights);
   free(weights);
   fixture_close(&f);
+}
+
+static void feet_that_pass_agree_with_central_differences(void **state) {
+  (void)state;
+  static const char *const settings[] = {"constraints.clearance.feet=0.01", "time.intervals=16",
+                                         "trajectory.intervals=6"};
+  expect_curved_rows("models/walk_normal.yaml", settings, "clearance", AMBULO__CURVED_APART);
+}
+
+static void flight_agrees_with_central_differences(void **state) {
+  (void)state;
+  static const char *const settings[] = {"gait.speed=2.5", "time.intervals=24",
+                                         "trajectory.intervals=8"};
+  expect_curved_rows("models/run.yaml", settings, "flight", AMBULO__CURVED_SPIN);
 }
 
 int main(void) {
@@ -223,6 +233,7 @@ int main(void) {
       cmocka_unit_test(weights_combine_objective_and_rows),
       cmocka_unit_test(rows_on_unknowns_and_terms_on_one_channel),
       cmocka_unit_test(feet_that_pass_agree_with_central_differences),
+      cmocka_unit_test(flight_agrees_with_central_differences),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
