@@ -138,18 +138,25 @@ static void to_page(const strip *s, double t, const double at[2], double page[2]
   page[1] = s->base - s->scale * at[1];
 }
 
+/* a place of a link (-1: of the world) in the picture; 0: the motion is not finite there */
+static int on_page(const strip *s, int link, const double place[3], double t, double page[2]) {
+  ambulo__bone bone = {.link = {-1, link}};
+  double at[2];
+  memcpy(bone.at[1], place, sizeof bone.at[1]);
+  flat_point(s, &bone, 1, t, at);
+  to_page(s, t, at, page);
+  return isfinite(page[0] + page[1]);
+}
+
 static void draw_side(const strip *s, double t, ambulo__side side, const char *style,
                       ambulo__text_buffer *text) {
   int begun = 0;
   for (int b = 0; b < s->skeleton.bone_count; b++) {
     const ambulo__bone *bone = &s->skeleton.bones[b];
     if (bone->side != side) continue;
-    double at[2], from[2], to[2];
-    flat_point(s, bone, 0, t, at);
-    to_page(s, t, at, from);
-    flat_point(s, bone, 1, t, at);
-    to_page(s, t, at, to);
-    if (!isfinite(from[0] + from[1] + to[0] + to[1])) continue;
+    double from[2], to[2];
+    int seen = on_page(s, bone->link[0], bone->at[0], t, from);
+    if (!on_page(s, bone->link[1], bone->at[1], t, to) || !seen) continue;
     if (!begun) ambulo__svg_path_begin(text, style);
     begun = 1;
     ambulo__svg_path_move(text, from[0], from[1]);
@@ -161,11 +168,8 @@ static void draw_side(const strip *s, double t, ambulo__side side, const char *s
 static void draw_head(const strip *s, double t, ambulo__text_buffer *text) {
   for (int b = 0; b < s->skeleton.bone_count; b++) {
     const ambulo__bone *bone = &s->skeleton.bones[b];
-    double at[2], center[2];
-    if (bone->head <= 0.0) continue;
-    flat_point(s, bone, 1, t, at);
-    to_page(s, t, at, center);
-    if (isfinite(center[0] + center[1]))
+    double center[2];
+    if (bone->head > 0.0 && on_page(s, bone->link[1], bone->at[1], t, center))
       ambulo__svg_circle(text, "head", center[0], center[1], s->scale * bone->head);
   }
 }
@@ -173,11 +177,9 @@ static void draw_head(const strip *s, double t, ambulo__text_buffer *text) {
 /* what hangs on the world, hangs there: the origin of the first link that moves */
 static void draw_pivot(const strip *s, double t, ambulo__text_buffer *text) {
   int link = s->reference >= 0 ? s->model->links[s->reference].parent : -1;
-  ambulo__bone bone = {.link = {-1, link}};
-  double at[2], page[2];
-  flat_point(s, &bone, 1, t, at);
-  to_page(s, t, at, page);
-  if (isfinite(page[0] + page[1])) ambulo__svg_circle(text, "head", page[0], page[1], 4.0);
+  static const double origin[3] = {0.0, 0.0, 0.0};
+  double page[2];
+  if (on_page(s, link, origin, t, page)) ambulo__svg_circle(text, "head", page[0], page[1], 4.0);
 }
 
 /* a mark under the part of the foot that is on its foothold */
@@ -194,14 +196,8 @@ static void draw_contacts(const strip *s, const ambulo__stride *stride, double t
     const ambulo_point *ends[2] = {mode == AMBULO_CONTACT_TOE ? toe : heel,
                                    mode == AMBULO_CONTACT_HEEL ? heel : toe};
     double page[2][2];
-    for (int e = 0; e < 2; e++) {
-      ambulo__bone bone = {.link = {-1, ends[e]->link}};
-      for (int k = 0; k < 3; k++) bone.at[1][k] = ends[e]->position[k];
-      double at[2];
-      flat_point(s, &bone, 1, t, at);
-      to_page(s, t, at, page[e]);
-    }
-    if (!isfinite(page[0][0] + page[1][0])) continue;
+    int seen = on_page(s, ends[0]->link, ends[0]->position, t, page[0]);
+    if (!on_page(s, ends[1]->link, ends[1]->position, t, page[1]) || !seen) continue;
     double below = 5.5 + (s->skeleton.side[heel->link] == AMBULO__RIGHT ? 5.0 : 0.0);
     double y[2];
     for (int e = 0; e < 2; e++) y[e] = below + (s->soil.count ? page[e][1] : s->base);
@@ -218,14 +214,8 @@ static void draw_worn(const strip *s, const ambulo__stride *stride, int sample,
     double t = stride->times[sample], page[2][2];
     ambulo__worn mark;
     if (!ambulo__worn_at(stride, sample, i, &mark)) continue;
-    for (int e = 0; e < 2; e++) {
-      ambulo__bone bone = {.link = {-1, mark.link[e]}};
-      double at[2];
-      memcpy(bone.at[1], mark.at[e], sizeof bone.at[1]);
-      flat_point(s, &bone, 1, t, at);
-      to_page(s, t, at, page[e]);
-    }
-    if (!isfinite(page[0][0] + page[0][1] + page[1][0] + page[1][1])) continue;
+    int seen = on_page(s, mark.link[0], mark.at[0], t, page[0]);
+    if (!on_page(s, mark.link[1], mark.at[1], t, page[1]) || !seen) continue;
     if (mark.radius > 0.0)
       ambulo__svg_circle(text, mark.style, page[0][0], page[0][1], s->scale * mark.radius);
     else
@@ -243,14 +233,10 @@ static void draw_patches(const strip *s, const ambulo__stride *stride, double t,
     if (!contact) continue;
     const ambulo_point *point = &model->points[model->patches[i].point];
     ambulo__contact_frame frame = ambulo__contact_frame_of(&stride->problem->definition, contact);
-    ambulo__bone bone = {.link = {-1, point->link}};
-    for (int k = 0; k < 3; k++) bone.at[1][k] = point->position[k];
-    double ahead = model->patches[i].size[0] * s->scale, at[2], page[2];
+    double ahead = model->patches[i].size[0] * s->scale, page[2];
     double x = ahead * along(model->forward, frame.forward);
     double y = ahead * along(model->up, frame.forward);
-    flat_point(s, &bone, 1, t, at);
-    to_page(s, t, at, page);
-    if (!isfinite(page[0] + page[1])) continue;
+    if (!on_page(s, point->link, point->position, t, page)) continue;
     ambulo__svg_line(text, styles[ambulo__gait_patch_side(model, i)], page[0] - x, page[1] + y,
                      page[0] + x, page[1] - y);
   }
