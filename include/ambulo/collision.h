@@ -58,9 +58,13 @@ typedef struct ambulo_obstacle {
   int capsule_count;
 } ambulo_obstacle;
 
-/* A point of the model is at a place from one time to another, or at one time. */
+/* A point of the model is at a place from one time to another, or at one time. The place is in the
+ * world, or where it is from another point of the model: two hands that keep their distance hold
+ * something between them. */
 typedef struct ambulo_reach {
   int point;
+  int is_relative; /* 1: `place` is the way from the point `about`, along forward, left and up */
+  int about;
   double place[3];
   double from, to;  /* s; nodes within 1e-9 s of [from, to], at least one; on a grid on events both
                        are events */

@@ -1,4 +1,6 @@
 /* gait/collision_check.c - capsules that keep clear, obstacles, places to reach: every number. */
+#include "base/instant.h"
+#include "base/vector.h"
 #include "gait/collision.h"
 #include "model/neutral_pose.h"
 
@@ -122,6 +124,12 @@ static ambulo_status check_reach(const ambulo_problem_definition *d, int k,
   if (r->point < 0 || r->point >= d->model->point_count)
     return REFUSE(list, "constraints.reach[%d] names point %d; the model '%s' has %d", k, r->point,
                   d->model->name, d->model->point_count);
+  if (r->is_relative && (r->about < 0 || r->about >= d->model->point_count || r->about == r->point))
+    return REFUSE(
+        list,
+        "constraints.reach[%d] is relative to point %d; expected another one of the %d of "
+        "the model '%s'",
+        k, r->about, d->model->point_count, d->model->name);
   if (!is_place(r->place))
     return REFUSE(list, "constraints.reach[%d]: a place further than %g m away", k, farthest);
   if (!(r->from >= 0.0 && r->to >= r->from && r->to <= d->duration * (1.0 + 1e-9)))
@@ -183,6 +191,41 @@ static ambulo_status check_image(const ambulo_problem_definition *d, int index,
       own->name, own->radius, other->name, other->radius, off);
 }
 
+/* 1 if one point is the other's image in the plane of progression, at q = 0 and as it moves */
+static int are_images(const ambulo_model *m, int one, int other) {
+  const ambulo_point *a = &m->points[one], *b = &m->points[other];
+  const double *p = m->neutral + (size_t)(3 * one), *q = m->neutral + (size_t)(3 * other);
+  int mover = mover_of(m, a->link);
+  double square = 0.0, aside = ambulo__dot(p, m->left);
+  for (int i = 0; i < 3; i++) {
+    double apart = p[i] - 2.0 * aside * m->left[i] - q[i];
+    square += apart * apart;
+  }
+  return mover_of(m, b->link) == (mover < 0 ? -1 : m->coordinates[mover].mirror) &&
+         sqrt(square) <= same_place;
+}
+
+/* the way from a point to its image, to the side, all along: the image of a step asks for the same
+ */
+static ambulo_status check_reach_image(const ambulo_problem_definition *d, int k,
+                                       ambulo_diagnostics *list) {
+  const ambulo_reach *r = &d->reaches[k];
+  if (!r->is_relative)
+    return REFUSE(list,
+                  "ends.kind: mirrored ends, but constraints.reach[%d] asks for a place "
+                  "once; expected ends: {kind: free} or {kind: periodic}, or relative_to",
+                  k);
+  if (are_images(d->model, r->point, r->about) && r->place[0] == 0.0 && r->place[2] == 0.0 &&
+      r->from <= AMBULO__INSTANT && r->to >= d->duration - AMBULO__INSTANT)
+    return AMBULO_OK;
+  return REFUSE(
+      list,
+      "ends.kind: mirrored ends, but the mirror image of constraints.reach[%d] is another "
+      "one; expected the way from a point to its mirror image, straight to the side, "
+      "from 0 to %g s",
+      k, d->duration);
+}
+
 ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *d,
                                              ambulo_diagnostics *list) {
   ambulo_status status = AMBULO_OK;
@@ -192,9 +235,9 @@ ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *d,
                     "ends.kind: mirrored ends, but obstacle '%s' stands once and the step for "
                     "both; expected ends: {kind: free} or {kind: periodic}",
                     d->obstacles[0].name);
-  if (d->reach_count > 0)
-    status = REFUSE(list, "ends.kind: mirrored ends, but constraints.reach asks for a place once; "
-                          "expected ends: {kind: free} or {kind: periodic}");
+  for (int k = 0; k < d->reach_count; k++) {
+    if (check_reach_image(d, k, list)) status = AMBULO_E_PROBLEM;
+  }
   for (int i = 0; i < d->model->capsule_count; i++) {
     if (d->model->capsules[i].mirror < i || !ambulo__capsule_is_used(d, i)) continue;
     if (check_image(d, i, list)) status = AMBULO_E_PROBLEM;

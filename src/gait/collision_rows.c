@@ -142,11 +142,14 @@ static void at_node(const ambulo__gait_context *context, const ambulo_reach *rea
   const double *axes[] = {m->forward, m->left, m->up};
   const char *subject = m->points[reach->point].name;
   int first = ambulo__channel_point(&context->channels, reach->point, 0);
+  int other = ambulo__channel_point(&context->channels, reach->about, 0);
   double world[3];
   ambulo__world_place(context->definition, reach->place, world);
   for (int k = 0; k < 3; k++) {
     ambulo__linear form = {.constant = -ambulo__dot(axes[k], world)};
+    if (reach->is_relative) form.constant = -reach->place[k];
     ambulo__linear_add(&form, first, axes[k], 1.0);
+    if (reach->is_relative) ambulo__linear_add(&form, other, axes[k], -1.0);
     ambulo__bounded_name name = {AMBULO__KIND_REACH, subject, lower[k], upper[k], AMBULO__METRES};
     if (reach->tolerance > 0.0) {
       ambulo__bounded_rows(context, node, &name, &form, -reach->tolerance, reach->tolerance, table);

@@ -62,6 +62,7 @@ void ambulo__gait_obstacles_draw(const ambulo_problem *p, const ambulo__figure_v
   }
   for (int i = 0; i < p->definition.reach_count; i++) {
     const ambulo_reach *reach = &p->definition.reaches[i];
+    if (reach->is_relative) continue;
     if (v->time < reach->from - 0.5 * v->apart || v->time >= reach->to + 0.5 * v->apart) continue;
     ambulo__svg_circle(text, "place", v->x + v->scale * (reach->place[0] - v->origin),
                        v->base - v->scale * reach->place[2], ring);

@@ -138,6 +138,11 @@ static void read_reach(ambulo__problem_reader *reader, const ambulo__yaml_node *
   reach->point = find(reader, ambulo__yaml_require(item, "point"), "point",
                       reader->model->point_count, point_name);
   if (reach->point < 0) reach->point = 0; /* that was said */
+  const ambulo__yaml_node *other = ambulo__yaml_get(item, "relative_to");
+  if (other) {
+    reach->about = find(reader, other, "point", reader->model->point_count, point_name);
+    reach->is_relative = reach->about >= 0;
+  }
   (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "place"), 3, reach->place);
   read_times(ambulo__yaml_require(item, "at"), reach);
   reach->tolerance = ambulo__yaml_number_in(ambulo__yaml_get(item, "tolerance"), 0.0, 1.0, 0.0);

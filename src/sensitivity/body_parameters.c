@@ -30,7 +30,11 @@ static void add_reach(ambulo__parameters *p, int reach) {
   const char *point = p->problem->model->points[r->point].name;
   char label[AMBULO__PARAMETER_TEXT];
   for (int axis = 0; axis < 3; axis++) {
-    (void)snprintf(label, sizeof label, "place that %s reaches, %s", point, ways[axis]);
+    if (r->is_relative)
+      (void)snprintf(label, sizeof label, "way from %s to %s, %s",
+                     p->problem->model->points[r->about].name, point, ways[axis]);
+    else
+      (void)snprintf(label, sizeof label, "place that %s reaches, %s", point, ways[axis]);
     ambulo__parameter_add(p, AMBULO__STEP_LENGTH, r->place[axis],
                           p->partials->reach_place[3 * reach + axis], label,
                           "constraints.reach[%d].place[%d]", reach, axis);

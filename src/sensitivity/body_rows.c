@@ -44,13 +44,13 @@ static void add_solid(const ambulo__stationary *s, const ambulo__table_row *row,
 
 /* the reach that a row belongs to, rows of one stand one after the other; its axis from the detail
  */
-static void add_reach(const ambulo__table_row *row, int reach, double pull,
+static void add_reach(const ambulo_problem *p, const ambulo__table_row *row, int reach, double pull,
                       ambulo__partials *partials) {
   int axis = row->detail[0] == 'f' ? 0 : row->detail[0] == 'l' ? 1 : 2;
   int is_upper = row->relation == AMBULO_NOT_NEGATIVE && strstr(row->detail, "upper") != NULL;
   double by_place = is_upper ? pull : -pull;
   partials->reach_place[3 * reach + axis] += by_place;
-  if (axis == 2) partials->ground_height += by_place;
+  if (axis == 2 && !p->definition.reaches[reach].is_relative) partials->ground_height += by_place;
   if (row->relation == AMBULO_NOT_NEGATIVE) partials->reach_tolerance[reach] += pull;
 }
 
@@ -75,6 +75,6 @@ void ambulo__partials_of_bodies(const ambulo__stationary *s, ambulo__partials *p
     if (row->kind != AMBULO__KIND_REACH) continue;
     while (left == 0) left = rows_of_reach(p, ++reach);
     left--;
-    add_reach(row, reach, pull, partials);
+    add_reach(p, row, reach, pull, partials);
   }
 }
