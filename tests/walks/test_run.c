@@ -209,6 +209,19 @@ static void runners_bounce_on_bent_knees(void **state) {
   }
 }
 
+/* nobody asks for the countermovement, nor how the ground is pushed; both legs do the same */
+static void a_jump_goes_down_first(void **state) {
+  (void)state;
+  run r = solve_run("jump", NULL);
+  force_curve f = forces_of(&r);
+  double least = 1.0;
+  for (int k = 0; k < SAMPLES / 2; k++) least = fmin(least, 2.0 * f.up[k]);
+  assert_true(least < 0.8 && 2.0 * f.peak > 2.0 && 2.0 * f.peak < 3.5);
+  assert_close(f.contact, 0.94, 0.03);
+  momenta_are_those_of_a_body_in_flight(&r);
+  free_run(&r);
+}
+
 /* ------------------------------------------------------- measured against people */
 
 /* column `mean` of a variable and condition of a table (quantity, variable, condition, percent,
@@ -289,6 +302,7 @@ static void angles_go_as_those_of_a_runner(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(runners_bounce_on_bent_knees),
+                                     cmocka_unit_test(a_jump_goes_down_first),
                                      cmocka_unit_test(angles_go_as_those_of_a_runner)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
