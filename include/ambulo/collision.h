@@ -67,7 +67,7 @@ typedef struct ambulo_reach {
   int about;
   double place[3];
   double from, to;  /* s; nodes within 1e-9 s of [from, to], at least one; on a grid on events both
-                       are events */
+                       are events. to INFINITY: until the end */
   double tolerance; /* along each axis, m; 0: equations */
 } ambulo_reach;
 

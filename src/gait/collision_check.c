@@ -132,7 +132,8 @@ static ambulo_status check_reach(const ambulo_problem_definition *d, int k,
         k, r->about, d->model->point_count, d->model->name);
   if (!is_place(r->place))
     return REFUSE(list, "constraints.reach[%d]: a place further than %g m away", k, farthest);
-  if (!(r->from >= 0.0 && r->to >= r->from && r->to <= d->duration * (1.0 + 1e-9)))
+  if (!(r->from >= 0.0 && r->to >= r->from &&
+        (r->to <= d->duration * (1.0 + 1e-9) || isinf(r->to))))
     return REFUSE(list, "constraints.reach[%d] is from %g s to %g s; expected times in 0 to %g s",
                   k, r->from, r->to, d->duration);
   if (!is_margin(r->tolerance))

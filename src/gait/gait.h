@@ -105,8 +105,8 @@ void ambulo__feet_apart_rows(const ambulo__gait_context *context, ambulo__row_ta
 double ambulo__passing_allowance(const ambulo_problem_definition *definition);
 /* What part of the clearance height is due at s of the swing, and its slope by s (may be NULL). */
 double ambulo__clearance_part(double s, double *slope);
-/* How far below its clearance the tip of a foot that comes down on its toes may be as it lands, m;
- * 0 of other swings, and before the clearance falls. */
+/* How far below its clearance the tip of a foot that comes down on its toes on level ground may be,
+ * m; 0 of other swings, and before the clearance falls. */
 double ambulo__tip_drop(const ambulo_problem_definition *definition, int foot, double time,
                         double s);
 /* The contact beside which a foot in the air stays: its nearest, the next one first; -1 if it has

@@ -144,7 +144,8 @@ static void read_reach(ambulo__problem_reader *reader, const ambulo__yaml_node *
     reach->is_relative = reach->about >= 0;
   }
   (void)ambulo__yaml_numbers(ambulo__yaml_require(item, "place"), 3, reach->place);
-  read_times(ambulo__yaml_require(item, "at"), reach);
+  reach->to = INFINITY;
+  if (!other || ambulo__yaml_get(item, "at")) read_times(ambulo__yaml_require(item, "at"), reach);
   reach->tolerance = ambulo__yaml_number_in(ambulo__yaml_get(item, "tolerance"), 0.0, 1.0, 0.0);
   ambulo__yaml_close(item);
 }

@@ -28,12 +28,16 @@ typedef struct fixture {
   double *x;
 } fixture;
 
-static void open_with(fixture *f, const char *override) {
-  assert_int_equal(ambulo_problem_load_text(task, sizeof task - 1, "task", NULL, &override,
-                                            override ? 1 : 0, NULL, NULL, &f->p),
+static void open_settings(fixture *f, const char *const *settings, int settings_count) {
+  assert_int_equal(ambulo_problem_load_text(task, sizeof task - 1, "task", NULL, settings,
+                                            settings_count, NULL, NULL, &f->p),
                    AMBULO_OK);
   assert_int_equal(ambulo_workspace_create(f->p, NULL, &f->workspace), AMBULO_OK);
   f->x = calloc((size_t)f->p->variables, sizeof *f->x);
+}
+
+static void open_with(fixture *f, const char *override) {
+  open_settings(f, &override, override ? 1 : 0);
 }
 
 static void close_all(fixture *f) {
@@ -87,6 +91,23 @@ static void rows_stand_at_their_nodes(void **state) {
   double knee = first(&f, "reach", "knee_r", "left lower");
   assert_close(knee, 0.1 - 0.085 + 0.01, 1e-5);
   assert_close(first(&f, "reach", "knee_r", "left upper"), 0.02 - knee, 1e-12);
+  close_all(&f);
+}
+
+/* the way between two points: of both, all along, and no matter how high the ground is */
+static void places_may_be_relative(void **state) {
+  (void)state;
+  static const char *const settings[] = {
+      "constraints.reach=[{point: knee_r, relative_to: ankle_l, place: [0.1, -0.2, 0.5], "
+      "tolerance: 0.01}]",
+      "constraints.ground_height=0.3"};
+  fixture f;
+  open_settings(&f, settings, 2);
+  assert_int_equal(count(&f, "reach", "knee_r", NULL), 7 * 6);
+  assert_int_equal(ambulo__evaluate(f.workspace, f.x), AMBULO_OK);
+  assert_close(first(&f, "reach", "knee_r", "forward lower"), 0.0 - 0.1 + 0.01, 1e-9);
+  assert_close(first(&f, "reach", "knee_r", "left upper"), 0.01 - (-0.17 + 0.2), 1e-5);
+  assert_close(first(&f, "reach", "knee_r", "up lower"), 0.249282 * 1.75 - 0.5 + 0.01, 1e-5);
   close_all(&f);
 }
 
@@ -161,9 +182,9 @@ static void the_model_has_the_capsules_points(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rows_stand_at_their_nodes),
-                                     cmocka_unit_test(places_are_above_the_ground),
-                                     cmocka_unit_test(gradients_are_those_of_the_values),
-                                     cmocka_unit_test(the_model_has_the_capsules_points)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rows_stand_at_their_nodes), cmocka_unit_test(places_are_above_the_ground),
+      cmocka_unit_test(places_may_be_relative), cmocka_unit_test(gradients_are_those_of_the_values),
+      cmocka_unit_test(the_model_has_the_capsules_points)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

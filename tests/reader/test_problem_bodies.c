@@ -131,7 +131,23 @@ static const struct {
      "obstacle 'a' stands once and the step for both", AMBULO_E_PROBLEM},
     {"constraints: {reach: [{point: head_top, place: [0, 0, 1], at: 0.5}]}\nends: {kind: "
      "mirrored}\n",
-     "constraints.reach asks for a place once", AMBULO_E_PROBLEM},
+     "constraints.reach[0] asks for a place once", AMBULO_E_PROBLEM},
+    {"constraints: {reach: [{point: knee_r, relative_to: knee_l, place: [0.1, -0.2, 0]}]}\nends: "
+     "{kind: "
+     "mirrored}\n",
+     "the mirror image of constraints.reach[0] is another one", AMBULO_E_PROBLEM},
+    {"constraints: {reach: [{point: knee_r, relative_to: knee_l, place: [0, -0.2, 0], at: [0, "
+     "0.5]}]}\n"
+     "ends: {kind: mirrored}\n",
+     "straight to the side, from 0 to 1 s", AMBULO_E_PROBLEM},
+    {"constraints: {reach: [{point: knee_r, relative_to: ankle_l, place: [0, -0.2, 0]}]}\nends: "
+     "{kind: "
+     "mirrored}\n",
+     "expected the way from a point to its mirror image", AMBULO_E_PROBLEM},
+    {"constraints: {reach: [{point: knee_r, relative_to: knee_r, place: [0, 0, 0]}]}\n",
+     "constraints.reach[0] is relative to point", AMBULO_E_PROBLEM},
+    {"constraints: {reach: [{point: knee_r, relative_to: nee_l, place: [0, 0, 0]}]}\n",
+     "hint: did you mean 'knee_l'?", AMBULO_E_PROBLEM},
     {"constraints: {reach: [{point: head_tip, place: [0, 0, 1], at: 0.5}]}\n",
      "unknown point (got 'head_tip'); expected a point of the model\n  hint: did you mean "
      "'head_top'?",

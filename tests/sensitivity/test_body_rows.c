@@ -19,14 +19,17 @@ static void obstacles_and_places(void **state) {
        "heading: 20}, {name: bar, from: [0.1, -1, 1.4], to: [0.2, 1, 1.3], radius: 0.02, "
        "margin: 0.03, capsules: [head, trunk]}]",
        "constraints.reach=[{point: head_top, place: [0.45, 0.2, 1.5], at: 1.2, tolerance: 0.005}, "
-       "{point: knee_l, place: [0.1, 0.1, 0.5], at: [0.7, 1.3]}]",
+       "{point: knee_l, place: [0.1, 0.1, 0.5], at: [0.7, 1.3]}, "
+       "{point: head_top, relative_to: hip_l, place: [0.3, 0, 0.5], at: 1.2, tolerance: 0.01}]",
        "constraints.collision.margin=0.05"},
       {"obstacles[fence].center[0]", "obstacles[fence].center[1]", "obstacles[fence].center[2]",
        "obstacles[fence].margin", "obstacles[bar].from[0]", "obstacles[bar].from[1]",
        "obstacles[bar].to[2]", "obstacles[bar].margin", "constraints.collision.margin",
        "constraints.reach[0].place[0]", "constraints.reach[0].place[1]",
        "constraints.reach[0].place[2]", "constraints.reach[0].tolerance",
-       "constraints.reach[1].place[2]", "constraints.ground_height"}};
+       "constraints.reach[1].place[2]", "constraints.reach[2].place[0]",
+       "constraints.reach[2].place[2]", "constraints.reach[2].tolerance",
+       "constraints.ground_height"}};
   check(&c, "time.duration");
 }
 

@@ -1,8 +1,10 @@
 /* The shipped tasks among obstacles, from zero: all solve and hold between their nodes; on a grid
  * ten times as fine as the nodes every capsule keeps clear, and each body does what is asked. */
 #include "ambulo/ambulo.h"
+#include "mechanics/pose.h"
 #include "nlp/nlp.h"
 #include "stride/approach.h"
+#include "stride/stride.h"
 #include "support/shared_data.h"
 #include "support/test.h"
 
@@ -90,9 +92,52 @@ static void to_a_place_behind_a_fence(void **state) {
   close_task(&k);
 }
 
+/* On ten times the nodes: the hands keep the box's length and are at one height, and it keeps clear
+ * of the body. The load's weight is on the feet. */
+static void expect_box(const char *name, double longest) {
+  task k;
+  open_task(&k, name);
+  const ambulo_model *m = ambulo_problem_model(k.p);
+  for (int i = 0; i < k.count; i++) assert_true(k.list[i].gap >= 0.12 - 0.001);
+  int hand[2] = {ambulo_model_find_point(m, "hand_r"), ambulo_model_find_point(m, "hand_l")};
+  ambulo__pose pose;
+  ambulo__stride stride;
+  double weight = 0.0, place[2][3];
+  assert_int_equal(ambulo__pose_create(m, NULL, &pose), AMBULO_OK);
+  assert_int_equal(ambulo__stride_create(k.p, ambulo_result_x(k.result), 501, NULL, &stride),
+                   AMBULO_OK);
+  for (int s = 0; s < 501; s++) {
+    ambulo__pose_at(&pose, stride.q + (size_t)s * (size_t)stride.coordinates);
+    for (int h = 0; h < 2; h++)
+      ambulo__pose_point(&pose, m->points[hand[h]].link, m->points[hand[h]].position, place[h]);
+    assert_true(fabs(place[0][0] - place[1][0]) <= 0.006);
+    assert_true(fabs(place[0][1] - place[1][1]) <= 0.006);
+    assert_true(fabs(place[0][2] - place[1][2] - longest) <= 0.006);
+    double share = s == 0 || s == 500 ? 0.5 / 500.0 : 1.0 / 500.0;
+    for (int f = 0; f < 2; f++) weight += share * ambulo__stride_force(&stride, s, f, m->up);
+  }
+  assert_close(weight, 1.0,
+               2e-3); /* body weights with the load: mean force of a motion that ends as it began */
+  assert_close(m->mass, 85.0, 1e-4);
+  ambulo__stride_free(&stride);
+  ambulo__pose_free(&pose);
+  close_task(&k);
+}
+
+static void a_box_to_a_table(void **state) {
+  (void)state;
+  expect_box("lift", 0.34);
+}
+
+static void a_box_while_walking(void **state) {
+  (void)state;
+  expect_box("walk_carrying", 0.34);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(over_a_beam),
-                                     cmocka_unit_test(under_a_ceiling),
-                                     cmocka_unit_test(to_a_place_behind_a_fence)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(over_a_beam), cmocka_unit_test(under_a_ceiling),
+      cmocka_unit_test(to_a_place_behind_a_fence), cmocka_unit_test(a_box_to_a_table),
+      cmocka_unit_test(a_box_while_walking)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
