@@ -30,7 +30,8 @@ int ambulo__capsule_is_used(const ambulo_problem_definition *definition, int cap
  * node are found with the rows. E_PROBLEM. */
 ambulo_status ambulo__collision_check(const ambulo_problem_definition *definition,
                                       ambulo_diagnostics *diagnostics);
-/* With mirrored ends: no obstacles, no places in the world to reach, capsules of rows are mirror images. E_PROBLEM. */
+/* With mirrored ends: no obstacles, no places in the world to reach, capsules of rows are mirror
+ * images. E_PROBLEM. */
 ambulo_status ambulo__collision_mirror_check(const ambulo_problem_definition *definition,
                                              ambulo_diagnostics *diagnostics);
 
