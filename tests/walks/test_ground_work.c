@@ -290,9 +290,9 @@ static void loaded_feet_slip_within_their_tolerance(void **state) {
   const walk *all = *state;
   for (int i = 0; i < WALKS; i++) {
     double rms, most = slip(&all[i], &rms);
-    if (!(most <= 0.095 && rms <= 0.041))
+    if (!(most <= 0.105 && rms <= 0.043))
       print_error("%s: %.1f mm/s at most, %.1f rms\n", name_of(i), 1e3 * most, 1e3 * rms);
-    assert_true(most <= 0.095 && rms <= 0.041);
+    assert_true(most <= 0.105 && rms <= 0.043);
   }
 }
 
