@@ -292,6 +292,48 @@ static void upright_lines_have_an_image(void **state) {
   expect(&f, "another upright term of weight 1 on the other side");
 }
 
+/* Ends on different links: each has to have its image, on the link's partner; a line may be the
+ * image of itself turned round. Neither the first end alone nor the direction at q = 0 tells. */
+static void upright_lines_over_joints_have_an_image(void **state) {
+  (void)state;
+  fixture f;
+  open_fixture(&f, 1, AMBULO_UPRIGHT); /* from foot to foot */
+  line(&f, 0, "heel_r", "heel_l");
+  expect(&f, NULL);
+  open_fixture(&f, 1, AMBULO_UPRIGHT); /* in the plane, but only at q = 0 */
+  line(&f, 0, "heel_r", "head_top");
+  f.model->points[f.terms[0].point[0]].position[2] =
+      -f.model->points[point(&f, "ankle_r")].position[2];
+  expect(&f, "the line from 'heel_r' to 'head_top' has no mirror image; 'heel_r' moves with "
+             "'subtalar_angle_r' and is");
+  open_fixture(&f, 1, AMBULO_UPRIGHT); /* the first end is in the plane and its own image */
+  line(&f, 0, "head_top", "heel_r");
+  expect(&f,
+         "'head_top' moves with 'pelvis_rotation' and is 0 m to the left at q = 0, 'heel_r' with "
+         "'subtalar_angle_r' -0.");
+  open_fixture(&f, 2, AMBULO_UPRIGHT); /* one for each leg, in either sense */
+  line(&f, 0, "head_top", "heel_r");
+  line(&f, 1, "head_top", "heel_l");
+  expect(&f, NULL);
+  open_fixture(&f, 2, AMBULO_UPRIGHT);
+  line(&f, 0, "head_top", "heel_r");
+  line(&f, 1, "heel_l", "head_top");
+  expect(&f, NULL);
+  open_fixture(&f, 2, AMBULO_UPRIGHT); /* of the same direction at q = 0, but another point */
+  line(&f, 0, "heel_r", "toe_l");
+  line(&f, 1, "heel_l", "toe_r");
+  expect(&f, NULL);
+  open_fixture(&f, 2, AMBULO_UPRIGHT);
+  line(&f, 0, "heel_r", "toe_l");
+  line(&f, 1, "heel_l", "toe_r");
+  for (int end = 0; end < 2; end++) f.model->points[f.terms[1].point[end]].position[1] += 0.02;
+  expect(&f, "the line from 'heel_r' to 'toe_l' has no mirror image");
+  open_fixture(&f, 2, AMBULO_UPRIGHT); /* the second end on the wrong leg */
+  line(&f, 0, "head_top", "heel_r");
+  line(&f, 1, "head_top", "toe_l");
+  expect(&f, "another upright term of weight 1 on the other side");
+}
+
 /* tracking follows the data of one step: what they lack on one side is no difference */
 static void a_reference_may_lack_a_side(void **state) {
   (void)state;
@@ -337,6 +379,7 @@ int main(void) {
                                      cmocka_unit_test(curves_of_what_changes_its_sign),
                                      cmocka_unit_test(a_term_without_weight_is_left_alone),
                                      cmocka_unit_test(upright_lines_have_an_image),
+                                     cmocka_unit_test(upright_lines_over_joints_have_an_image),
                                      cmocka_unit_test(a_reference_may_lack_a_side),
                                      cmocka_unit_test(any_allocation_may_fail)};
   return cmocka_run_group_tests(tests, NULL, NULL);
