@@ -168,23 +168,13 @@ static void a_foot_may_land_on_its_toes(void **state) {
 
 /* a tip that the ball's joint moves: heel, flat and toes down on a surface that rises by 0.1 */
 static void open_toed(row_fixture *f, double joint) {
-  static const ambulo_contact down[] = {{.foot = TOED_LEFT,
-                                         .mode = AMBULO_CONTACT_HEEL,
-                                         .to = 0.2,
-                                         .place = {0.6, 0.1, 0.05},
-                                         .normal = {-0.1, 0.0, 1.0}},
-                                        {.foot = TOED_LEFT,
-                                         .mode = AMBULO_CONTACT_FLAT,
-                                         .from = 0.2,
-                                         .to = 0.4,
-                                         .place = {0.6, 0.1, 0.05},
-                                         .normal = {-0.1, 0.0, 1.0}},
-                                        {.foot = TOED_LEFT,
-                                         .mode = AMBULO_CONTACT_TOE,
-                                         .from = 0.4,
-                                         .to = 0.6,
-                                         .place = {0.6, 0.1, 0.05},
-                                         .normal = {-0.1, 0.0, 1.0}}};
+  static ambulo_contact down[3];
+  for (int k = 0; k < 3; k++) {
+    down[k] = contacts[k];
+    down[k].place[2] = 0.05;
+    down[k].normal[0] = -0.1;
+    down[k].normal[2] = 1.0;
+  }
   row_fixture_open_body(f, toed_body_with(joint));
   f->definition.contacts = down;
   f->definition.contact_count = 3;
