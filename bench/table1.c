@@ -287,10 +287,12 @@ static double report_problem(const char *name, int is_dependent, int starts, dou
            l[k].feasible, l[k].starts, l[k].good, l[k].starts, best, l[k].error);
     (void)fflush(stdout);
   }
-  printf("%-15s %-22s %4d %4d %4d %7s %8ld %9.4f %7.3f %7s %7s %10.5g %+7.2f%%\n", "",
+  char beside[20] = "       -";
+  if (last->feasible > 0)
+    (void)snprintf(beside, sizeof beside, "%+7.2f%%", 100.0 * (own.objective / last->best - 1.0));
+  printf("%-15s %-22s %4d %4d %4d %7s %8ld %9.4f %7.3f %7s %7s %10.5g %s\n", "",
          "the last, ambulo solve", last->unknowns, last->equalities, last->inequalities, "",
-         own.evaluations, own.seconds, own.seconds / last->seconds, "", "", own.objective,
-         100.0 * (own.objective / last->best - 1.0));
+         own.evaluations, own.seconds, own.seconds / last->seconds, "", "", own.objective, beside);
   return worst;
 }
 
