@@ -69,7 +69,7 @@ static void add_device(const ambulo__stationary *s, int node, int device, double
   partials->of_devices += pull * effort.value;
 }
 
-/* (S.19) c dE/dp */
+/* (S.20) c dE/dp */
 ambulo_status ambulo__partials_of_devices(const ambulo__stationary *s, ambulo__pool *pool,
                                           ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
