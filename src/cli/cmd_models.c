@@ -69,6 +69,5 @@ const ambulo__cli_command ambulo__cli_models = {
     .option_count = sizeof options / sizeof options[0],
     .minimum = 0,
     .maximum = 1,
-    .words = "echo problem model sweep fit table",
     .run = run,
 };

@@ -20,15 +20,24 @@ static int is_choice(const char *word, size_t length) {
   return length > 0;
 }
 
-/* the choices of a value, with blanks between them */
+/* the choices of a value or of arguments, "mirrored|periodic" or "[model|problem]", with blanks
+ * between them */
 static void print_choices(const char *value) {
   const char *blank = "";
   if (!strchr(value, '|')) return;
-  for (const char *word = value; *word;) {
-    size_t length = strcspn(word, "|");
+  for (const char *word = value + (value[0] == '['); *word;) {
+    size_t length = strcspn(word, "|]");
     if (is_choice(word, length)) printf("%s%.*s", blank, (int)length, word), blank = " ";
-    word += length + (word[length] == '|');
+    word += length + (word[length] != '\0');
   }
+}
+
+/* what the arguments of a command may be besides files, as words of a shell */
+static void print_words(const ambulo__cli_command *c) {
+  if (c->words)
+    printf("$(%s 2>/dev/null)", c->words);
+  else
+    print_choices(c->arguments);
 }
 
 static int is_folder(const char *value) {
@@ -43,10 +52,10 @@ static int is_file(const char *value) {
 static void bash_value(const ambulo__cli_option *option) {
   printf("        --%s", option->name);
   if (option->letter) printf("|-%c", option->letter);
-  printf(") COMPREPLY=($(compgen%s%s -W '", is_folder(option->value) ? " -d" : "",
+  printf(") _ambulo_reply%s%s -W '", is_folder(option->value) ? " -d" : "",
          is_file(option->value) ? " -f" : "");
   print_choices(option->value);
-  printf("' -- \"$cur\")); return ;;\n");
+  printf("' -- \"$cur\"; return ;;\n");
 }
 
 static void bash_command(const ambulo__cli_command *c) {
@@ -60,31 +69,41 @@ static void bash_command(const ambulo__cli_command *c) {
   printf("      options='");
   for (int i = 0; i < c->option_count; i++) printf("--%s ", c->options[i].name);
   printf("--help'\n");
-  if (c->words) printf("      words=$(%s 2>/dev/null)\n", c->words);
-  printf("      ;;\n");
+  printf("      words=\"");
+  print_words(c);
+  printf("\"\n      ;;\n");
 }
 
+/* a loop, not mapfile: macOS has bash 3.2; names with blanks stay whole */
+static const char bash_head[] =
+    "# bash completion of ambulo; made by 'ambulo help --completion bash'\n"
+    "_ambulo_reply() {\n"
+    "  local word\n"
+    "  while IFS= read -r word; do COMPREPLY+=(\"$word\"); done < <(compgen \"$@\")\n"
+    "}\n"
+    "_ambulo() {\n"
+    "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n"
+    "  local options='' words=''\n"
+    "  COMPREPLY=()\n"
+    "  if [ \"$COMP_CWORD\" = 1 ]; then\n"
+    "    _ambulo_reply -W '";
+static const char bash_tail[] = "  esac\n"
+                                "  case $cur in\n"
+                                "    -*) _ambulo_reply -W \"$options\" -- \"$cur\" ;;\n"
+                                "    *) _ambulo_reply -f -W \"$words\" -- \"$cur\" ;;\n"
+                                "  esac\n"
+                                "}\n"
+                                "complete -o filenames -F _ambulo ambulo\n";
+
 static void print_bash(const ambulo__cli_command *const *commands, int count) {
-  printf("# bash completion of ambulo; made by 'ambulo help --completion bash'\n"
-         "_ambulo() {\n"
-         "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n"
-         "  local options= words=\n"
-         "  COMPREPLY=()\n"
-         "  if [ \"$COMP_CWORD\" = 1 ]; then\n"
-         "    COMPREPLY=($(compgen -W '");
+  fputs(bash_head, stdout);
   for (int i = 0; i < count; i++) printf("%s ", commands[i]->name);
-  printf("help --help --version --models' -- \"$cur\"))\n    return\n  fi\n"
-         "  case ${COMP_WORDS[1]} in\n    help) COMPREPLY=($(compgen -W '");
+  printf("help --help --version --models' -- \"$cur\"\n    return\n  fi\n"
+         "  case ${COMP_WORDS[1]} in\n    help) _ambulo_reply -W '");
   for (int i = 0; i < count; i++) printf("%s%s", i ? " " : "", commands[i]->name);
-  printf("' -- \"$cur\")); return ;;\n");
+  printf("' -- \"$cur\"; return ;;\n");
   for (int i = 0; i < count; i++) bash_command(commands[i]);
-  printf("  esac\n"
-         "  case $cur in\n"
-         "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$cur\")) ;;\n"
-         "    *) COMPREPLY=($(compgen -f -W \"$words\" -- \"$cur\")) ;;\n"
-         "  esac\n"
-         "}\n"
-         "complete -o filenames -F _ambulo ambulo\n");
+  fputs(bash_tail, stdout);
 }
 
 /* -------------------------------------------------------------------- zsh */
@@ -135,8 +154,9 @@ static void zsh_command(const ambulo__cli_command *c) {
   }
   printf("        '--help[this page]' \\\n        '*:");
   quote(c->arguments, "[]:\\");
-  printf(":{ _alternative \"words:name:(%s%s%s)\" \"files:file:_files\" }' ;;\n",
-         c->words ? "$(" : "", c->words ? c->words : "", c->words ? " 2>/dev/null)" : "");
+  printf(":{ _alternative \"words:name:(");
+  print_words(c);
+  printf(")\" \"files:file:_files\" }' ;;\n");
 }
 
 static void print_zsh(const ambulo__cli_command *const *commands, int count) {
@@ -187,9 +207,12 @@ static void print_fish(const ambulo__cli_command *const *commands, int count) {
     }
     printf("'\n");
     for (int k = 0; k < c->option_count; k++) fish_option(c, &c->options[k]);
+    printf("complete -c ambulo -n '__fish_seen_subcommand_from %s' -a '", c->name);
     if (c->words)
-      printf("complete -c ambulo -n '__fish_seen_subcommand_from %s' -a '(%s 2>/dev/null)'\n",
-             c->name, c->words);
+      printf("(%s 2>/dev/null)", c->words);
+    else
+      print_choices(c->arguments);
+    printf("'\n");
   }
 }
 
