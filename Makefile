@@ -69,6 +69,8 @@ LAPACK_LIBS = $(or $(call probe,openblas,--libs),$(if $(call links,-lopenblas),-
   $(call probe,lapack blas,--libs),-llapack -lblas)
 ifeq ($(shell uname -s),Darwin)
   export PKG_CONFIG_PATH := $(PKG_CONFIG_PATH):$(shell brew --prefix openblas 2>/dev/null)/lib/pkgconfig
+  # what POSIX alone does not name: MAP_ANONYMOUS, _SC_NPROCESSORS_ONLN
+  ALL_CPPFLAGS += -D_DARWIN_C_SOURCE
   shared_name = libambulo$(1).dylib
   SHARED := -dynamiclib -install_name @rpath/$(call shared_name,.$(SOVERSION))
 else
@@ -130,6 +132,7 @@ help:
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
 	@echo 'make deb          Debian packages of the build, in build/deb; lintian, where it is there'
+	@echo 'make cross-objects  compile for aarch64 and for musl, where the compilers are there'
 	@echo 'make clean        remove build/'
 	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS=  V=1'
 
@@ -353,6 +356,12 @@ install: all
 
 uninstall:
 	@.setup/place.sh uninstall '$(DESTDIR)' '$(PREFIX)'
+
+.PHONY: objects cross-objects
+objects: $(LIB_OBJECTS) $(CLI_OBJECTS)
+cross-objects:
+	@JOBS=$(JOBS) .setup/cross.sh aarch64
+	@JOBS=$(JOBS) .setup/cross.sh musl
 
 .PHONY: deb
 deb: build/.ready-build
