@@ -132,6 +132,7 @@ help:
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
 	@echo 'make deb          Debian packages of the build, in build/deb; lintian, where it is there'
+	@echo 'make book         the pages of docs/ as one, build/book/ambulo.html (needs pandoc)'
 	@echo 'make cross-objects  compile for aarch64 and for musl, where the compilers are there'
 	@echo 'make clean        remove build/'
 	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS=  V=1'
@@ -356,6 +357,10 @@ install: all
 
 uninstall:
 	@.setup/place.sh uninstall '$(DESTDIR)' '$(PREFIX)'
+
+.PHONY: book
+book:
+	@.setup/book.sh build/book/ambulo.html
 
 .PHONY: objects cross-objects
 objects: $(LIB_OBJECTS) $(CLI_OBJECTS)

@@ -211,6 +211,24 @@ END
     -DWANTED=99.0 -DCMAKE_PREFIX_PATH='$root$prefix')"
 fi
 
+# --------------------------------------------------------------------- book
+
+if has pandoc 'the book'; then
+  check 'the book' .setup/book.sh "${out#"$top"/}/book/test.html"
+  book=$out/book/test.html
+  links_lead_within() { # each to a heading, a page or the web; no picture is outside
+    grep -oE ' id="[^"]*"' "$book" | sed 's/ id="\(.*\)"/#\1/' | sort -u >"$work/ids"
+    ! grep -oE 'href="[^"]*"' "$book" | sed 's/href="\(.*\)"/\1/' | grep -vE '^https?:' | sort -u |
+      comm -23 - "$work/ids" | grep . && ! grep -o '<img src="[^d][^"]*"' "$book"
+  }
+  every_page_is_bound() {
+    diff <(ls docs/*.md | sed 's/docs.//' | sort) <(sed -n 's/^<section id="\(.*\)">/\1/p' "$book" | sort)
+  }
+  check 'its links lead to what is there' links_lead_within
+  check 'every page of docs is in it' every_page_is_bound
+  rm -f "$book"
+fi
+
 # ----------------------------------------------------------------- packages
 
 if [ -z "$sanitized" ] && has dpkg-deb 'Debian packages' && has dpkg-shlibdeps 'Debian packages'; then
