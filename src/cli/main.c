@@ -31,7 +31,9 @@ static void print_overview(void) {
   printf(
       "\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts;\n"
       "'ambulo --models' names the folder of the shipped models and problems, which are found by\n"
-      "their names from anywhere.\n");
+      "their names from anywhere. 'ambulo help --man COMMAND' and 'ambulo help --completion "
+      "SHELL'\n"
+      "print the source of a manual page and a script for bash, zsh or fish.\n");
   printf("exit codes:\n");
   for (int i = 0; i < AMBULO__CLI_EXIT_CODES; i++)
     printf("  %-10s %s\n", ambulo__cli_exit_codes[i].code, ambulo__cli_exit_codes[i].meaning);
