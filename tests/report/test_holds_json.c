@@ -87,7 +87,16 @@ static void test_nothing_held(void **state) {
   ambulo_problem_free(p);
 }
 
-/* the header's names, and that a line has as many numbers */
+/* the cell of a line below a name of the header */
+static double cell(const char *header, const char *line, const char *name) {
+  const char *at = strstr(header, name);
+  assert_non_null(at);
+  for (const char *h = header; h <= at; h++)
+    if (*h == ',') line = strchr(line, ',') + 1;
+  return strtod(line, NULL);
+}
+
+/* the header's names, that a line has as many numbers, and which */
 static void test_columns(void **state) {
   (void)state;
   ambulo_problem *p = NULL;
@@ -123,9 +132,12 @@ static void test_columns(void **state) {
     for (const char *h = header; *h != '\n'; h++) names += *h == ',';
     for (; *c != '\n'; c++) cells += *c == ',';
     assert_int_equal(cells, names);
-    const char *last = c;
-    for (int comma = 0; comma < 7; last--) comma += last[-1] == ',';
-    assert_close(strtod(last + 1, NULL), s.hold_force[6 * (2 * k + 1)], 1e-12); /* of the rope */
+    const double *box = s.hold_force + 12 * k, *moment = s.hold_moment + 12 * k;
+    assert_close(cell(header, line, ",held.box.hand_r.force.y"), box[1], 1e-12);
+    assert_close(cell(header, line, ",held.box.hand_l.force.x"), box[3], 1e-12);
+    assert_close(cell(header, line, ",held.box.hand_l.moment.z"), moment[5], 1e-12);
+    assert_close(cell(header, line, ",held.box.power"), s.hold_power[2 * k], 1e-12);
+    assert_close(cell(header, line, ",held.rope.hand_l.force.x"), box[6], 1e-12);
     line = c + 1;
   }
   ambulo__text_free(&text);
