@@ -39,15 +39,15 @@ extern "C" {
 #endif
 
 typedef struct ambulo_hold {
-  const char *name;    /* for columns and reports, unique */
-  int hand[2];         /* points of the model; the second -1: one hand */
-  double mass;         /* m, kg, >= 0 */
-  double inertia;      /* I, kg m^2, >= 0; of two hands */
-  double center[3];    /* o, along forward, left and up, m; of two hands */
-  double force[3];     /* P, that the hands exert, along forward, left and up, N */
-  double from, to;     /* s; to INFINITY: until the end */
-  double ramp;         /* s, > 0, at most half of the window */
-  double size[3];      /* for pictures: along forward, left and up, m; zeros: a disc */
+  const char *name; /* for columns and reports, unique */
+  int hand[2];      /* points of the model; the second -1: one hand */
+  double mass;      /* m, kg, >= 0 */
+  double inertia;   /* I, kg m^2, >= 0; of two hands */
+  double center[3]; /* o, along forward, left and up, m; of two hands */
+  double force[3];  /* P, that the hands exert, along forward, left and up, N */
+  double from, to;  /* s; to INFINITY: until the end */
+  double ramp;      /* s, > 0, at most half of the window */
+  double size[3];   /* for pictures: along forward, left and up, m; zeros: a disc */
 } ambulo_hold;
 
 /* One hand (-1), all along, a ramp of 0.1 s, zeros. */

@@ -21,8 +21,8 @@
 /* Where the parts stand in what is kept of a point: n joints of the chain. */
 typedef struct ambulo__hand_motion {
   double *place, *velocity, *acceleration; /* [3] */
-  double *axis, *axis_rate, *axis_gain;           /* z, zd, zdd: [n][3] */
-  double *slope, *slope_rate, *slope_gain;        /* J, Jd, Jdd: [n][3] */
+  double *axis, *axis_rate, *axis_gain;    /* z, zd, zdd: [n][3] */
+  double *slope, *slope_rate, *slope_gain; /* J, Jd, Jdd: [n][3] */
 } ambulo__hand_motion;
 
 static inline size_t ambulo__hand_entries(int joints) {

@@ -241,7 +241,7 @@ static double weight_on(const ambulo__holds *all, const ambulo__hold_adjoints *x
 
 /* Adjoints of a hand: of its acceleration and place; its virtual motion. */
 typedef struct pull {
-  double slide[3], turn[3];        /* u, t */
+  double slide[3], turn[3];         /* u, t */
   double acceleration[3], place[3]; /* a', p' */
 } pull;
 

@@ -35,9 +35,6 @@
  *
  * One hand: F = w (m (a - g) + P) at it, a' = w m u. A row of the Jacobian is a sweep with one
  * weight of 1.
- *
- * Reading order: ../ambulo/hold.h, hand_motion.h, hand_motion.c, holds.h, holds.c, hold_check.c,
- * ../gait/hold_times.h.
  */
 #ifndef AMBULO_DEVICE_HOLDS_H
 #define AMBULO_DEVICE_HOLDS_H
@@ -72,10 +69,10 @@ void ambulo__holds_add_wrench(const ambulo__holds *holds, const double *kept, do
 
 /* Weights of a sweep, and where the gradient is added to. */
 typedef struct ambulo__hold_adjoints {
-  const double *tau;       /* [d][lanes] from the node's lane on, or NULL: */
-  int coordinate;          /* then 1 on tau of this one alone; -1: of none */
-  double wrench[6];        /* M', F' */
-  double *q, *qd, *qdd;    /* [d], entries `stride` apart */
+  const double *tau;    /* [d][lanes] from the node's lane on, or NULL: */
+  int coordinate;       /* then 1 on tau of this one alone; -1: of none */
+  double wrench[6];     /* M', F' */
+  double *q, *qd, *qdd; /* [d], entries `stride` apart */
   int stride;
 } ambulo__hold_adjoints;
 void ambulo__holds_reverse(const ambulo__holds *holds, const double *kept,

@@ -10,9 +10,9 @@
  * them is the root wrench (M, F), about the world origin. Their tau stays zero and has no adjoint;
  * but a step of theirs turns (M, F), whose weights are the virtual motion A of the root:
  *   q_j' += S_j . (M x A_angular + F x A_linear, F x A_angular)
- * What the bodies hold (ambulo__plan_take_wrench) is in (M, F), and its turn is the caller's affair:
- * with contacts that bear it the bodies' own load and theirs do not cancel, but leave it, and its
- * part of this is taken off again, with contacts or without.
+ * What the bodies hold (ambulo__plan_take_wrench) is in (M, F), and its turn is the caller's
+ * affair: with contacts that bear it the bodies' own load and theirs do not cancel, but leave it,
+ * and its part of this is taken off again, with contacts or without.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_CONTACTS_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_CONTACTS_H

@@ -24,8 +24,8 @@ void ambulo__held_reverse(const ambulo_problem *problem, double *weight, const d
                           const double *room);
 
 /* After the Jacobians of a block: what is held is kept for each of its nodes, and its part of the
- * root wrench's rows added to workspace->wrench, the bodies' own force by qdd kept for the centre of
- * mass. */
+ * root wrench's rows added to workspace->wrench, the bodies' own force by qdd kept for the centre
+ * of mass. */
 void ambulo__held_gather(ambulo_workspace *workspace, int block);
 /* Adds what is held to the gradient [3][d] of a torque, and without ground reaction of a row of the
  * root wrench. */

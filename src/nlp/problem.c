@@ -244,8 +244,7 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   status = build_grid(p, diagnostics);
   if (!status) status = build_plan(p, diagnostics);
   if (!status) status = ambulo__devices_create(&p->definition, &p->allocator, &p->devices);
-  if (!status)
-    status = ambulo__holds_create(&p->definition, p->plan, &p->allocator, &p->holds);
+  if (!status) status = ambulo__holds_create(&p->definition, p->plan, &p->allocator, &p->holds);
   if (!status && p->holds && ambulo__plan_contacts(p->plan) > 0)
     p->taken_at = ambulo__plan_take_wrench(p->plan);
   if (!status) status = ambulo__check_memory(p, diagnostics);

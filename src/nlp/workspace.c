@@ -31,7 +31,8 @@ static ambulo_status allocate_jacobians(ambulo_workspace *w, const ambulo_proble
     size_t nodes = (size_t)p->nodes;
     w->hold_kept = ambulo__alloc_aligned(a, nodes * ambulo__holds_entries(p->holds), word);
     if (!w->hold_kept) return AMBULO_E_MEMORY;
-    if (grounded) w->bare_force = ambulo__alloc_aligned(a, 3 * nodes * (size_t)p->coordinates, word);
+    if (grounded)
+      w->bare_force = ambulo__alloc_aligned(a, 3 * nodes * (size_t)p->coordinates, word);
     if (grounded && !w->bare_force) return AMBULO_E_MEMORY;
   }
   int complete = w->jq && w->jqd && w->jqdd && gathered == 3 * grounded;

@@ -291,8 +291,8 @@ static void draw_surroundings(const strip *s, const ambulo__stride *stride, doub
   double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
   if (!walks(s)) half = fmax(-s->left, s->right) + around;
   double apart = stride->duration / (double)(stride->samples - 1);
-  ambulo__figure_view view = {s->start + s->speed * t, half, ambulo__panel_time(s->panel, t),
-                              s->base, s->scale, t, apart};
+  ambulo__figure_view view = {
+      s->start + s->speed * t, half, ambulo__panel_time(s->panel, t), s->base, s->scale, t, apart};
   if (!isfinite(view.origin)) return;
   ambulo__gait_obstacles_draw(stride->problem, &view, text);
   ambulo__gait_held_draw(stride->problem, &s->held, &s->skeleton.pose, &view, text);

@@ -34,8 +34,7 @@ static void read_hands(ambulo__problem_reader *reader, const ambulo__yaml_node *
                              "'hands' is not a list of one or two points of the model");
     return;
   }
-  for (int i = 0; i < count; i++)
-    hold->hand[i] = read_point(reader, ambulo__yaml_item(node, i));
+  for (int i = 0; i < count; i++) hold->hand[i] = read_point(reader, ambulo__yaml_item(node, i));
 }
 
 static void read_vector(const ambulo__yaml_node *section, const char *key, double most,

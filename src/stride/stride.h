@@ -32,8 +32,9 @@ typedef struct ambulo__stride {
   int devices;
   double *effort, *along, *power; /* [samples][devices]: N m or N; rad or m; W on the body */
   int holds;
-  double *hold_force, *hold_moment; /* [samples][holds][2][3], of each hand: N; N m about its point */
-  double *hold_power;               /* [samples][holds], W */
+  double *hold_force,
+      *hold_moment;   /* [samples][holds][2][3], of each hand: N; N m about its point */
+  double *hold_power; /* [samples][holds], W */
 } ambulo__stride;
 
 /* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced

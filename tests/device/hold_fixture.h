@@ -41,8 +41,8 @@ static inline void hold_case_open(hold_case *c, int index) {
   c->tree.definition.point_count = hold_points;
   for (int i = 0; i < hold_points; i++) { /* the last two are on one link, the last one */
     int links = c->tree.definition.link_count;
-    c->tree.points[i] = (ambulo_point){
-        .name = hold_point_names[i], .link = i < 2 ? random_below(&source, links) : links - 1};
+    c->tree.points[i] = (ambulo_point){.name = hold_point_names[i],
+                                       .link = i < 2 ? random_below(&source, links) : links - 1};
     for (int k = 0; k < 3; k++) c->tree.points[i].position[k] = random_between(&source, -0.4, 0.4);
   }
   c->tree.definition.points = c->tree.points;

@@ -1,5 +1,5 @@
-/* A point in motion: place, velocity and acceleration against 4 x 4 products in complex numbers, and
- * what each coordinate does to them by complex steps. */
+/* A point in motion: place, velocity and acceleration against 4 x 4 products in complex numbers,
+ * and what each coordinate does to them by complex steps. */
 #include "device/hold_fixture.h"
 
 #include "device/hand_motion.h"

@@ -39,7 +39,8 @@ static void close_held(held_fixture *f) {
  * differences of the channels, and the sweep back beside the stored ones */
 static void check_outputs(held_fixture *f) {
   ambulo_problem *p = f->p;
-  const int outputs = ambulo__plan_rows(p->plan), nodes[] = {p->nodes / 3, p->nodes / 2, p->nodes - 12};
+  const int outputs = ambulo__plan_rows(p->plan),
+            nodes[] = {p->nodes / 3, p->nodes / 2, p->nodes - 12};
   const double h = 3e-5;
   double *gradient = calloc((size_t)p->variables, sizeof *gradient);
   double *y[4];
@@ -54,8 +55,7 @@ static void check_outputs(held_fixture *f) {
         f->x[j] = kept + at[k];
         assert_true(ambulo__evaluate(f->w, f->x) == AMBULO_OK);
         for (int o = 0; o < outputs; o++)
-          y[k][o] =
-              f->w->channel[ambulo__lane_index(node, f->w->channel_count, first_output + o)];
+          y[k][o] = f->w->channel[ambulo__lane_index(node, f->w->channel_count, first_output + o)];
       }
       f->x[j] = kept;
       assert_int_equal(ambulo__evaluate_jacobian(f->w, f->x), AMBULO_OK);
@@ -63,8 +63,7 @@ static void check_outputs(held_fixture *f) {
         double near = (y[0][o] - y[1][o]) / (2 * h), far = (y[2][o] - y[3][o]) / (4 * h);
         ambulo__channel_local_gradient(f->w, node, first_output + o, gradient);
         double size = 1;
-        for (int i = 0; i < ambulo__node_width(p, node); i++)
-          size = fmax(size, fabs(gradient[i]));
+        for (int i = 0; i < ambulo__node_width(p, node); i++) size = fmax(size, fabs(gradient[i]));
         assert_close(gradient[j - first] / size, (4 * near - far) / 3 / size, 2e-8);
       }
     }

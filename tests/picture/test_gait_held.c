@@ -53,8 +53,7 @@ static void test_where_things_are(void **state) {
   assert_int_equal(places.count, 3);
   const double times[] = {0.1, 0.5, 1.2, 2.0, 3.0}, of_box[] = {0.5, 0.5, 1.2, 2.0, 2.0};
   for (int i = 0; i < 5; i++) {
-    ambulo__figure_view view = {
-        .half = 5, .x = 100, .base = 400, .scale = 100, .time = times[i]};
+    ambulo__figure_view view = {.half = 5, .x = 100, .base = 400, .scale = 100, .time = times[i]};
     ambulo__text_buffer text;
     double middle[3], unused[64];
     ambulo__text_init(&text, NULL);
@@ -92,8 +91,7 @@ static void test_beside_the_figure(void **state) {
   assert_int_equal(ambulo__held_places_create(p, x, &a, &places), AMBULO_OK);
   ambulo__pose_at(&pose, q);
   for (int held = 0; held < 2; held++) {
-    ambulo__figure_view view = {
-        .origin = 3, .half = 0.2, .scale = 100, .time = held ? 1.2 : 0.1};
+    ambulo__figure_view view = {.origin = 3, .half = 0.2, .scale = 100, .time = held ? 1.2 : 0.1};
     ambulo__text_buffer text;
     ambulo__text_init(&text, NULL);
     ambulo__gait_held_draw(p, &places, &pose, &view, &text);

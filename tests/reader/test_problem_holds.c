@@ -38,11 +38,13 @@ static void every_key(void **state) {
 /* other numbers make another problem */
 static void the_hash_knows(void **state) {
   (void)state;
-  static const char *const loads[] = {
-      "{hands: [heel_r, heel_l], mass: 2}",       "{hands: [heel_r, heel_l], mass: 3}",
-      "{hands: [heel_l, heel_r], mass: 2}",       "{hands: [heel_r], mass: 2}",
-      "{hands: [heel_r, heel_l], mass: 2, to: 0.5}", "{hands: [heel_r], mass: 2, force: [1, 0, 0]}",
-      "{hands: [heel_r, heel_l], mass: 2, center: [0, 0, 0.1]}"};
+  static const char *const loads[] = {"{hands: [heel_r, heel_l], mass: 2}",
+                                      "{hands: [heel_r, heel_l], mass: 3}",
+                                      "{hands: [heel_l, heel_r], mass: 2}",
+                                      "{hands: [heel_r], mass: 2}",
+                                      "{hands: [heel_r, heel_l], mass: 2, to: 0.5}",
+                                      "{hands: [heel_r], mass: 2, force: [1, 0, 0]}",
+                                      "{hands: [heel_r, heel_l], mass: 2, center: [0, 0, 0.1]}"};
   unsigned long long seen[7];
   for (int i = 0; i < 7; i++) {
     char text[400];
@@ -88,8 +90,8 @@ static void nothing_is_free_with_them(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_key), cmocka_unit_test(the_hash_knows), cmocka_unit_test(refusals),
-      cmocka_unit_test(nothing_is_free_with_them)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_key), cmocka_unit_test(the_hash_knows),
+                                     cmocka_unit_test(refusals),
+                                     cmocka_unit_test(nothing_is_free_with_them)};
   return cmocka_run_group_tests_name("reader/problem_holds", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* The shipped tasks of hands, from zero: a box lifted from the floor to a table, a wall that is
- * pushed. Both solve, hold between their nodes and do what their comments say; energy and forces are
- * those of mechanics. Looked at on 2001 times. */
+ * pushed. Both solve, hold between their nodes and do what their comments say; energy and forces
+ * are those of mechanics. Looked at on 2001 times. */
 #include "ambulo/ambulo.h"
 #include "base/vector.h"
 #include "support/test.h"
@@ -66,7 +66,7 @@ static void open_task(task *k, const char *name) {
 }
 
 static void close_task(task *k) {
-  double *const arrays[] = {k->t,   k->q,   k->qd,    k->tau,    k->wrench,
+  double *const arrays[] = {k->t,     k->q,   k->qd,    k->tau,    k->wrench,
                             k->point, k->grf, k->force, k->moment, k->power};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
   ambulo_result_free(k->result);

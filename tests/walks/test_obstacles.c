@@ -132,7 +132,6 @@ static void a_box_while_walking(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(over_a_beam), cmocka_unit_test(under_a_ceiling),
-      cmocka_unit_test(to_a_place_behind_a_fence),
-      cmocka_unit_test(a_box_while_walking)};
+      cmocka_unit_test(to_a_place_behind_a_fence), cmocka_unit_test(a_box_while_walking)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -132,8 +132,8 @@ static void a_squat_goes_down_and_up_on_both_legs(void **state) {
   close_task(&k);
 }
 
-/* Sits on the seat and the feet, leans forward with back and pelvis as it leaves the seat, stands on
- * both feet in the end. */
+/* Sits on the seat and the feet, leans forward with back and pelvis as it leaves the seat, stands
+ * on both feet in the end. */
 static void a_body_rises_from_its_seat(void **state) {
   (void)state;
   char path[SCRATCH_PATH];
