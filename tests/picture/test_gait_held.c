@@ -4,11 +4,13 @@
 #include "ambulo/ambulo.h"
 #include "support/test.h"
 
-static const char *const overrides[] = {
-    "time.intervals=32", "constraints.reach=[]", "obstacles=[]",
-    "load=[{name: box, hands: [hand_r, hand_l], mass: 10, center: [0.05, 0, -0.1], size: [0.3, "
-    "0.4, 0.2], from: 0.5, to: 2}, {name: rope, hands: [hand_l], force: [0, 0, 100], from: 0.5, "
-    "to: 2}, {name: ball, hands: [hand_r], mass: 8}]"};
+#define LOADS                                                                                      \
+  "load=[{name: box, hands: [hand_r, hand_l], mass: 10, center: [0.05, 0, -0.1], size: [0.3, "     \
+  "0.4, 0.2], from: 0.5, to: 2}, {name: rope, hands: [hand_l], force: [0, 0, 100], from: 0.5, "    \
+  "to: 2}, {name: ball, hands: [hand_r], mass: 8}]"
+
+static const char *const overrides[] = {"time.intervals=32", "constraints.reach=[]", "obstacles=[]",
+                                        LOADS};
 
 static double attribute(const char *svg, const char *key) {
   const char *at = strstr(svg, key);

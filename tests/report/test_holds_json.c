@@ -9,10 +9,12 @@
 
 #include "ambulo/ambulo.h"
 
-static const char *const overrides[] = {
-    "time.intervals=32", "constraints.reach=[]", "obstacles=[]",
-    "load=[{name: box, hands: [hand_r, hand_l], mass: 10, center: [0.05, 0, -0.1], from: 0.5, to: "
-    "2}, {name: rope, hands: [hand_l], force: [30, 0, 0]}]"};
+#define LOADS                                                                                      \
+  "load=[{name: box, hands: [hand_r, hand_l], mass: 10, center: [0.05, 0, -0.1], from: 0.5, to: "  \
+  "2}, {name: rope, hands: [hand_l], force: [30, 0, 0]}]"
+
+static const char *const overrides[] = {"time.intervals=32", "constraints.reach=[]", "obstacles=[]",
+                                        LOADS};
 
 static void open_result(const char *const *with, int count, ambulo_problem **p,
                         ambulo_result **result) {

@@ -4,10 +4,11 @@
 #include "ambulo/ambulo.h"
 #include "support/test.h"
 
-static const char *const overrides[] = {
-    "time.intervals=30", "trajectory.intervals=9",
-    "load={name: box, hands: [hip_r, hip_l], mass: 10, inertia: 0.3, center: [0.1, 0, -0.1], "
-    "force: [30, 0, 5]}"};
+#define BOX                                                                                        \
+  "load={name: box, hands: [hip_r, hip_l], mass: 10, inertia: 0.3, center: [0.1, 0, -0.1], "       \
+  "force: [30, 0, 5]}"
+
+static const char *const overrides[] = {"time.intervals=30", "trajectory.intervals=9", BOX};
 
 static const double *force_of(const ambulo__stride *s, int k, int hand) {
   return s->hold_force + 6 * k + 3 * hand;
