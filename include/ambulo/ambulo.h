@@ -8,6 +8,7 @@
  *     sensitivity.h  what each number of a problem costs
  *     parameters.h   numbers of a problem that the solver chooses
  *     ground.h     parts of a problem: the ground's force, feet in the air
+ *     hold.h       parts of a problem: what hands hold or push
  *     collision.h  parts of a problem: capsules, obstacles, places to reach
  *     report.h     results on disk, comparison with people
  *     inverse.h    inverse dynamics of motions in files
@@ -34,6 +35,7 @@
 #include "ambulo/evaluate.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
+#include "ambulo/hold.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"

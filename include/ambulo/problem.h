@@ -22,6 +22,7 @@
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/ground.h"
+#include "ambulo/hold.h"
 #include "ambulo/model.h"
 
 #ifdef __cplusplus
@@ -284,6 +285,8 @@ typedef struct ambulo_problem_definition {
   int reach_count;
   const ambulo_device *devices; /* what the body wears (ambulo/device.h) */
   int device_count;
+  const ambulo_hold *holds; /* what hands hold or push (ambulo/hold.h) */
+  int hold_count;
 
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;
@@ -347,6 +350,8 @@ AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_device_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_device *ambulo_problem_device(const ambulo_problem *problem, int index);
+AMBULO_API int ambulo_problem_hold_count(const ambulo_problem *problem);
+AMBULO_API const ambulo_hold *ambulo_problem_hold(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
 /* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with

@@ -88,6 +88,9 @@ void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml
 void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
 void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* An item of `load` that hands hold, at the end of definition.holds, of which there are at most
+ * AMBULO__MOST_LOADS. */
+void ambulo__read_hold(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* An angle that belongs to no coordinate, in the file's unit. */
 double ambulo__read_plain_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                                 double fallback);
