@@ -12,7 +12,8 @@
 
 #include "model/check.h"
 
-enum { MOST_SOLIDS = 2048 }; /* more than a body has, few enough to compare in pairs */
+static const double rounding = 1e-15; /* kg m^2: of files that were written by programs */
+enum { MOST_SOLIDS = 2048 };          /* more than a body has, few enough to compare in pairs */
 
 void ambulo__tree_note(ambulo__tree *tree, const ambulo__xml_node *node, const char *format, ...) {
   va_list arguments;
@@ -119,8 +120,10 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
       ambulo__tree_note(tree, node, "%s: an inertia without a mass is left out", name);
     return;
   }
-  double more = tree->options->repair_inertia ? repair(body.inertia) : 0.0;
-  if (more > 0.0) {
+  double more = repair(body.inertia);
+  if (more > 0.0 && more < rounding) {
+    for (int i = 0; i < 3; i++) body.inertia[i] += more;
+  } else if (more > 0.0 && tree->options->repair_inertia) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
                       "%s: no body has its inertia: %s kg m^2 were added to its moments", name,

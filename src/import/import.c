@@ -44,6 +44,7 @@ static void read_format(ambulo__tree *tree, ambulo__xml_node *root) {
   for (int i = 0; i < 3; i++)
     if (ambulo__xml_is(root, formats[i].element)) which = formats[i].which;
   if (which == 0) ambulo__read_urdf(tree, root);
+  if (which == 1) ambulo__read_osim(tree, root);
   if (which < 0)
     ambulo__xml_error(tree->xml, root, AMBULO_E_SCHEMA, NULL,
                       "this is no model that can be imported (got <%.40s>); expected <robot> "

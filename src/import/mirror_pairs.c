@@ -38,6 +38,20 @@ static double sign_of(const ambulo__tree *tree, int link, int partner, const dou
   return 0.0;
 }
 
+/* the coordinate of the other side by name; the link itself where its name says no side, or none
+ * that another has; *lonely: it says one */
+static int partner_of(const ambulo__tree *tree, int link, int *lonely) {
+  char name[80];
+  const char *own = tree->links[link].coordinate.name;
+  int sided = ambulo__other_side(own, name, sizeof name);
+  int partner = sided ? ambulo__tree_find_coordinate(tree, name) : -1;
+  for (size_t i = 0; sided && partner < 0 && own[i]; i++)
+    if (ambulo__flip_letter(own, i, name, sizeof name))
+      partner = ambulo__tree_find_coordinate(tree, name);
+  *lonely = sided && partner < 0;
+  return partner < 0 ? link : partner;
+}
+
 void ambulo__find_mirrors(ambulo__tree *tree) {
   double left[3];
   int lonely = 0;
@@ -45,17 +59,17 @@ void ambulo__find_mirrors(ambulo__tree *tree) {
   left_of(tree, left);
   for (int i = 0; i < tree->link_count; i++) {
     ambulo__tree_link *link = &tree->links[i];
-    char name[80];
+    int alone = 0;
     if (link->type == AMBULO_FIXED) continue;
-    int sided = ambulo__other_side(link->coordinate.name, name, sizeof name);
-    int partner = sided ? ambulo__tree_find_coordinate(tree, name) : i;
-    if (partner < 0 || tree->links[partner].type != link->type) {
-      lonely++;
-      example = link->coordinate.name;
-      continue;
-    }
+    int partner = partner_of(tree, i, &alone);
+    if (partner_of(tree, partner, &alone) != i || tree->links[partner].type != link->type)
+      partner = i;
     double sign = sign_of(tree, i, partner, left);
     link->has_mirror = sign != 0.0;
+    if (alone && !link->has_mirror) {
+      lonely++;
+      example = link->coordinate.name;
+    }
     link->coordinate.mirror = partner;
     link->coordinate.mirror_sign = sign;
   }

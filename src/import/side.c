@@ -1,7 +1,9 @@
 /* import/side.c - left and right in names (side.h).
  *
  * A side is the word left or right in any case, or the letter l or r alone between characters that
- * are no letters or digits, or at the front as a capital before a capital: LHip, but not Lever.
+ * are no letters or digits (FL_HIP and HR_HIP: front and hind), or at the front as a capital before
+ * a capital: LHip, but not Lever. Where R may be roll as well (RLEG_ANKLE_R), single letters are
+ * exchanged one at a time.
  */
 #include "import/side.h"
 
@@ -21,7 +23,8 @@ static size_t side_at(const char *name, size_t at) {
   char c = (char)tolower((unsigned char)here[0]);
   if (c != 'l' && c != 'r') return 0;
   int starts = at == 0 || !is_word(name[at - 1]);
-  int alone = starts && !is_word(here[1]);
+  int corner = at > 0 && strchr("FHBfhb", name[at - 1]) && (at == 1 || !is_word(name[at - 2]));
+  int alone = (starts || corner) && !is_word(here[1]);
   int capital = at == 0 && isupper((unsigned char)here[0]) && isupper((unsigned char)here[1]) &&
                 islower((unsigned char)here[2]);
   return alone || capital ? 1 : 0;
@@ -43,6 +46,15 @@ static void exchange(const char *side, size_t length, char *out) {
     out[i] = capital ? (char)toupper((unsigned char)word[i]) : word[i];
     out[i + 1] = '\0';
   }
+}
+
+int ambulo__flip_letter(const char *name, size_t at, char *text, size_t size) {
+  static const char letters[] = "lrLR", others[] = "rlRL";
+  const char *found = strchr(letters, name[at]);
+  if (!found || !name[at] || strlen(name) + 1 > size) return 0;
+  memcpy(text, name, strlen(name) + 1);
+  text[at] = others[found - letters];
+  return 1;
 }
 
 int ambulo__other_side(const char *name, char *text, size_t size) {

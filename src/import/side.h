@@ -9,5 +9,7 @@ char ambulo__side_of(const char *name);
 /* The name with the side that it says exchanged, all of them, into text[0..size); 0 where it says
  * none, or does not fit. */
 int ambulo__other_side(const char *name, char *text, size_t size);
+/* The name with the letter l or r at one place exchanged; 0 where there is another. */
+int ambulo__flip_letter(const char *name, size_t at, char *text, size_t size);
 
 #endif

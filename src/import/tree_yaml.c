@@ -32,6 +32,11 @@ static double neat_turn(double x) {
   return fabs(x) < 1e-15 ? 0.0 : rounded(x, 15);
 }
 
+/* of places on links that were computed */
+static double neat_point(double x) {
+  return fabs(x) < 1e-12 ? 0.0 : rounded(x, 12);
+}
+
 static void list(ambulo__text_buffer *text, const double *values, int count,
                  double (*form)(double)) {
   ambulo__text_append(text, "[");
@@ -186,7 +191,7 @@ void ambulo__tree_print(const ambulo__tree *tree, const char *source, ambulo__te
     const ambulo__tree_point *p = &tree->points[i];
     ambulo__text_append_format(text, "  - {name: %s, link: %s, position: ", p->name,
                                tree->links[p->link].name);
-    list(text, p->position, 3, neat);
+    list(text, p->position, 3, neat_point);
     ambulo__text_append(text, "}\n");
   }
   if (tree->foot_count) print_feet(tree, text);
