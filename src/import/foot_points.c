@@ -98,8 +98,9 @@ static int foot_from_solids(feet *f, const char *name, int link) {
                       "%s: %s, so the foot '%s' has no points: give them by --heel %s=%s:X,Y,Z and "
                       "--toe",
                       t->links[link].name,
-                      sole.meshes ? "its geometry is a mesh, which is not read"
-                                  : "it has no geometry to touch the ground with",
+                      sole.meshes   ? "its geometry is a mesh, which is not read"
+                      : sole.solids ? "its geometry touches the ground in one point"
+                                    : "it has no geometry to touch the ground with",
                       name, name, t->links[link].name);
     return 0;
   }
@@ -233,10 +234,10 @@ static int guess(const feet *f, char side) {
   int best = -1;
   for (int i = 0; i < t->link_count; i++) {
     ambulo__sole sole;
-    if (!says_foot(t->links[i].name) || ambulo__side_of(t->links[i].name) != side) continue;
+    if (!says_foot(t->links[i].name) || ambulo__side_of_link(t, i) != side) continue;
     int has = ambulo__sole_of(t, i, (const double(*)[3])f->axes, &sole);
-    if (has) return ambulo__rigid_leader(t, i);
-    if (best < 0) best = ambulo__rigid_leader(t, i);
+    if (has) return i;
+    if (best < 0) best = i;
   }
   return best >= 0 ? best : ambulo__lowest_link(t, (const double(*)[3])f->axes, side);
 }

@@ -16,6 +16,13 @@ enum { MOST = 8 };
 static const double thickness = 0.02; /* m: a sole that is not quite level is still one */
 static const double shortest = 0.05;  /* m: below it toes of their own belong to the foot */
 
+char ambulo__side_of_link(const ambulo__tree *tree, int link) {
+  const char *name = tree->links[link].name;
+  char other[80], side = ambulo__side_of(name);
+  if (side || !ambulo__flip_letter(name, 0, other, sizeof other)) return side;
+  return ambulo__tree_find(tree, other) >= 0 ? name[0] : 0;
+}
+
 int ambulo__rigid_leader(const ambulo__tree *tree, int link) {
   while (tree->links[link].type == AMBULO_FIXED && tree->links[link].parent >= 0)
     link = tree->links[link].parent;
@@ -91,6 +98,7 @@ static int measure(const ambulo__tree *tree, int leader, int whole, const double
         sole->meshes += pass;
         continue;
       }
+      sole->solids += pass;
       int count = world_points(tree, &tree->solids[s], axes, p);
       for (int k = 0; k < count; k++) {
         if (pass == 0) sole->height = fmin(sole->height, p[k][2]);
@@ -122,8 +130,7 @@ int ambulo__lowest_link(const ambulo__tree *tree, const double axes[3][3], char 
   for (int s = 0; s < tree->solid_count; s++) {
     ambulo__sole sole;
     int leader = ambulo__rigid_leader(tree, tree->solids[s].link);
-    const char *name = tree->links[leader].name;
-    if (ambulo__side_of(name) != side || !ambulo__sole_of(tree, leader, axes, &sole) ||
+    if (ambulo__side_of_link(tree, leader) != side || !ambulo__sole_of(tree, leader, axes, &sole) ||
         !(sole.height < height))
       continue;
     height = sole.height;

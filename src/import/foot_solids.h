@@ -6,8 +6,11 @@
 
 typedef struct ambulo__sole {
   double along[2], across[2], height; /* m, along forward, left and up of the world */
-  int meshes;                         /* solids that are not read */
+  int solids, meshes;                 /* how many were read, and were not */
 } ambulo__sole;
+
+/* 'l', 'r' or 0: what the name of a link says; of lfoot only if there is an rfoot. */
+char ambulo__side_of_link(const ambulo__tree *tree, int link);
 
 /* The topmost link that a link is fixed to, or itself. */
 int ambulo__rigid_leader(const ambulo__tree *tree, int link);

@@ -9,7 +9,8 @@
 
 void ambulo__read_urdf(ambulo__tree *tree, const ambulo__xml_node *root);
 void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root);
-void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root);
+/* `path`: of the file, in whose folder included ones are looked for. */
+void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *path);
 
 /* Heels and toes by options and from solids (foot_points.c). */
 void ambulo__find_feet(ambulo__tree *tree);

@@ -35,7 +35,7 @@ static int options_are_sane(const ambulo_import_options *o) {
 
 /* ------------------------------------------------------------------------ reading */
 
-static void read_format(ambulo__tree *tree, ambulo__xml_node *root) {
+static void read_format(ambulo__tree *tree, ambulo__xml_node *root, const char *path) {
   static const struct {
     const char *element;
     int which;
@@ -45,6 +45,7 @@ static void read_format(ambulo__tree *tree, ambulo__xml_node *root) {
     if (ambulo__xml_is(root, formats[i].element)) which = formats[i].which;
   if (which == 0) ambulo__read_urdf(tree, root);
   if (which == 1) ambulo__read_osim(tree, root);
+  if (which == 2) ambulo__read_mjcf(tree, root, path);
   if (which < 0)
     ambulo__xml_error(tree->xml, root, AMBULO_E_SCHEMA, NULL,
                       "this is no model that can be imported (got <%.40s>); expected <robot> "
@@ -90,7 +91,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   ambulo__xml *xml = tree->xml;
   ambulo__xml_node *root = ambulo__xml_load(xml, path);
   if (!root) return xml->status;
-  read_format(tree, root);
+  read_format(tree, root, path);
   expect_motion(tree, root);
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);

@@ -45,7 +45,8 @@ static int partner_of(const ambulo__tree *tree, int link, int *lonely) {
   const char *own = tree->links[link].coordinate.name;
   int sided = ambulo__other_side(own, name, sizeof name);
   int partner = sided ? ambulo__tree_find_coordinate(tree, name) : -1;
-  for (size_t i = 0; sided && partner < 0 && own[i]; i++)
+  /* one letter alone; of lfemurrx, which says no side otherwise, the first */
+  for (size_t i = 0; partner < 0 && own[i] && (sided || i == 0); i++)
     if (ambulo__flip_letter(own, i, name, sizeof name))
       partner = ambulo__tree_find_coordinate(tree, name);
   *lonely = sided && partner < 0;

@@ -16,6 +16,12 @@ ambulo__rigid ambulo__rigid_shift(const double p[3]) {
   return a;
 }
 
+ambulo__rigid ambulo__rigid_turned(const ambulo__rigid *a) {
+  ambulo__rigid turned = *a;
+  turned.p[0] = turned.p[1] = turned.p[2] = 0.0;
+  return turned;
+}
+
 /* R = c 1 + s [u]x + (1 - c) u u' (Rodrigues); sine and cosine of right angles are exact */
 ambulo__rigid ambulo__rigid_turn(const double u[3], double angle) {
   double c = cos(angle), s = sin(angle);

@@ -9,6 +9,8 @@ typedef struct ambulo__rigid {
 
 ambulo__rigid ambulo__rigid_identity(void);
 ambulo__rigid ambulo__rigid_shift(const double p[3]);
+/* the rotation of `a` alone */
+ambulo__rigid ambulo__rigid_turned(const ambulo__rigid *a);
 /* by `angle` (rad) about a unit axis through the origin */
 ambulo__rigid ambulo__rigid_turn(const double axis[3], double angle);
 /* a b: b is placed in a */

@@ -144,6 +144,184 @@ def compare_urdf(ambulo, source, scratch, seed):
     return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
 
 
+# ------------------------------------------------------------------- MuJoCo
+
+
+def mujoco_replace(mujoco, body, joint, new):
+    """A joint of several coordinates by joints of one: (name, slides, axis in the body's frame)."""
+    pos = list(joint.pos)
+    for name, slides, axis in new:
+        kind = mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE
+        body.add_joint(name=name, type=kind, axis=axis, pos=pos, limited=0)
+
+
+def mujoco_model(mujoco, np, source):
+    spec = mujoco.MjSpec.from_file(source)
+    for part in (spec.actuators, spec.tendons, spec.equalities, spec.sensors, spec.keys, spec.excludes):
+        for item in list(part):
+            spec.delete(item)
+    unit = np.eye(3)
+    for body in spec.bodies:
+        for joint in list(body.joints):
+            name = joint.name
+            if joint.type == mujoco.mjtJoint.mjJNT_FREE:
+                name, turn = name or "base", np.zeros(9)
+                mujoco.mju_quat2Mat(turn, np.array(body.quat))
+                world = turn.reshape(3, 3)  # rows: the world's axes in the body's
+                parts = [("_tx", 1, 0), ("_ty", 1, 1), ("_tz", 1, 2), ("_tilt", 0, 1), ("_list", 0, 0),
+                         ("_rotation", 0, 2)]
+                mujoco_replace(mujoco, body, joint, [(name + n, s, world[k]) for n, s, k in parts])
+                spec.delete(joint)
+            elif joint.type == mujoco.mjtJoint.mjJNT_BALL:
+                parts = zip("xyz", unit)
+                mujoco_replace(mujoco, body, joint, [(f"{name}_{n}", 0, axis) for n, axis in parts])
+                spec.delete(joint)
+    return spec.compile()
+
+
+def compare_mjcf(ambulo, source, scratch, seed):
+    import mujoco
+    import numpy as np
+
+    target = convert(ambulo, source, os.path.join(scratch, "model.yaml"))
+    names = [n for n, _ in coordinates(target)]
+    model = mujoco_model(mujoco, np, source)
+    model.dof_armature[:] = 0
+    data = mujoco.MjData(model)
+    at = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n) for n in names]
+    assert min(at) >= 0 and model.nv == len(names), (names, model.nv)
+    states = random_states(names, seed)
+    theirs = []
+    for q, v, a in states:
+        for k, j in enumerate(at):
+            data.qpos[model.jnt_qposadr[j]] = q[k]
+            data.qvel[model.jnt_dofadr[j]], data.qacc[model.jnt_dofadr[j]] = v[k], a[k]
+        mujoco.mj_fwdPosition(model, data)
+        mujoco.mj_fwdVelocity(model, data)
+        tau = np.zeros(model.nv)
+        mujoco.mj_rne(model, data, 1, tau)
+        theirs.append([float(tau[model.jnt_dofadr[j]]) for j in at])
+    return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
+
+
+def package_files(package, *paths):
+    spec = importlib.util.find_spec(package)
+    folder = os.path.dirname(spec.origin) if spec and spec.origin else ""
+    return [os.path.join(folder, p) for p in paths if os.path.exists(os.path.join(folder, p))]
+
+
+def mjcfs():
+    wanted = os.environ.get("AMBULO_MJCF")
+    if wanted:
+        return wanted.split(":")
+    here = os.path.dirname(os.path.abspath(__file__))
+    return (sorted(glob.glob(os.path.join(here, "*.xml")))
+            + package_files("gymnasium", "envs/mujoco/assets/humanoid.xml",
+                            "envs/mujoco/assets/walker2d_v5.xml", "envs/mujoco/assets/ant.xml")
+            + package_files("dm_control", "suite/humanoid.xml", "suite/humanoid_CMU.xml",
+                            "suite/walker.xml"))
+
+
+# ------------------------------------------------------------------ OpenSim
+
+
+def osim_freeze(osim, model, state):
+    """Axes that follow a coordinate by anything but a line become constants where it stands by
+    default; so OpenSim moves what an import moves."""
+    for k in range(model.getJointSet().getSize()):
+        joint = osim.CustomJoint.safeDownCast(model.updJointSet().get(k))
+        if joint is None:
+            continue
+        spatial, taken = joint.upd_SpatialTransform(), set()
+        for i in range(6):
+            axis = spatial.updTransformAxis(i)
+            names = axis.getCoordinateNames()
+            if names.size() == 0 or not axis.hasFunction():
+                continue
+            coordinate = model.getCoordinateSet().get(names.getValue(0))
+            at = [osim.Vector(1, x) for x in (coordinate.getDefaultValue(), 0.0, 1.0, 0.5, -0.7)]
+            value = [axis.getFunction().calcValue(x) for x in at]
+            slope, bent = value[2] - value[1], 0.0
+            for x, y in zip(at[3:], value[3:]):
+                bent = max(bent, abs(y - value[1] - slope * x.get(0)))
+            if bent > 1e-9 or names.getValue(0) in taken:
+                axis.set_function(osim.Constant(value[0]))
+                axis.setCoordinateNames(osim.ArrayStr())
+            elif slope:
+                taken.add(names.getValue(0))
+
+
+def osim_held(osim, model):
+    """Values of coordinates that an import holds: locked ones, and dependent ones."""
+    held = {}
+    for k in range(model.getCoordinateSet().getSize()):
+        c = model.getCoordinateSet().get(k)
+        held[c.getName()] = c.getDefaultValue()
+    for k in range(model.getConstraintSet().getSize()):
+        coupler = osim.CoordinateCouplerConstraint.safeDownCast(model.getConstraintSet().get(k))
+        if coupler is None:
+            continue
+        x = osim.Vector(1, held[coupler.getIndependentCoordinateNames().get(0)])
+        held[coupler.getDependentCoordinateName()] = coupler.getFunction().calcValue(x)
+    return held
+
+
+def osim_torques(osim, model, names, scale, held, states):
+    model.updConstraintSet().clearAndDestroy()
+    model.updForceSet().clearAndDestroy()
+    for k in range(model.getCoordinateSet().getSize()):
+        model.updCoordinateSet().get(k).set_locked(False)
+        model.updCoordinateSet().get(k).set_clamped(False)
+    model.finalizeConnections()
+    state = model.initSystem()
+    coordinates = [model.getCoordinateSet().get(k) for k in range(model.getCoordinateSet().getSize())]
+    # where the speed of a coordinate stands among the generalized speeds
+    at = {}
+    for c in coordinates:
+        state.setU(osim.Vector(state.getNU(), 0.0))
+        c.setSpeedValue(state, 1.0)
+        at[c.getName()] = [state.getU().get(i) for i in range(state.getNU())].index(1.0)
+    solver = osim.InverseDynamicsSolver(model)
+    for q, v, a in states:
+        values = dict(zip(names, zip(q, v, a)))
+        acceleration = osim.Vector(state.getNU(), 0.0)
+        for c in coordinates:
+            n = c.getName()
+            x, dx, ddx = values.get(n, (held[n] * scale.get(n, 1.0), 0.0, 0.0))
+            c.setValue(state, x / scale.get(n, 1.0), False)
+            c.setSpeedValue(state, dx / scale.get(n, 1.0))
+            acceleration.set(at[n], ddx / scale.get(n, 1.0))
+        tau = solver.solve(state, acceleration)
+        yield [tau.get(at[n]) / scale.get(n, 1.0) for n in names]
+
+
+def compare_osim(ambulo, source, scratch, seed):
+    import opensim as osim
+
+    osim.Logger.setLevelString("error")
+    target = convert(ambulo, source, os.path.join(scratch, "model.yaml"))
+    names = [n for n, _ in coordinates(target)]
+    model = osim.Model(source)
+    state = model.initSystem()
+    held = osim_held(osim, model)
+    osim_freeze(osim, model, state)
+    scale = {}
+    for line in open(target, encoding="utf-8"):
+        if "times the coordinate of the source" in line:
+            words = line.split("#   - ")[1].split()
+            scale[words[0]] = float(words[2])
+    states = random_states(names, seed)
+    theirs = list(osim_torques(osim, model, names, scale, held, states))
+    return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
+
+
+def osims():
+    wanted = os.environ.get("AMBULO_OSIM")
+    if wanted:
+        return wanted.split(":")
+    return sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "*.osim")))
+
+
 def urdfs():
     wanted = os.environ.get("AMBULO_URDF")
     if wanted:
@@ -171,6 +349,14 @@ def main():
         sources = [(compare_urdf, path) for path in urdfs()]
         if not sources:
             print("skipped: URDF against Pinocchio (no package `example-robot-data`)")
+    if importlib.util.find_spec("opensim") is None:
+        print("skipped: OpenSim models against OpenSim (no package `opensim`)")
+    else:
+        sources += [(compare_osim, path) for path in osims()]
+    if importlib.util.find_spec("mujoco") is None:
+        print("skipped: MuJoCo models against MuJoCo (no package `mujoco`)")
+    else:
+        sources += [(compare_mjcf, path) for path in mjcfs()]
     for i, (compare, path) in enumerate(sources):
         good = compare(ambulo, path, scratch, i)
         passed, failed = passed + good, failed + (not good)
