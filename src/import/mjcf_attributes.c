@@ -17,6 +17,7 @@
 static const char *below(const ambulo__xml_node *set, const char *name, const char *tag,
                          const char *attribute, int top, const ambulo__xml_node **found) {
   const char *own = ambulo__xml_attribute(set, "class");
+  if (top && !own) own = "main";
   int here = name ? own && strcmp(own, name) == 0 : top;
   if (here) {
     *found = set;

@@ -156,6 +156,7 @@ def mujoco_replace(mujoco, body, joint, new):
 
 
 def mujoco_model(mujoco, np, source):
+    compiled = mujoco.MjModel.from_xml_path(source)
     spec = mujoco.MjSpec.from_file(source)
     for part in (spec.actuators, spec.tendons, spec.equalities, spec.sensors, spec.keys, spec.excludes):
         for item in list(part):
@@ -166,7 +167,7 @@ def mujoco_model(mujoco, np, source):
             name = joint.name
             if joint.type == mujoco.mjtJoint.mjJNT_FREE:
                 name, turn = name or "base", np.zeros(9)
-                mujoco.mju_quat2Mat(turn, np.array(body.quat))
+                mujoco.mju_quat2Mat(turn, compiled.body(body.name).quat)
                 world = turn.reshape(3, 3)  # rows: the world's axes in the body's
                 parts = [("_tx", 1, 0), ("_ty", 1, 1), ("_tz", 1, 2), ("_tilt", 0, 1), ("_list", 0, 0),
                          ("_rotation", 0, 2)]
@@ -266,6 +267,29 @@ def osim_held(osim, model):
     return held
 
 
+def osim_turns(q, v, a):
+    """Angular velocity and acceleration of turns about x, then y, then z of the body, as OpenSim's
+    free and ball joints have for speeds: E(q), its product with the rates, and its derivative."""
+    c1, s1, c2, s2 = math.cos(q[0]), math.sin(q[0]), math.cos(q[1]), math.sin(q[1])
+    e = [[1, 0, s2], [0, c1, -s1 * c2], [0, s1, c1 * c2]]
+    de = [[0, 0, c2 * v[1]],
+          [0, -s1 * v[0], -c1 * c2 * v[0] + s1 * s2 * v[1]],
+          [0, c1 * v[0], -s1 * c2 * v[0] - c1 * s2 * v[1]]]
+    speed = [sum(e[i][k] * v[k] for k in range(3)) for i in range(3)]
+    push = [sum(e[i][k] * a[k] + de[i][k] * v[k] for k in range(3)) for i in range(3)]
+    return e, speed, push
+
+
+def osim_balls(model):
+    """Names of the three turns of every free or ball joint."""
+    found = []
+    for k in range(model.getJointSet().getSize()):
+        joint = model.getJointSet().get(k)
+        if joint.getConcreteClassName() in ("FreeJoint", "BallJoint"):
+            found.append([joint.get_coordinates(i).getName() for i in range(3)])
+    return found
+
+
 def osim_torques(osim, model, names, scale, held, states):
     model.updConstraintSet().clearAndDestroy()
     model.updForceSet().clearAndDestroy()
@@ -291,8 +315,19 @@ def osim_torques(osim, model, names, scale, held, states):
             c.setValue(state, x / scale.get(n, 1.0), False)
             c.setSpeedValue(state, dx / scale.get(n, 1.0))
             acceleration.set(at[n], ddx / scale.get(n, 1.0))
+        turned = []
+        for ball in osim_balls(model):
+            e, speed, push = osim_turns(*zip(*[values[n] for n in ball]))
+            for n, u, w in zip(ball, speed, push):
+                model.getCoordinateSet().get(n).setSpeedValue(state, u)
+                acceleration.set(at[n], w)
+            turned.append((ball, e))
         tau = solver.solve(state, acceleration)
-        yield [tau.get(at[n]) / scale.get(n, 1.0) for n in names]
+        ours = {n: tau.get(at[n]) / scale.get(n, 1.0) for n in names}
+        for ball, e in turned:
+            for k, n in enumerate(ball):
+                ours[n] = sum(e[i][k] * tau.get(at[ball[i]]) for i in range(3))
+        yield [ours[n] for n in names]
 
 
 def compare_osim(ambulo, source, scratch, seed):
