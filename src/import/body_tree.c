@@ -108,8 +108,13 @@ static double repair(const double inertia[6]) {
   return more > 0.0 ? more * (1.0 + 1e-9) : 0.0;
 }
 
+ambulo__number ambulo__three_digits(double x) {
+  double power = x > 0.0 ? pow(10.0, 2 - floor(log10(x))) : 1.0;
+  return ambulo__number_text(round(x * power) / power);
+}
+
 void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
-                       const ambulo__xml_node *node) {
+                       const ambulo__xml_node *mass, const ambulo__xml_node *node) {
   if (link < 0) return;
   ambulo__part body = *part;
   const char *name = tree->links[link].name;
@@ -127,18 +132,18 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
     ambulo__tree_note(tree, node,
                       "%s: no body has its inertia: %s kg m^2 were added to its moments", name,
-                      ambulo__number_text(more).text);
+                      ambulo__three_digits(more).text);
   }
   ambulo__place place = ambulo__xml_place(node);
   size_t before = ambulo_diagnostics_error_count(tree->xml->diagnostics);
-  ambulo_status status =
-      ambulo__check_body(name, body.mass, body.com, body.inertia,
-                         (ambulo__body_places){place, place}, tree->xml->diagnostics);
+  ambulo_status status = ambulo__check_body(name, body.mass, body.com, body.inertia,
+                                            (ambulo__body_places){ambulo__xml_place(mass), place},
+                                            tree->xml->diagnostics);
   if (status && body.mass > 0.0 && repair(body.inertia) > 0.0 &&
       ambulo_diagnostics_error_count(tree->xml->diagnostics) > before)
     ambulo__note(tree->xml->diagnostics, place,
                  "--repair-inertia adds %s kg m^2 to the moments of '%s'",
-                 ambulo__number_text(repair(body.inertia)).text, name);
+                 ambulo__three_digits(repair(body.inertia)).text, name);
   if (status && !tree->xml->status) tree->xml->status = status;
   if (!status) ambulo__part_add(&tree->links[link].body, &body);
 }

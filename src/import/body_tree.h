@@ -10,6 +10,7 @@
 #define AMBULO_IMPORT_BODY_TREE_H
 
 #include "ambulo/import.h"
+#include "base/numtext.h"
 #include "import/arena.h"
 #include "import/rigid.h"
 #include "import/xml_tree.h"
@@ -85,9 +86,11 @@ void ambulo__tree_note(ambulo__tree *tree, const ambulo__xml_node *node, const c
 int ambulo__tree_add(ambulo__tree *tree, const char *name, int parent, ambulo_joint_type type,
                      const ambulo__rigid *origin, const double axis[3],
                      const ambulo__xml_node *node);
-/* Checks mass and inertia and adds the body to a link's. */
+/* Checks mass and inertia, which stand at these nodes, and adds the body to a link's. */
 void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
-                       const ambulo__xml_node *node);
+                       const ambulo__xml_node *mass, const ambulo__xml_node *inertia);
+/* x >= 0 to three digits, for what is told. */
+ambulo__number ambulo__three_digits(double x);
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid);
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]);
 /* Index of a link by name, -1: none. */

@@ -192,7 +192,8 @@ static void read_mass(reading *b, int link) {
   if (body.mass < m->least_mass) body.mass = m->least_mass;
   for (int i = 0; i < 3; i++)
     if (body.inertia[i] < m->least_inertia) body.inertia[i] = m->least_inertia;
-  ambulo__tree_body(m->tree, link, &body, inertial ? inertial : b->node);
+  const ambulo__xml_node *at = inertial ? inertial : b->node;
+  ambulo__tree_body(m->tree, link, &body, at, at);
 }
 
 /* joints of a root of its own that nothing drives */

@@ -33,7 +33,8 @@ static void read_body(ambulo__osim *o, const ambulo__osim_body *body) {
       return;
     }
   }
-  ambulo__tree_body(o->tree, body->link, &part, mass);
+  const ambulo__xml_node *inertia = ambulo__xml_child(node, listed ? "inertia" : entries[0]);
+  ambulo__tree_body(o->tree, body->link, &part, mass, inertia ? inertia : mass);
 }
 
 /* A body without a joint floats: OpenSim gives it six coordinates, and so is done here. */

@@ -132,12 +132,6 @@ static double travel(building *b, const transform_axis *a, double frozen) {
   return most;
 }
 
-static double three_digits(double x) {
-  if (!(x > 0.0)) return 0.0;
-  double power = pow(10.0, 2 - floor(log10(x)));
-  return round(x * power) / power;
-}
-
 /* a function that is no joint of its own: frozen */
 static void put_frozen(building *b, const transform_axis *a, int slides) {
   const ambulo__osim_coordinate *c = &b->coordinates[a->coordinate];
@@ -145,16 +139,16 @@ static void put_frozen(building *b, const transform_axis *a, int slides) {
   put_still(b, slides, a->axis, value);
   double most = c->held ? 0.0 : travel(b, a, value);
   if (most == 0.0) return;
-  ambulo__tree_note(
-      b->o->tree, a->node,
-      "%s: %s follows %s by a %s: frozen at %s = %s; over its range it %s up to "
-      "%s %s",
-      b->joint->name,
-      ambulo__xml_attribute(a->node, "name") ? ambulo__xml_attribute(a->node, "name") : "an axis",
-      c->name, a->function->name, c->name, ambulo__number_text(c->value).text,
-      slides ? "slides by" : "turns by",
-      ambulo__number_text(three_digits(slides ? 1e3 * most : most * 180.0 / acos(-1.0))).text,
-      slides ? "mm" : "degrees");
+  ambulo__tree_note(b->o->tree, a->node,
+                    "%s: %s follows %s by a %s: frozen at %s = %s; over its range it %s up to "
+                    "%s %s",
+                    b->joint->name,
+                    ambulo__xml_attribute(a->node, "name") ? ambulo__xml_attribute(a->node, "name")
+                                                           : "an axis",
+                    c->name, a->function->name, c->name, ambulo__number_text(c->value).text,
+                    slides ? "slides by" : "turns by",
+                    ambulo__three_digits(slides ? 1e3 * most : most * 180.0 / acos(-1.0)).text,
+                    slides ? "mm" : "degrees");
 }
 
 static void put_axis(building *b, const transform_axis *a, int slides) {

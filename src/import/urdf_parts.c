@@ -177,7 +177,7 @@ static void read_inertial(ambulo__tree *tree, int link, const ambulo__xml_node *
   }
   memcpy(part.com, frame.p, sizeof part.com);
   ambulo__inertia_turn((const double(*)[3])frame.r, entry, part.inertia);
-  ambulo__tree_body(tree, link, &part, inertia ? inertia : node);
+  ambulo__tree_body(tree, link, &part, mass, inertia ? inertia : node);
 }
 
 static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node *node) {

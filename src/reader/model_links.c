@@ -46,6 +46,7 @@ static void read_parent(ambulo__reader *reader, const ambulo__yaml_node *item, i
 
 static void read_dh(ambulo__reader *reader, const ambulo__yaml_node *item, ambulo_link *link) {
   const ambulo__yaml_node *node = ambulo__yaml_get(item, "dh");
+  if (!node && !ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) return; /* said before */
   if (!node) {
     (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
                              "link '%s' has no place; expected `dh`, or `origin` and `axis`",

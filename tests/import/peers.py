@@ -1,7 +1,6 @@
-"""Imported models against Pinocchio and MuJoCo: mass matrix and torques over random poses.
+"""Imported models against Pinocchio, MuJoCo and OpenSim: mass matrix and torques over random poses.
 
-Arguments: the program, a scratch folder, then Python files' words of what is compared (urdf, mjcf).
-Prints a line for each model and, last, "N passed, N failed"; "skipped: ..." where a package is
+Arguments: the program and a scratch folder. Prints a line for each model and, last, "N passed, N failed"; "skipped: ..." where a package is
 missing. Our numbers are those of `ambulo inverse`: tau(q, qd, qdd), and columns of the mass matrix
 as tau(q, 0, e_i) - tau(q, 0, 0).
 """
@@ -369,9 +368,10 @@ def urdfs():
         for path in glob.glob(os.path.join(prefix, folder, "robots", "**", "*.urdf"), recursive=True):
             found.setdefault(os.path.basename(path), os.path.realpath(path))
     # humanoids, an arm on a table, joints that follow others, continuous joints
+    here = os.path.dirname(os.path.abspath(__file__))
     names = ("talos_full_v2.urdf", "icub.urdf", "g1_29dof_rev_1_0.urdf", "romeo.urdf",
              "simple_humanoid.urdf", "human.urdf", "ur5_robot.urdf", "double_pendulum_continuous.urdf")
-    return [found[n] for n in names if n in found]
+    return sorted(glob.glob(os.path.join(here, "*.urdf"))) + [found[n] for n in names if n in found]
 
 
 def main():
@@ -382,8 +382,8 @@ def main():
         print("skipped: URDF against Pinocchio (no package `pin`)")
     else:
         sources = [(compare_urdf, path) for path in urdfs()]
-        if not sources:
-            print("skipped: URDF against Pinocchio (no package `example-robot-data`)")
+        if len(sources) < 2:
+            print("skipped: humanoids against Pinocchio (no package `example-robot-data`)")
     if importlib.util.find_spec("opensim") is None:
         print("skipped: OpenSim models against OpenSim (no package `opensim`)")
     else:
