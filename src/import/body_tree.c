@@ -13,6 +13,7 @@
 #include "model/check.h"
 
 static const double rounding = 1e-15; /* kg m^2: of files that were written by programs */
+static const double FARTHEST = 1e4;   /* m: what is larger or farther away is no part of a body */
 enum { MOST_SOLIDS = 2048 };          /* more than a body has, few enough to compare in pairs */
 
 void ambulo__tree_note(ambulo__tree *tree, const ambulo__xml_node *node, const char *format, ...) {
@@ -149,6 +150,8 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
 }
 
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid) {
+  for (int i = 0; i < 3; i++)
+    if (!(fabs(solid->at.p[i]) <= FARTHEST) || !(fabs(solid->size[i]) <= FARTHEST)) return;
   void *room = ambulo__arena_grow(tree->arena, tree->solids, tree->solid_count,
                                   &tree->solid_capacity, sizeof *tree->solids);
   if (!room || solid->link < 0 || tree->solid_count >= MOST_SOLIDS) return;
@@ -165,6 +168,38 @@ int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const
   memcpy(point.position, at, sizeof point.position);
   tree->points[tree->point_count] = point;
   return tree->point_count++;
+}
+
+static const double LONGEST = 1e6, HEAVIEST = 1e6; /* m; kg */
+static const double LARGEST_LIMIT = 1e12;          /* rad, m, their rates, N m, N */
+
+static int is_beyond(const double *values, int count, double most) {
+  for (int i = 0; i < count; i++)
+    if (isnan(values[i]) || (isfinite(values[i]) && fabs(values[i]) > most)) return 1;
+  return 0;
+}
+
+void ambulo__tree_check(ambulo__tree *tree) {
+  for (int i = 0; i < tree->link_count; i++) {
+    const ambulo__tree_link *link = &tree->links[i];
+    const ambulo_coordinate *c = &link->coordinate;
+    double size = 0.0;
+    for (int k = 0; k < 3; k++) size = fmax(size, fabs(link->origin.p[k]));
+    if (!(link->body.mass <= HEAVIEST))
+      ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
+                        "'%.64s' is too heavy (got %s kg in all); expected at most 1e6 kg",
+                        link->name, ambulo__number_text(link->body.mass).text);
+    if (!(size <= LONGEST))
+      ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
+                        "'%.64s' is too far from its parent (got %s m); expected at most 1e6 m",
+                        link->name, ambulo__number_text(size).text);
+    if (is_beyond(c->range, 2, LARGEST_LIMIT / 1e2) ||
+        is_beyond(c->speed, 2, LARGEST_LIMIT / 1e2) || is_beyond(c->torque, 2, LARGEST_LIMIT))
+      ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
+                        "a limit of '%.64s' is out of range; expected at most 1e10, or of torques "
+                        "1e12",
+                        c->name ? c->name : "");
+  }
 }
 
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link) {

@@ -93,6 +93,8 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
 ambulo__number ambulo__three_digits(double x);
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid);
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]);
+/* Numbers that no model may have, each an error where the link stands in the source. */
+void ambulo__tree_check(ambulo__tree *tree);
 /* Index of a link by name, -1: none. */
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */

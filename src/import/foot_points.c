@@ -153,7 +153,7 @@ static int parse_corners(ambulo__tree *t, const char *option, const char *text, 
     for (int i = 0; i < 3; i++) {
       size_t digits = strcspn(part, i < 2 ? ",:" : ":");
       double value = 0.0;
-      int good = count < 2 && ambulo__parse_double(part, digits, &value) &&
+      int good = count < 2 && ambulo__parse_double(part, digits, &value) && fabs(value) < 1e4 &&
                  (i == 2 || part[digits] == ',');
       if (!good) {
         ambulo__xml_error(t->xml, NULL, AMBULO_E_ARGUMENT, NULL,

@@ -93,6 +93,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   if (!root) return xml->status;
   read_format(tree, root, path);
   expect_motion(tree, root);
+  if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
   if (xml->status) return xml->status;

@@ -68,15 +68,6 @@ ambulo__rigid ambulo__rigid_inverse(const ambulo__rigid *a) {
   return b;
 }
 
-int ambulo__rigid_is_identity(const ambulo__rigid *a, double tolerance) {
-  for (int i = 0; i < 3; i++) {
-    if (!(fabs(a->p[i]) <= tolerance)) return 0;
-    for (int k = 0; k < 3; k++)
-      if (!(fabs(a->r[i][k] - (i == k)) <= tolerance)) return 0;
-  }
-  return 1;
-}
-
 ambulo__rigid ambulo__rigid_of_rpy(const double p[3], const double rpy[3]) {
   ambulo__rigid a = ambulo__rigid_shift(p);
   ambulo__rotation_of_rpy(rpy, a.r);
@@ -116,8 +107,10 @@ void ambulo__inertia_turn(const double r[3][3], const double inertia[6], double 
 }
 
 double ambulo__normalize(double v[3]) {
-  double size = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  if (size > 0.0 && isfinite(size))
-    for (int i = 0; i < 3; i++) v[i] /= size;
-  return size;
+  double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+  if (!(most > 0.0) || !isfinite(most)) return 0.0;
+  double u[3] = {v[0] / most, v[1] / most, v[2] / most};
+  double size = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  for (int i = 0; i < 3; i++) v[i] = u[i] / size;
+  return most * size;
 }

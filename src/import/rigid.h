@@ -20,8 +20,6 @@ void ambulo__rigid_point(const ambulo__rigid *a, const double x[3], double out[3
 void ambulo__rigid_vector(const ambulo__rigid *a, const double v[3], double out[3]);
 /* R' v: a vector of the outer frame in the placed one */
 void ambulo__rigid_back(const ambulo__rigid *a, const double v[3], double out[3]);
-/* 1 if it moves nothing by more than `tolerance` (m, and as a sine) */
-int ambulo__rigid_is_identity(const ambulo__rigid *a, double tolerance);
 
 /* Roll, pitch, yaw of URDF, rad: Rot_z(yaw) Rot_y(pitch) Rot_x(roll). */
 ambulo__rigid ambulo__rigid_of_rpy(const double p[3], const double rpy[3]);
@@ -32,7 +30,7 @@ int ambulo__rotation_of_quaternion(const double q[4], double r[3][3]);
 
 /* Inertia [xx yy zz xy xz yz] in the axes R turns into the others: R I R'. */
 void ambulo__inertia_turn(const double r[3][3], const double inertia[6], double out[6]);
-/* Length of v, which is made a unit vector; of zero length it stays. */
+/* Length of v, which is made a unit vector; 0, and v stays, where it has no direction. */
 double ambulo__normalize(double v[3]);
 
 #endif

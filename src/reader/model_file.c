@@ -28,8 +28,8 @@ static int allocate(ambulo__reader *r) {
   r->link_places = ambulo__alloc(a, all, sizeof *r->link_places);
   r->link_names = ambulo__alloc(a, all, sizeof *r->link_names);
   r->origins = ambulo__origins_create(a, r->definition.link_count);
-  if (!r->origins || !r->links || !r->coordinates || !r->points || !r->feet || !r->patches || !r->capsules ||
-      !r->link_places || !r->link_names)
+  if (!r->origins || !r->links || !r->coordinates || !r->points || !r->feet || !r->patches ||
+      !r->capsules || !r->link_places || !r->link_names)
     return 0;
   r->coordinate_places = r->link_places + links;
   r->point_places = r->coordinate_places + links;

@@ -160,7 +160,7 @@ void ambulo__expand_origins(ambulo__reader *reader) {
   int given = 0;
   for (size_t i = 0; i < count; i++) given |= reader->origins[i].given;
   /* a file with faults has links without parents */
-  if (!given || ambulo__reader_status(reader) != AMBULO_OK) return;
+  if (!given || reader->status || ambulo__yaml_finish(reader->document)) return;
   reader->rows = ambulo__alloc(a, most, sizeof *reader->rows);
   reader->row_places = ambulo__alloc(a, most, sizeof *reader->row_places);
   reader->row_names = ambulo__alloc(a, most, TEXT);
