@@ -43,6 +43,12 @@ static const char *plain(ambulo__tree *tree, const char *name, size_t most) {
   if (!copy) return "";
   for (char *c = copy; *c; c++)
     if (!is_name_character(*c)) *c = '_';
+  /* of the rows that a link with an origin becomes (reader/model_placement.c) */
+  static const char *const taken[] = {".place", ".turn", ".joint"};
+  for (int i = 0; i < 3; i++) {
+    size_t end = strlen(taken[i]), own = strlen(copy);
+    if (own >= end && strcmp(copy + own - end, taken[i]) == 0) copy[own - end] = '_';
+  }
   if (!copy[0]) return "unnamed";
   return strcmp(copy, "world") == 0 || strcmp(copy, "none") == 0 ? "base" : copy;
 }

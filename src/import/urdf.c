@@ -38,26 +38,26 @@ typedef struct urdf {
 
 /* ------------------------------------------------------------ links and joints */
 
-static int find(const urdf *u, const char *name) {
+static urdf_link *find(const urdf *u, const char *name) {
   for (int i = 0; i < u->count; i++)
-    if (strcmp(u->links[i].name, name) == 0) return i;
-  return -1;
+    if (strcmp(u->links[i].name, name) == 0) return &u->links[i];
+  return NULL;
 }
 
 static void collect_links(urdf *u, const ambulo__xml_node *root) {
   for (const ambulo__xml_node *n = ambulo__xml_child(root, "link"); n;
        n = ambulo__xml_next(n, "link")) {
     const char *name = ambulo__xml_attribute(n, "name");
-    int first = name ? find(u, name) : -1;
+    const urdf_link *first = name ? find(u, name) : NULL;
     if (!name) {
       ambulo__xml_error(u->xml, n, AMBULO_E_SCHEMA, NULL, "a link has no name; expected name=...");
       continue;
     }
-    if (first >= 0) {
+    if (first) {
       ambulo__xml_error(u->xml, n, AMBULO_E_MODEL, NULL,
                         "two links are named '%.60s' (the first one at line %d); expected "
                         "different names",
-                        name, u->links[first].node->line);
+                        name, first->node->line);
       continue;
     }
     if (u->count >= AMBULO__MAX_LINKS) {
@@ -75,41 +75,42 @@ static void collect_links(urdf *u, const ambulo__xml_node *root) {
   for (int i = 0; u->names && i < u->count; i++) u->names[i] = u->links[i].name;
 }
 
-/* the link that <parent link=...> or <child link=...> names, -1 after an error */
-static int end_of(urdf *u, const ambulo__xml_node *joint, const char *which) {
+/* the link that <parent link=...> or <child link=...> names, NULL after an error */
+static urdf_link *end_of(urdf *u, const ambulo__xml_node *joint, const char *which) {
   const ambulo__xml_node *end = ambulo__xml_child(joint, which);
   const char *name = ambulo__xml_attribute(end, "link");
   if (!name) {
     ambulo__xml_error(u->xml, joint, AMBULO_E_SCHEMA, NULL, "joint '%.60s' has no <%s link=...>",
                       ambulo__urdf_name(joint), which);
-    return -1;
+    return NULL;
   }
-  int index = find(u, name);
-  if (index >= 0) return index;
+  urdf_link *found = find(u, name);
+  if (found) return found;
   char hint[120];
   const char *near = u->names ? ambulo__nearest(name, u->names, (size_t)u->count) : NULL;
   if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.80s'?", near);
   ambulo__xml_error(u->xml, end, AMBULO_E_MODEL, near ? hint : NULL,
                     "unknown %s link of joint '%.60s' (got '%.60s'); expected a link of this robot",
                     which, ambulo__urdf_name(joint), name);
-  return -1;
+  return NULL;
 }
 
 static void collect_joints(urdf *u, const ambulo__xml_node *root) {
   for (const ambulo__xml_node *n = ambulo__xml_child(root, "joint"); n;
        n = ambulo__xml_next(n, "joint")) {
-    int parent = end_of(u, n, "parent"), child = end_of(u, n, "child");
-    if (parent < 0 || child < 0) continue;
-    if (u->links[child].joint) {
+    const urdf_link *parent = end_of(u, n, "parent");
+    urdf_link *child = end_of(u, n, "child");
+    if (!parent || !child) continue;
+    if (child->joint) {
       ambulo__xml_error(u->xml, n, AMBULO_E_MODEL, "loops cannot be carried over: cut one joint",
                         "link '%.60s' is the child of two joints ('%.60s', line %d, and '%.60s'); "
                         "expected a tree",
-                        u->links[child].name, ambulo__urdf_name(u->links[child].joint),
-                        u->links[child].joint->line, ambulo__urdf_name(n));
+                        child->name, ambulo__urdf_name(child->joint), child->joint->line,
+                        ambulo__urdf_name(n));
       continue;
     }
-    u->links[child].joint = n;
-    u->links[child].parent = parent;
+    child->joint = n;
+    child->parent = (int)(parent - u->links);
   }
 }
 
