@@ -41,7 +41,7 @@ typedef struct ambulo_import_options {
   int toe_count;
   int unlock;         /* 1: coordinates that the source locks become coordinates all the same */
   int repair_inertia; /* 1: an inertia that no body can have is raised to the nearest possible */
-  int overwrite;      /* 1: `output` may be a file that ambulo did not write */
+  int overwrite;      /* 1: `output` may be a file that is there and not empty */
 } ambulo_import_options;
 AMBULO_API ambulo_import_options ambulo_import_options_default(void);
 

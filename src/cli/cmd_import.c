@@ -71,7 +71,7 @@ static int run(const ambulo__cli_input *input) {
 
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "write the model there (default: standard output)"},
-    {"force", 0, NULL, "write over a file that ambulo did not write"},
+    {"force", 0, NULL, "write over what is there"},
     {"name", 0, "NAME", "name of the model (default: as in the source)"},
     {"root", 0, "free|fixed",
      "how the root hangs on the world where the source does not say\n"

@@ -160,8 +160,11 @@ static void print_feet(const ambulo__tree *tree, ambulo__text_buffer *text) {
 
 /* ------------------------------------------------------------------------- whole */
 
+/* Not the mark of tables that are ambulo's own (base/output_check.h): the text is to be changed by
+ * people, and is not written over unasked. */
 static void print_head(const ambulo__tree *tree, const char *source, ambulo__text_buffer *text) {
-  ambulo__text_append_format(text, "# ambulo model, imported from the %s file ", tree->format);
+  ambulo__text_append_format(text, "# A model that ambulo imported from the %s file ",
+                             tree->format);
   plain_text(text, source);
   ambulo__text_append(text, "\n# Lengths in m, masses in kg, angles in degrees, speeds per second, "
                             "torques in N m; limits "

@@ -39,9 +39,9 @@ static void files(void **state) {
   assert_int_equal(ambulo_import_model(bad, output, NULL, NULL, NULL, NULL), AMBULO_E_MODEL);
   assert_int_equal(entries_in(*state), 1); /* nothing is written */
   assert_int_equal(ambulo_import_model(sources[0], output, NULL, NULL, NULL, NULL), AMBULO_OK);
-  assert_int_equal(ambulo_import_model(sources[1], output, NULL, NULL, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo_import_model(sources[1], output, NULL, NULL, NULL, NULL), AMBULO_E_IO);
   char *text = read_whole(output);
-  assert_non_null(strstr(text, "MuJoCo")); /* its own is replaced */
+  assert_non_null(strstr(text, "URDF")); /* somebody may have changed it since */
   free(text);
   scratch_write(output, "mine\n");
   ambulo_import_options options = ambulo_import_options_default();
