@@ -108,10 +108,39 @@ static void several_roots(void **state) {
   import_shut(&c);
 }
 
+/* spheres at heel and toe, by the names of either version; the toes have no joint of their own */
+static void contact_spheres(void **state) {
+#define SPHERE(frame, at, radius)                                                                  \
+  "<ContactSphere name='s'>" frame "<location>" at "</location><radius>" radius                    \
+  "</radius></ContactSphere>"
+#define ON(body) "<socket_frame>/bodyset/" body "</socket_frame>"
+  import_case c = import_good(
+      state,
+      V4(BODY("pelvis") BODY("calcn_r") BODY("calcn_l"),
+         PIN("0", "ground", "pelvis") PIN("1", "pelvis", "calcn_r") PIN("2", "pelvis", "calcn_l"),
+         "<ContactGeometrySet><objects>" SPHERE(ON("calcn_r"), "-0.02 0.03 0", "0.04")
+             SPHERE(ON("calcn_r"), "0.18 0.02 0", "0.03") SPHERE("<body_name>calcn_l</body_name>",
+                                                                 "-0.02 0.03 0", "0.04")
+                 SPHERE("<body_name>calcn_l</body_name>", "0.18 0.02 0.02",
+                        "0.03") "<ContactHalfSpace name='floor'/></objects></ContactGeometrySet>"));
+  const ambulo_point *heel =
+      ambulo_model_point(c.model, ambulo_model_find_point(c.model, "right_heel"));
+  const ambulo_point *toe =
+      ambulo_model_point(c.model, ambulo_model_find_point(c.model, "left_toe"));
+  assert_non_null(heel);
+  assert_non_null(toe);
+  assert_close(heel->position[0], -0.02, 1e-12);
+  assert_close(heel->position[1], -0.01, 1e-12);
+  assert_close(toe->position[0], 0.18, 1e-12);
+  import_shut(&c);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(trees_that_are_none), cmocka_unit_test(bodies_that_are_wrong),
-      cmocka_unit_test(custom_joints_that_are_wrong), cmocka_unit_test(frames_on_frames),
-      cmocka_unit_test(several_roots)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(trees_that_are_none),
+                                     cmocka_unit_test(bodies_that_are_wrong),
+                                     cmocka_unit_test(custom_joints_that_are_wrong),
+                                     cmocka_unit_test(frames_on_frames),
+                                     cmocka_unit_test(several_roots),
+                                     cmocka_unit_test(contact_spheres)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }

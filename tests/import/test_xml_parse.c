@@ -73,9 +73,21 @@ static void too_deep(void **state) {
              "elements are nested too deeply; expected at most 200 levels");
 }
 
+static void too_large(void **state) {
+  const char *path = scratch_path(state, "t.xml");
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fseek(file, 65L << 20, SEEK_SET), 0); /* a hole */
+  assert_int_equal(fputc('x', file), 'x');
+  assert_int_equal(fclose(file), 0);
+  import_case c = import_file(path, NULL);
+  assert_int_equal(c.status, AMBULO_E_LIMIT);
+  import_shut(&c);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept), cmocka_unit_test(numbers),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_kept),   cmocka_unit_test(numbers),
                                      cmocka_unit_test(what_is_no_xml), cmocka_unit_test(entities),
-                                     cmocka_unit_test(too_deep)};
+                                     cmocka_unit_test(too_deep),       cmocka_unit_test(too_large)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
