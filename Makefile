@@ -86,7 +86,8 @@ ifeq ($(X86),)
   SOURCES := $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
-LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES)))
+LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
+  $(OUT)/obj/viewer.o
 CLI_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(CLI_SOURCES))
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
@@ -159,6 +160,15 @@ $(OUT)/obj/src/linear/band_kernels_%.o: src/linear/band_kernels_%.c $(OUT)/obj/f
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
 	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
+
+# the page of `ambulo report`, as an array of bytes (src/page/viewer.h); the zero behind it ends a text
+$(OUT)/obj/viewer.c: src/page/viewer.html Makefile
+	@mkdir -p $(@D)
+	$(call quiet,GEN $@){ echo '#include "page/viewer.h"'; echo 'const unsigned char ambulo__viewer[] = {'; \
+	  od -An -v -t u1 $< | sed 's/[0-9][0-9]*/&,/g'; echo '0};'; \
+	  echo 'const size_t ambulo__viewer_size = sizeof ambulo__viewer - 1;'; } > $@
+$(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags
+	$(call compile,)
 
 $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@

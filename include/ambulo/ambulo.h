@@ -10,6 +10,7 @@
  *     ground.h     parts of a problem: the ground's force, feet in the air
  *     collision.h  parts of a problem: capsules, obstacles, places to reach
  *     report.h     results on disk, comparison with people
+ *     page.h       results to watch, as one HTML file
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
  *     status.h     status codes, messages, allocator
@@ -37,6 +38,7 @@
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
+#include "ambulo/page.h"
 #include "ambulo/parameters.h"
 #include "ambulo/problem.h"
 #include "ambulo/report.h"
