@@ -7,6 +7,8 @@ const degrees = 180 / Math.PI;
 const sides = ["left", "right", "middle"];
 const first = ["hip_flexion", "knee_angle", "ankle_angle", "pelvis_tilt", "lumbar_extension",
   "hip_adduction", "shoulder_flexion", "elbow_flexion"];
+// so many decimals, no zero with a sign
+const fixed = (x, decimals) => (x.toFixed(decimals).replace(/^-(?=[0.]*$)/, "")).replace("-", "−");
 const rank = (name) => {
   const i = first.findIndex((word) => name.startsWith(word));
   return i < 0 ? first.length : i;
@@ -172,6 +174,7 @@ export class Charts {
       el("span", {}, `People: ${this.scene.people[s]}. `)));
     if (sources.size) this.note.append("Dashed: their mean; shaded: two standard deviations to either side.");
     this.setTime(this.time ?? 0);
+    queueMicrotask(() => this.setTime(this.time)); // plots have their scales from then on
   }
 
   addChart(chart, sources) {
@@ -299,7 +302,7 @@ export class Charts {
         line.style.transform = `translateX(${plot.valToPos(x, "x").toFixed(1)}px)`;
       }
       values.replaceChildren(...chart.curves.map((c) => el("span", { class: c.side },
-        (valueAt(c.values, where)).toFixed(chart.unit === "°" ? 0 : 2).replace("-", "−"))));
+        fixed(valueAt(c.values, where), chart.unit === "°" ? 0 : 2))));
     }
   }
 

@@ -4,6 +4,7 @@ import {
   Quaternion, SphereGeometry, BoxGeometry, CylinderGeometry, Vector3,
 } from "three";
 import { sampleAt, valueAt } from "./decode.js";
+import { Trunk, limb } from "./limbs.js";
 
 // forward, left, up to the axes of three.js: x forward, y up, z to the right
 export const toView = (f, l, u, out = new Vector3()) => out.set(f, u, -l);
@@ -54,12 +55,16 @@ export class Figure {
     const { scene } = this;
     const capsules = scene.bones.filter((b) => b.kind === "capsule");
     const shod = scene.feet.some((foot) => foot.sole.length === 4);
+    const trunk = new Trunk(scene);
+    const covered = (bone) => (shod && isFoot(bone)) ||
+      (trunk.isThere && /^(pelvis|trunk|shoulders)$/.test(bone.name));
+    if (trunk.isThere) this.addTrunk(trunk);
     for (const bone of scene.bones) {
       const thin = bone.kind !== "capsule" && capsules.length > 0;
       if (bone.kind === "head") {
         if (!thin) this.addHead(bone);
         this.addBone({ ...bone, radius: 0 }, thin);
-      } else if (!(bone.kind === "capsule" && shod && isFoot(bone))) this.addBone(bone, thin);
+      } else if (!(bone.kind === "capsule" && covered(bone))) this.addBone(bone, thin);
     }
     for (const foot of scene.feet) if (foot.sole.length === 4) this.addShoe(foot);
     this.addCarried();
@@ -76,7 +81,8 @@ export class Figure {
   addBone(bone, thin) {
     const length = Math.max(lengthAt(this.scene, bone.points), 1e-4);
     const radius = thin ? 0.011 : bone.radius || lineRadius(length);
-    const mesh = this.addMesh(new CapsuleGeometry(radius, length, 8, 20),
+    const mesh = this.addMesh((!thin && limb(bone.name, radius, length)) ||
+      new CapsuleGeometry(radius, length, 8, 20),
       (thin ? this.lineMaterials : this.materials)[bone.side], thin ? this.lines : this.flesh);
     this.parts.push((where) => {
       pointAt(this.scene, bone.points[0], where, one);
@@ -86,6 +92,13 @@ export class Figure {
       mesh.position.addVectors(one, other).multiplyScalar(0.5);
       if (now > 1e-6) mesh.quaternion.copy(turn.setFromUnitVectors(up, way.divideScalar(now)));
     });
+  }
+
+  addTrunk(trunk) {
+    const mesh = this.addMesh(trunk.geometry, this.materials.middle);
+    mesh.frustumCulled = false;
+    this.materials.middle.side = 2;
+    this.parts.push((where) => trunk.pose(where));
   }
 
   addHead(bone) {

@@ -27,7 +27,7 @@ function setTheme(theme) {
   if (theme) root.dataset.theme = theme;
   else delete root.dataset.theme;
   const dark = css("--is-dark") === "1";
-  byId("theme").setAttribute("aria-pressed", String(dark));
+  byId("theme").setAttribute("aria-label", dark ? "Light colours" : "Dark colours");
   byId("theme").textContent = dark ? "Light" : "Dark";
   redrawAll();
 }
@@ -162,6 +162,7 @@ function connect() {
     play(false);
     before = document.documentElement.dataset.theme ?? "";
     setTheme("light");
+    if (page.stage?.data) byId("still").src = page.stage.still(1500, 800);
   });
   addEventListener("afterprint", () => setTheme(before));
   document.addEventListener("keydown", keys);
@@ -227,6 +228,18 @@ function choosers() {
       (i) => show(page.main, i)));
 }
 
+// the picture of the folder; in place of the view where there is none
+function showStrip(strip) {
+  byId("flat-strip")?.remove();
+  byId("strip").replaceChildren();
+  if (!strip) return;
+  const image = (id) => el("img", { id, alt:
+    "Figures of the motion side by side, contacts, angles and torques over time",
+    src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(strip)}` });
+  if (page.stage) byId("strip").append(el("h2", {}, "At a glance"), image());
+  else document.querySelector(".view").append(image("flat-strip"));
+}
+
 function show(main, ghost) {
   const time = page.main === main ? page.time : 0;
   page.main = main;
@@ -234,7 +247,6 @@ function show(main, ghost) {
   const result = page.results[main], scene = sceneOf(result), other = page.results[ghost];
   heading(result);
   lanes(scene);
-  byId("people-only")?.remove();
   page.charts?.destroy();
   if (page.stage) {
     page.stage.load(scene, other ? sceneOf(other) : null);
@@ -247,10 +259,7 @@ function show(main, ghost) {
   page.charts = new Charts(byId("curves"), result.summary, scene, other ? { scene: sceneOf(other),
     summary: other.summary, time: ghostTime } : null, goTo);
   byId("panels").replaceChildren(...panels(result.summary, goTo));
-  byId("strip").replaceChildren();
-  if (result.strip) byId("strip").append(el("h2", {}, "At a glance"), el("img", { alt:
-    "Figures of the motion side by side, contacts, angles and torques over time",
-    src: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(result.strip)}` }));
+  showStrip(result.strip);
   choosers();
   setTime(Math.min(time, scene.duration), 0);
 }
@@ -297,8 +306,8 @@ function begin() {
       page.stage = null;
     }
   }
-  if (!page.stage) noView("This browser cannot draw in space (WebGL is not there). The curves, and "
-    + "figures of the motion, are below.");
+  if (!page.stage) noView("This browser cannot draw in space: it has no WebGL. Here are figures "
+    + "of the motion side by side; the curves follow the clock as ever.");
   connect();
   if (data.study) {
     byId("study").hidden = false;

@@ -9,7 +9,7 @@ import { sampleAt, valueAt } from "./decode.js";
 import { Figure, toView } from "./figure.js";
 import { Arrow, World } from "./world.js";
 
-const forceLength = 0.75; // m for the body weight
+const forceLength = 0.9; // m for the body weight
 const names = ["left", "right", "middle", "carried", "device", "ghost", "floor", "grid", "step",
   "step2", "obstacle", "place", "pressure", "force", "mass", "sky"];
 const readColors = () => Object.fromEntries(names.map((n) => [n, css(`--${n}`)]));
@@ -50,8 +50,8 @@ export class Stage {
   }
 
   lights() {
-    this.scene.add(new HemisphereLight(0xffffff, 0x8c8f99, 1.55), new AmbientLight(0xffffff, 0.25));
-    const sun = this.sun = new DirectionalLight(0xfff4e6, 2.1);
+    this.scene.add(new HemisphereLight(0xffffff, 0x9aa3ad, 1.7), new AmbientLight(0xffffff, 0.2));
+    const sun = this.sun = new DirectionalLight(0xffffff, 1.9);
     sun.castShadow = true;
     sun.shadow.mapSize.set(1024, 1024);
     sun.shadow.bias = -0.0006;
@@ -247,6 +247,19 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     if (this.data && Math.abs(before - this.camera.aspect) > 0.2 && !this.turned) this.frame(this.view);
     this.drawNow();
+  }
+
+  // a picture of so many pixels, as data of an <img>
+  still(width, height) {
+    const { renderer, camera } = this;
+    renderer.setPixelRatio(1);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    this.drawNow();
+    const picture = renderer.domElement.toDataURL("image/jpeg", 0.92);
+    this.resize();
+    return picture;
   }
 
   draw() {

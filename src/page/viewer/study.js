@@ -7,6 +7,15 @@ export const tone = (state) => good.has(state) ? "good"
 
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
 
+// round numbers between two, four to ten of them
+function ticks(low, high) {
+  const rough = (high - low) / 5, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough) ?? rough;
+  const list = [];
+  for (let i = Math.ceil(low / step); i * step <= high && list.length < 12; i++) list.push(i * step);
+  return list;
+}
+
 export class Study {
   constructor(parent, study, onChoose) {
     Object.assign(this, { study, onChoose });
@@ -127,12 +136,11 @@ export class Study {
     const [x0, x1] = range("x"), [y0, y1] = range("y");
     const X = (x) => pad.left + ((x - x0) / (x1 - x0)) * (width - pad.left - pad.right);
     const Y = (y) => height - pad.bottom - ((y - y0) / (y1 - y0)) * (height - pad.top - pad.bottom);
-    for (let i = 0; i <= 4; i++) {
-      const x = x0 + ((x1 - x0) * (i + 0.5)) / 5, y = y0 + ((y1 - y0) * (i + 0.5)) / 5;
+    for (const y of ticks(y0, y1))
       picture.append(svg("line", { class: "rule", x1: pad.left, x2: width - pad.right, y1: Y(y), y2: Y(y) }),
-        svg("text", { x: X(x), y: height - pad.bottom + 16, "text-anchor": "middle" }, short(x)),
         svg("text", { x: pad.left - 6, y: Y(y) + 4, "text-anchor": "end" }, short(y)));
-    }
+    for (const x of ticks(x0, x1))
+      picture.append(svg("text", { x: X(x), y: height - pad.bottom + 16, "text-anchor": "middle" }, short(x)));
     picture.append(svg("text", { class: "name", x: (width + pad.left) / 2, y: height - 6,
       "text-anchor": "middle" }, this.columns[this.x]),
     svg("text", { class: "name", x: 12, y: height / 2, "text-anchor": "middle",

@@ -28,7 +28,7 @@ const families = {
   zmp: "balance: the zero-moment point under the feet",
   normal_force: "the ground may push, not pull",
   friction: "friction: the ground's force along the ground",
-  pressure: "the center of pressure under the foot",
+  pressure: "the centre of pressure under the foot",
   free_moment: "the ground's twist on a foot",
   joint_limit: "the range of a joint",
   speed_limit: "the largest speed of a joint",

@@ -2,7 +2,7 @@
 import {
   BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, CircleGeometry, CylinderGeometry,
   DoubleSide, Group, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshBasicMaterial, MeshStandardMaterial, Quaternion, RingGeometry, TorusGeometry, Vector3,
+  MeshBasicMaterial, MeshStandardMaterial, Quaternion, TorusGeometry, Vector3,
 } from "three";
 import { pointAt, toView } from "./figure.js";
 import { sampleAt } from "./decode.js";
@@ -239,11 +239,10 @@ export class World {
 export class Arrow {
   constructor(color) {
     this.group = new Group();
-    const material = new MeshBasicMaterial({ color });
-    this.shaft = new Mesh(new CylinderGeometry(0.011, 0.011, 1, 12), material);
-    this.head = new Mesh(new CylinderGeometry(0, 0.032, 0.085, 18), material);
-    this.disc = new Mesh(new RingGeometry(0.014, 0.026, 24), new MeshBasicMaterial({ color,
-      side: DoubleSide }));
+    const material = new MeshBasicMaterial({ color, depthTest: false, transparent: true, opacity: 0.92 });
+    this.shaft = new Mesh(new CylinderGeometry(0.014, 0.014, 1, 12), material);
+    this.head = new Mesh(new CylinderGeometry(0, 0.042, 0.11, 20), material);
+    for (const mesh of [this.shaft, this.head]) mesh.renderOrder = 4;
     this.group.add(this.shaft, this.head);
     this.way = new Vector3();
   }
@@ -253,9 +252,9 @@ export class Arrow {
     if (!this.group.visible) return;
     this.group.position.copy(at);
     this.group.quaternion.setFromUnitVectors(up, this.way.copy(force).normalize());
-    const shaft = Math.max(length - 0.08, 0.001);
+    const shaft = Math.max(length - 0.1, 0.001);
     this.shaft.scale.y = shaft;
     this.shaft.position.y = shaft / 2;
-    this.head.position.y = shaft + 0.04;
+    this.head.position.y = shaft + 0.05;
   }
 }
