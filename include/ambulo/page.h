@@ -28,15 +28,16 @@ AMBULO_API ambulo_page_options ambulo_page_options_default(void);
 
 /* Writes the page of result folders (ambulo/report.h; the first is the one that is shown, others
  * may be laid beside it), or of one batch folder (ambulo/batch.h): its table, plots and motions.
- * `options` (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Errors: E_ARGUMENT; E_IO
- * (a folder, or a file in it, that is not there or cannot be read; an output that cannot be
+ * `options` (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Errors: E_ARGUMENT;
+ * E_IO (a folder, or a file in it, that is not there or cannot be read; an output that cannot be
  * written, or is a file that ambulo did not write and overwrite is 0); E_PARSE, E_SCHEMA (a file of
  * a folder is damaged, cut off, or of another result; with file, line and column); E_PROBLEM,
  * E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_page_write(
-    const char *const *directories, int count, const char *output,
-    const ambulo_page_options *options, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_page_write(const char *const *directories,
+                                                            int count, const char *output,
+                                                            const ambulo_page_options *options,
+                                                            const ambulo_allocator *allocator,
+                                                            ambulo_diagnostics *diagnostics);
 
 #ifdef __cplusplus
 }

@@ -50,8 +50,8 @@ static int run(const ambulo__cli_input *input) {
   char *output = output_of(input);
   ambulo_status status = output ? AMBULO_OK : AMBULO_E_MEMORY;
   if (!status && options.motion)
-    code = ambulo__cli_body_load(input, ambulo__cli_value(input, "body"), diagnostics, &body,
-                                 &status);
+    code =
+        ambulo__cli_body_load(input, ambulo__cli_value(input, "body"), diagnostics, &body, &status);
   if (!code) {
     options.body = body.model;
     options.ground_height = body.ground_height;
@@ -84,7 +84,8 @@ const ambulo__cli_command ambulo__cli_report = {
     .description =
         "One HTML file that a browser opens from the disk, without a network: the body in motion,\n"
         "to turn, play and scrub; curves that follow it, beside people's; verdict, audit,\n"
-        "sensitivities and objective in plain words. Further result folders stand beside the first\n"
+        "sensitivities and objective in plain words. Further result folders stand beside the "
+        "first\n"
         "one as ghosts. Of a batch folder: a table of its cases and a plot of any two columns, in\n"
         "which a click shows the motion of a case. See docs/guide-page.md.",
     .example = "ambulo report walk\n"

@@ -70,7 +70,7 @@ static ambulo_status append(const ambulo_page_options *o, const ambulo__motion *
 }
 
 ambulo_status ambulo__page_add_motion(const ambulo_page_options *o, ambulo__text_buffer *out,
-                                  ambulo_diagnostics *diagnostics) {
+                                      ambulo_diagnostics *diagnostics) {
   ambulo_inverse_options options = ambulo_inverse_options_default();
   options.without_forces = 1;
   options.ground_height = o->ground_height;

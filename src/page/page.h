@@ -39,17 +39,17 @@ void ambulo__page_result_free(ambulo__page_result *result); /* accepts a zero-fi
 
 /* Appends an item of "results"; `with_strip`: with its picture, where it has one. Errors: as of
  * ambulo__page_result_read. */
-ambulo_status ambulo__page_add_result(const char *directory, int with_strip, ambulo__text_buffer *out,
-                                  ambulo_diagnostics *diagnostics);
+ambulo_status ambulo__page_add_result(const char *directory, int with_strip,
+                                      ambulo__text_buffer *out, ambulo_diagnostics *diagnostics);
 /* The same of a person's own motion (options.motion). Errors: as of ambulo__motion_read. */
 ambulo_status ambulo__page_add_motion(const ambulo_page_options *options, ambulo__text_buffer *out,
-                                  ambulo_diagnostics *diagnostics);
+                                      ambulo_diagnostics *diagnostics);
 
 /* 1 if a batch has filled the folder. */
 int ambulo__page_is_batch(const char *directory);
 /* Appends "study". `folder`: where the page will stand, for the ways to pictures of cases whose
  * motion is not in it. Errors: as of ambulo_batch_collect. */
 ambulo_status ambulo__page_add_study(const char *directory, const char *folder,
-                                 ambulo__text_buffer *out, ambulo_diagnostics *diagnostics);
+                                     ambulo__text_buffer *out, ambulo_diagnostics *diagnostics);
 
 #endif

@@ -23,8 +23,8 @@ ambulo_status ambulo__page_file_read(const char *directory, const char *name, co
     status = ambulo__read_file(f.path, AMBULO__YAML_MAX_BYTES, &f.allocator, diagnostics, &f.text,
                                &f.length);
   if (!status)
-    status = ambulo__yaml_load_text(f.text, f.length, f.path, &f.allocator, diagnostics,
-                                    &f.document);
+    status =
+        ambulo__yaml_load_text(f.text, f.length, f.path, &f.allocator, diagnostics, &f.document);
   if (!status) {
     const ambulo__yaml_node *root = ambulo__yaml_root(f.document);
     const ambulo__yaml_node *given = ambulo__yaml_require(root, "schema");
@@ -106,8 +106,7 @@ static ambulo_status strip(const char *directory, ambulo__text_buffer *out) {
   char *path = ambulo__join_paths(a, directory, "gait.svg", NULL), *text = NULL;
   size_t length;
   ambulo_status status = path ? AMBULO_OK : AMBULO_E_MEMORY;
-  if (!status)
-    status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, a, NULL, &text, &length);
+  if (!status) status = ambulo__read_file(path, AMBULO__YAML_MAX_BYTES, a, NULL, &text, &length);
   if (!status) {
     ambulo__text_append(out, ",\"strip\":");
     ambulo__script_text(out, text);
@@ -131,11 +130,10 @@ static void folder_name(const char *directory, ambulo__text_buffer *out) {
   ambulo__text_free(&name);
 }
 
-ambulo_status ambulo__page_add_result(const char *directory, int with_strip, ambulo__text_buffer *out,
-                                  ambulo_diagnostics *diagnostics) {
+ambulo_status ambulo__page_add_result(const char *directory, int with_strip,
+                                      ambulo__text_buffer *out, ambulo_diagnostics *diagnostics) {
   ambulo__page_result r;
-  ambulo_status status =
-      ambulo__page_result_read(directory, &out->allocator, diagnostics, &r);
+  ambulo_status status = ambulo__page_result_read(directory, &out->allocator, diagnostics, &r);
   if (status) return status;
   ambulo__text_append(out, "{\"name\":");
   folder_name(directory, out);

@@ -88,8 +88,9 @@ static void node(ambulo__text_buffer *out, const ambulo__yaml_node *value) {
 
 /* *stands: its motion is in the page */
 static ambulo_status add_motion(study *s, const char *folder, int *stands) {
-  static const char *const left[] = {"families", "between_nodes", "sensitivities", "approaches",
-                                     "no_sensitivities", "versions", NULL};
+  static const char *const left[] = {"families",   "between_nodes",    "sensitivities",
+                                     "approaches", "no_sensitivities", "versions",
+                                     NULL};
   const ambulo_allocator *a = &s->out->allocator;
   ambulo__page_result result;
   ambulo__text_buffer thin;
@@ -163,8 +164,7 @@ static ambulo_status add_case(void *user, const ambulo__gathered *one) {
 /* ---------------------------------------------------------------- the study */
 
 /* "knee torque, N m", or the title of the column itself */
-static void title(ambulo__text_buffer *out, const char *name, const char *label,
-                  const char *unit) {
+static void title(ambulo__text_buffer *out, const char *name, const char *label, const char *unit) {
   ambulo__text_buffer text;
   ambulo__text_init_part(&text, out);
   ambulo__text_append(&text, label && label[0] ? label : name);
@@ -201,7 +201,7 @@ static void tell_left_out(const study *s) {
 }
 
 ambulo_status ambulo__page_add_study(const char *directory, const char *folder,
-                                 ambulo__text_buffer *out, ambulo_diagnostics *diagnostics) {
+                                     ambulo__text_buffer *out, ambulo_diagnostics *diagnostics) {
   const ambulo_allocator *a = &out->allocator;
   ambulo__listing listing;
   ambulo_status status = ambulo__listing_load(directory, a, diagnostics, &listing);

@@ -88,8 +88,10 @@ void ambulo__scene_thin(ambulo__text_buffer *out, const char *scene, size_t leng
       c = list;
       continue;
     }
-    if (inside && *c == '\\' && end - c > 1) ambulo__text_append_char(out, *c++);
-    else if (*c == '"') inside = !inside;
+    if (inside && *c == '\\' && end - c > 1)
+      ambulo__text_append_char(out, *c++);
+    else if (*c == '"')
+      inside = !inside;
     ambulo__text_append_char(out, *c++);
   }
 }

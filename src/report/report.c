@@ -21,9 +21,11 @@ enum { OPTIONS_COOKIE = 0x616d6272 };
 
 static const char summary_name[] = "summary.json";
 
-/* only a folder of these files (the last is the page that `ambulo report` puts there) is taken for an earlier result and replaced */
-static const char *const file_names[] = {"summary.json", "motion.csv", "motion.sto",
-                                         "solution.yaml", "gait.svg", "scene.json", "report.html"};
+/* only a folder of these files (the last is the page that `ambulo report` puts there) is taken for
+ * an earlier result and replaced */
+static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.sto",
+                                         "solution.yaml", "gait.svg",   "scene.json",
+                                         "report.html"};
 static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
                                          sizeof file_names / sizeof *file_names};
 

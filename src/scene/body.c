@@ -83,8 +83,7 @@ static void json_points(ambulo__json *json, const char *key, const int *point, i
   ambulo__text_buffer line;
   ambulo__text_init_part(&line, json->text);
   ambulo__text_append_char(&line, '[');
-  for (int i = 0; i < count; i++)
-    ambulo__text_append_format(&line, i ? ", %d" : "%d", point[i]);
+  for (int i = 0; i < count; i++) ambulo__text_append_format(&line, i ? ", %d" : "%d", point[i]);
   ambulo__text_append_char(&line, ']');
   ambulo__json_raw(json, key, ambulo__text_data(&line));
   ambulo__text_free(&line);
@@ -183,8 +182,8 @@ static void find_places(ambulo__scene_body *body, double *place) {
 ambulo_status ambulo__scene_points(ambulo__json *json, ambulo__scene_body *body) {
   int step = 3 * (body->count + 1);
   if (body->failed) return AMBULO_E_MEMORY;
-  double *place = ambulo__alloc(&body->allocator, (size_t)step * (size_t)body->samples,
-                                sizeof *place);
+  double *place =
+      ambulo__alloc(&body->allocator, (size_t)step * (size_t)body->samples, sizeof *place);
   if (!place) return AMBULO_E_MEMORY;
   find_places(body, place);
   ambulo__json_open(json, "points", '[');

@@ -18,8 +18,8 @@ static const double degree = 0.017453292519943295; /* rad */
 /* ---------------------------------------------------------------- one curve */
 
 /* mean and band under `key`; nothing where some time of the motion has no people */
-static ambulo_status beside(ambulo__json *json, const char *key,
-                            const ambulo__people_curve *curve, double factor, double unit) {
+static ambulo_status beside(ambulo__json *json, const char *key, const ambulo__people_curve *curve,
+                            double factor, double unit) {
   int samples = curve->of->stride->samples, there = curve->curve != NULL;
   const ambulo_allocator *a = &json->text->allocator;
   if (!there) return AMBULO_OK;

@@ -167,8 +167,7 @@ void ambulo__scene_worn(ambulo__json *json, const ambulo__stride *s, ambulo__sce
     (void)ambulo__worn_at(s, 0, i, &mark); /* devices that rest are told by their effort */
     ambulo__json_open(json, NULL, '{');
     ambulo__json_text(json, "kind", i < s->devices ? "device" : "load");
-    ambulo__json_integer(json, "from",
-                         ambulo__scene_body_point(body, mark.link[0], mark.at[0]));
+    ambulo__json_integer(json, "from", ambulo__scene_body_point(body, mark.link[0], mark.at[0]));
     if (mark.radius > 0.0) {
       ambulo__json_number(json, "radius", mark.radius);
     } else {
