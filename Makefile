@@ -99,7 +99,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize valgrind check-kill check-slurm coverage \
+  sanitize valgrind check-kill check-slurm check-page viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers \
   lint-equations lint-reading lint-keys lint-leftovers format \
@@ -115,6 +115,8 @@ help:
 	@echo 'make check        install what is missing, build, run all tests'
 	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
+	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
+	@echo 'make viewer       that page from its sources in src/page/viewer (npm)'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
@@ -247,6 +249,16 @@ bench-table1: build/.ready-build
 bench-table4: build/.ready-build
 	$(submake) $(OUT)/bench/table4
 	@OPENBLAS_NUM_THREADS=1 $(OUT)/bench/table4
+
+# the page of `ambulo report` from its sources: needs npm, and the packages of package-lock.json
+viewer:
+	@rm -rf build/viewer && mkdir -p build && cp -R src/page/viewer build/viewer
+	@cd build/viewer && npm ci --silent --no-audit --no-fund && node build.mjs ../../src/page/viewer.html
+
+# the page in a browser, which is installed if it is missing; without one, `make check` skips this
+check-page: build/.ready-page
+	$(submake) all
+	@AMBULO=$(OUT)/ambulo tests/page/run.sh
 
 bench-peers: build/.ready-build
 	$(submake) $(OUT)/ambulo $(OUT)/bench/peers/ours
