@@ -220,6 +220,7 @@ export class Charts {
       plot.over.append(line);
       return { side, line };
     });
+    for (const canvas of holder.querySelectorAll("canvas")) canvas.ariaHidden = "true";
     this.listen(plot);
     this.plots.push({ plot, chart, values, marks, holder });
   }

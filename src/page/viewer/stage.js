@@ -84,7 +84,7 @@ export class Stage {
     }
     this.arrows = data.forces.map((f) => ({ force: f, arrow: new Arrow(colors.force) }));
     for (const { arrow } of this.arrows) this.figures.add(arrow.group);
-    this.massBall = new Mesh(new SphereGeometry(0.035, 20, 14),
+    this.massBall = new Mesh(new SphereGeometry(0.045, 20, 14),
       new MeshBasicMaterial({ color: colors.mass, depthTest: false, transparent: true }));
     this.massBall.renderOrder = 5;
     this.figures.add(this.massBall);
