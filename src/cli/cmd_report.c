@@ -89,7 +89,7 @@ const ambulo__cli_command ambulo__cli_report = {
         "one as ghosts. Of a batch folder: a table of its cases and a plot of any two columns, in\n"
         "which a click shows the motion of a case. See docs/guide-page.md.",
     .example = "ambulo report walk\n"
-               "ambulo report slow brisk -o compare.html",
+               "ambulo report walks",
     .options = options_table,
     .option_count = sizeof options_table / sizeof options_table[0],
     .minimum = 1,

@@ -43,7 +43,8 @@ static char *data_of(const char *page) {
   return data;
 }
 
-/* the viewer that is built in is the page of the sources, with its licences and one place for data */
+/* the viewer that is built in is the page of the sources, with its licences and one place for data
+ */
 static void the_viewer_is_whole(void **state) {
   (void)state;
   const char *viewer = (const char *)ambulo__viewer;
@@ -75,10 +76,9 @@ static void a_page_of_a_result(void **state) {
   char *summary = read_whole(inside(folder, "summary.json"));
   assert_non_null(strstr(summary, ambulo__yaml_text(ambulo__yaml_get(
                                       ambulo__yaml_get(one, "summary"), "input_hash"))));
-  assert_int_equal(
-      strncmp(ambulo__yaml_text(ambulo__yaml_get(one, "strip")), "<svg", 4) == 0 ||
-          strncmp(ambulo__yaml_text(ambulo__yaml_get(one, "strip")), "<?xml", 5) == 0,
-      1);
+  assert_int_equal(strncmp(ambulo__yaml_text(ambulo__yaml_get(one, "strip")), "<svg", 4) == 0 ||
+                       strncmp(ambulo__yaml_text(ambulo__yaml_get(one, "strip")), "<?xml", 5) == 0,
+                   1);
   free(summary);
   yaml_shut(&c);
   free(data);

@@ -17,8 +17,12 @@ static void texts(void **state) {
   assert_text("</script><!--", "\"\\u003c/script>\\u003c!--\"");
   assert_text("a \"b\" \\ & '", "\"a \\\"b\\\" \\\\ & '\"");
   assert_text("a\nb\x01\x7f", "\"a\\u000ab\\u0001\\u007f\"");
-  assert_text("Gang \xc3\xbc \xe6\xad\xa9 \xf0\x9f\x9a\xb6", "\"Gang \xc3\xbc \xe6\xad\xa9 \xf0\x9f\x9a\xb6\"");
-  assert_text("a\xe2\x80\xa8" "b\xe2\x80\xa9" "c\xe2\x80\xaa", "\"a\\u2028b\\u2029c\xe2\x80\xaa\"");
+  assert_text("Gang \xc3\xbc \xe6\xad\xa9 \xf0\x9f\x9a\xb6",
+              "\"Gang \xc3\xbc \xe6\xad\xa9 \xf0\x9f\x9a\xb6\"");
+  assert_text("a\xe2\x80\xa8"
+              "b\xe2\x80\xa9"
+              "c\xe2\x80\xaa",
+              "\"a\\u2028b\\u2029c\xe2\x80\xaa\"");
 }
 
 /* names of files may be any bytes: overlong forms, surrogates, a character that is cut off */
@@ -34,7 +38,8 @@ static void bytes_that_are_no_text(void **state) {
 
 static void json_without_blanks(void **state) {
   (void)state;
-  static const char given[] = "{\n  \"a b\": [1, -2.5e3 ,\t{ }],\r\n \"c\\\" d\\\\\": \"</script> \xe2\x80\xa8\"\n}\n";
+  static const char given[] =
+      "{\n  \"a b\": [1, -2.5e3 ,\t{ }],\r\n \"c\\\" d\\\\\": \"</script> \xe2\x80\xa8\"\n}\n";
   ambulo__text_buffer out;
   ambulo__text_init(&out, NULL);
   ambulo__script_json(&out, given, strlen(given));

@@ -11,8 +11,8 @@
 #define AMBULO_SOURCE_DIR "."
 #endif
 
-static const char *const files[] = {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
-                                    "gait.svg", "scene.json"};
+static const char *const files[] = {"summary.json",  "motion.csv", "motion.sto",
+                                    "solution.yaml", "gait.svg",   "scene.json"};
 
 static const char *inside(const char *folder, const char *name) {
   static char path[SCRATCH_PATH + 512];

@@ -185,8 +185,7 @@ static void people_beside_a_walk(void **state) {
   assert_int_equal(ambulo__norms_read(AMBULO_SOURCE_DIR "/models/norms", NULL, NULL, &people), 0);
   scene s = open_scene("models/walk.yaml", NULL, 0, &people, 1.0);
   const ambulo__yaml_node *list = ambulo__yaml_get(s.read.root, "coordinates");
-  const ambulo__yaml_node *knee =
-      ambulo__yaml_get(scene_named(list, "knee_angle_l"), "people_q");
+  const ambulo__yaml_node *knee = ambulo__yaml_get(scene_named(list, "knee_angle_l"), "people_q");
   assert_non_null(knee);
   double least = 9.0, most = -9.0, widest = 0.0;
   for (int k = 0; k < s.stride.samples; k++) {

@@ -67,6 +67,7 @@ export class Figure {
       } else if (!(bone.kind === "capsule" && covered(bone))) this.addBone(bone, thin);
     }
     for (const foot of scene.feet) if (foot.sole.length === 4) this.addShoe(foot);
+    if (!scene.ground.is_there) this.addPivot();
     this.addCarried();
     this.showBones(false);
   }
@@ -92,6 +93,17 @@ export class Figure {
       mesh.position.addVectors(one, other).multiplyScalar(0.5);
       if (now > 1e-6) mesh.quaternion.copy(turn.setFromUnitVectors(up, way.divideScalar(now)));
     });
+  }
+
+  // what hangs on the world, hangs there
+  addPivot() {
+    const still = ([f, l, u]) => [f, l, u].every((x) => Math.max(...x) - Math.min(...x) < 1e-3);
+    const points = new Set(this.scene.bones.flatMap((b) => b.points));
+    for (const point of points) {
+      if (!still(this.scene.points[point])) continue;
+      const mesh = this.addMesh(new SphereGeometry(0.05, 24, 16), this.materials.device);
+      pointAt(this.scene, point, [0, 0], mesh.position);
+    }
   }
 
   addTrunk(trunk) {

@@ -253,7 +253,8 @@ function show(main, ghost) {
     if (page.stage.view) page.stage.frame(page.stage.view);
   }
   document.querySelectorAll("[data-needs]").forEach((node) => {
-    const need = { forces: scene.forces.length, ghost: Boolean(other), feet: scene.feet.length }[node.dataset.needs];
+    const need = { forces: scene.forces.length, ghost: Boolean(other), feet: scene.feet.length,
+      sides: scene.bones.some((b) => b.side !== "middle") }[node.dataset.needs];
     node.hidden = !need;
   });
   page.charts = new Charts(byId("curves"), result.summary, scene, other ? { scene: sceneOf(other),

@@ -137,7 +137,7 @@ export class Stage {
     this.placeArrows(where);
     const center = toView(...mass).add(this.figures.position).applyAxisAngle(
       new Vector3(0, 0, 1), data.ground.slope);
-    if (this.shows.follow) this.goAlong(center);
+    if (this.shows.follow && data.ground.is_there) this.goAlong(center);
     this.world.follow(mass[0] + shift);
     this.sun.target.position.copy(center);
     this.sun.position.copy(center).add(new Vector3(1.6, 4.6, 2.4));
@@ -183,28 +183,34 @@ export class Stage {
       this.data.ground.slope !== 0;
   }
 
-  // how much there is to see, m
+  // how much there is to see, m: from the lowest to the highest point; of what stands on no ground
+  // also from the rearmost to the foremost, around a middle of its own
   size() {
-    let low = Infinity, high = -Infinity;
+    const ends = [Infinity, -Infinity, Infinity, -Infinity];
     for (const p of this.data.points) {
       for (let k = 0; k < this.data.samples; k += 8) {
-        low = Math.min(low, p[2][k]);
-        high = Math.max(high, p[2][k]);
+        [0, 2].forEach((axis, i) => {
+          ends[2 * i] = Math.min(ends[2 * i], p[axis][k]);
+          ends[2 * i + 1] = Math.max(ends[2 * i + 1], p[axis][k]);
+        });
       }
     }
-    return { low, high, height: Math.max(high - low, 0.6) };
+    const [rear, front, low, high] = ends;
+    if (this.data.ground.is_there) return { low, high, height: Math.max(high - low, 0.6) };
+    return { low, high, height: Math.max(high - low, front - rear, 0.3), middle: (rear + front) / 2 };
   }
 
   frame(view = "free") {
-    const { low, high, height } = this.size();
+    const { low, high, height, middle: center } = this.size();
     const where = sampleAt(this.data, this.time);
     const mass = toView(...this.data.center_of_mass.map((x) => valueAt(x, where)))
       .add(this.figures.position).applyAxisAngle(new Vector3(0, 0, 1), this.data.ground.slope);
     const rises = Math.abs(this.data.rise ?? 0) > 0 || this.data.ground.slope !== 0;
-    const middle = rises ? mass.y - 0.08 : (Math.max(low, -0.2) + high) / 2;
-    const target = new Vector3(mass.x, middle, mass.z);
+    const hangs = center !== undefined;
+    const middle = rises ? mass.y - 0.08 : (hangs ? low + high : Math.max(low, -0.2) + high) / 2;
+    const target = new Vector3(hangs ? center : mass.x, middle, mass.z);
     const aspect = this.camera.aspect || 1.4;
-    const tall = Math.max(rises ? Math.min(height, 2.1) : height, 1.0);
+    const tall = Math.max(rises ? Math.min(height, 2.1) : height, hangs ? 0.4 : 1.0);
     const far = (0.62 * tall + 0.12) / Math.tan((this.camera.fov * Math.PI) / 360) *
       Math.max(1, 0.95 / aspect);
     const ways = { free: [0.52, 0.2, 1], side: [0, 0.04, 1], front: [1, 0.06, 0.0001],

@@ -74,7 +74,8 @@ export function taskWords(summary, scene) {
   if (g) {
     parts.push(`${short(g.speed)} m/s`, `steps of ${short(g.step_length)} m in ${short(g.step_time)} s`);
     if (g.flight_time > 0) parts.push(`${short(g.flight_time * 1000)} ms of flight a step`);
-  } else if (summary.center_of_mass && Math.abs(summary.center_of_mass.distance) > 0.1) {
+  } else if (summary.center_of_mass && scene.feet.length
+    && Math.abs(summary.center_of_mass.distance) > 0.3) {
     parts.push(`${short(summary.center_of_mass.distance)} m forward`);
   }
   parts.push(`${short(scene.duration)} s shown`);
