@@ -68,7 +68,7 @@ let last = 0;
 function tick(now) {
   if (!page.playing) return;
   const scene = sceneOf(page.results[page.main]);
-  const step = Math.min((now - last) / 1000, 0.1) * page.speed;
+  const step = Math.min(Math.max((now - last) / 1000, 0), 0.1) * page.speed;
   last = now;
   let time = page.time + step, { period } = page;
   if (page.pause > 0) page.pause -= step / page.speed;

@@ -57,8 +57,23 @@ export function amount(value, unit) {
   return `${short(value, 3)} ${unit ?? ""}`.trim();
 }
 
+const sides = {
+  "forward lower": "too far back", "forward upper": "too far ahead", "left lower": "too far right",
+  "left upper": "too far left", "up lower": "too low", "up upper": "too high",
+};
+const limited = { joint_limit: "its range", speed_limit: "its speeds", torque_limit: "its torques" };
+
+// which side of a row is left: "lower" of a range is below it
+function detailWords(v) {
+  if (v.family === "reach" && sides[v.detail]) return sides[v.detail];
+  const what = limited[v.family];
+  if (what && v.detail === "lower") return `below ${what}`;
+  if (what && v.detail === "upper") return `above ${what}`;
+  return v.detail;
+}
+
 // what a row is about: "ball arc, left: ahead"
-export const rowWords = (v) => [v.row ? spoken(v.row) : "", v.detail].filter(Boolean).join(": ");
+export const rowWords = (v) => [v.row ? spoken(v.row) : "", detailWords(v)].filter(Boolean).join(": ");
 
 export function violationWords(v) {
   if (!v || !v.family) return null;
