@@ -23,6 +23,10 @@ typedef struct ambulo_page_options {
   const ambulo_model *body;
   double ground_height;
   double from, to;
+
+  /* Motions of a batch that the page of it holds at most, MB; 12. Further cases lead to their
+   * pictures. */
+  double megabytes;
 } ambulo_page_options;
 AMBULO_API ambulo_page_options ambulo_page_options_default(void);
 

@@ -44,6 +44,7 @@ static int run(const ambulo__cli_input *input) {
   ambulo_page_options options = ambulo_page_options_default();
   int code = read_motion(input, &options);
   if (code) return code;
+  if (!ambulo__cli_number(input, "size", 0.0, 1e6, &options.megabytes)) return 2;
   options.overwrite = ambulo__cli_flag(input, "force");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo__cli_body body = {.model = NULL};
@@ -70,6 +71,7 @@ static int run(const ambulo__cli_input *input) {
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "the page (default: DIR/report.html)"},
     {"force", 0, NULL, "write over a file that is no page by ambulo"},
+    {"size", 0, "MB", "motions of a batch that its page holds at most (default: 12)"},
     {"motion", 0, "FILE", "a measured motion (CSV, STO, MOT), as a ghost beside the result"},
     {"body", 0, "FILE", "the model, or the problem, of that motion"},
     {"from", 0, "S", "begin with this time of the motion (default: its first)"},

@@ -20,13 +20,16 @@ static const char own_mark[] = "<meta name=\"generator\" content=\"ambulo report
 static const char data_mark[] = "/*DATA*/";
 
 ambulo_page_options ambulo_page_options_default(void) {
-  ambulo_page_options options = {
-      .cookie = OPTIONS_COOKIE, .from = -(double)INFINITY, .to = (double)INFINITY};
+  ambulo_page_options options = {.cookie = OPTIONS_COOKIE,
+                                 .from = -(double)INFINITY,
+                                 .to = (double)INFINITY,
+                                 .megabytes = 12.0};
   return options;
 }
 
 static int options_are_valid(const ambulo_page_options *o) {
   if (o->cookie != OPTIONS_COOKIE || !isfinite(o->ground_height)) return 0;
+  if (!(o->megabytes >= 0.0 && o->megabytes <= 1e6)) return 0;
   return !o->motion || (o->body && o->from < o->to);
 }
 
@@ -54,11 +57,11 @@ static char *folder_of(const ambulo_allocator *a, const char *path) {
   return folder;
 }
 
-static ambulo_status study(const char *directory, const char *output, ambulo__text_buffer *data,
-                           ambulo_diagnostics *diagnostics) {
+static ambulo_status study(const char *directory, const char *output, double megabytes,
+                           ambulo__text_buffer *data, ambulo_diagnostics *diagnostics) {
   char *folder = folder_of(&data->allocator, output);
   if (!folder) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__page_add_study(directory, folder, data, diagnostics);
+  ambulo_status status = ambulo__page_add_study(directory, folder, megabytes, data, diagnostics);
   ambulo__free(&data->allocator, folder);
   return status;
 }
@@ -117,7 +120,7 @@ ambulo_status ambulo_page_write(const char *const *directories, int count, const
   ambulo_status status = check_output(output, own.overwrite, diagnostics);
   ambulo__text_append_char(&data, '{');
   if (!status && count == 1 && !own.motion && ambulo__page_is_batch(directories[0]))
-    status = study(directories[0], output, &data, diagnostics);
+    status = study(directories[0], output, own.megabytes, &data, diagnostics);
   else if (!status)
     status = results(directories, count, &own, &data, diagnostics);
   ambulo__text_append_char(&data, '}');

@@ -48,8 +48,8 @@ ambulo_status ambulo__page_add_motion(const ambulo_page_options *options, ambulo
 /* 1 if a batch has filled the folder. */
 int ambulo__page_is_batch(const char *directory);
 /* Appends "study". `folder`: where the page will stand, for the ways to pictures of cases whose
- * motion is not in it. Errors: as of ambulo_batch_collect. */
-ambulo_status ambulo__page_add_study(const char *directory, const char *folder,
+ * motion is not in it; `megabytes`: of motions at most. Errors: as of ambulo_batch_collect. */
+ambulo_status ambulo__page_add_study(const char *directory, const char *folder, double megabytes,
                                      ambulo__text_buffer *out, ambulo_diagnostics *diagnostics);
 
 #endif

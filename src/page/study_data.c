@@ -1,7 +1,7 @@
 /* page/study_data.c - a batch folder as data of a page (page.h).
  *
- * Motions of cases are thinned (thin.h), their summaries cut down to what is shown. A page holds
- * MOST_BYTES of motions, some 500 walks; further cases lead to the picture in their folder.
+ * Motions of cases are thinned (thin.h), their summaries cut down to what is shown. A page holds so
+ * many of them; further cases lead to the picture in their folder.
  */
 #include <errno.h>
 #include <math.h>
@@ -16,16 +16,15 @@
 #include "page/script_text.h"
 #include "page/thin.h"
 
-enum { MOST_BYTES = 12000000 };
-
 typedef struct study {
   const char *directory;
   char *way; /* from the page's folder to that of the batch: "", "../study/"; NULL: unknown */
   const ambulo__listing *listing;
   ambulo__text_buffer *out;
   ambulo_diagnostics *diagnostics;
-  size_t motions; /* bytes of them so far */
-  int left_out;   /* cases whose motion had no room */
+  double megabytes; /* of motions at most */
+  size_t motions;   /* bytes of them so far */
+  int left_out;     /* cases whose motion had no room */
 } study;
 
 int ambulo__page_is_batch(const char *directory) {
@@ -99,7 +98,7 @@ static ambulo_status add_motion(study *s, const char *folder, int *stands) {
   ambulo__text_init(&thin, a);
   ambulo__scene_thin(&thin, result.scene.text, result.scene.length);
   status = ambulo__text_status(&thin);
-  *stands = !status && s->motions + thin.length <= MOST_BYTES;
+  *stands = !status && (double)(s->motions + thin.length) <= 1e6 * s->megabytes;
   if (*stands) {
     s->motions += thin.length;
     ambulo__text_append(s->out, ",\"summary\":");
@@ -194,13 +193,12 @@ static void columns(const study *s) {
 static void tell_left_out(const study *s) {
   ambulo__place place = {.file = s->directory};
   if (s->left_out > 0)
-    ambulo__warning(s->diagnostics, place, "'ambulo report' of a case's own folder has it",
-                    "%d cases are in the table without their motion: the page would be larger than "
-                    "%d MB",
-                    s->left_out, MOST_BYTES / 1000000);
+    ambulo__warning(s->diagnostics, place, "--size takes more (in C: megabytes)",
+                    "%d case%s in the table without motion: %g MB of motions are the most",
+                    s->left_out, s->left_out == 1 ? " is" : "s are", s->megabytes);
 }
 
-ambulo_status ambulo__page_add_study(const char *directory, const char *folder,
+ambulo_status ambulo__page_add_study(const char *directory, const char *folder, double megabytes,
                                      ambulo__text_buffer *out, ambulo_diagnostics *diagnostics) {
   const ambulo_allocator *a = &out->allocator;
   ambulo__listing listing;
@@ -210,7 +208,8 @@ ambulo_status ambulo__page_add_study(const char *directory, const char *folder,
              .way = ambulo__path_between(a, folder, directory),
              .listing = &listing,
              .out = out,
-             .diagnostics = diagnostics};
+             .diagnostics = diagnostics,
+             .megabytes = megabytes};
   ambulo__text_append(out, "\"study\":{\"name\":");
   ambulo__script_text(out, listing.name);
   columns(&s);
