@@ -111,8 +111,11 @@ static ambulo_status add_motion(study *s, const char *folder, int *stands) {
   return status;
 }
 
+/* where the page stands in the folder itself the way is "", and is said to be "." */
 static void add_picture(study *s, const char *id) {
-  char *picture = ambulo__case_path(&s->out->allocator, s->way, id, "/gait.svg");
+  size_t length = strlen(s->way);
+  if (length > 1 && s->way[length - 1] == '/') s->way[length - 1] = '\0';
+  char *picture = ambulo__case_path(&s->out->allocator, length ? s->way : ".", id, "/gait.svg");
   if (!picture) s->out->failed = 1;
   if (!picture) return;
   ambulo__text_append(s->out, ",\"picture\":");
