@@ -8,6 +8,7 @@ set -u
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
 AMBULO=${AMBULO:-$top/build/ambulo}
+AMBULO=$(cd "$(dirname "$AMBULO")" && pwd)/$(basename "$AMBULO")
 export OPENBLAS_NUM_THREADS=1 LC_ALL=C.UTF-8
 work=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-page-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
