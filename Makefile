@@ -96,7 +96,8 @@ ifeq ($(X86),)
   SOURCES := $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
 endif
 CLI_SOURCES := $(filter src/cli/%,$(SOURCES))
-LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES)))
+LIB_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(filter-out $(CLI_SOURCES),$(SOURCES))) \
+  $(OUT)/obj/viewer.o
 CLI_OBJECTS := $(patsubst %.c,$(OUT)/obj/%.o,$(CLI_SOURCES))
 TEST_SOURCES := $(sort $(wildcard tests/*/test_*.c))
 TESTS := $(patsubst %.c,$(OUT)/%,$(TEST_SOURCES))
@@ -108,7 +109,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize valgrind check-kill check-slurm coverage \
+  sanitize valgrind check-kill check-slurm check-page viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers \
   lint-equations lint-reading lint-keys lint-leftovers format \
@@ -124,6 +125,8 @@ help:
 	@echo 'make check        install what is missing, build, run all tests'
 	@echo 'make check-kill   two hundred random kills of a batch, then the same table'
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
+	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
+	@echo 'make viewer       that page from its sources in src/page/viewer (npm)'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
@@ -172,6 +175,15 @@ $(OUT)/obj/src/linear/band_kernels_%.o: src/linear/band_kernels_%.c $(OUT)/obj/f
 $(OUT)/obj/%.o: %.c $(OUT)/obj/flags
 	@mkdir -p $(@D)
 	$(call compile,$(if $(filter tests/% bench/%,$<),-Itests)$(if $(filter bench/peers/%,$<), -Ibench))
+
+# the page of `ambulo report`, as an array of bytes (src/page/viewer.h); the zero behind it ends a text
+$(OUT)/obj/viewer.c: src/page/viewer.html Makefile
+	@mkdir -p $(@D)
+	$(call quiet,GEN $@){ echo '#include "page/viewer.h"'; echo 'const unsigned char ambulo__viewer[] = {'; \
+	  od -An -v -t u1 $< | sed 's/[0-9][0-9]*/&,/g'; echo '0};'; \
+	  echo 'const size_t ambulo__viewer_size = sizeof ambulo__viewer - 1;'; } > $@
+$(OUT)/obj/viewer.o: $(OUT)/obj/viewer.c $(OUT)/obj/flags
+	$(call compile,)
 
 $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
@@ -250,6 +262,16 @@ bench-table1: build/.ready-build
 bench-table4: build/.ready-build
 	$(submake) $(OUT)/bench/table4
 	@OPENBLAS_NUM_THREADS=1 $(OUT)/bench/table4
+
+# the page of `ambulo report` from its sources: needs npm, and the packages of package-lock.json
+viewer:
+	@rm -rf build/viewer && mkdir -p build && cp -R src/page/viewer build/viewer
+	@cd build/viewer && npm ci --silent --no-audit --no-fund && node build.mjs ../../src/page/viewer.html
+
+# the page in a browser, which is installed if it is missing; without one, `make check` skips this
+check-page: build/.ready-page
+	$(submake) all
+	@AMBULO=$(OUT)/ambulo tests/page/run.sh
 
 bench-peers: build/.ready-build
 	$(submake) $(OUT)/ambulo $(OUT)/bench/peers/ours

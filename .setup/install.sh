@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing on this machine: .setup/install.sh build|test|lint|valgrind|package [--list]
+# Installs what is missing on this machine:
+# .setup/install.sh build|test|lint|valgrind|package|page [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
@@ -94,6 +95,10 @@ missing() {
   has_nlopt || package nlopt
   has_yaml || package yaml
   has_lapack || package lapack
+  if [ "$purpose" = page ]; then
+    has_program chromium || has_program chromium-browser || has_program google-chrome || package chromium
+    return 0
+  fi
   [ "$purpose" != build ] || return 0
   has_cmocka || package cmocka
   # the installed library is used through pkg-config, and from C++

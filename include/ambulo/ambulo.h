@@ -11,6 +11,7 @@
  *     hold.h       parts of a problem: what hands hold or push
  *     collision.h  parts of a problem: capsules, obstacles, places to reach
  *     report.h     results on disk, comparison with people
+ *     page.h       results to watch, as one HTML file
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
  *     import.h     models of OpenSim, URDF and MuJoCo
@@ -41,6 +42,7 @@
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
+#include "ambulo/page.h"
 #include "ambulo/parameters.h"
 #include "ambulo/problem.h"
 #include "ambulo/report.h"

@@ -10,8 +10,8 @@
 
 #include "cli/output.h"
 
-static const char *const files[] = {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
-                                    "gait.svg"};
+static const char *const files[] = {"summary.json",  "motion.csv", "motion.sto",
+                                    "solution.yaml", "gait.svg",   "scene.json"};
 enum { FILES = sizeof files / sizeof files[0], RECORD_BYTES = 4096 };
 
 /* bytes on disk of a result folder, which is removed */

@@ -289,10 +289,10 @@ const ambulo__cli_command ambulo__cli_solve = {
     .arguments = "PROBLEM.yaml",
     .summary = "predict a motion and write a result folder",
     .description =
-        "Solves the problem and writes summary.json, motion.csv, motion.sto, solution.yaml and\n"
-        "gait.svg into a new folder, all or nothing. The verdict comes from an audit of the\n"
-        "point, not from the solver. Exit code 0: feasible or optimal; 1: the result was written\n"
-        "but is not a solution, and says so.",
+        "Solves the problem and writes summary.json, motion.csv, motion.sto, solution.yaml,\n"
+        "gait.svg and scene.json into a new folder, all or nothing. The verdict comes from an\n"
+        "audit of the point, not from the solver. Exit code 0: feasible or optimal; 1: the result\n"
+        "was written but is not a solution, and says so.",
     .example = "ambulo solve models/walk_normal.yaml -o walk --time-limit 60\n"
                "ambulo solve models/walk_normal.yaml --set time.intervals=50 "
                "--start walk/solution.yaml -o finer\n"

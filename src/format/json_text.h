@@ -16,5 +16,7 @@ void ambulo__json_text(ambulo__json *json, const char *key, const char *value); 
 /* null for NaN and infinities, which JSON does not have */
 void ambulo__json_number(ambulo__json *json, const char *key, double value);
 void ambulo__json_integer(ambulo__json *json, const char *key, long long value);
+/* A value that is JSON already. */
+void ambulo__json_raw(ambulo__json *json, const char *key, const char *value);
 
 #endif

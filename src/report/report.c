@@ -15,15 +15,18 @@
 #include "picture/gait_svg.h"
 #include "report/solution_yaml.h"
 #include "report/summary_json.h"
+#include "scene/scene.h"
 #include "stride/stride.h"
 
 enum { OPTIONS_COOKIE = 0x616d6272 };
 
 static const char summary_name[] = "summary.json";
 
-/* only a folder of these files is taken for an earlier result and replaced */
-static const char *const file_names[] = {"summary.json", "motion.csv", "motion.sto",
-                                         "solution.yaml", "gait.svg"};
+/* only a folder of these files (the last is the page that `ambulo report` puts there) is taken for
+ * an earlier result and replaced */
+static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.sto",
+                                         "solution.yaml", "gait.svg",   "scene.json",
+                                         "report.html"};
 static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
                                          sizeof file_names / sizeof *file_names};
 
@@ -116,9 +119,9 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
   return status;
 }
 
-/* the picture; no result is lost over curves of people that cannot be read */
+/* the picture and the scene; no result is lost over curves of people that cannot be read */
 static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *result,
-                          const char *norms, ambulo__text_buffer *text,
+                          const char *norms, ambulo__folder *folder, ambulo__text_buffer *text,
                           ambulo_diagnostics *diagnostics) {
   ambulo__people people = {.count = 0};
   ambulo_status status = AMBULO_OK;
@@ -130,7 +133,11 @@ static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *re
     ambulo__warning(diagnostics, place, NULL,
                     "the curves of people cannot be read; gait.svg is without them");
   }
-  status = ambulo__gait_svg(problem, result, wanted && !status ? &people : NULL, text);
+  const ambulo__people *beside = wanted && !status ? &people : NULL;
+  status = ambulo__gait_svg(problem, result, beside, text);
+  if (!status) status = write_text(folder, "gait.svg", text, diagnostics);
+  if (!status) status = ambulo__scene_json(problem, result, beside, text);
+  if (!status) status = write_text(folder, "scene.json", text, diagnostics);
   ambulo__people_free(&people);
   return status;
 }
@@ -145,9 +152,7 @@ static ambulo_status write_all(const ambulo_problem *problem, const ambulo_resul
   status = write_text(folder, "solution.yaml", text, diagnostics);
   if (status) return status;
   status = write_motion(problem, result, options->samples, folder, text, diagnostics);
-  if (status) return status;
-  status = draw(problem, result, options->norms, text, diagnostics);
-  return status ? status : write_text(folder, "gait.svg", text, diagnostics);
+  return status ? status : draw(problem, result, options->norms, folder, text, diagnostics);
 }
 
 ambulo_status ambulo_report_write(const ambulo_problem *problem, const ambulo_result *result,

@@ -11,8 +11,8 @@
 #define AMBULO_SOURCE_DIR "."
 #endif
 
-static const char *const files[] = {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
-                                    "gait.svg"};
+static const char *const files[] = {"summary.json",  "motion.csv", "motion.sto",
+                                    "solution.yaml", "gait.svg",   "scene.json"};
 
 static const char *inside(const char *folder, const char *name) {
   static char path[SCRATCH_PATH + 512];
@@ -29,13 +29,13 @@ static void test_complete(void **state) {
   assert_int_equal(entries_in(*state), 0);
   assert_int_equal(ambulo_report_write(w.problem, w.result, folder, &options, NULL, NULL),
                    AMBULO_OK);
-  for (int i = 0; i < 5; i++) {
+  for (int i = 0; i < 6; i++) {
     char *text = read_text(inside(folder, files[i]));
     if (strlen(text) < 200) print_error("%s is only\n%s\n", files[i], text);
     assert_true(strlen(text) >= 200);
     free(text);
   }
-  assert_int_equal(entries_in(folder), 5);
+  assert_int_equal(entries_in(folder), 6);
   assert_int_equal(entries_in(*state), 1);
   walk_close(&w);
 }
@@ -156,7 +156,7 @@ static void test_full_disk(void **state) {
   ambulo_diagnostics_free(list);
   char *after = read_text(inside(folder, "motion.csv"));
   assert_string_equal(before, after);
-  assert_int_equal(entries_in(folder), 5);
+  assert_int_equal(entries_in(folder), 6);
   assert_int_equal(entries_in(*state), 1);
   free(before);
   free(after);

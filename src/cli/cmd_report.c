@@ -1,0 +1,100 @@
+/* cli/cmd_report.c - ambulo report: results as a page to watch. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/body.h"
+#include "cli/commands.h"
+#include "cli/format.h"
+#include "cli/output.h"
+
+/* --motion with the body that it moves; returns 0, or the exit code after a usage error */
+static int read_motion(const ambulo__cli_input *input, ambulo_page_options *options) {
+  const char *body = ambulo__cli_value(input, "body");
+  options->motion = ambulo__cli_value(input, "motion");
+  if (options->motion && !body)
+    return ambulo__cli_usage_error("report", NULL,
+                                   "--motion without --body; expected the model that it moves");
+  if (!options->motion && body)
+    return ambulo__cli_usage_error("report", NULL, "--body without --motion");
+  if (!ambulo__cli_number(input, "from", -1e9, 1e9, &options->from) ||
+      !ambulo__cli_number(input, "to", -1e9, 1e9, &options->to))
+    return 2;
+  if (options->from < options->to) return 0;
+  return ambulo__cli_usage_error("report", NULL, "--from is not before --to");
+}
+
+/* DIR/report.html unless -o names another; to be freed, NULL: no memory */
+static char *output_of(const ambulo__cli_input *input) {
+  const char *given = ambulo__cli_value(input, "output"), *directory = input->arguments[0];
+  size_t size = strlen(given ? given : directory) + sizeof "/report.html";
+  char *path = malloc(size);
+  if (!path) return NULL;
+  size_t length = strlen(directory);
+  while (length > 1 && directory[length - 1] == '/') length--;
+  if (given)
+    ambulo__cli_format(path, size, "%s", given);
+  else
+    ambulo__cli_format(path, size, "%.*s/report.html", (int)length, directory);
+  return path;
+}
+
+static int run(const ambulo__cli_input *input) {
+  ambulo_page_options options = ambulo_page_options_default();
+  int code = read_motion(input, &options);
+  if (code) return code;
+  if (!ambulo__cli_number(input, "size", 0.0, 1e6, &options.megabytes)) return 2;
+  options.overwrite = ambulo__cli_flag(input, "force");
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo__cli_body body = {.model = NULL};
+  char *output = output_of(input);
+  ambulo_status status = output ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!status && options.motion)
+    code =
+        ambulo__cli_body_load(input, ambulo__cli_value(input, "body"), diagnostics, &body, &status);
+  if (!code) {
+    options.body = body.model;
+    options.ground_height = body.ground_height;
+    if (!status)
+      status = ambulo_page_write(input->arguments, input->argument_count, output, &options, NULL,
+                                 diagnostics);
+    code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
+  }
+  if (!code) printf("written to %s\n", output);
+  free(output);
+  ambulo__cli_body_free(&body);
+  ambulo_diagnostics_free(diagnostics);
+  return code;
+}
+
+static const ambulo__cli_option options_table[] = {
+    {"output", 'o', "FILE", "the page (default: DIR/report.html)"},
+    {"force", 0, NULL, "write over a file that is no page by ambulo"},
+    {"size", 0, "MB", "motions of a batch that its page holds at most (default: 12)"},
+    {"motion", 0, "FILE", "a measured motion (CSV, STO, MOT), as a ghost beside the result"},
+    {"body", 0, "FILE", "the model, or the problem, of that motion"},
+    {"from", 0, "S", "begin with this time of the motion (default: its first)"},
+    {"to", 0, "S", "end with this time of it (default: its last)"},
+    AMBULO__CLI_BODY_OPTIONS,
+};
+
+const ambulo__cli_command ambulo__cli_report = {
+    .name = "report",
+    .arguments = "DIR [DIR...]",
+    .summary = "makes a page to watch: the motion in space, curves, verdict",
+    .description =
+        "One HTML file that a browser opens from the disk, without a network: the body in motion,\n"
+        "to turn, play and scrub; curves that follow it, beside people's; verdict, audit,\n"
+        "sensitivities and objective in plain words. Further result folders stand beside the "
+        "first\n"
+        "one as ghosts. Of a batch folder: a table of its cases and a plot of any two columns, in\n"
+        "which a click shows the motion of a case. See docs/guide-page.md.",
+    .example = "ambulo report walk\n"
+               "ambulo report walks",
+    .options = options_table,
+    .option_count = sizeof options_table / sizeof options_table[0],
+    .minimum = 1,
+    .maximum = -1,
+    .run = run,
+};

@@ -1,0 +1,241 @@
+// A body: capsules along its bones, shoes on its soles, what it carries; posed at a time.
+import {
+  BufferAttribute, BufferGeometry, CapsuleGeometry, Color, Group, Mesh, MeshStandardMaterial,
+  Quaternion, SphereGeometry, BoxGeometry, CylinderGeometry, Vector3,
+} from "three";
+import { sampleAt, valueAt } from "./decode.js";
+import { Trunk, limb } from "./limbs.js";
+
+// forward, left, up to the axes of three.js: x forward, y up, z to the right
+export const toView = (f, l, u, out = new Vector3()) => out.set(f, u, -l);
+
+const up = new Vector3(0, 1, 0), way = new Vector3(), one = new Vector3(), other = new Vector3();
+const turn = new Quaternion();
+
+export function pointAt(scene, point, where, out) {
+  const [f, l, u] = scene.points[point];
+  return toView(valueAt(f, where), valueAt(l, where), valueAt(u, where), out);
+}
+
+// thickness of a line of a stick figure, m
+const lineRadius = (length) => Math.min(Math.max(0.13 * length, 0.018), 0.055);
+
+function lengthAt(scene, ends) {
+  pointAt(scene, ends[0], [0, 0], one);
+  pointAt(scene, ends[1], [0, 0], other);
+  return one.distanceTo(other);
+}
+
+// capsules of feet are covered by shoes
+const isFoot = (bone) => /foot|toes/.test(bone.name ?? "");
+
+export class Figure {
+  constructor(scene, colors, ghost) {
+    this.scene = scene;
+    this.group = new Group();
+    this.flesh = new Group();
+    this.lines = new Group();
+    this.group.add(this.flesh, this.lines);
+    this.parts = [];
+    this.ghost = ghost;
+    const material = (color) => new MeshStandardMaterial({
+      color: new Color(color), roughness: 0.62, metalness: 0.02,
+      transparent: ghost, opacity: ghost ? 0.32 : 1, depthWrite: !ghost,
+    });
+    this.materials = { left: material(colors.left), right: material(colors.right),
+      middle: material(colors.middle), carried: material(colors.carried),
+      device: material(colors.device) };
+    this.lineMaterials = {};
+    for (const side of ["left", "right", "middle"])
+      this.lineMaterials[side] = material(colors[side]);
+    this.build();
+  }
+
+  build() {
+    const { scene } = this;
+    const capsules = scene.bones.filter((b) => b.kind === "capsule");
+    const shod = scene.feet.some((foot) => foot.sole.length === 4);
+    const trunk = new Trunk(scene);
+    const covered = (bone) => (shod && isFoot(bone)) ||
+      (trunk.isThere && /^(pelvis|trunk|shoulders)$/.test(bone.name));
+    if (trunk.isThere) this.addTrunk(trunk);
+    for (const bone of scene.bones) {
+      const thin = bone.kind !== "capsule" && capsules.length > 0;
+      if (bone.kind === "head") {
+        if (!thin) this.addHead(bone);
+        this.addBone({ ...bone, radius: 0 }, thin);
+      } else if (!(bone.kind === "capsule" && covered(bone))) this.addBone(bone, thin);
+    }
+    for (const foot of scene.feet) if (foot.sole.length === 4) this.addShoe(foot);
+    if (!scene.ground.is_there) this.addPivot();
+    this.addCarried();
+    this.showBones(false);
+  }
+
+  addMesh(geometry, material, parent = this.flesh) {
+    const mesh = new Mesh(geometry, material);
+    mesh.castShadow = !this.ghost;
+    parent.add(mesh);
+    return mesh;
+  }
+
+  addBone(bone, thin) {
+    const length = Math.max(lengthAt(this.scene, bone.points), 1e-4);
+    const radius = thin ? 0.011 : bone.radius || lineRadius(length);
+    const mesh = this.addMesh((!thin && limb(bone.name, radius, length)) ||
+      new CapsuleGeometry(radius, length, 8, 20),
+      (thin ? this.lineMaterials : this.materials)[bone.side], thin ? this.lines : this.flesh);
+    this.parts.push((where) => {
+      pointAt(this.scene, bone.points[0], where, one);
+      pointAt(this.scene, bone.points[1], where, other);
+      way.subVectors(other, one);
+      const now = way.length();
+      mesh.position.addVectors(one, other).multiplyScalar(0.5);
+      if (now > 1e-6) mesh.quaternion.copy(turn.setFromUnitVectors(up, way.divideScalar(now)));
+    });
+  }
+
+  // what hangs on the world, hangs there
+  addPivot() {
+    const still = ([f, l, u]) => [f, l, u].every((x) => Math.max(...x) - Math.min(...x) < 1e-3);
+    const points = new Set(this.scene.bones.flatMap((b) => b.points));
+    for (const point of points) {
+      if (!still(this.scene.points[point])) continue;
+      const mesh = this.addMesh(new SphereGeometry(0.05, 24, 16), this.materials.device);
+      pointAt(this.scene, point, [0, 0], mesh.position);
+    }
+  }
+
+  addTrunk(trunk) {
+    const mesh = this.addMesh(trunk.geometry, this.materials.middle);
+    mesh.frustumCulled = false;
+    this.materials.middle.side = 2;
+    this.parts.push((where) => trunk.pose(where));
+  }
+
+  addHead(bone) {
+    const mesh = this.addMesh(new SphereGeometry(bone.radius, 28, 20), this.materials.middle);
+    this.parts.push((where) => pointAt(this.scene, bone.points[1], where, mesh.position));
+  }
+
+  // sole: heel inside and outside, toe outside and inside; the upper part leads to the ankle
+  addShoe(foot) {
+    const corners = foot.sole, position = new Float32Array(9 * 3);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(position, 3));
+    const quads = [[0, 1, 2, 3], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
+    const index = quads.flatMap(([a, b, c, d]) => [a, c, b, a, d, c]);
+    index.push(4, 8, 5, 5, 8, 6, 6, 8, 7, 7, 8, 4);
+    geometry.setIndex(index);
+    const flat = this.materials[foot.side].clone();
+    flat.flatShading = true;
+    flat.side = 2;
+    this.materials[`shoe ${foot.name}`] = flat;
+    const mesh = this.addMesh(geometry, flat);
+    mesh.frustumCulled = false;
+    const at = corners.map(() => new Vector3()), ankle = new Vector3(), middle = new Vector3();
+    const set = (i, v) => position.set([v.x, v.y, v.z], 3 * i);
+    this.parts.push((where) => {
+      corners.forEach((p, i) => pointAt(this.scene, p, where, at[i]));
+      pointAt(this.scene, foot.ankle, where, ankle);
+      middle.set(0, 0, 0);
+      for (const corner of at) middle.addScaledVector(corner, 0.25);
+      // away from the sole, at right angles to it
+      one.subVectors(at[3], at[0]);
+      other.subVectors(at[1], at[0]);
+      way.crossVectors(one, other).normalize();
+      if (way.dot(other.subVectors(ankle, middle)) < 0) way.negate();
+      const height = Math.max(other.subVectors(ankle, at[0]).dot(way), 0.03);
+      at.forEach((corner, i) => {
+        set(i, corner);
+        const lift = i < 2 ? 0.62 * height : 0.03;
+        other.lerpVectors(corner, middle, i < 2 ? 0.1 : 0.16).addScaledVector(way, lift);
+        set(4 + i, other);
+      });
+      set(8, other.copy(ankle).addScaledVector(way, 0.012));
+      geometry.attributes.position.needsUpdate = true;
+      geometry.computeVertexNormals();
+    });
+  }
+
+  // two loads that keep their distance, one on each side, are one box between them
+  addCarried() {
+    const loads = this.scene.worn.filter((w) => w.kind === "load");
+    const pair = ["left", "right"].map((side) => loads.filter((w) => w.side === side));
+    if (pair[0].length === 1 && pair[1].length === 1 && loads.length === 2 && this.keepApart(pair))
+      return this.addBox(pair[0][0], pair[1][0]);
+    for (const load of loads) {
+      const size = 0.09 * Math.cbrt(load.mass);
+      const mesh = this.addMesh(new BoxGeometry(0.7 * size, 1.1 * size, 0.9 * size),
+        this.materials.carried);
+      this.parts.push((where) => pointAt(this.scene, load.from, where, mesh.position));
+    }
+    for (const device of this.scene.worn.filter((w) => w.kind === "device")) this.addDevice(device);
+    return undefined;
+  }
+
+  keepApart([[left], [right]]) {
+    const gaps = [];
+    for (let k = 0; k < this.scene.samples - 1; k += 4) {
+      pointAt(this.scene, left.from, [k, 0], one);
+      pointAt(this.scene, right.from, [k, 0], other);
+      gaps.push(one.distanceTo(other));
+    }
+    return Math.max(...gaps) - Math.min(...gaps) < 0.03;
+  }
+
+  addBox(left, right) {
+    const gap = lengthAt(this.scene, [left.from, right.from]);
+    const mesh = this.addMesh(new BoxGeometry(0.3, 0.24, Math.max(gap - 0.05, 0.1)),
+      this.materials.carried);
+    this.parts.push((where) => {
+      pointAt(this.scene, left.from, where, one);
+      pointAt(this.scene, right.from, where, other);
+      mesh.position.addVectors(one, other).multiplyScalar(0.5);
+      mesh.position.y -= 0.06;
+      way.subVectors(other, one);
+      mesh.rotation.set(0, Math.atan2(way.x, way.z), 0);
+    });
+  }
+
+  addDevice(device) {
+    const most = Math.max(...device.effort.map(Math.abs), 1e-9);
+    const joint = device.radius !== undefined;
+    const geometry = joint ? new CylinderGeometry(0.075, 0.075, 0.2, 24)
+      : new CylinderGeometry(0.012, 0.012, 1, 10);
+    if (joint) geometry.rotateX(Math.PI / 2);
+    const mesh = this.addMesh(geometry, this.materials.device);
+    this.parts.push((where) => {
+      const share = Math.abs(valueAt(device.effort, where)) / most;
+      pointAt(this.scene, device.from, where, one);
+      if (joint) {
+        mesh.position.copy(one);
+        mesh.scale.setScalar(0.55 + 0.45 * share);
+        return;
+      }
+      pointAt(this.scene, device.to, where, other);
+      way.subVectors(other, one);
+      const now = Math.max(way.length(), 1e-6);
+      mesh.position.addVectors(one, other).multiplyScalar(0.5);
+      mesh.scale.set(0.5 + share, now, 0.5 + share);
+      mesh.quaternion.copy(turn.setFromUnitVectors(up, way.divideScalar(now)));
+    });
+  }
+
+  // thin lines seen through the body, or the body alone
+  showBones(on) {
+    this.lines.visible = on || !this.flesh.children.length;
+    if (this.ghost) return;
+    for (const m of Object.values(this.materials)) {
+      m.transparent = on;
+      m.opacity = on ? 0.22 : 1;
+      m.depthWrite = !on;
+      m.needsUpdate = true;
+    }
+  }
+
+  pose(time) {
+    const where = sampleAt(this.scene, time);
+    for (const part of this.parts) part(where);
+  }
+}

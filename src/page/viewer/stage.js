@@ -1,0 +1,281 @@
+// The view in space: camera, light, body, world, forces; drawn only when something changed.
+import {
+  AmbientLight, DirectionalLight, Fog, Group, HemisphereLight, Mesh, MeshBasicMaterial,
+  PCFShadowMap, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { css } from "./dom.js";
+import { sampleAt, valueAt } from "./decode.js";
+import { Figure, toView } from "./figure.js";
+import { Arrow, World } from "./world.js";
+
+const forceLength = 0.9; // m for the body weight
+const names = ["left", "right", "middle", "carried", "device", "ghost", "floor", "grid", "step",
+  "step2", "obstacle", "place", "pressure", "force", "mass", "sky"];
+const readColors = () => Object.fromEntries(names.map((n) => [n, css(`--${n}`)]));
+
+export function hasWebGL() {
+  try {
+    const canvas = document.createElement("canvas");
+    return Boolean(canvas.getContext("webgl2"));
+  } catch {
+    return false;
+  }
+}
+
+export class Stage {
+  constructor(canvas) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.camera = new PerspectiveCamera(32, 1, 0.05, 80);
+    this.camera.position.set(2.6, 1.5, 4.2);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enablePan = true;
+    this.controls.minDistance = 0.6;
+    this.controls.maxDistance = 18;
+    this.controls.maxPolarAngle = Math.PI / 2 + 0.15;
+    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => this.onTurn?.());
+    this.root = new Group();
+    this.scene = new Scene();
+    this.scene.add(this.root);
+    this.lights();
+    this.shows = { forces: true, prints: true, paths: false, mass: false, bones: false,
+      ghost: true, follow: true };
+    this.time = 0;
+    this.period = 0;
+    this.focus = new Vector3();
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+  }
+
+  lights() {
+    this.scene.add(new HemisphereLight(0xffffff, 0x9aa3ad, 1.7), new AmbientLight(0xffffff, 0.2));
+    const sun = this.sun = new DirectionalLight(0xffffff, 1.9);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(1024, 1024);
+    sun.shadow.bias = -0.0006;
+    sun.shadow.normalBias = 0.015;
+    Object.assign(sun.shadow.camera, { left: -2.2, right: 2.2, top: 2.4, bottom: -1.6, near: 0.5,
+      far: 14 });
+    this.scene.add(sun, sun.target);
+  }
+
+  load(scene, ghost) {
+    this.data = scene;
+    this.ghostData = ghost;
+    this.build();
+    this.frame();
+  }
+
+  build() {
+    this.root.clear();
+    const colors = this.colors = readColors();
+    const { data, ghostData } = this;
+    this.world = new World(data, colors);
+    this.figure = new Figure(data, colors, false);
+    this.figures = new Group();
+    this.figures.add(this.figure.group);
+    this.ghost = null;
+    if (ghostData) {
+      const c = colors.ghost;
+      this.ghost = new Figure(ghostData, { left: c, right: c, middle: c, carried: c, device: c }, true);
+      this.figures.add(this.ghost.group);
+    }
+    this.arrows = data.forces.map((f) => ({ force: f, arrow: new Arrow(colors.force) }));
+    for (const { arrow } of this.arrows) this.figures.add(arrow.group);
+    this.massBall = new Mesh(new SphereGeometry(0.045, 20, 14),
+      new MeshBasicMaterial({ color: colors.mass, depthTest: false, transparent: true }));
+    this.massBall.renderOrder = 5;
+    this.figures.add(this.massBall);
+    this.root.add(this.world.group, this.figures);
+    this.root.rotation.z = data.ground.slope;
+    this.renderer.setClearColor(colors.sky);
+    this.scene.fog = new Fog(colors.sky, 9, 24);
+    this.copies();
+    this.show({});
+  }
+
+  // prints and paths of the periods before and behind
+  copies() {
+    const { data, world } = this;
+    if (!data.repeats || !data.travel) return;
+    for (const n of [-1, 1, 2]) {
+      const copy = world.repeated.clone();
+      copy.position.set(n * data.travel, n * data.rise, 0);
+      world.repeated.add(copy);
+    }
+  }
+
+  show(change) {
+    Object.assign(this.shows, change);
+    const { shows, world } = this;
+    world.repeated.traverse((o) => {
+      if (o.isInstancedMesh) o.visible = shows.paths;
+      else if (o.isMesh) o.visible = shows.prints;
+    });
+    this.figure.showBones(shows.bones);
+    if (this.ghost) this.ghost.group.visible = shows.ghost;
+    this.massBall.visible = shows.mass;
+    this.moveTo(this.time, this.period, this.ghostTime);
+  }
+
+  // a period of a motion that repeats is drawn further on
+  moveTo(time, period, ghostTime) {
+    const { data } = this;
+    this.time = time;
+    this.period = period;
+    this.ghostTime = ghostTime;
+    this.figure.pose(time);
+    const shift = period * (data.travel ?? 0), rise = period * (data.rise ?? 0);
+    this.figures.position.set(shift, rise, 0);
+    this.world.repeated.position.set(shift, rise, 0);
+    const where = sampleAt(data, time);
+    const mass = data.center_of_mass.map((x) => valueAt(x, where));
+    toView(...mass, this.massBall.position);
+    if (this.ghost) this.placeGhost(where, ghostTime);
+    this.placeArrows(where);
+    const center = toView(...mass).add(this.figures.position).applyAxisAngle(
+      new Vector3(0, 0, 1), data.ground.slope);
+    if (this.shows.follow && data.ground.is_there) this.goAlong(center);
+    this.world.follow(mass[0] + shift);
+    this.sun.target.position.copy(center);
+    this.sun.position.copy(center).add(new Vector3(1.6, 4.6, 2.4));
+    this.world.at(time, this.camera);
+    this.draw();
+  }
+
+  // beside the body, wherever its own way has led it
+  placeGhost(where, time) {
+    const g = this.ghostData;
+    this.ghost.pose(time);
+    const there = sampleAt(g, time);
+    const at = (s, i, w) => valueAt(s.center_of_mass[i], w);
+    this.ghost.group.position.set(at(this.data, 0, where) - at(g, 0, there), 0,
+      -(at(this.data, 1, where) - at(g, 1, there)));
+  }
+
+  placeArrows(where) {
+    const force = new Vector3(), at = new Vector3();
+    for (const { force: f, arrow } of this.arrows) {
+      toView(...f.force.map((x) => valueAt(x, where)), force);
+      toView(...f.pressure.map((x) => valueAt(x, where)), at);
+      const length = (force.length() / this.data.weight) * forceLength;
+      // a foot in the air has no center of pressure: none is drawn between two that are far apart
+      const [k] = where;
+      const jump = Math.hypot(...f.pressure.map((x) => x[k + 1] - x[k])) > 0.2;
+      arrow.set(at, force, this.shows.forces && !jump ? length : 0);
+    }
+  }
+
+  goAlong(center) {
+    const change = center.clone().sub(this.focus);
+    if (this.data.repeats === undefined || !this.followsHeight()) change.y = 0;
+    this.focus.add(change);
+    this.camera.position.add(change);
+    this.controls.target.add(change);
+    this.camera.updateMatrixWorld();
+  }
+
+  followsHeight() {
+    const up = this.data.center_of_mass[2];
+    return Math.abs(this.data.rise ?? 0) > 0 || Math.max(...up) - Math.min(...up) > 0.7 ||
+      this.data.ground.slope !== 0;
+  }
+
+  // how much there is to see, m: from the lowest to the highest point; of what stands on no ground
+  // also from the rearmost to the foremost, around a middle of its own
+  size() {
+    const ends = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const p of this.data.points) {
+      for (let k = 0; k < this.data.samples; k += 8) {
+        [0, 2].forEach((axis, i) => {
+          ends[2 * i] = Math.min(ends[2 * i], p[axis][k]);
+          ends[2 * i + 1] = Math.max(ends[2 * i + 1], p[axis][k]);
+        });
+      }
+    }
+    const [rear, front, low, high] = ends;
+    if (this.data.ground.is_there) return { low, high, height: Math.max(high - low, 0.6) };
+    return { low, high, height: Math.max(high - low, front - rear, 0.3), middle: (rear + front) / 2 };
+  }
+
+  frame(view = "free") {
+    const { low, high, height, middle: center } = this.size();
+    const where = sampleAt(this.data, this.time);
+    const mass = toView(...this.data.center_of_mass.map((x) => valueAt(x, where)))
+      .add(this.figures.position).applyAxisAngle(new Vector3(0, 0, 1), this.data.ground.slope);
+    const rises = Math.abs(this.data.rise ?? 0) > 0 || this.data.ground.slope !== 0;
+    const hangs = center !== undefined;
+    const middle = rises ? mass.y - 0.08 : (hangs ? low + high : Math.max(low, -0.2) + high) / 2;
+    const target = new Vector3(hangs ? center : mass.x, middle, mass.z);
+    const aspect = this.camera.aspect || 1.4;
+    const tall = Math.max(rises ? Math.min(height, 2.1) : height, hangs ? 0.4 : 1.0);
+    const far = (0.62 * tall + 0.12) / Math.tan((this.camera.fov * Math.PI) / 360) *
+      Math.max(1, 0.95 / aspect);
+    const ways = { free: [0.52, 0.2, 1], side: [0, 0.04, 1], front: [1, 0.06, 0.0001],
+      top: [0.0001, 1, 0.0002], back: [-1, 0.1, 0.12] };
+    const way = new Vector3(...ways[view]).normalize();
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(way, far);
+    this.focus.copy(mass);
+    this.controls.update();
+    this.draw();
+  }
+
+  zoom(factor) {
+    const { target } = this.controls;
+    this.camera.position.sub(target).multiplyScalar(factor).add(target);
+    this.controls.update();
+    this.draw();
+  }
+
+  orbit(right, upward) {
+    const { target } = this.controls;
+    const offset = this.camera.position.clone().sub(target);
+    offset.applyAxisAngle(new Vector3(0, 1, 0), right);
+    const flat = Math.hypot(offset.x, offset.z), radius = offset.length();
+    const angle = Math.min(Math.max(Math.atan2(offset.y, flat) + upward, -0.12), 1.5);
+    const level = radius * Math.cos(angle) / Math.max(flat, 1e-6);
+    offset.set(offset.x * level, radius * Math.sin(angle), offset.z * level);
+    this.camera.position.copy(target).add(offset);
+    this.controls.update();
+    this.draw();
+  }
+
+  resize() {
+    const box = this.renderer.domElement.parentElement.getBoundingClientRect();
+    if (box.width < 2 || box.height < 2) return;
+    const before = this.camera.aspect;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setSize(box.width, box.height, false);
+    this.camera.aspect = box.width / box.height;
+    this.camera.updateProjectionMatrix();
+    if (this.data && Math.abs(before - this.camera.aspect) > 0.2 && !this.turned) this.frame(this.view);
+    this.drawNow();
+  }
+
+  // a picture of so many pixels, as data of an <img>
+  still(width, height) {
+    const { renderer, camera } = this;
+    renderer.setPixelRatio(1);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    this.drawNow();
+    const picture = renderer.domElement.toDataURL("image/jpeg", 0.92);
+    this.resize();
+    return picture;
+  }
+
+  draw() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow() {
+    this.waiting = false;
+    if (this.data) this.renderer.render(this.scene, this.camera);
+  }
+}

@@ -1,0 +1,189 @@
+// Stands last in a page under test: uses it as a person would, and tells what came of it.
+(async () => {
+  const results = [], $ = (id) => document.getElementById(id);
+  const check = (what, ok, got) => results.push([Boolean(ok), what, got === undefined ? "" : String(got)]);
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const clock = () => parseFloat($("clock").textContent);
+  const canvas = $("canvas"), kind = window.kind;
+  // what the view shows, as a number; drawn in this task
+  const picture = async () => {
+    await wait(120);
+    const small = document.createElement("canvas");
+    small.width = small.height = 64;
+    const pen = small.getContext("2d");
+    pen.drawImage(canvas, 0, 0, 64, 64);
+    return Array.from(pen.getImageData(0, 0, 64, 64).data);
+  };
+  const apart = (a, b) => a.reduce((sum, x, i) => sum + Math.abs(x - b[i]), 0) / a.length;
+  const scrub = (share) => {
+    $("scrub").value = String(1000 * share);
+    $("scrub").dispatchEvent(new Event("input"));
+  };
+  const press = (key) => document.body.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  const shown = (node) => node && node.offsetParent !== null;
+
+  function names() {
+    const nameOf = (n) => (n.getAttribute("aria-label") || n.labels?.[0]?.textContent || n.textContent
+      || n.alt || n.title || "").trim();
+    const controls = document.querySelectorAll("button, input, select, summary, a, canvas, img, "
+      + "[role=button], [role=tab], [role=img], [tabindex]");
+    const bare = [...controls].filter((n) => !nameOf(n) && n.ariaHidden !== "true");
+    check("controls have names", controls.length > 10 && bare.length === 0,
+      bare.map((n) => n.outerHTML.slice(0, 80)));
+    check("one title", document.querySelectorAll("h1").length === 1);
+    check("a language", document.documentElement.lang === "en");
+    const ids = [...document.querySelectorAll("[id]")].map((n) => n.id);
+    check("no two of one id", new Set(ids).size === ids.length);
+  }
+
+  async function view() {
+    await wait(300);
+    const before = clock();
+    check("is paused at the time of its address", Math.abs(before - 0.1) < 0.006, before);
+    $("play").click();
+    check("says that it plays", $("play").getAttribute("aria-label") === "Pause");
+    await wait(700);
+    const after = clock();
+    check("plays", after !== before, `${before} ${after}`);
+    $("play").click();
+    await wait(100);
+    const still = clock();
+    await wait(300);
+    check("pauses", clock() === still, clock());
+    scrub(0.1);
+    const one = await picture();
+    check("draws something", new Set(one).size > 20, new Set(one).size);
+    scrub(0.5);
+    const other = await picture();
+    check("scrubs", apart(one, other) > 0.05, apart(one, other));
+    scrub(0.1);
+    check("comes back to the same", apart(one, await picture()) < 0.02);
+    for (const name of ["side", "front", "top"]) {
+      document.querySelector(`[data-view=${name}]`).click();
+      check(`view from ${name}`, apart(one, await picture()) > 0.5);
+    }
+    document.querySelector("[data-view=free]").click();
+    check("the free view again", apart(one, await picture()) < 1.0);
+    for (const key of ["forces", "prints", "paths", "mass", "bones"]) {
+      const box = document.querySelector(`[data-show=${key}]`), whole = await picture();
+      box.click();
+      check(`shows ${key} or not`, apart(whole, await picture()) > 0.0005, key);
+      box.click();
+    }
+    const step = clock();
+    for (let i = 0; i < 4; i++) press("ArrowRight");
+    check("a key steps", clock() > step, clock());
+    press(" ");
+    await wait(300);
+    check("the space bar plays", clock() !== step && $("play").getAttribute("aria-label") === "Pause");
+    press(" ");
+    const lightSky = getComputedStyle(document.documentElement).getPropertyValue("--sky");
+    $("theme").click();
+    check("dark and light", getComputedStyle(document.documentElement).getPropertyValue("--sky") !== lightSky);
+    check("the view turns dark too", apart(one, await picture()) > 10);
+    $("theme").click();
+  }
+
+  async function curves() {
+    const tabs = [...document.querySelectorAll("[role=tab]")];
+    check("four tabs of curves", tabs.length === 4, tabs.map((t) => t.textContent));
+    for (const tab of tabs) {
+      tab.click();
+      await wait(60);
+      const inks = [...document.querySelectorAll(".plot canvas")].map((c) => {
+        const { data } = c.getContext("2d").getImageData(0, 0, c.width, c.height);
+        return data.filter((x, i) => i % 4 === 3 && x > 0).length;
+      });
+      check(`curves of ${tab.textContent}`, inks.length >= 3 && inks.every((x) => x > 200), inks);
+    }
+    tabs[0].click();
+    scrub(0.25);
+    await wait(100);
+    const line = document.querySelector(".now"), place = line.style.transform;
+    scrub(0.75);
+    check("a line follows the clock", line.style.transform !== place, place);
+    const values = document.querySelector(".values").textContent;
+    scrub(0.3);
+    check("values follow the clock", document.querySelector(".values").textContent !== values, values);
+    check("people are named", /24 young adults/.test($("curves").textContent));
+    const axis = document.querySelector("#curves select");
+    axis.value = "percent";
+    axis.dispatchEvent(new Event("change"));
+    await wait(60);
+    check("percent of the cycle, a line for each side", document.querySelectorAll(".chart:first-child .now").length === 2);
+    const hip = document.querySelector(".plot .u-over"), box = hip.getBoundingClientRect();
+    const before = clock();
+    hip.setPointerCapture = () => {};
+    hip.dispatchEvent(new PointerEvent("pointerdown", { clientX: box.left + box.width * 0.8, clientY: box.top + 5 }));
+    check("a click on a curve sets the clock", clock() !== before, clock());
+  }
+
+  const words = () => document.body.textContent;
+  if (kind === "walk") {
+    names();
+    await view();
+    await curves();
+    const evil = "a<" + "/script><b>\u2028\"'&\u00fc";
+    check("a name is only a name", $("title").textContent === evil.replace(/_/g, " "), $("title").textContent);
+    check("nothing of it became an element", !document.querySelector("h1 b, option b"));
+    check("the other result is a ghost", !document.querySelector("[data-show=ghost]").closest("label").hidden);
+    check("verdict, sensitivities, objective, convergence, versions", ["Verdict and audit", "What costs what",
+      "Objective by term", "How the solve went", "Versions"].every((w) => words().includes(w)));
+    check("the failure box is empty", !$("failure").textContent);
+  } else if (kind === "failed") {
+    await wait(200);
+    names();
+    const box = document.querySelector(".failure");
+    check("the failure stands first", box && document.querySelector("header").nextElementSibling.contains(box)
+      && (box.compareDocumentPosition(document.querySelector("main")) & Node.DOCUMENT_POSITION_FOLLOWING));
+    check("it is an alert", box?.getAttribute("role") === "alert");
+    check("in plain words, with a place and a time", /off by [\d.]+.{1,20} at [\d.]+ s/.test(box?.textContent), box?.textContent);
+    check("and a name", /wrist|hand|elbow|shoulder|a point that has to be/.test(box?.textContent), box?.textContent);
+    check("it does not play by itself", $("play").getAttribute("aria-label") === "Play");
+    box?.querySelector(".jump")?.click();
+    const time = parseFloat(/at ([\d.]+) s/.exec(box?.textContent)?.[1]);
+    check("it shows when", Math.abs(clock() - time) < 0.02, clock());
+    check("the verdict is no praise", /bad/.test($("badge").className));
+  } else if (kind === "study") {
+    await wait(300);
+    names();
+    const rows = () => document.querySelectorAll(".cases tbody tr").length;
+    check("a row each case", rows() === 4, rows());
+    check("a dot each case that has both numbers", document.querySelectorAll(".dot").length === 4);
+    const search = document.querySelector("#study input");
+    const filter = (text) => {
+      search.value = text;
+      search.dispatchEvent(new Event("input"));
+      return rows();
+    };
+    check("filters by a number", filter("time > 1.05") === 2, rows());
+    check("filters by a word", filter("optimal") === 4, rows());
+    check("and by nothing", filter("") === 4);
+    const cells = (n) => [...document.querySelectorAll(`.cases tbody tr > :nth-child(${n})`)].map((c) => c.textContent);
+    const sort = () => document.querySelector(".cases thead th:nth-child(3) button").click();
+    sort();
+    const rising = cells(3).map(Number);
+    sort();
+    check("sorts both ways", rising.every((x, i) => i === 0 || x >= rising[i - 1])
+      && cells(3).map(Number).every((x, i, all) => i === 0 || x <= all[i - 1]), rising);
+    const one = await picture(), subtitle = $("subtitle").textContent;
+    const dots = [...document.querySelectorAll(".dot")];
+    dots[0].dispatchEvent(new MouseEvent("click", { bubbles: true }));
+    scrub(0.4);
+    check("a click shows another case", $("subtitle").textContent !== subtitle, $("subtitle").textContent);
+    check("in space", apart(one, await picture()) > 0.02);
+    check("its row is marked", document.querySelectorAll("tr.chosen").length === 1);
+  } else if (kind === "flat") {
+    await wait(200);
+    check("says that there is no WebGL", shown($("no-webgl")) && /no WebGL/.test($("no-webgl").textContent));
+    check("shows the figures", shown($("flat-strip")) && $("flat-strip").naturalWidth > 100);
+    check("shows curves", document.querySelectorAll(".plot canvas").length >= 3);
+    scrub(0.5);
+    check("the clock goes", clock() > 0.1);
+    check("no view is offered", ![...document.querySelectorAll("[data-view]")].some(shown));
+  }
+  const asked = performance.getEntriesByType("resource").filter((r) => !/^(data|blob):/.test(r.name));
+  check("asks the network for nothing", asked.length === 0, asked.map((r) => r.name));
+  check("no error, no warning", window.faults.length === 0, window.faults.join(" | "));
+  window.report(kind, results);
+})().catch((error) => window.report(window.kind, [[false, "the checks end", error.stack]]));
