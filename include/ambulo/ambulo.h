@@ -3,6 +3,7 @@
  *     model.h      the skeleton (immutable)
  *     mechanics.h  inverse dynamics of given motions, in batches
  *     problem.h    what to minimize, subject to what (immutable)
+ *     extend.h     terms and rows added to a problem, one of a file too
  *     evaluate.h   what a problem says of one point: values, gradients, the motion
  *     solve.h      the solver, the verdict and the audit
  *     sensitivity.h  what each number of a problem costs
@@ -32,6 +33,7 @@
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/evaluate.h"
+#include "ambulo/extend.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
 #include "ambulo/inverse.h"

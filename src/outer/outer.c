@@ -72,7 +72,7 @@ static ambulo_status check_counts(const ambulo__outer *run) {
         run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
         "free parameters are chosen by sensitivities, which contacts of patches do "
         "not have yet; expected contacts of feet alone");
-  if (!p->problem_at && !run->problem->free)
+  if (!p->problem_at && !ambulo__problem_root(run->problem)->free)
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "free parameters without problem_at; expected it, or a problem from a "
                          "file with a section 'free'");
