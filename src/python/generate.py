@@ -320,6 +320,14 @@ def enum_text(ffi, enum, comments):
     return "\n".join(lines) + "\n"
 
 
+def is_known(ffi, struct):
+    """Not one of the structures of which callers see pointers only."""
+    try:
+        return ffi.sizeof(struct) > 0
+    except Exception:  # of another class in each form of cffi
+        return False
+
+
 def write_records(ffi, comments, folder):
     structs, enums = [], []
     for name in ffi._parser._declarations:
@@ -329,7 +337,7 @@ def write_records(ffi, comments, folder):
         typed = ffi.typeof(c_name)
         if typed.kind == "enum":
             enums.append(c_name)
-        elif typed.kind == "struct" and typed.fields and c_name not in INTERNAL:
+        elif typed.kind == "struct" and is_known(ffi, c_name) and c_name not in INTERNAL:
             structs.append(c_name)
     parts = ['"""Structures and enumerations of the C interface; made by generate.py."""\n\n'
              "from typing import Any, Callable, Optional, Sequence, Union\n\n"

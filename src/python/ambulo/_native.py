@@ -7,6 +7,7 @@ lives as long.
 
 import json
 import os
+import sys
 import threading
 import warnings
 from pathlib import Path
@@ -77,6 +78,14 @@ class Owner:
 # ------------------------------------------------------------------- messages
 
 
+def warn(text):
+    """A warning at the line of the caller's code."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back and os.path.dirname(frame.f_code.co_filename) == str(FOLDER):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(AmbuloWarning(text), stacklevel=level)
+
+
 class Call:
     """One call that can fail: its list of messages, and an exception if it does.
 
@@ -96,7 +105,7 @@ class Call:
         if kind is None:
             for message in self.list():
                 if message.severity == "warning":
-                    warnings.warn(AmbuloWarning(message.text), stacklevel=3)
+                    warn(message.text)
         ffi.release(self.messages)
 
     def __call__(self, status):

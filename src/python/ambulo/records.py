@@ -15,6 +15,7 @@ copies: they stay what they are when the objects they came from are gone.
 
 import enum
 import difflib
+import weakref
 
 import numpy
 
@@ -172,6 +173,9 @@ def _value(struct, value, spec):
 # ---------------------------------------------------------------- to the library
 
 
+_pointed_to = weakref.WeakKeyDictionary()
+
+
 class Carrier:
     """Fills structures of the library from records, and holds the memory they point to.
 
@@ -205,7 +209,8 @@ class Carrier:
     def new(self, record):
         """A structure with a default's cookie where it has one, filled."""
         default = getattr(lib, record._struct + "_default", None)
-        struct = self.keep(ffi.new(record._struct + " *"))
+        struct = ffi.new(record._struct + " *")
+        _pointed_to[struct] = self.kept  # lives as long as the structure
         if default and "cookie" in dict(ffi.typeof(record._struct).fields):
             struct[0] = default()
         return self.fill(struct, record)

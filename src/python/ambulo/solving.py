@@ -1,13 +1,12 @@
 """Solves: options, progress, interruption, and what becomes of exceptions meanwhile."""
 
 import sys
-import warnings
 
 import numpy
 
 from . import _records as records
-from ._native import Call, Handle, ffi, keep_exception, lib, pending, take_pending
-from .errors import AmbuloError, AmbuloWarning
+from ._native import Call, Handle, ffi, keep_exception, lib, pending, take_pending, warn
+from .errors import AmbuloError
 from .mechanics import array_of, doubles
 from .records import Carrier, from_c
 
@@ -62,8 +61,7 @@ class Run:
         if stopped is None:
             return result
         if isinstance(stopped, KeyboardInterrupt) and self.interrupt == "keep":
-            warnings.warn(AmbuloWarning("interrupted: the result is the best point so far"),
-                          stacklevel=4)
+            warn("interrupted: the result is the best point so far")
             return result
         stopped.result = result
         raise stopped
