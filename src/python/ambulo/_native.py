@@ -97,12 +97,13 @@ class Call:
         self.messages = ffi.gc(lib.ambulo_diagnostics_create(ffi.NULL), lib.ambulo_diagnostics_free)
         if self.messages == ffi.NULL:
             raise MemoryError
+        self.found = None
 
     def __enter__(self):
         return self
 
     def __exit__(self, kind, *_):
-        if kind is None:
+        if kind is None and lib.ambulo_diagnostics_count(self.messages):
             for message in self.list():
                 if message.severity == "warning":
                     warn(message.text)
@@ -115,7 +116,10 @@ class Call:
                               text_of(lib.ambulo_status_text(status)), self.list())
 
     def list(self):
-        found = []
+        """The messages so far, of a call that is back."""
+        if self.found is not None:
+            return self.found
+        self.found = found = []
         for i in range(lib.ambulo_diagnostics_count(self.messages)):
             one = lib.ambulo_diagnostics_get(self.messages, i)
             size = lib.ambulo_diagnostics_format(self.messages, i, ffi.NULL, 0) + 1

@@ -94,10 +94,15 @@ def _as_plain(value):
     return value
 
 
-def record_class(name):
-    from . import _records
+_classes = {}
 
-    return getattr(_records, name)
+
+def record_class(name):
+    if not _classes:
+        from . import _records
+
+        _classes.update(vars(_records))
+    return _classes[name]
 
 
 _usual_fields = {}
@@ -149,7 +154,7 @@ def _value(struct, value, spec):
     if what == "text":
         return text_of(value)
     if what == "enum":
-        return record_class(spec[1])(value)
+        return record_class(spec[1])._value2member_map_.get(value, value)
     if what == "record":
         return from_c(record_class(spec[1]), value)
     if what == "array":
