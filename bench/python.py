@@ -1,5 +1,6 @@
-"""What Python adds to a solve: `make check-python` puts the package together, then
+"""What Python adds to a solve.
 
+    python3 src/python/package.py stage build/libambulo.so build/python
     PYTHONPATH=build/python OPENBLAS_NUM_THREADS=1 python3 bench/python.py
     PYTHONPATH=build/python OPENBLAS_NUM_THREADS=1 python3 bench/python.py instructions
 
