@@ -5,6 +5,7 @@ import os
 import unittest
 import warnings
 from pathlib import Path
+from unittest import mock
 
 import ambulo
 from support import TOP, Case, optional
@@ -39,9 +40,9 @@ class Notebooks(Case):
         from jupyter_client.kernelspec import NoSuchKernel
 
         # whichever interpreter the kernel is of, it finds this package
-        os.environ["PYTHONPATH"] = str(Path(ambulo.__file__).resolve().parents[1])
-        self.addCleanup(os.environ.pop, "PYTHONPATH")
-        with warnings.catch_warnings():
+        found = {name: value for name, value in os.environ.items() if name != "MPLBACKEND"}
+        found["PYTHONPATH"] = str(Path(ambulo.__file__).resolve().parents[1])
+        with mock.patch.dict(os.environ, found, clear=True), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             for path in NOTEBOOKS:
                 notebook = nbformat.read(path, as_version=4)

@@ -167,14 +167,22 @@ class Extension(Case):
     def test_wrong_gradients_are_named(self):
         def wrong(state, gradient):
             if gradient is not None:
-                gradient.tau = 2.2 * state.tau  # sets the values, does not replace the array
+                gradient.tau += 2.2 * state.tau
+            return float(state.tau @ state.tau)
+
+        def assigned(state, gradient):
+            if gradient is not None:
+                gradient.tau = 2 * state.tau  # sets the values, does not replace the array
             return float(state.tau @ state.tau)
 
         with ambulo.Problem.load(REACH) as problem:
-            own = problem.extend(terms=[ambulo.Term("user_term", function=wrong, name="wrong")])
+            own = problem.extend(terms=[
+                ambulo.Term("user_term", function=wrong, name="wrong"),
+                ambulo.Term("user_term", function=assigned, name="assigned")])
             errors = {error.family: error.error
                       for error in own.check_derivatives(some_point(problem))}
             self.assertGreater(errors["wrong"], 1e-2)
+            self.assertLess(errors["assigned"], 1e-6)
             self.assertLess(errors["torque_squared"], 1e-6)
 
     def test_state_is_that_of_the_motion(self):

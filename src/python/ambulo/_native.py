@@ -110,7 +110,6 @@ class Call:
         ffi.release(self.messages)
 
     def __call__(self, status):
-        raise_pending()
         if status:
             raise AmbuloError(text_of(lib.ambulo_status_name(status)),
                               text_of(lib.ambulo_status_text(status)), self.list())

@@ -6,8 +6,9 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Un
 import numpy
 
 from . import _records as records
-from ._native import (Call, Handle, Owner, ffi, lib, overrides_of, path_of, text_of)
+from ._native import (Call, Handle, Owner, ffi, lib, overrides_of, path_of, raise_pending, text_of)
 from .callbacks import node_function
+from .errors import AmbuloError
 from .mechanics import array_of, doubles
 from .model import Model
 from .motion import Motion, motion_of
@@ -235,14 +236,12 @@ class Problem(Owner):
         return held.pointer
 
     def _checked(self, call, status):
-        """As `call`, but for what the workspace knows of a value that is not finite."""
+        """As `call`, of calls that ask functions of the caller: their exceptions, and what the
+        workspace knows of a value that is not finite."""
+        raise_pending()
         if status == records.Status.E_NUMERIC:
             text = ffi.new("char[]", 1000)
             lib.ambulo_fault_text(lib.ambulo_workspace_fault(self._workspace()), text, 1000)
-            from ._native import raise_pending
-            from .errors import AmbuloError
-
-            raise_pending()
             raise AmbuloError("E_NUMERIC", text_of(text))
         call(status)
 
