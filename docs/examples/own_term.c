@@ -44,11 +44,9 @@ static ambulo_status extend(const ambulo_problem *base, walker *w, ambulo_diagno
   term.weight = 1e-6; /* per W^2 s */
   term.function = knee_power;
   term.user = w;
-  ambulo_user_row row = {0};
+  ambulo_user_row row = ambulo_user_row_default(); /* >= 0 at every node */
   row.name = "head height";
   row.unit = "m";
-  row.relation = AMBULO_NOT_NEGATIVE;
-  row.to = ambulo_problem_duration(base);
   row.function = head_above;
   row.user = w;
   ambulo_extension extension = ambulo_extension_default();

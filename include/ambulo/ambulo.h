@@ -27,6 +27,10 @@
 #ifndef AMBULO_AMBULO_H
 #define AMBULO_AMBULO_H
 
+/* Of these headers; ambulo_version() is that of the library that is running. */
+#define AMBULO_VERSION_MAJOR 0
+#define AMBULO_VERSION_MINOR 1
+#define AMBULO_VERSION_PATCH 0
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"

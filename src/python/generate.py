@@ -25,7 +25,7 @@ from pathlib import Path
 # Structures that Python code never holds: callbacks' views, arrays of outputs, the allocator.
 INTERNAL = {
     "ambulo_allocator", "ambulo_node_state", "ambulo_node_gradient", "ambulo_motion",
-    "ambulo_jacobians",
+    "ambulo_jacobians", "ambulo_output_weights", "ambulo_motion_gradient",
 }
 
 # Arrays of doubles that come without a count: their shapes. d: coordinates; devices, nodes, knots:

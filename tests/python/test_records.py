@@ -4,6 +4,7 @@ import ambulo
 import numpy
 from ambulo import records
 from ambulo._declarations import ffi
+from ambulo._native import lib
 from support import Case, arm
 
 
@@ -16,6 +17,24 @@ class Records(Case):
         self.assertEqual(ambulo.Options().maximum_iterations, 150)
         self.assertEqual(ambulo.Device("spring").smoothing, 0.01)
         self.assertEqual(ambulo.Coordinate().range, [-numpy.inf, numpy.inf])
+
+    def test_every_part_of_a_definition_has_a_default(self):
+        """What a caller fills starts from what the library says: only items whose members all have
+        to be given start from zeros."""
+        parts, seen = [ambulo.ModelDefinition, ambulo.ProblemDefinition, ambulo.Extension,
+                       ambulo.Parameters, ambulo.Gait, ambulo.Conditions, ambulo.Subject], set()
+        while parts:
+            kind = parts.pop()
+            for _, spec, _ in kind._fields.values():
+                if spec[0] in ("record", "records"):
+                    parts.append(getattr(ambulo, spec[1]))
+            seen.add(kind)
+        without = {kind.__name__ for kind in seen if not hasattr(lib, kind._struct + "_default")}
+        self.assertEqual(without, {"Parameter", "CapsulePair"})
+        self.assertGreater(len(seen), 20)
+        self.assertEqual(ambulo.Foot().heel, [-1, -1])
+        self.assertEqual(ambulo.Contact().patch, -1)
+        self.assertEqual(ambulo.UserRow().to, numpy.inf)
 
     def test_new_ones_share_nothing(self):
         one = ambulo.GroundReaction()

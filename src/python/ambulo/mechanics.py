@@ -99,10 +99,12 @@ class Mechanics(Owner):
                        (wrench_weights, (n, 6), "wrench_weights"),
                        (point_weights, (n, self._points, 3), "point_weights"))]
         found = Gradient(*(numpy.empty_like(q) for _ in range(3)))
+        memory = [doubles(array) for array in (*weights, *found)]
         with Call() as call:
             call(lib.ambulo_mechanics_gradient(
                 self._pointer, n, doubles(q), doubles(qd), doubles(qdd),
-                *(doubles(array) for array in weights), *(doubles(array) for array in found)))
+                ffi.new("ambulo_output_weights *", memory[:3]),
+                ffi.new("ambulo_motion_gradient *", memory[3:])))
         return found
 
     def jacobians(self, q, qd=None, qdd=None) -> Jacobians:
