@@ -8,6 +8,10 @@ Python 3 of its platform: py3-none-PLATFORM. NLopt, libyaml and the LAPACK are t
 unless auditwheel and patchelf are there: then they go into the wheel, and its platform is the oldest
 manylinux that it runs on. AMBULO_WHEEL=system keeps to the system's all the same.
 
+Reading order: package.py, generate.py; ambulo/_native.py, ambulo/errors.py, ambulo/records.py,
+ambulo/model.py, ambulo/mechanics.py, ambulo/problem.py, ambulo/callbacks.py, ambulo/motion.py,
+ambulo/solving.py, ambulo/result.py; ambulo/files.py, ambulo/tables.py, ambulo/plots.py.
+
 The module is a build backend too (PEP 517): `pip install src/python` runs make first.
 Python's standard library and cffi are all it takes.
 """
