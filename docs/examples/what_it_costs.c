@@ -52,9 +52,10 @@ static ambulo_status find(const ambulo_problem *problem, source *s, double lower
   if (!status) {
     const ambulo_parameters_outcome *outcome = ambulo_result_parameters(result);
     const ambulo_parameter_value *value = &outcome->items[0];
-    printf("best %s: %.4f %s instead of %.4f; per metre %.5g instead of %.5g, %d solves\n",
-           value->name, value->value, value->unit, value->first, outcome->objective, outcome->first,
-           outcome->solves);
+    printf("best %s: %.4f %s instead of %.4f; %s %.5g instead of %.5g, %d solves\n", value->name,
+           value->value, value->unit, value->first,
+           outcome->per == AMBULO_PER_DISTANCE ? "per metre" : "objective", outcome->objective,
+           outcome->first, outcome->solves);
     printf("%s\n", outcome->ending);
   }
   ambulo_result_free(result); /* before the problem it belongs to */
