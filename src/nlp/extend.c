@@ -80,7 +80,7 @@ ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *b
   e.user_rows = d->user_rows + root->user_row_count;
   ambulo_problem *made = NULL;
   ambulo_status status = ambulo_problem_extend(base, &e, allocator, diagnostics, &made);
-  if (status) {
+  if (!made) {
     ambulo_problem_free(base);
     return status;
   }

@@ -78,6 +78,34 @@ class Problems(Case):
                 dt[[0, -1]] /= 2
                 self.close(problem.evaluate(x).objective, float(dt @ (q ** 2).sum(axis=1)), 1e-12)
 
+    def test_a_walk_made_of_records_is_that_of_the_file(self):
+        """models/walker_2d_step.yaml, number for number."""
+        with ambulo.Problem.load(ambulo.MODELS / "walker_2d_step.yaml") as file, \
+                ambulo.Model.load(ambulo.MODELS / "walker_2d.yaml") as model:
+            time = 0.6 / 1.1
+            gait = ambulo.Gait(first_foot="right", step_length=0.6, step_time=time, heel_strike=-0.06,
+                               foot_flat=0.02, heel_off=0.32, toe_off=0.56)
+            scale = numpy.ones(len(model.coordinates))
+            scale[:2] = 0.05
+            offset = numpy.zeros(len(scale))
+            offset[model.find("coordinate", "pelvis_ty")] = 9.81 * model.mass
+            made = ambulo.Problem.create(
+                model, duration=time, intervals=16, spline_intervals=14,
+                contacts=model.contacts_of(gait), ground_penetration=1, foot_strike=1,
+                support="box", joint_limits="nodes", ends="mirrored", travel=0.6,
+                terms=[ambulo.Term("torque_squared", weight=0.01, scale=scale, offset=offset)])
+            self.assertEqual(len(made.contacts), len(file.contacts))
+            self.assertEqual([row.to_dict() for row in made.rows()],
+                             [row.to_dict() for row in file.rows()])
+            x = some_point(file)
+            a, b = made.evaluate(x), file.evaluate(x)
+            self.close(a.rows, b.rows, 1e-12)
+            self.close(a.terms, b.terms, 1e-12)
+            self.assertTrue(made.solve(options=file.options()).is_solution)
+            many = ambulo.Gait(steps=40, step_length=0.6, step_time=time)
+            self.assertGreater(len(model.contacts_of(many)), 80)
+            self.fails("E_ARGUMENT", model.contacts_of, ambulo.Gait(toe_off=0.1))
+
     def test_limits(self):
         with ambulo.Problem.load(REACH) as problem:
             limits = problem.limits("shoulder")

@@ -208,6 +208,20 @@ class Model(Owner):
             return [message.message for message in fault.messages]
         return []
 
+    def contacts_of(self, gait: records.Gait) -> List[records.Contact]:
+        """The contacts of a regular walk, for ``Problem.create(model, contacts=...)``."""
+        struct = Carrier(find=self.find).new(gait)
+        room, count = 32, ffi.new("int *")
+        while True:
+            contacts = ffi.new("ambulo_contact[]", room)
+            status = lib.ambulo_gait_expand(self._pointer, struct, contacts, room, count)
+            if status != records.Status.E_LIMIT or count[0] <= room:
+                break
+            room = count[0]
+        with Call() as call:
+            call(status)
+        return [from_c(records.Contact, contacts[i]) for i in range(count[0])]
+
     # ---------------------------------------------------------------- mechanics
 
     def inverse_dynamics(self, q, qd=None, qdd=None) -> InverseDynamics:
