@@ -11,6 +11,7 @@ import sys
 import threading
 import warnings
 from pathlib import Path
+from typing import Optional
 
 from ._declarations import ffi
 from .errors import AmbuloError, AmbuloWarning, Message
@@ -56,7 +57,7 @@ class Owner:
     """An object of the library: freed by ``close()``, by the end of a ``with`` block, or when it is
     collected, whichever comes first. What was made from it (results of a problem) stays usable."""
 
-    _handle = None
+    _handle: Optional[Handle] = None
 
     @property
     def _pointer(self):

@@ -1,6 +1,6 @@
 """Exceptions and messages."""
 
-from typing import List, NamedTuple, Optional
+from typing import NamedTuple, Optional, Sequence
 
 
 class Message(NamedTuple):
@@ -33,7 +33,7 @@ class AmbuloError(Exception):
     ``messages``  what was found, with file, line and column: a list of Message
     """
 
-    def __init__(self, status: str, text: str, messages: List[Message] = ()):
+    def __init__(self, status: str, text: str, messages: Sequence[Message] = ()):
         self.status, self.messages = status, list(messages)
         errors = [message.text for message in self.messages if message.severity == "error"]
         super().__init__("\n".join(errors) if errors else f"{status}: {text}")

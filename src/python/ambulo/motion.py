@@ -1,6 +1,6 @@
 """A motion as arrays, as a table, as a picture."""
 
-from typing import List
+from typing import List, Tuple
 
 import numpy
 
@@ -56,6 +56,7 @@ class Motion:
     feet: List[str]
     patches: List[str]
     devices: List[str]
+    _device_columns: List[Tuple[str, str, str]]
 
     def __getitem__(self, name: str) -> numpy.ndarray:
         """A column [n] as motion.csv calls it: ``motion["q.knee_angle_r"]``."""

@@ -1,7 +1,7 @@
 """What to minimize, subject to what."""
 
 import threading
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Union
 
 import numpy
 
@@ -13,6 +13,9 @@ from .mechanics import array_of, doubles
 from .model import Model
 from .motion import Motion, motion_of
 from .records import Carrier, from_c
+
+if TYPE_CHECKING:
+    from .result import Result
 
 NULL = ffi.NULL
 
@@ -39,7 +42,7 @@ class Problem(Owner):
     functions take it in this shape or flat. Several threads may use one problem at once.
     """
 
-    def __init__(self, handle: Handle):
+    def __init__(self, handle: Optional[Handle]):
         self._handle = handle
         self._workspaces = threading.local()
 
@@ -197,9 +200,9 @@ class Problem(Owner):
         if isinstance(coordinate, str):
             coordinate = self.model.find("coordinate", coordinate)
         struct = ffi.new("ambulo_limits *")
+        kind = int(records.Limited(what))  # type: ignore[arg-type]
         with Call() as call:
-            call(lib.ambulo_problem_limits(self._pointer, coordinate, int(records.Limited(what)),
-                                           struct))
+            call(lib.ambulo_problem_limits(self._pointer, coordinate, kind, struct))
         return from_c(records.Limits, struct)
 
     @property
@@ -313,7 +316,7 @@ class Problem(Owner):
     # ------------------------------------------------------------------ solving
 
     def solve(self, start=None, *, progress: Union[bool, Callable, None] = None,
-              interrupt: str = "keep", options: Optional[records.Options] = None, **settings):
+              interrupt: str = "keep", options: Optional[records.Options] = None, **settings) -> "Result":
         """Finds the motion; returns a Result, whatever its verdict.
 
         ``start``      unknowns to begin at; None: zero
@@ -334,7 +337,7 @@ class Problem(Owner):
         return solve(self, start, progress, interrupt, options, settings)
 
     def solve_refined(self, start=None, *, progress=None, interrupt: str = "keep", options=None,
-                      **settings):
+                      **settings) -> "Result":
         """``solve``, and again on finer grids until the motion holds between the nodes too;
         ``result.problem`` is the problem on the last grid."""
         from .solving import solve_refined
@@ -347,7 +350,7 @@ class Problem(Owner):
         return from_c(records.Parameters, lib.ambulo_problem_parameters(self._pointer))
 
     def solve_parameters(self, parameters=None, *, at: Optional[Callable] = None, start=None,
-                         progress=None, interrupt: str = "keep", options=None, **settings):
+                         progress=None, interrupt: str = "keep", options=None, **settings) -> "Result":
         """Finds the best values of numbers of the problem as well.
 
         ``parameters`` are Parameters, or bounds by name in SI and rad, ``{"gait.step_time":
@@ -370,7 +373,7 @@ class Problem(Owner):
             call(lib.ambulo_problem_at(self._pointer, doubles(values), NULL, call.messages, out))
         return Problem(Handle(out[0], lib.ambulo_problem_free, self._handle))
 
-    def audit(self, x, *, options=None, **settings):
+    def audit(self, x, *, options=None, **settings) -> "Result":
         """Judges given unknowns as if a solver had returned them: a Result."""
         from .solving import audit
 

@@ -16,6 +16,7 @@ copies: they stay what they are when the objects they came from are gone.
 import enum
 import difflib
 import weakref
+from typing import Any, Dict, Tuple
 
 import numpy
 
@@ -45,7 +46,7 @@ class Record:
     """Base of the structures; see the module."""
 
     _struct = ""
-    _fields = {}
+    _fields: Dict[str, Tuple[Any, ...]] = {}
 
     def __init__(self, *values, **fields):
         names = list(self._fields)
@@ -77,7 +78,7 @@ class Record:
     def __eq__(self, other):
         return type(self) is type(other) and repr(self) == repr(other)
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
     def to_dict(self):
         """The fields, records among them as dictionaries too, constants by their names."""
@@ -94,7 +95,7 @@ def _as_plain(value):
     return value
 
 
-_classes = {}
+_classes: Dict[str, Any] = {}
 
 
 def record_class(name):
@@ -105,7 +106,7 @@ def record_class(name):
     return _classes[name]
 
 
-_usual_fields = {}
+_usual_fields: Dict[type, "Record"] = {}
 
 
 def _usual(kind, given):
@@ -178,7 +179,7 @@ def _value(struct, value, spec):
 # ---------------------------------------------------------------- to the library
 
 
-_pointed_to = weakref.WeakKeyDictionary()
+_pointed_to: "weakref.WeakKeyDictionary[Any, list]" = weakref.WeakKeyDictionary()
 
 
 class Carrier:
