@@ -46,9 +46,8 @@ SHAPES = {
 
 # What the package fills by itself.
 OWN = {
-    ("ambulo_problem_definition", "model"), ("ambulo_options", "progress"),
-    ("ambulo_parameters", "problem_at"), ("ambulo_batch_options", "progress"),
-    ("ambulo_fit_options", "progress"),
+    ("ambulo_options", "progress"), ("ambulo_parameters", "problem_at"),
+    ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
 }
 
 # Numbers that stand for something of the model and may be given by its name.
@@ -56,7 +55,7 @@ NAMED = {
     "coordinate": "coordinate", "link": "link", "load_link": "link", "parent": "link",
     "point": "point", "about": "point", "heel": "point", "toe": "point", "heel_center": "point",
     "toe_center": "point", "tip": "point", "arc": "point", "foot": "foot", "first_foot": "foot",
-    "patch": "patch", "one": "capsule", "other": "capsule", "capsules": "capsule",
+    "patch": "patch", "hand": "point", "one": "capsule", "other": "capsule", "capsules": "capsule",
 }
 MIRRORED = {
     "ambulo_coordinate": "coordinate", "ambulo_foot": "foot", "ambulo_patch": "patch",
@@ -196,7 +195,8 @@ def spec_of(struct, name, kind, names):
     if name in ("cookie", "user") or name == "count" or name.endswith("_count"):
         return ("count",) if name != "cookie" and name != "user" and not any(
             count_of(other, names) == name for other in names) else None
-    if (struct, name) in OWN:
+    is_object = kind.kind == "pointer" and kind.item.kind == "struct" and not kind.item.fields
+    if (struct, name) in OWN or is_object:
         return None
     if kind.kind == "function":
         return ("function",)

@@ -298,6 +298,9 @@ class Carrier:
         what, count = spec[0], spec[-1]
         if what == "records":
             array, length = self.records(record_class(spec[1]), value)
+        elif what == "texts":
+            array = self.keep(ffi.new("char *[]", [self.text(item) for item in value or ()] or 1))
+            length = len(value or ())
         elif what == "ints":
             array = ffi.NULL if value is None else self.keep(
                 ffi.new("int[]", [self.number(named, item) for item in value] or [0]))
