@@ -109,7 +109,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all help setup demo check tests run-tests bench bench-table1 bench-table4 bench-peers \
-  sanitize valgrind check-kill check-slurm check-page viewer coverage \
+  sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
   lint-headers \
   lint-equations lint-reading lint-keys lint-leftovers format \
@@ -127,6 +127,8 @@ help:
 	@echo 'make check-slurm  a batch as a Slurm array and under GNU parallel, where they are installed'
 	@echo 'make check-page   the page of ambulo report in a browser (chromium)'
 	@echo 'make viewer       that page from its sources in src/page/viewer (npm)'
+	@echo 'make check-python tests of the Python package with all that is optional, in an environment of its own'
+	@echo 'make wheel        the Python package as build/wheel/ambulo-*.whl'
 	@echo 'make sanitize     the same with address and undefined-behaviour sanitizers'
 	@echo 'make valgrind     a few test programs under valgrind'
 	@echo 'make coverage     line coverage of the tests, by folder'
@@ -247,6 +249,16 @@ check-slurm: build/.ready-build
 	$(submake) all
 	@AMBULO=$(OUT)/ambulo tests/batch/cluster_test.sh
 
+# Python, from PyPI, in build/python-venv; `make check` uses what there is
+PYTHON_PATH = PATH='$(CURDIR)/build/python-venv/bin':"$$PATH"
+wheel: build/.ready-build build/.ready-python
+	$(submake) $(OUT)/libambulo.so
+	@$(PYTHON_PATH) python src/python/package.py wheel $(OUT)/libambulo.so $(OUT)/wheel
+
+check-python: build/.ready-build build/.ready-python
+	$(submake) all
+	@$(PYTHON_PATH) PYTHON=python OUT=$(OUT) CC='$(CC)' MODE='$(MODE)' tests/python/run.sh
+
 sanitize: build/.ready-test
 	$(submake) VARIANT=san run-tests
 
@@ -291,7 +303,8 @@ coverage: build/.ready-test
 # -------------------------------------------------------------------- lint
 
 LINT := format static order size symbols callers mirror headers equations reading keys leftovers
-FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c)
+FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
+  docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
 TIDY_SOURCES = $(filter-out src/mechanics/kernels_avx%.c src/linear/band_kernels_avx%.c,$(SOURCES))
 

@@ -3,6 +3,7 @@
  *     model.h      the skeleton (immutable)
  *     mechanics.h  inverse dynamics of given motions, in batches
  *     problem.h    what to minimize, subject to what (immutable)
+ *     extend.h     terms and rows added to a problem, one of a file too
  *     evaluate.h   what a problem says of one point: values, gradients, the motion
  *     solve.h      the solver, the verdict and the audit
  *     sensitivity.h  what each number of a problem costs
@@ -29,12 +30,17 @@
 #ifndef AMBULO_AMBULO_H
 #define AMBULO_AMBULO_H
 
+/* Of these headers; ambulo_version() is that of the library that is running. */
+#define AMBULO_VERSION_MAJOR 0
+#define AMBULO_VERSION_MINOR 1
+#define AMBULO_VERSION_PATCH 0
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/evaluate.h"
+#include "ambulo/extend.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
 #include "ambulo/hold.h"

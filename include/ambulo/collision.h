@@ -16,6 +16,8 @@
 #ifndef AMBULO_COLLISION_H
 #define AMBULO_COLLISION_H
 
+#include "ambulo/status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -73,6 +75,12 @@ typedef struct ambulo_reach {
                        are events. to INFINITY: until the end */
   double tolerance; /* along each axis, m; 0: equations */
 } ambulo_reach;
+
+/* Off, without pairs; a box for all capsules, without size; a point that is to be named, at the
+ * world's origin from 0 until the end. */
+AMBULO_API ambulo_collision ambulo_collision_default(void);
+AMBULO_API ambulo_obstacle ambulo_obstacle_default(void);
+AMBULO_API ambulo_reach ambulo_reach_default(void);
 
 #ifdef __cplusplus
 }

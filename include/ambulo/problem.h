@@ -304,6 +304,13 @@ AMBULO_API ambulo_problem_definition ambulo_problem_definition_default(void);
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_node_times(const ambulo_problem_definition *definition, double *times);
 AMBULO_API ambulo_term ambulo_term_default(ambulo_term_kind kind);
+/* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people; a
+ * value of 0 at the start, of nothing yet; no tube; a row c >= 0 at every node. */
+AMBULO_API ambulo_contact ambulo_contact_default(void);
+AMBULO_API ambulo_gait ambulo_gait_default(void);
+AMBULO_API ambulo_end_value ambulo_end_value_default(void);
+AMBULO_API ambulo_tube ambulo_tube_default(void);
+AMBULO_API ambulo_user_row ambulo_user_row_default(void);
 
 /* Checks the definition and builds the problem. Contradictions that need no solve
  * are refused by name, time and unit: footholds out of reach, no support at some

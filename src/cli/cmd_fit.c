@@ -77,7 +77,7 @@ static int run_fit(const ambulo__cli_input *input, const ambulo_fit *fit, ambulo
   const char *directory = ambulo__cli_value(input, "output");
   view v = {isatty(STDERR_FILENO), ambulo__cli_flag(input, "quiet"), 0};
   ambulo_fit_progress end;
-  ambulo_fit_ending ending = AMBULO_FIT_CONVERGED;
+  ambulo_fit_ending ending = AMBULO_FIT_NOT_RUN;
   char *report = NULL;
   memset(&end, 0, sizeof end);
   o->progress = show;

@@ -37,6 +37,7 @@ typedef enum ambulo__phase_kind {
  */
 typedef struct ambulo__problem_keys {
   int file;            /* it was read from a file */
+  int terms;           /* of the objective that the file has */
   int gait;            /* the contacts come from `gait` */
   int steps;           /* of the gait */
   int unlike_steps;    /* two step lengths or times that differ */
@@ -72,6 +73,8 @@ struct ambulo_problem {
   ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section *free; /* one block (reader/problem_free.h); NULL: nothing is free */
+  const ambulo_problem *extends;     /* what this one extends (nlp/extend.c); NULL: none */
+  ambulo_problem *owned_base;        /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
   const ambulo__kernels *kernels;
@@ -95,6 +98,12 @@ struct ambulo_problem {
   ambulo__problem_keys keys;
   unsigned long long hash;
 };
+
+/* What the problem is without all that it was extended by. */
+static inline const ambulo_problem *ambulo__problem_root(const ambulo_problem *problem) {
+  while (problem->extends) problem = problem->extends;
+  return problem;
+}
 
 struct ambulo_workspace {
   ambulo_allocator allocator;

@@ -171,7 +171,7 @@ static double by_written_for(const ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
   const ambulo__partials *by = p->partials;
   double sum = 0.0;
-  for (int t = 0; p->problem->keys.written_for && t < d->term_count; t++) {
+  for (int t = 0; p->problem->keys.written_for && t < p->problem->keys.terms; t++) {
     const ambulo_term *term = &d->terms[t];
     int priced = term->kind == AMBULO_TORQUE_POWER && term->strength;
     int counts = term->kind == AMBULO_TORQUE_POWER || term->kind == AMBULO_TORQUE_SQUARED ||
