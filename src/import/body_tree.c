@@ -10,9 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "model/check.h"
 
 static const double rounding = 1e-15; /* kg m^2: of files that were written by programs */
+static const double LIGHTEST = 1e-9;  /* kg: a body of a model file */
 static const double FARTHEST = 1e4;   /* m: what is larger or farther away is no part of a body */
 enum { MOST_SOLIDS = 2048 };          /* more than a body has, few enough to compare in pairs */
 
@@ -132,6 +134,11 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
       ambulo__tree_note(tree, node, "%s: an inertia without a mass is left out", name);
     return;
   }
+  if (body.mass > 0.0 && body.mass < LIGHTEST) {
+    ambulo__tree_note(tree, node, "%s: its mass of %s kg is left out", name,
+                      ambulo__number_text(body.mass).text);
+    return;
+  }
   double more = repair(body.inertia);
   if (more > 0.0 && more < rounding) {
     for (int i = 0; i < 3; i++) body.inertia[i] += more;
@@ -176,19 +183,33 @@ int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const
   return tree->point_count++;
 }
 
-static const double LONGEST = 1e6, HEAVIEST = 1e6; /* m; kg */
-static const double LARGEST_LIMIT = 1e12;          /* rad, m, their rates, N m, N */
+static const double LONGEST = 1e6, HEAVIEST = 1e6;               /* m; kg */
+static const double LEAST_GRAVITY = 1e-3, LARGEST_GRAVITY = 1e5; /* m/s^2 */
+static const double LARGEST_LIMIT = 1e9;                         /* rad, m, their rates, N m, N */
 
-static int is_beyond(const double *values, int count, double most) {
-  for (int i = 0; i < count; i++)
-    if (isnan(values[i]) || (isfinite(values[i]) && fabs(values[i]) > most)) return 1;
-  return 0;
+/* limits as large as that are how files write none */
+static void drop_limits(double limits[2]) {
+  for (int i = 0; i < 2; i++)
+    if (!(fabs(limits[i]) <= LARGEST_LIMIT)) limits[i] = i ? INFINITY : -INFINITY;
+}
+
+void ambulo__tree_gravity(ambulo__tree *tree) {
+  double *g = tree->gravity, across[3];
+  double size = fmax(fabs(g[0]), fmax(fabs(g[1]), fabs(g[2])));
+  if (!(size >= LEAST_GRAVITY && size <= LARGEST_GRAVITY)) {
+    ambulo__tree_note(tree, NULL, "gravity is %s m/s^2 in the source: it is 9.81 here, along -%c",
+                      ambulo__number_text(size).text, tree->up);
+    for (int i = 0; i < 3; i++) g[i] = tree->up - 'x' == i ? -9.81 : 0.0;
+  }
+  ambulo__cross(g, tree->forward, across);
+  if (ambulo__normalize(across) > 1e-3 * size) return;
+  for (int i = 0; i < 3; i++) tree->forward[i] = i == 1; /* x is up: y is as good as z */
+  ambulo__tree_note(tree, NULL, "gravity is along x in the source: forward is y here");
 }
 
 void ambulo__tree_check(ambulo__tree *tree) {
   for (int i = 0; i < tree->link_count; i++) {
-    const ambulo__tree_link *link = &tree->links[i];
-    const ambulo_coordinate *c = &link->coordinate;
+    ambulo__tree_link *link = &tree->links[i];
     double size = 0.0;
     for (int k = 0; k < 3; k++) size = fmax(size, fabs(link->origin.p[k]));
     if (!(link->body.mass <= HEAVIEST))
@@ -199,12 +220,9 @@ void ambulo__tree_check(ambulo__tree *tree) {
       ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
                         "'%.64s' is too far from its parent (got %s m); expected at most 1e6 m",
                         link->name, ambulo__number_text(size).text);
-    if (is_beyond(c->range, 2, LARGEST_LIMIT / 1e2) ||
-        is_beyond(c->speed, 2, LARGEST_LIMIT / 1e2) || is_beyond(c->torque, 2, LARGEST_LIMIT))
-      ambulo__xml_error(tree->xml, link->node, AMBULO_E_MODEL, NULL,
-                        "a limit of '%.64s' is out of range; expected at most 1e10, or of torques "
-                        "1e12",
-                        c->name ? c->name : "");
+    drop_limits(link->coordinate.range);
+    drop_limits(link->coordinate.speed);
+    drop_limits(link->coordinate.torque);
   }
 }
 

@@ -64,6 +64,7 @@ typedef struct ambulo__tree {
   const ambulo_import_options *options;
   const char *name, *format;
   double gravity[3], forward[3];
+  char up; /* axis of the format that is: 'y', 'z' */
   ambulo__tree_link *links;
   int link_count, link_capacity;
   ambulo__tree_solid *solids;
@@ -93,7 +94,11 @@ void ambulo__tree_body(ambulo__tree *tree, int link, const ambulo__part *part,
 ambulo__number ambulo__three_digits(double x);
 void ambulo__tree_add_solid(ambulo__tree *tree, const ambulo__tree_solid *solid);
 int ambulo__tree_add_point(ambulo__tree *tree, const char *name, int link, const double at[3]);
-/* Numbers that no model may have, each an error where the link stands in the source. */
+/* Once gravity is known and before there are links: where there is none there is some, and it is
+ * not along forward. */
+void ambulo__tree_gravity(ambulo__tree *tree);
+/* Numbers that no model may have, each an error where the link stands in the source; limits that
+ * are as good as none go. */
 void ambulo__tree_check(ambulo__tree *tree);
 /* Index of a link by name, -1: none. */
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);

@@ -72,6 +72,13 @@ static void tell_leftovers(ambulo__mjcf *m) {
                       m->springs);
 }
 
+static void read_option(ambulo__tree *tree, const ambulo__xml_node *option) {
+  const char *flag = ambulo__xml_attribute(ambulo__xml_child(option, "flag"), "gravity");
+  (void)ambulo__xml_vector(tree->xml, option, "gravity", 3, tree->gravity);
+  if (flag && strcmp(flag, "disable") == 0)
+    for (int i = 0; i < 3; i++) tree->gravity[i] = 0.0;
+}
+
 void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *path) {
   ambulo__mjcf m = {.tree = tree,
                     .xml = tree->xml,
@@ -87,9 +94,11 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
   ambulo__mjcf_include(tree->xml, root, path);
   tree->gravity[0] = tree->gravity[1] = 0.0;
   tree->gravity[2] = -9.81;
+  tree->up = 'z';
   for (const ambulo__xml_node *n = ambulo__xml_child(root, "option"); n;
        n = ambulo__xml_next(n, "option"))
-    (void)ambulo__xml_vector(tree->xml, n, "gravity", 3, tree->gravity);
+    read_option(tree, n);
+  ambulo__tree_gravity(tree);
   for (const ambulo__xml_node *n = ambulo__xml_child(root, "compiler"); n;
        n = ambulo__xml_next(n, "compiler"))
     read_compiler(&m, n);

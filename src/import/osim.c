@@ -106,7 +106,9 @@ void ambulo__read_osim(ambulo__tree *tree, const ambulo__xml_node *root) {
   const char *name = ambulo__xml_attribute(model, "name");
   if (name && name[0]) tree->name = name;
   tree->gravity[1] = -9.80665;
+  tree->up = 'y';
   (void)ambulo__xml_child_vector(tree->xml, model, "gravity", 3, 0, tree->gravity);
+  ambulo__tree_gravity(tree);
   ambulo__osim_collect(&o);
   if (tree->xml->status || tree->arena->failed) return;
   walk(&o);

@@ -198,6 +198,7 @@ void ambulo__read_urdf(ambulo__tree *tree, const ambulo__xml_node *root) {
   if (name && name[0]) tree->name = name;
   tree->gravity[0] = tree->gravity[1] = 0.0;
   tree->gravity[2] = -9.81;
+  tree->up = 'z';
   if (is_xacro(tree->xml, root)) return;
   collect_links(&u, root);
   collect_joints(&u, root);

@@ -187,6 +187,9 @@ def compare_mjcf(ambulo, source, scratch, seed):
     names = [n for n, _ in coordinates(target)]
     model = mujoco_model(mujoco, np, source)
     model.dof_armature[:] = 0
+    model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    if not model.opt.gravity.any():
+        model.opt.gravity[:] = [0, 0, -9.81]  # as the import says
     data = mujoco.MjData(model)
     at = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n) for n in names]
     assert min(at) >= 0 and model.nv == len(names), (names, model.nv)

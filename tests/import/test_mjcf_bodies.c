@@ -88,6 +88,21 @@ static void settings(void **state) {
   import_shut(&c);
 }
 
+/* no gravity, limits that are none, a mass that is none: said, and a model all the same */
+static void what_is_as_good_as_none(void **state) {
+  import_case c = import_good(
+      state,
+      "<mujoco><compiler angle='radian'/><option><flag gravity='disable'/></option><worldbody>"
+      "<body name='b'>" BODY "<joint name='j' range='-1e16 2'/><body name='speck'>"
+      "<joint name='k'/><geom size='1e-5'/></body></body></worldbody></mujoco>");
+  assert_told(&c, "gravity is 0 m/s^2 in the source: it is 9.81 here, along -z");
+  assert_told(&c, "speck: its mass of 4.188");
+  assert_close(ambulo_model_gravity(c.model)[2], -9.81, 0);
+  assert_true(isinf(named(&c, "j")->range[0]));
+  assert_close(named(&c, "j")->range[1], 2, 1e-7);
+  import_shut(&c);
+}
+
 static void what_is_wrong(void **state) {
   import_bad(
       state, HINGE("type='screw'"), AMBULO_E_SCHEMA,
@@ -139,9 +154,12 @@ static void included_files(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(as_mujoco),     cmocka_unit_test(limits),
-      cmocka_unit_test(solids),        cmocka_unit_test(settings),
-      cmocka_unit_test(what_is_wrong), cmocka_unit_test(included_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(as_mujoco),
+                                     cmocka_unit_test(limits),
+                                     cmocka_unit_test(solids),
+                                     cmocka_unit_test(settings),
+                                     cmocka_unit_test(what_is_as_good_as_none),
+                                     cmocka_unit_test(what_is_wrong),
+                                     cmocka_unit_test(included_files)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
