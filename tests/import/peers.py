@@ -378,7 +378,12 @@ def urdfs():
 
 
 def main():
-    ambulo, scratch = sys.argv[1:3]
+    ambulo, scratch = (os.path.abspath(path) for path in sys.argv[1:3])
+    for name in ("AMBULO_URDF", "AMBULO_OSIM", "AMBULO_MJCF"):
+        if name in os.environ:
+            paths = os.environ[name].split(":")
+            os.environ[name] = ":".join(os.path.abspath(path) for path in paths)
+    os.chdir(scratch)  # packages leave logs where they run
     passed = failed = 0
     sources = []
     if importlib.util.find_spec("pinocchio") is None:
