@@ -109,7 +109,7 @@ ambulo_status ambulo__holds_mirror_check(const ambulo_problem_definition *d,
     if (ambulo__hold_events(h, d->duration, time) > 0)
       return REFUSE(list,
                     "load '%s' is held from %g s to %g s; with mirrored ends expected all along",
-                    h->name, h->from, h->to);
+                    h->name, h->from, fmin(h->to, d->duration));
     if (h->center[1] != 0.0 || h->force[1] != 0.0 ||
         !ambulo__places_mirror(d->model, one->link, one->position, other->link, other->position))
       return REFUSE(list,

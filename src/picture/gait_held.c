@@ -56,13 +56,19 @@ static void hand_at(const ambulo_problem *p, const ambulo__pose *pose, int point
   ambulo__pose_point(pose, of->link, of->position, at);
 }
 
+/* -1 before it is taken up, 1 after it is set down, 0 while it is held, which may be all along */
+static int stands(const ambulo_problem *p, const ambulo_hold *hold, double time) {
+  if (hold->from > 0.0 && time <= hold->from) return -1;
+  return hold->to < p->definition.duration && time >= hold->to;
+}
+
 /* the middle of the hands while it is held, else where it stands */
 static void place_of(const ambulo_problem *p, const ambulo_hold *hold, const double ends[2][3],
                      const ambulo__pose *pose, double time, double place[3]) {
-  int before = time <= hold->from, after = time >= hold->to;
+  int standing = stands(p, hold, time);
   double other[3];
-  if (before || after) {
-    memcpy(place, ends[after], 3 * sizeof *place);
+  if (standing != 0) {
+    memcpy(place, ends[standing > 0], 3 * sizeof *place);
     return;
   }
   hand_at(p, pose, hold->hand[0], place);
@@ -104,8 +110,8 @@ void ambulo__gait_held_draw(const ambulo_problem *p, const ambulo__held_places *
     double forward = ambulo__dot(m->forward, place) - v->origin;
     double up = ambulo__dot(m->up, place) - p->definition.ground_height;
     double x = v->x + v->scale * forward, y = v->base - v->scale * up;
-    int stands = v->time <= hold->from || v->time >= hold->to; /* beside other figures too */
-    if (!isfinite(x + y) || (stands && fabs(forward) > v->half)) continue;
+    /* what stands is beside other figures too */
+    if (!isfinite(x + y) || (stands(p, hold, v->time) != 0 && fabs(forward) > v->half)) continue;
     draw_box(hold, x + v->scale * hold->center[0], y - v->scale * hold->center[2], v->scale, text);
     if (ambulo__hold_window(hold, p->definition.duration, v->time) > seen_from)
       draw_arrow(hold, x, y, v->scale, text);

@@ -93,11 +93,12 @@ static void test_beside_the_figure(void **state) {
   assert_int_equal(ambulo__held_places_create(p, x, &a, &places), AMBULO_OK);
   ambulo__pose_at(&pose, q);
   for (int held = 0; held < 2; held++) {
-    ambulo__figure_view view = {.origin = 3, .half = 0.2, .scale = 100, .time = held ? 1.2 : 0.1};
+    ambulo__figure_view view = {.origin = 3, .half = 0.2, .scale = 100, .time = held ? 1.2 : 0.0};
     ambulo__text_buffer text;
     ambulo__text_init(&text, NULL);
     ambulo__gait_held_draw(p, &places, &pose, &view, &text);
     assert_int_equal(count(ambulo__text_data(&text), "\"box\""), held);
+    assert_int_equal(count(ambulo__text_data(&text), "\"load\""), 1); /* held from the beginning */
     ambulo__text_free(&text);
   }
   ambulo__free(&a, places.place);
