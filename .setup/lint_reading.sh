@@ -8,6 +8,7 @@
 #   no two headers of src/ declare types of one name
 #   the list "Follow one control point" of docs/solver.md has at most 60 files
 set -u
+shopt -s nullglob
 most=60
 bad=0
 say() {
@@ -16,15 +17,15 @@ say() {
 }
 
 for folder in src/*/; do
-  mapfile -t heads < <(grep -lE '^ \* Reading order: ' "$folder"*.[ch])
+  mapfile -t heads < <(grep -lE '^( \* )?Reading order: ' "$folder"*.[ch] "$folder"*.py)
   if [ ${#heads[@]} -ne 1 ]; then
     say "$folder: ${#heads[@]} files with a reading order, expected one"
     continue
   fi
   while read -r name; do
     [ -f "$folder$name" ] || [ -f "src/$name" ] || say "${heads[0]}: no file $name in $folder"
-  done < <(sed -n '/^ \* Reading order: /,/^ \*\/\|^ \*$/p' "${heads[0]}" |
-    grep -oE '[a-z0-9_/]+\.[ch]')
+  done < <(sed -nE '/^( \* )?Reading order: /,/^ \*\/|^ \*$|^$/p' "${heads[0]}" |
+    grep -oE '[a-z0-9_/]+\.([ch]|py)\b')
 done
 
 for page in docs/solver.md docs/glossary.md; do

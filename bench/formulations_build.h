@@ -18,8 +18,10 @@ static inline double uniform(void) {
   return (double)(seed >> 11) / 9007199254740992.0;
 }
 
-static inline void must(int status, const char *what) {
-  if (!status) return;
+/* a status, or 1 for what went wrong */
+#define must(status, what) stop_where((status) != 0, what)
+static inline void stop_where(int failed, const char *what) {
+  if (!failed) return;
   (void)fprintf(stderr, "table1: %s failed\n", what);
   exit(1);
 }

@@ -3,16 +3,19 @@
  *     model.h      the skeleton (immutable)
  *     mechanics.h  inverse dynamics of given motions, in batches
  *     problem.h    what to minimize, subject to what (immutable)
+ *     extend.h     terms and rows added to a problem, one of a file too
  *     evaluate.h   what a problem says of one point: values, gradients, the motion
  *     solve.h      the solver, the verdict and the audit
  *     sensitivity.h  what each number of a problem costs
  *     parameters.h   numbers of a problem that the solver chooses
  *     ground.h     parts of a problem: the ground's force, feet in the air
+ *     hold.h       parts of a problem: what hands hold or push
  *     collision.h  parts of a problem: capsules, obstacles, places to reach
  *     report.h     results on disk, comparison with people
  *     page.h       results to watch, as one HTML file
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
+ *     import.h     models of OpenSim, URDF and MuJoCo
  *     status.h     status codes, messages, allocator
  *
  * Lifecycle:  model/problem --load or create--> solve --> result --> report --> free
@@ -27,14 +30,21 @@
 #ifndef AMBULO_AMBULO_H
 #define AMBULO_AMBULO_H
 
+/* Of these headers; ambulo_version() is that of the library that is running. */
+#define AMBULO_VERSION_MAJOR 0
+#define AMBULO_VERSION_MINOR 1
+#define AMBULO_VERSION_PATCH 0
 #define AMBULO_VERSION_STRING "0.1.0"
 
 #include "ambulo/batch.h"
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/evaluate.h"
+#include "ambulo/extend.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
+#include "ambulo/hold.h"
+#include "ambulo/import.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"

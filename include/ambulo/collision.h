@@ -1,17 +1,22 @@
 /* ambulo/collision.h - bodies that take up room: parts of problem.h.
  *
  * A model's capsules (ambulo_capsule in model.h) keep clear of one another and of obstacles, and a
- * point of a body comes to a place at a time. Places are along forward, along left and up from the
- * world's origin, the third above the ground's height; m. Rows stand at the nodes:
+ * point of a body comes to a place at a time, or keeps its way from another point. Places are along
+ * forward, along left and up from the world's origin, the third above the ground's height; those
+ * relative to a point (ambulo_reach) from that point instead; m. Rows stand at the nodes:
  *
  *   collision  distance of two capsules' segments - (r1 + r2 + margin) >= 0              m
  *   obstacle   the same of a capsule and an obstacle                                     m
  *   reach      |point - place| <= tolerance along each of the three                      m
+ *              |point - about - place| <= tolerance where it is relative                 m
+ *              without a tolerance both as equations
  *
  * The distance is smoothed (docs/equations.md, 14.h): at least so much is kept, and up to .5 mm
  * more. */
 #ifndef AMBULO_COLLISION_H
 #define AMBULO_COLLISION_H
+
+#include "ambulo/status.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -70,6 +75,12 @@ typedef struct ambulo_reach {
                        are events. to INFINITY: until the end */
   double tolerance; /* along each axis, m; 0: equations */
 } ambulo_reach;
+
+/* Off, without pairs; a box for all capsules, without size; a point that is to be named, at the
+ * world's origin from 0 until the end. */
+AMBULO_API ambulo_collision ambulo_collision_default(void);
+AMBULO_API ambulo_obstacle ambulo_obstacle_default(void);
+AMBULO_API ambulo_reach ambulo_reach_default(void);
 
 #ifdef __cplusplus
 }

@@ -57,6 +57,7 @@ AMBULO_API ambulo_fit_options ambulo_fit_options_default(void);
 
 /* How a run ended. */
 typedef enum ambulo_fit_ending {
+  AMBULO_FIT_NOT_RUN,     /* of a state that nobody filled */
   AMBULO_FIT_CONVERGED,   /* further iterations change little */
   AMBULO_FIT_ITERATIONS,  /* as many as the fit file allows */
   AMBULO_FIT_INTERRUPTED, /* the caller stopped it; what is best so far was written */

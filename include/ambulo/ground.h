@@ -4,6 +4,8 @@
 #ifndef AMBULO_GROUND_H
 #define AMBULO_GROUND_H
 
+#include "ambulo/status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -75,6 +77,10 @@ typedef struct ambulo_clearance {
                              feet are the line from heel to toe centre and half their largest width
                              around it. Negative: no such rows; planar feet have none */
 } ambulo_clearance;
+
+/* Those of ambulo_problem_definition_default(): none, and no rows. */
+AMBULO_API ambulo_ground_reaction ambulo_ground_reaction_default(void);
+AMBULO_API ambulo_clearance ambulo_clearance_default(void);
 
 #ifdef __cplusplus
 }

@@ -37,13 +37,22 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_inverse_dynamics(
     ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
     double *tau, double *wrench, double *points);
 
-/* Vector-Jacobian product: given weights on tau [n][d], wrench [n][6] and points
- * [n][p][3] (each may be NULL), the gradient of their weighted sum with respect
- * to q, qd and qdd, each [n][d] and none NULL. */
+/* Weights on what inverse dynamics gives; NULL: 0 everywhere. */
+typedef struct ambulo_output_weights {
+  const double *tau;    /* [n][d] */
+  const double *wrench; /* [n][6] */
+  const double *points; /* [n][p][3] */
+} ambulo_output_weights;
+/* Where a gradient with respect to a motion goes: each [n][d], none NULL. */
+typedef struct ambulo_motion_gradient {
+  double *q, *qd, *qdd;
+} ambulo_motion_gradient;
+
+/* Vector-Jacobian product: the gradient of the weighted sum of all outputs, by one reverse sweep.
+ * Errors: E_ARGUMENT, E_NUMERIC. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_gradient(
     ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
-    const double *tau_weights, const double *wrench_weights, const double *point_weights,
-    double *q_gradient, double *qd_gradient, double *qdd_gradient);
+    const ambulo_output_weights *weights, const ambulo_motion_gradient *gradient);
 
 /* Full Jacobians of tau [n][d][d] with respect to q, qd, qdd (rows: tau; the last
  * is the mass matrix), of the wrench [n][6][d] likewise, and of the points

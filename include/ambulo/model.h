@@ -142,9 +142,14 @@ typedef struct ambulo_model_definition {
 
 /* Gravity -9.81 along y, forward x, no links. */
 AMBULO_API ambulo_model_definition ambulo_model_definition_default(void);
-/* A link, a coordinate with neutral values (unlimited, actuated, own mirror). */
+/* Parts of it with neutral values (unlimited, actuated, own mirror); numbers of links and points
+ * that have to be given are -1, which is refused. */
 AMBULO_API ambulo_link ambulo_link_default(void);
 AMBULO_API ambulo_coordinate ambulo_coordinate_default(void);
+AMBULO_API ambulo_point ambulo_point_default(void);
+AMBULO_API ambulo_foot ambulo_foot_default(void);
+AMBULO_API ambulo_patch ambulo_patch_default(void);
+AMBULO_API ambulo_capsule ambulo_capsule_default(void);
 
 /* Checks the definition (acyclic, masses positive, inertias physical, limits
  * ordered, names unique) and builds the model. `diagnostics` may be NULL.
@@ -163,6 +168,7 @@ typedef struct ambulo_subject {
   double stature; /* m; 0: as in the file */
   ambulo_sex sex;
 } ambulo_subject;
+AMBULO_API ambulo_subject ambulo_subject_default(void); /* all as in the file */
 
 /* Loads a model file, or text that is already in memory (`name` then stands for
  * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.

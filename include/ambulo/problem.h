@@ -22,6 +22,7 @@
 #include "ambulo/collision.h"
 #include "ambulo/device.h"
 #include "ambulo/ground.h"
+#include "ambulo/hold.h"
 #include "ambulo/model.h"
 
 #ifdef __cplusplus
@@ -284,6 +285,8 @@ typedef struct ambulo_problem_definition {
   int reach_count;
   const ambulo_device *devices; /* what the body wears (ambulo/device.h) */
   int device_count;
+  const ambulo_hold *holds; /* what hands hold or push (ambulo/hold.h) */
+  int hold_count;
 
   const ambulo_term *terms; /* none: a feasible motion is all that is asked (Fig. 5a) */
   int term_count;
@@ -301,6 +304,13 @@ AMBULO_API ambulo_problem_definition ambulo_problem_definition_default(void);
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_node_times(const ambulo_problem_definition *definition, double *times);
 AMBULO_API ambulo_term ambulo_term_default(ambulo_term_kind kind);
+/* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people; a
+ * value of 0 at the start, of nothing yet; no tube; a row c >= 0 at every node. */
+AMBULO_API ambulo_contact ambulo_contact_default(void);
+AMBULO_API ambulo_gait ambulo_gait_default(void);
+AMBULO_API ambulo_end_value ambulo_end_value_default(void);
+AMBULO_API ambulo_tube ambulo_tube_default(void);
+AMBULO_API ambulo_user_row ambulo_user_row_default(void);
 
 /* Checks the definition and builds the problem. Contradictions that need no solve
  * are refused by name, time and unit: footholds out of reach, no support at some
@@ -311,7 +321,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
     const ambulo_problem_definition *definition, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
-/* From a file; the model it names is loaded with it and owned by the problem.
+/* From a file; the model it names is loaded with it and owned by the problem. A name of a model or
+ * a reference that is not beside the file is looked for below the folder that the environment calls
+ * AMBULO_MODELS, if it is set, which a note says.
  * overrides[i] is "path=value" ("time.intervals=36"), applied before anything is
  * read. Errors: as ambulo_model_load and ambulo_problem_create. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load(
@@ -345,6 +357,8 @@ AMBULO_API int ambulo_problem_contact_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_contact *ambulo_problem_contact(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_device_count(const ambulo_problem *problem);
 AMBULO_API const ambulo_device *ambulo_problem_device(const ambulo_problem *problem, int index);
+AMBULO_API int ambulo_problem_hold_count(const ambulo_problem *problem);
+AMBULO_API const ambulo_hold *ambulo_problem_hold(const ambulo_problem *problem, int index);
 AMBULO_API int ambulo_problem_term_count(const ambulo_problem *problem);
 AMBULO_API const char *ambulo_problem_term_name(const ambulo_problem *problem, int index);
 /* Where `what` of coordinate `index` has to stay over [0, T]: within the model's limits, and with

@@ -147,7 +147,11 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_comparison_json(
     const ambulo_comparison *comparison, const ambulo_allocator *allocator, char **text);
 
 /* What a YAML file is, by its key `kind`. */
-typedef enum ambulo_file_kind { AMBULO_FILE_MODEL, AMBULO_FILE_PROBLEM } ambulo_file_kind;
+typedef enum ambulo_file_kind {
+  AMBULO_FILE_UNKNOWN,
+  AMBULO_FILE_MODEL,
+  AMBULO_FILE_PROBLEM
+} ambulo_file_kind;
 /* Errors: E_IO, E_PARSE, E_SCHEMA (another kind, or none), E_LIMIT, E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_file_kind_of(const char *path,
                                                               const ambulo_allocator *allocator,

@@ -143,3 +143,46 @@ ambulo_status ambulo__cli_check_model(const char *file, const ambulo_model *mode
   release(&t);
   return status;
 }
+
+/* the lowest of the points that the feet stand on, and its height along up; -1: none */
+static int lowest_point(const ambulo_model *model, const double *places, double *height) {
+  const double *up = ambulo_model_up(model);
+  int lowest = -1;
+  for (int f = 0; f < ambulo_model_foot_count(model); f++) {
+    const ambulo_foot *foot = ambulo_model_foot(model, f);
+    const int points[4] = {foot->heel[0], foot->heel[1], foot->toe[0], foot->toe[1]};
+    for (int k = 0; k < 4; k++) {
+      if (points[k] < 0) continue;
+      const double *p = places + 3 * points[k];
+      double at = p[0] * up[0] + p[1] * up[1] + p[2] * up[2];
+      if (lowest >= 0 && at >= *height) continue;
+      lowest = points[k];
+      *height = at;
+    }
+  }
+  return lowest;
+}
+
+ambulo_status ambulo__cli_check_standing(const ambulo_model *model, double ground) {
+  static const double level = 1e-3; /* m */
+  size_t d = (size_t)ambulo_model_coordinate_count(model);
+  size_t points = (size_t)ambulo_model_point_count(model);
+  double *zero = calloc(d + 1, sizeof *zero), *places = calloc(3 * points + 1, sizeof *places);
+  double height = ground;
+  ambulo_mechanics *mechanics = NULL;
+  ambulo_status status =
+      zero && places ? ambulo_mechanics_create(model, NULL, &mechanics) : AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo_mechanics_inverse_dynamics(mechanics, 1, zero, zero, zero, NULL, NULL, places);
+  int lowest = status ? -1 : lowest_point(model, places, &height);
+  if (lowest >= 0 && fabs(height - ground) > level)
+    printf(
+        "  at q = 0 the feet are off the ground: %s is %.3f m %s it, which a solve from zero has "
+        "to make up\n",
+        ambulo_model_point(model, lowest)->name, fabs(height - ground),
+        height > ground ? "above" : "below");
+  ambulo_mechanics_free(mechanics);
+  free(zero);
+  free(places);
+  return status;
+}

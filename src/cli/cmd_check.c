@@ -90,7 +90,11 @@ static int check_file(const ambulo__cli_input *input, const char *file) {
   int wrong = 0;
   ambulo_status status = ambulo__cli_load(input, file, NULL, diagnostics, &model, &problem);
   if (!status && problem) status = check_problem(file, problem, diagnostics, &wrong);
+  if (!status && problem)
+    status = ambulo__cli_check_standing(ambulo_problem_model(problem),
+                                        ambulo_problem_ground_height(problem));
   if (!status && model) status = ambulo__cli_check_model(file, model, tolerance, &wrong);
+  if (!status && model) status = ambulo__cli_check_standing(model, 0.0);
   int code = ambulo__cli_diagnostics(diagnostics, status, file);
   if (code && input->argument_count > 1 && ambulo__cli_flag(input, "set"))
     ambulo__cli_error(ambulo_status_name(status), NULL, "%s: not valid with these settings", file);
@@ -126,14 +130,16 @@ const ambulo__cli_command ambulo__cli_check = {
     .description =
         "Reads each file with every check a solve would make, then compares the hand-derived\n"
         "gradients with central differences: one line a family, with the worst row, unknown and\n"
-        "time. --set changes every file that is named. Exit code 1 if a gradient differs by more "
-        "than\n"
-        "1e-7 of its size, 3 if a file is invalid.",
+        "time. Says where feet are off the ground at q = 0. --set changes every file that is "
+        "named.\n"
+        "Exit code 1 if a gradient differs by more than 1e-7 of its size, 3 if a file is invalid.",
     .example = "ambulo check models/lower_body_18.yaml models/yardstick_12.yaml\n"
                "ambulo check models/yardstick_12.yaml --set time.intervals=24",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
     .maximum = -1,
+    .files = -1,
+    .words = "ambulo models --names",
     .run = run,
 };

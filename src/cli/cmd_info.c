@@ -286,6 +286,20 @@ static void print_devices(const ambulo_problem *problem) {
   }
 }
 
+static void print_holds(const ambulo_problem *problem) {
+  const ambulo_model *model = ambulo_problem_model(problem);
+  int count = ambulo_problem_hold_count(problem);
+  if (count) printf("\nheld\n");
+  for (int i = 0; i < count; i++) {
+    const ambulo_hold *h = ambulo_problem_hold(problem, i);
+    double to = fmin(h->to, ambulo_problem_duration(problem));
+    printf("  %-3d %-22s %g kg, pushed with [%g, %g, %g] N, in %s", i, h->name, h->mass,
+           h->force[0], h->force[1], h->force[2], ambulo_model_point(model, h->hand[0])->name);
+    if (h->hand[1] >= 0) printf(" and %s", ambulo_model_point(model, h->hand[1])->name);
+    printf(", from %g to %g s\n", h->from, to);
+  }
+}
+
 static void print_problem(const ambulo_problem *problem) {
   static const char *const ends[] = {"free", "periodic", "mirrored"};
   int equalities = ambulo_problem_equality_count(problem);
@@ -313,6 +327,7 @@ static void print_problem(const ambulo_problem *problem) {
   print_bodies(problem);
   print_schedule(problem);
   print_devices(problem);
+  print_holds(problem);
   printf("\n");
   print_model(ambulo_problem_model(problem));
 }
@@ -351,5 +366,7 @@ const ambulo__cli_command ambulo__cli_info = {
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
     .maximum = 1,
+    .files = 1,
+    .words = "ambulo models --names",
     .run = run,
 };

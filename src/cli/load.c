@@ -9,7 +9,7 @@ ambulo_status ambulo__cli_load(const ambulo__cli_input *input, const char *file,
   size_t more = changes ? (size_t)changes->count : 0;
   const char **overrides = calloc((size_t)input->given_count + more + 1, sizeof *overrides);
   if (!overrides) return AMBULO_E_MEMORY;
-  ambulo_file_kind kind = AMBULO_FILE_MODEL;
+  ambulo_file_kind kind = AMBULO_FILE_UNKNOWN;
   int count = ambulo__cli_values(input, "set", overrides);
   ambulo_status status = ambulo_file_kind_of(file, NULL, diagnostics, &kind);
   if (!status && kind == AMBULO_FILE_MODEL) {

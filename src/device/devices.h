@@ -19,7 +19,8 @@
  * Time enters through one factor a device, which is told: its window times its profile (told.c).
  *
  * Reading order: devices.h, law.c, path.h, path.c, devices.c; told.h, told.c;
- * mirror_devices.c, device_check.c.
+ * mirror_devices.c, device_check.c; what hands hold: hand_motion.h, hand_motion.c, holds.h,
+ * holds.c, hold_check.c.
  */
 #ifndef AMBULO_DEVICE_DEVICES_H
 #define AMBULO_DEVICE_DEVICES_H

@@ -96,6 +96,12 @@ void ambulo__path_free(const ambulo_allocator *allocator, ambulo__device_path *p
   ambulo__free(allocator, path->joints);
 }
 
+void ambulo__path_follow(double frame[12], const ambulo__path_joint *joint, double q) {
+  follow_joint(frame, joint->angle + (joint->turns ? q : 0.0),
+               joint->offset + (joint->turns ? 0.0 : q));
+  follow(frame, joint->after);
+}
+
 /* (D.4) z x (p - o), z */
 void ambulo__path_point(const ambulo__device_path *path, const double *q, double point[3],
                         double *axis, double *slope) {
@@ -108,9 +114,7 @@ void ambulo__path_point(const ambulo__device_path *path, const double *q, double
       axis[3 * i + k] = frame[4 * k + 2];
       slope[3 * i + k] = frame[4 * k + 3];
     }
-    follow_joint(frame, joint->angle + (joint->turns ? value : 0.0),
-                 joint->offset + (joint->turns ? 0.0 : value));
-    follow(frame, joint->after);
+    ambulo__path_follow(frame, joint, value);
   }
   for (int k = 0; k < 3; k++) point[k] = frame[4 * k + 3];
   for (int i = 0; i < path->count; i++) {

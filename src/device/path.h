@@ -37,6 +37,9 @@ void ambulo__path_free(const ambulo_allocator *allocator, ambulo__device_path *p
 /* The deepest link that carries both, or is one of them; -1: the world. */
 int ambulo__path_common(const ambulo_model *model, const int link[2]);
 
+/* frame (rows of 3 x 4) before a joint to that before the next, behind the last: at the point. */
+void ambulo__path_follow(double frame[12], const ambulo__path_joint *joint, double q);
+
 /* Where the point is, with axis[count][3] and slope[count][3] = dp/dq of the joints; q has a stride
  * of AMBULO__LANES. */
 void ambulo__path_point(const ambulo__device_path *path, const double *q, double point[3],

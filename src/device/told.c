@@ -12,6 +12,7 @@
 #include "device/told.h"
 
 #include "base/lanes.h"
+#include "gait/hold_times.h"
 #include "gait/stride_clock.h"
 
 #include <math.h>
@@ -131,13 +132,17 @@ ambulo__device_told ambulo__device_told_at(const ambulo_problem_definition *d, i
 ambulo_status ambulo__devices_tell(const ambulo_problem_definition *d, const ambulo_allocator *a,
                                    const double *times, int count, double **told) {
   *told = NULL;
-  if (d->device_count == 0) return AMBULO_OK;
-  int n = d->device_count, padded = ambulo__block_count(count) * AMBULO__LANES;
+  int devices = d->device_count, n = devices + d->hold_count;
+  if (n == 0) return AMBULO_OK;
+  int padded = ambulo__block_count(count) * AMBULO__LANES;
   double *factors = ambulo__alloc_aligned(a, (size_t)padded * (size_t)n, sizeof *factors);
   if (!factors) return AMBULO_E_MEMORY;
   for (int k = 0; k < padded; k++) {
     double time = times[k < count ? k : count - 1];
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < d->hold_count; i++)
+      factors[ambulo__lane_index(k, n, devices + i)] =
+          ambulo__hold_window(&d->holds[i], d->duration, time);
+    for (int i = 0; i < devices; i++)
       factors[ambulo__lane_index(k, n, i)] = ambulo__device_told_at(d, i, time).factor;
   }
   *told = factors;

@@ -17,8 +17,9 @@ typedef struct ambulo__device_told {
 ambulo__device_told ambulo__device_told_at(const ambulo_problem_definition *definition, int device,
                                            double time);
 
-/* At `count` times, [blocks][devices][8], padded with the last; freed with ambulo__free_aligned.
- * *told is NULL without devices. E_MEMORY. */
+/* At `count` times, [blocks][devices and holds][8]: factors of the devices, then the windows of
+ * what hands hold (gait/hold_times.h), padded with the last; freed with ambulo__free_aligned. *told
+ * is NULL without either. E_MEMORY. */
 ambulo_status ambulo__devices_tell(const ambulo_problem_definition *definition,
                                    const ambulo_allocator *allocator, const double *times,
                                    int count, double **told);

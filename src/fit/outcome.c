@@ -36,6 +36,8 @@ const char *ambulo__fit_ending_name(ambulo_fit_ending ending) {
     return "iterations";
   case AMBULO_FIT_INTERRUPTED:
     return "interrupted";
+  case AMBULO_FIT_NOT_RUN:
+    return "not_run";
   case AMBULO_FIT_STUCK:
     break;
   }

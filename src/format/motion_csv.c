@@ -33,6 +33,8 @@ static void comment(const ambulo__motion_table *table, ambulo__text_buffer *text
   if (table->feet || table->patches)
     ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal");
   if (table->devices) ambulo__text_append(text, "; device N m or N, rad or m, W");
+  if (table->holds)
+    ambulo__text_append(text, "; held N, N m about the hand's point, world axes, W");
   if (table->wrench) ambulo__text_append(text, "; wrench N, N m about the origin, world axes");
   if (table->residual)
     ambulo__text_append(text, "; residual N, N m about the centre of mass, world axes");
@@ -63,6 +65,20 @@ static void device_header(const ambulo__motion_table *table, ambulo__text_buffer
   }
 }
 
+/* of what hands hold: each hand's force and moment, then the power */
+static void hold_header(const ambulo__motion_table *table, ambulo__text_buffer *text) {
+  for (int i = 0; i < table->holds; i++) {
+    const ambulo_hold *hold = &table->hold[i];
+    for (int hand = 0; hand < 2 && hold->hand[hand] >= 0; hand++) {
+      const char *point = table->model->points[hold->hand[hand]].name;
+      for (int k = 0; k < 6; k++)
+        ambulo__text_append_format(text, ",held.%s.%s.%s.%c", hold->name, point,
+                                   k < 3 ? "force" : "moment", "xyz"[k % 3]);
+    }
+    ambulo__text_append_format(text, ",held.%s.power", hold->name);
+  }
+}
+
 static void header(const ambulo__motion_table *table, ambulo__text_buffer *text) {
   static const char *const prefixes[] = {",q.", ",qd.", ",qdd.", ",tau."};
   comment(table, text);
@@ -73,6 +89,7 @@ static void header(const ambulo__motion_table *table, ambulo__text_buffer *text)
   for (int i = 0; i < table->patches; i++)
     force_header(table->model->patches[table->patch[i]].name, text);
   device_header(table, text);
+  hold_header(table, text);
   if (table->wrench) wrench_header("wrench", text);
   if (table->residual) wrench_header("residual", text);
   if (table->power) coordinates(table->model, ",power.", text);
@@ -92,6 +109,17 @@ static void patch_numbers(const ambulo__motion_table *table, int k, ambulo__text
     numbers(text, table->patch_force + 3 * at, 3);
     numbers(text, table->patch_cop + 3 * at, 3);
     numbers(text, table->patch_free_moment + at, 1);
+  }
+}
+
+static void hold_numbers(const ambulo__motion_table *table, int k, ambulo__text_buffer *text) {
+  for (int i = 0; i < table->holds; i++) {
+    size_t at = (size_t)k * (size_t)table->holds + (size_t)i;
+    for (size_t hand = 0; hand < 2 && table->hold[i].hand[hand] >= 0; hand++) {
+      numbers(text, table->hold_force + 6 * at + 3 * hand, 3);
+      numbers(text, table->hold_moment + 6 * at + 3 * hand, 3);
+    }
+    numbers(text, table->hold_power + at, 1);
   }
 }
 
@@ -119,6 +147,7 @@ void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *
       numbers(text, table->along + one, 1);
       numbers(text, table->device_power + one, 1);
     }
+    hold_numbers(table, k, text);
     if (table->wrench) {
       numbers(text, table->wrench + 6 * (size_t)k + 3, 3);
       numbers(text, table->wrench + 6 * (size_t)k, 3);

@@ -3,6 +3,7 @@
 #define AMBULO_FORMAT_MOTION_CSV_H
 
 #include "ambulo/device.h"
+#include "ambulo/hold.h"
 #include "base/text_buffer.h"
 #include "model/model.h"
 
@@ -20,6 +21,10 @@ typedef struct ambulo__motion_table {
   int devices;                                 /* 0: none */
   const ambulo_device *device;                 /* [devices] */
   const double *effort, *along, *device_power; /* [samples][devices] */
+  int holds;                                   /* 0: none */
+  const ambulo_hold *hold;                     /* [holds] */
+  const double *hold_force, *hold_moment,
+      *hold_power; /* [samples][holds][2][3]; [samples][holds] */
   /* of an inverse dynamics; each may be NULL */
   const double *wrench;   /* [samples][6]: moment about the origin, force */
   const double *residual; /* [samples][6]: force, moment about the centre of mass */
@@ -29,9 +34,10 @@ typedef struct ambulo__motion_table {
 /* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time:
  * time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
  * cop.<foot>.x|y|z, free_moment.<foot>, the same of the patches; for each device
- * device.<name>.torque|force, .angle|length, .power; of an inverse dynamics
- * wrench.force.x|y|z, wrench.moment.x|y|z, the same of residual, and power.*; a value that does not
- * exist (the ZMP in flight) is "nan". */
+ * device.<name>.torque|force, .angle|length, .power; for each hand that holds something
+ * held.<load>.<point>.force.x|y|z, .moment.x|y|z, for each load held.<load>.power; of an inverse
+ * dynamics wrench.force.x|y|z, wrench.moment.x|y|z, the same of residual, and power.*; a value that
+ * does not exist (the ZMP in flight) is "nan". */
 void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *text);
 
 /* Coordinates only, inDegrees=no. */

@@ -141,15 +141,23 @@ double ambulo__clearance_part(double s, double *slope) {
   return fmax(0.0, part);
 }
 
+/* the contact with which a swing ends, at the end of a motion that does not repeat, too; -1: none
+ */
+static int landing_of(const ambulo_problem_definition *d, int foot, ambulo__span air) {
+  for (int i = 0; air.ends < 0 && i < d->contact_count; i++)
+    if (d->contacts[i].foot == foot && d->contacts[i].from >= air.to - AMBULO__INSTANT) return i;
+  return air.ends;
+}
+
 double ambulo__tip_drop(const ambulo_problem_definition *d, int foot, double time, double s) {
   ambulo__span air = ambulo__air_span(d, foot, time);
   const ambulo_foot *f = &d->model->feet[foot];
   double slope, tip[3], ball[3], square = 0.0;
   (void)ambulo__clearance_part(s, &slope);
   int lands = air.to - air.from <= AMBULO__INSTANT; /* where the motion ends */
-  if ((slope >= 0.0 && !lands) || !f->has_tip || air.ends < 0) return 0.0;
-  if (d->contacts[air.ends].mode != AMBULO_CONTACT_TOE || !ambulo__contacts_are_level(d))
-    return 0.0;
+  int landing = landing_of(d, foot, air);
+  if ((slope >= 0.0 && !lands) || !f->has_tip || landing < 0) return 0.0;
+  if (d->contacts[landing].mode != AMBULO_CONTACT_TOE || !ambulo__contacts_are_level(d)) return 0.0;
   ambulo__neutral_point(d->model, f->tip, tip);
   ambulo__neutral_point(d->model, f->toe_center, ball);
   for (int i = 0; i < 3; i++) square += (tip[i] - ball[i]) * (tip[i] - ball[i]);

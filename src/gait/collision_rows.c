@@ -7,6 +7,14 @@
  *
  * D is the radii, the margin and what parts that pass come nearer between two nodes than at them
  * (gait/feet_apart.c), which vanishes on a fine grid.
+ *
+ * A reach holds the point r along each axis a of f, l, n within a tolerance e, at every node of its
+ * times:
+ *
+ *     -e <= a . r - a . w <= e             at a place in the world: w as p above        m
+ *     -e <= a . (r - r') - p_a <= e        p from another point r': no height enters    m
+ *
+ * and without a tolerance by one equation each, the same form = 0.
  */
 #include "base/instant.h"
 #include "base/vector.h"
@@ -162,6 +170,7 @@ static void at_node(const ambulo__gait_context *context, const ambulo_reach *rea
   }
 }
 
+/* (14.i) */
 ambulo_status ambulo__reach_rows(const ambulo__gait_context *context, ambulo__row_table *table,
                                  ambulo_diagnostics *diagnostics) {
   const ambulo_problem_definition *d = context->definition;

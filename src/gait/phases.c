@@ -11,6 +11,7 @@
 #include "gait/phases.h"
 #include "base/instant.h"
 #include "gait/effector.h"
+#include "gait/hold_times.h"
 #include "gait/loading.h"
 #include "gait/step_edge.h"
 #include "gait/swing.h"
@@ -87,6 +88,7 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__
                                     const ambulo_allocator *allocator, ambulo__events *events) {
   events->count = 0;
   size_t most = 8 * (size_t)d->contact_count + 2 * (size_t)d->reach_count;
+  most += 4 * (size_t)d->hold_count;
   events->time = ambulo__alloc(allocator, most, sizeof *events->time);
   if (!events->time) return AMBULO_E_MEMORY;
   int swings = kind == AMBULO__EVENTS_OF_ROWS && ambulo__has_tip_rows(d);
@@ -101,6 +103,11 @@ ambulo_status ambulo__events_create(const ambulo_problem_definition *d, ambulo__
   for (int i = 0; kind == AMBULO__EVENTS_OF_ROWS && i < d->reach_count; i++) {
     insert(events, d->reaches[i].from, d->duration);
     insert(events, d->reaches[i].to, d->duration);
+  }
+  for (int i = 0; kind == AMBULO__EVENTS_OF_ROWS && i < d->hold_count; i++) {
+    double time[4];
+    int count = ambulo__hold_events(&d->holds[i], d->duration, time);
+    for (int k = 0; k < count; k++) insert(events, time[k], d->duration);
   }
   return AMBULO_OK;
 }

@@ -87,6 +87,7 @@ static int project(ambulo__engine *e, const int *active) {
   double bound = cone_tolerance * ambulo__largest(q->gradient, (size_t)e->setup->n);
   ambulo__band_clear(&e->linearized.base);
   ambulo__band_add_diagonal(&e->linearized.base, 1.0);
+  e->linearized.filled_mu = -1.0; /* no H0 */
   e->linearized.assembled = 0;
   for (int pass = 0; pass < MULTIPLIER_PASSES; pass++) {
     for (int i = 0; i < e->setup->inequalities; i++) q->linear[i] = active[i] ? 0.0 : far_away;

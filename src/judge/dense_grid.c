@@ -88,7 +88,7 @@ static ambulo_status evaluate(ambulo__dense *dense, const double *x) {
   size_t stride = (size_t)ambulo__channel_count(&p->channels) * AMBULO__LANES;
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
   double *scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof *scratch);
-  double *room = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), sizeof *room);
+  double *room = ambulo__alloc_aligned(a, ambulo__room(p), sizeof *room);
   dense->channel = ambulo__alloc_aligned(a, stride * (size_t)p->blocks, sizeof *dense->channel);
   dense->row_value = ambulo__alloc_aligned(a, (size_t)p->rows, sizeof *dense->row_value);
   ambulo_status status = AMBULO_E_MEMORY;

@@ -146,6 +146,11 @@ AMBULO__INLINE const double *contact_kept(const ambulo__plan *plan, int c, const
   return scratch + plan->ground_at + contacts_first + c * contact_slot;
 }
 
+/* The root wrench with what the bodies hold. */
+AMBULO__INLINE wide_pair with_taken(const ambulo__plan *plan, wide_pair w, const double *scratch) {
+  return plan->taken_at ? add_pair(w, load_pair(scratch + plan->taken_at)) : w;
+}
+
 /* What does not wait for the motion: x, w, d, and sum w d, which is what rounding leaves of zero.
  * It comes long before the rest, which waits for it no more. */
 AMBULO__INLINE void contacts_place(const ambulo__plan *plan, const double *ground,

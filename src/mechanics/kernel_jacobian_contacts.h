@@ -149,7 +149,8 @@ static void jacobian_contacts_part(const ambulo__plan *plan, const double *groun
   wide_subtree all = {0};
   if (plan->local.limb_count > 0) all = load_subtree(scratch + plan->frames[0].subtree_at);
   contacts_place(plan, ground, scratch);
-  contacts_share_out(plan, ground, 1, with_fixed_load(plan, all.load), all.first, NULL, scratch);
+  wide_pair w = with_taken(plan, with_fixed_load(plan, all.load), scratch);
+  contacts_share_out(plan, ground, 1, w, all.first, NULL, scratch);
   contact_turns(plan, jq, scratch);
   contacts_factors(plan, jq, scratch);
   contact_torques(plan, ground, jq, scratch);

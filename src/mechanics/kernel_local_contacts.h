@@ -10,6 +10,9 @@
  * them is the root wrench (M, F), about the world origin. Their tau stays zero and has no adjoint;
  * but a step of theirs turns (M, F), whose weights are the virtual motion A of the root:
  *   q_j' += S_j . (M x A_angular + F x A_linear, F x A_angular)
+ * What the bodies hold (ambulo__plan_take_wrench) is in (M, F), and its turn is the caller's
+ * affair: with contacts that bear it the bodies' own load and theirs do not cancel, but leave it,
+ * and its part of this is taken off again, with contacts or without.
  */
 #ifndef AMBULO_MECHANICS_KERNEL_LOCAL_CONTACTS_H
 #define AMBULO_MECHANICS_KERNEL_LOCAL_CONTACTS_H
@@ -22,7 +25,7 @@ AMBULO__INLINE void local_contacts(const ambulo__plan *plan, int keep, const dou
                                    double *out, double *scratch) {
   const ambulo__local_plan *local = &plan->local;
   const local_sums sums = local_places(plan, keep, 1, out, scratch);
-  wide_pair w = with_fixed_load(plan, sums.load);
+  wide_pair w = with_taken(plan, with_fixed_load(plan, sums.load), scratch);
   store_pair(out + plan->coordinates * AMBULO__LANES, w);
   contacts_share_out(plan, ground, keep, w, sums.first, out, scratch);
   for (int c = 0; c < plan->contacts; c++) {
@@ -69,6 +72,10 @@ static local_pulls local_contact_adjoints(const ambulo__plan *plan, const double
   }
   wide_pair turned = turned_against(load_pair(at + contacts_wrench), *root);
   pulls.floating = (wide_pair){scale3(floating, turned.angular), scale3(floating, turned.linear)};
+  if (plan->taken_at) {
+    wide_pair held = turned_against(load_pair(scratch + plan->taken_at), *root);
+    pulls.floating = axpy_pair(pulls.floating, spread(-1), held);
+  }
   return pulls;
 }
 

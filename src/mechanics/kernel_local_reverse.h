@@ -319,6 +319,7 @@ static void local_reverse_part(const ambulo__plan *plan, const double *ground,
                                : local_ground_adjoints(plan, ground, x->weights, &root, x->scratch);
     acting = &pulls;
   }
+  if (plan->taken_at) store_pair(x->scratch + plan->taken_at + 2 * three, root);
   local_adjoints(plan, root, x);
   if (plan->points == 0 && !acting) return;
   local_point_weights(plan, acting, x->weights, x->gq, x->scratch);

@@ -173,33 +173,33 @@ ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, 
 
 ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const double *q,
                                         const double *qd, const double *qdd,
-                                        const double *tau_weights, const double *wrench_weights,
-                                        const double *point_weights, double *q_gradient,
-                                        double *qd_gradient, double *qdd_gradient) {
+                                        const ambulo_output_weights *weights,
+                                        const ambulo_motion_gradient *gradient) {
   batch motion = {nodes, q, qd, qdd};
-  if (!is_legal(m, &motion) || !q_gradient || !qd_gradient || !qdd_gradient) {
+  if (!is_legal(m, &motion) || !weights || !gradient || !gradient->q || !gradient->qd ||
+      !gradient->qdd) {
     return AMBULO_E_ARGUMENT;
   }
   int d = ambulo__plan_coordinates(m->plan), p = 3 * ambulo__plan_points(m->plan);
   size_t n = (size_t)nodes, columns = (size_t)d;
-  double most = fmax(largest_input(m, &motion), largest(tau_weights, n * columns));
-  most = fmax(most, fmax(largest(wrench_weights, n * 6), largest(point_weights, n * (size_t)p)));
+  double most = fmax(largest_input(m, &motion), largest(weights->tau, n * columns));
+  most = fmax(most, fmax(largest(weights->wrench, n * 6), largest(weights->points, n * (size_t)p)));
   int runs = run_count(most);
   if (runs == 0) return AMBULO_E_NUMERIC;
   for (int run = runs; run > 0; run--) {
     for (int first = 0; first < nodes; first += AMBULO__LANES) {
       gather_block(m, &motion, first);
       m->kernels->forward(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
-      ambulo__lanes_gather(m->weights, tau_weights, d, first, nodes);
-      ambulo__lanes_gather(m->weights + d * AMBULO__LANES, wrench_weights, 6, first, nodes);
-      ambulo__lanes_gather(m->weights + (d + 6) * AMBULO__LANES, point_weights, p, first, nodes);
+      ambulo__lanes_gather(m->weights, weights->tau, d, first, nodes);
+      ambulo__lanes_gather(m->weights + d * AMBULO__LANES, weights->wrench, 6, first, nodes);
+      ambulo__lanes_gather(m->weights + (d + 6) * AMBULO__LANES, weights->points, p, first, nodes);
       m->kernels->reverse(m->plan, m->qd, m->qdd, NULL, m->weights, m->gq, m->gqd, m->gqdd,
                           m->scratch);
       if (!all_finite(m->gq, 3 * columns)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
-      ambulo__lanes_scatter(q_gradient, m->gq, d, first, nodes);
-      ambulo__lanes_scatter(qd_gradient, m->gqd, d, first, nodes);
-      ambulo__lanes_scatter(qdd_gradient, m->gqdd, d, first, nodes);
+      ambulo__lanes_scatter(gradient->q, m->gq, d, first, nodes);
+      ambulo__lanes_scatter(gradient->qd, m->gqd, d, first, nodes);
+      ambulo__lanes_scatter(gradient->qdd, m->gqdd, d, first, nodes);
     }
   }
   return AMBULO_OK;

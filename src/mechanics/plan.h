@@ -36,6 +36,14 @@ ambulo_status ambulo__plan_create_grounded(const ambulo_model *model, double gro
 ambulo_status ambulo__plan_create_contacts(const ambulo_model *model, const int *link, int count,
                                            double moment_arm, double slant,
                                            const ambulo_allocator *allocator, ambulo__plan **plan);
+/* Makes a plan on contacts take a wrench (M, F) about the world origin that the surroundings must
+ * supply besides that of the bodies, from what they hold: after this, once, every kernel reads it
+ * at the place of its scratch that is returned, [6][lanes], and the reverse sweep leaves the
+ * weights on it, those on the root wrench and all that the contacts make of it, behind it,
+ * [6][lanes]. Rows of tau do not have the torques that it takes to carry it to the root. */
+size_t ambulo__plan_take_wrench(ambulo__plan *plan);
+/* 1: tau of the coordinate vanishes identically, since it carries the whole body on contacts. */
+int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate);
 void ambulo__plan_free(ambulo__plan *plan); /* accepts NULL */
 
 int ambulo__plan_coordinates(const ambulo__plan *plan);

@@ -100,6 +100,7 @@ struct ambulo__plan {
   ambulo__body *body;    /* [bodies] */
   ambulo__plan_point *point;
   double gravity[3];
+  size_t taken_at;      /* what the bodies hold (ambulo__plan_take_wrench); 0: nothing */
   double fixed_load[6]; /* wrench that holds the bodies fixed to the world */
   int positions_at;     /* Jacobian: positions of the points (3 per point) */
   size_t scratch;       /* doubles */

@@ -22,6 +22,16 @@ int ambulo__plan_ground_entries(const ambulo__plan *plan) {
   return plan->grounded ? AMBULO__GROUND_ENTRIES : 0;
 }
 
+int ambulo__plan_vanishes(const ambulo__plan *plan, int coordinate) {
+  return plan->joints[coordinate].torque_row == AMBULO__ROW_VANISHES;
+}
+
+size_t ambulo__plan_take_wrench(ambulo__plan *plan) {
+  plan->taken_at = plan->scratch;
+  plan->scratch += (size_t)12 * AMBULO__LANES;
+  return plan->taken_at;
+}
+
 size_t ambulo__plan_scratch(const ambulo__plan *plan) {
   return plan->scratch;
 }

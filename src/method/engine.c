@@ -79,6 +79,9 @@ static ambulo_status create_matrices(ambulo__engine *e) {
   const ambulo_problem *p = e->setup->problem;
   ambulo__linearized *at = &e->linearized;
   int kd = ambulo__metric_diagonals(p);
+  at->filled_at = ambulo__pool_doubles(&e->pool, (size_t)p->variables);
+  at->filled_mu = -1.0;
+  if (!at->filled_at) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo__metric_create(p, &e->pool, &at->metric);
   if (!status) status = ambulo__band_create(&e->pool, p->variables, kd, &at->base);
   if (!status) status = ambulo__band_create(&e->pool, p->variables, kd, &at->whitener);

@@ -50,6 +50,8 @@ typedef struct ambulo__linearized {
   ambulo__rows_split rows; /* with their gradients at x_k */
   ambulo__metric metric;
   ambulo__band base;     /* H0 + mu I */
+  double *filled_at;     /* [n]: where H0 was filled in */
+  double filled_mu;      /* mu of base; < 0: there is no H0 in it */
   ambulo__band whitener; /* L of H0 + mu I + rho J_A' J_A */
   int assembled;         /* whitener and kkt were made of this base (model_step.c) */
   ambulo__kkt kkt;       /* the same H with the equalities' gradients */

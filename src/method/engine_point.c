@@ -61,13 +61,29 @@ ambulo_status ambulo__engine_gradient(ambulo__engine *e, double scale, const dou
   return status;
 }
 
+/* whether the point in the workspace is so near to where H0 was filled in that this H0 will do */
+static int is_near(const ambulo__engine *e) {
+  const ambulo__linearized *at = &e->linearized;
+  if (at->filled_mu < 0.0) return 0;
+  for (int j = 0; j < e->setup->n; j++) {
+    if (!(fabs(e->workspace->x[j] - at->filled_at[j]) <= AMBULO__METRIC_REACH)) return 0;
+  }
+  return 1;
+}
+
 int ambulo__engine_fill_metric(ambulo__engine *e, double mu) {
-  ambulo__band *base = &e->linearized.base;
-  ambulo__metric_fill(&e->linearized.metric, e->workspace, e->setup->objective_scale, base);
-  ambulo__band_raise_diagonal(base, AMBULO__METRIC_ROUNDING);
-  ambulo__band_add_diagonal(base, mu);
-  e->linearized.assembled = 0;
-  double largest = ambulo__band_largest(base);
+  ambulo__linearized *at = &e->linearized;
+  double held = at->filled_mu;
+  at->assembled = 0;
+  if (!is_near(e)) {
+    ambulo__metric_fill(&at->metric, e->workspace, e->setup->objective_scale, &at->base);
+    ambulo__band_raise_diagonal(&at->base, AMBULO__METRIC_ROUNDING);
+    memcpy(at->filled_at, e->workspace->x, (size_t)e->setup->n * sizeof *at->filled_at);
+    held = 0.0;
+  }
+  ambulo__band_add_diagonal(&at->base, mu - held);
+  double largest = ambulo__band_largest(&at->base);
+  at->filled_mu = isfinite(largest) ? mu : -1.0;
   if (isfinite(largest)) return 0;
   ambulo__fault_of_curvature(e->workspace, largest);
   ambulo__run_fault(e->run, &e->workspace->fault);

@@ -15,7 +15,9 @@ double ambulo__engine_excess(const ambulo__engine *engine, double *excess);
  * finite, which the run remembers. */
 ambulo_status ambulo__engine_gradient(ambulo__engine *engine, double scale, const double *p,
                                       const double *l, double *gradient);
-/* linearized.base = metric + mu I. 1: it is not finite, which is told to the run. */
+/* linearized.base = metric + mu I, the metric that of the point in the workspace or of one from
+ * which no unknown has moved by more than AMBULO__METRIC_REACH. 1: it is not finite, which is told
+ * to the run. */
 int ambulo__engine_fill_metric(ambulo__engine *engine, double mu);
 /* Factor <= 1 that keeps a step below `part` of every coordinate's cap. */
 double ambulo__step_limit(const ambulo__setup *setup, const double *step, double part);

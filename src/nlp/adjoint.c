@@ -1,5 +1,6 @@
 /* nlp/adjoint.c - the pieces of a reverse sweep; the equations are in gradient.c. */
 #include "nlp/adjoint.h"
+#include "nlp/held.h"
 #include "nlp/states.h"
 #include "nlp/user_term.h"
 
@@ -120,15 +121,19 @@ void ambulo__adjoint_block(ambulo_workspace *workspace, int block) {
   double *c = workspace->channel + offset, *w = workspace->weight + offset;
   double *g = workspace->gradient_lanes;
   const double *ground = ambulo__ground_block(p, p->ground, block);
+  const double *told = ambulo__told_block(p, p->told, block);
+  double *room = workspace->device_scratch;
+  ambulo__held_begin(p, told, c, workspace->scratch, room);
   p->kernels->forward(p->plan, c, c + d8, c + 2 * d8, ground, c + 3 * d8, workspace->scratch);
   p->kernels->reverse(p->plan, c + d8, c + 2 * d8, ground, w + 3 * d8, g, g + d8, g + 2 * d8,
                       workspace->scratch);
   for (size_t e = 0; e < 3 * d8; e++) w[e] += g[e];
+  ambulo__held_end(p, c, room);
+  ambulo__held_reverse(p, w, workspace->scratch, room);
   if (!p->devices) return;
   const double *effort = w + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
   const ambulo__device_adjoints adjoints = {w + 3 * d8, effort, w, w + d8};
-  ambulo__devices_reverse(p->devices, c, c + d8, ambulo__told_block(p, p->told, block), c + 3 * d8,
-                          &adjoints, workspace->device_scratch);
+  ambulo__devices_reverse(p->devices, c, c + d8, told, c + 3 * d8, &adjoints, room);
 }
 
 void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {

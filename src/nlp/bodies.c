@@ -87,11 +87,13 @@ int ambulo_problem_pairs(const ambulo_problem *p, int index, ambulo_capsule_pair
 }
 
 int ambulo_problem_pairs_left_out(const ambulo_problem *p, int index, ambulo_capsule_pair *pair) {
-  return p ? nth(p->pairs.left, p->pairs.left_count, index, pair) : 0;
+  if (!p) return 0;
+  const ambulo__pairs *pairs = &ambulo__problem_root(p)->pairs; /* an extension is given the rest */
+  return nth(pairs->left, pairs->left_count, index, pair);
 }
 
 int ambulo_problem_pairs_too_far(const ambulo_problem *p) {
-  return p ? p->pairs.too_far : 0;
+  return p ? ambulo__problem_root(p)->pairs.too_far : 0;
 }
 
 int ambulo_problem_obstacle_count(const ambulo_problem *p) {

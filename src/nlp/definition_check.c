@@ -314,7 +314,8 @@ static int arrays_are_there(const ambulo_problem_definition *d) {
          listed(d->end_values, d->end_value_count) && listed(d->tubes, d->tube_count) &&
          listed(d->user_rows, d->user_row_count) && listed(d->obstacles, d->obstacle_count) &&
          listed(d->reaches, d->reach_count) &&
-         listed(d->collision.pairs, d->collision.pair_count) && listed(d->devices, d->device_count);
+         listed(d->collision.pairs, d->collision.pair_count) &&
+         listed(d->devices, d->device_count) && listed(d->holds, d->hold_count);
 }
 
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
@@ -327,10 +328,12 @@ ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
   if (!status) status = terms;
   if (!status) status = ends;
   if (!status) status = ambulo__tubes_check(d, diagnostics);
-  ambulo_status numbers[] = {
-      check_task(d, diagnostics), check_clearance(&d->clearance, diagnostics),
-      check_reaction(&d->ground_reaction, diagnostics), ambulo__collision_check(d, diagnostics),
-      ambulo__devices_check(d, diagnostics)};
+  ambulo_status numbers[] = {check_task(d, diagnostics),
+                             check_clearance(&d->clearance, diagnostics),
+                             check_reaction(&d->ground_reaction, diagnostics),
+                             ambulo__collision_check(d, diagnostics),
+                             ambulo__devices_check(d, diagnostics),
+                             ambulo__holds_check(d, diagnostics)};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     if (numbers[i]) status = numbers[i];
   }

@@ -87,6 +87,22 @@ static void copy_devices(const ambulo_problem_definition *from, const ambulo_all
   }
 }
 
+static void copy_holds(const ambulo_problem_definition *from, const ambulo_allocator *a,
+                       ambulo_problem_definition *to, int *failed) {
+  if (from->hold_count <= 0) return;
+  ambulo_hold *holds = ambulo__alloc(a, (size_t)from->hold_count, sizeof *holds);
+  if (!holds) {
+    *failed = 1;
+    return;
+  }
+  to->holds = holds;
+  to->hold_count = from->hold_count;
+  for (int i = 0; i < from->hold_count; i++) {
+    holds[i] = from->holds[i];
+    holds[i].name = copy_text(a, from->holds[i].name, failed);
+  }
+}
+
 static void copy_tubes(const ambulo_problem_definition *from, const ambulo_allocator *a,
                        ambulo_problem_definition *to, int *failed) {
   size_t d = (size_t)ambulo_model_coordinate_count(from->model);
@@ -151,6 +167,8 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
   to->user_rows = NULL;
   to->devices = NULL;
   to->device_count = 0;
+  to->holds = NULL;
+  to->hold_count = 0;
   to->tubes = NULL;
   to->tube_count = 0;
   to->obstacles = NULL;
@@ -167,6 +185,7 @@ ambulo_status ambulo__definition_copy(const ambulo_problem_definition *from,
                               sizeof *from->end_values, &failed);
   copy_terms(from, a, to, &failed);
   copy_devices(from, a, to, &failed);
+  copy_holds(from, a, to, &failed);
   copy_tubes(from, a, to, &failed);
   copy_user_rows(from, a, to, &failed);
   copy_obstacles(from, a, to, &failed);
@@ -208,6 +227,7 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->devices[i].name);
     release(a, d->devices[i].points);
   }
+  for (int i = 0; i < d->hold_count; i++) release(a, d->holds[i].name);
   for (int t = 0; t < d->tube_count; t++) {
     release(a, d->tubes[t].reference);
     release(a, d->tubes[t].half_width);
@@ -222,6 +242,7 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
   release(a, d->reaches);
   release(a, d->terms);
   release(a, d->devices);
+  release(a, d->holds);
   release(a, d->tubes);
   release(a, d->user_rows);
   release(a, d->name);

@@ -14,6 +14,7 @@
  */
 #include "base/worst.h"
 #include "nlp/fault.h"
+#include "nlp/held.h"
 #include "nlp/states.h"
 #include "nlp/user_term.h"
 
@@ -29,14 +30,16 @@ static double channel_at(const ambulo_workspace *workspace, int node, int channe
 }
 
 void ambulo__mechanics_block(const ambulo_problem *p, const double *ground, const double *told,
-                             int block, double *c, double *scratch, double *device_scratch) {
+                             int block, double *c, double *scratch, double *room) {
   size_t d8 = (size_t)p->coordinates * AMBULO__LANES;
+  const double *of_block = ambulo__told_block(p, told, block);
+  ambulo__held_begin(p, of_block, c, scratch, room);
   p->kernels->outputs(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, ground, block),
                       c + 3 * d8, scratch);
+  ambulo__held_end(p, c, room);
   if (!p->devices) return;
   double *effort = c + (size_t)ambulo__channel_effort(&p->channels, 0) * AMBULO__LANES;
-  ambulo__devices_apply(p->devices, c, c + d8, ambulo__told_block(p, told, block), c + 3 * d8,
-                        effort, device_scratch);
+  ambulo__devices_apply(p->devices, c, c + d8, of_block, c + 3 * d8, effort, room);
 }
 
 static void compute_channels(ambulo_workspace *workspace, const double *x) {
@@ -191,7 +194,7 @@ static void keep_devices(ambulo_workspace *workspace) {
   for (int k = 0; k < p->nodes; k++) {
     const double *q = workspace->channel + ambulo__lane_index(k, workspace->channel_count, 0);
     ambulo__devices_keep(p->devices, q, q + (size_t)p->coordinates * AMBULO__LANES,
-                         p->told + ambulo__lane_index(k, p->channels.devices, 0),
+                         p->told + ambulo__lane_index(k, ambulo__told_entries(p), 0),
                          workspace->device_kept + (size_t)k * entries);
   }
 }
@@ -207,10 +210,13 @@ ambulo_status ambulo__evaluate_jacobian(ambulo_workspace *workspace, const doubl
     double *c = block_of(workspace, workspace->channel, b);
     size_t all = (size_t)b * (size_t)pattern.count * AMBULO__LANES;
     size_t dynamic = (size_t)b * (size_t)pattern.dynamic_count * AMBULO__LANES;
+    ambulo__held_begin(p, ambulo__told_block(p, p->told, b), c, workspace->scratch,
+                       workspace->device_scratch);
     p->kernels->jacobian(p->plan, c, c + d8, c + 2 * d8, ambulo__ground_block(p, p->ground, b),
                          workspace->jq + all, workspace->jqd + dynamic, workspace->jqdd + dynamic,
                          workspace->scratch);
     ambulo__wrench_gather(workspace, b);
+    ambulo__held_gather(workspace, b);
   }
   if (p->devices) keep_devices(workspace);
   workspace->jacobians++;

@@ -105,6 +105,17 @@ static hash add_devices(hash h, const ambulo_problem *p) {
   return h;
 }
 
+static hash add_holds(hash h, const ambulo_problem *p) {
+  for (int i = 0; i < p->definition.hold_count; i++) {
+    const ambulo_hold *v = &p->definition.holds[i];
+    double numbers[] = {v->mass, v->inertia, v->from, v->to, v->ramp};
+    h = add_integer(add_integer(add_text(h, v->name), v->hand[0]), v->hand[1]);
+    h = add_numbers(h, numbers, sizeof numbers / sizeof *numbers);
+    h = add_numbers(add_numbers(h, v->center, 3), v->force, 3);
+  }
+  return h;
+}
+
 static hash add_rows(hash h, const ambulo_problem *p) {
   for (int r = 0; r < p->rows; r++) {
     const ambulo__table_row *row = &p->table.rows[r];
@@ -132,5 +143,5 @@ unsigned long long ambulo__problem_hash_of(const ambulo_problem *p) {
   if (p->definition.grid != AMBULO_GRID_UNIFORM) h = add_numbers(h, p->times, (size_t)p->nodes);
   h = add_numbers(h, p->ground,
                   (size_t)(p->blocks * ambulo__plan_ground_entries(p->plan)) * AMBULO__LANES);
-  return add_rows(add_devices(add_terms(h, p), p), p);
+  return add_rows(add_holds(add_devices(add_terms(h, p), p), p), p);
 }

@@ -37,6 +37,8 @@ double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   if (!with_jacobians) return bytes;
   bytes += lanes * word * (pattern.count + 2.0 * pattern.dynamic_count);
   bytes += word * p->nodes * (double)ambulo__devices_entries(p->devices);
+  bytes += word * p->nodes * (double)ambulo__holds_entries(p->holds);
+  if (p->holds) bytes += 3.0 * word * p->nodes * p->coordinates;
   return bytes + 3.0 * word * p->nodes * ambulo__wrench_entries(p);
 }
 

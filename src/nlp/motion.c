@@ -35,7 +35,7 @@ static ambulo_status dense_create(const ambulo_problem *p, const ambulo_allocato
   d->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), sizeof(double));
   ambulo_status status =
       ambulo__lane_map_create(p->basis, times, count, p->coordinates, a, &d->map);
-  d->room = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), sizeof(double));
+  d->room = ambulo__alloc_aligned(a, ambulo__room(p), sizeof(double));
   if (!status && (!d->channel || !d->scratch || !d->room)) status = AMBULO_E_MEMORY;
   if (!status) status = ambulo__ground_fill(p, a, times, count, &d->ground);
   if (!status) status = ambulo__devices_tell(&p->definition, a, times, count, &d->told);
@@ -174,7 +174,7 @@ static void fill_devices(const ambulo_problem *p, const dense *d, int k,
                          const ambulo_motion *motion) {
   int channels = ambulo__channel_count(&p->channels), n = p->channels.devices;
   const double *q = d->channel + ambulo__lane_index(k, channels, 0);
-  const double *told = d->told + ambulo__lane_index(k, n, 0);
+  const double *told = d->told + ambulo__lane_index(k, ambulo__told_entries(p), 0);
   for (int i = 0; i < n; i++) {
     ambulo__device_state state = ambulo__device_at(
         p->devices, i, q, q + (size_t)p->coordinates * AMBULO__LANES, told, d->room);
@@ -182,6 +182,24 @@ static void fill_devices(const ambulo_problem *p, const dense *d, int k,
     if (motion->device_effort) motion->device_effort[at] = state.effort;
     if (motion->device_along) motion->device_along[at] = state.along;
     if (motion->device_power) motion->device_power[at] = state.power;
+  }
+}
+
+/* forces and moments of hands, and power, of every hold at sample k */
+static void fill_holds(const ambulo_problem *p, const dense *d, int k,
+                       const ambulo_motion *motion) {
+  size_t d8 = (size_t)p->coordinates * AMBULO__LANES, n = (size_t)p->definition.hold_count;
+  const double *q = d->channel + ambulo__lane_index(k, ambulo__channel_count(&p->channels), 0);
+  const double *told =
+      d->told + ambulo__lane_index(k, ambulo__told_entries(p), p->channels.devices);
+  ambulo__holds_keep(p->holds, q, q + d8, q + 2 * d8, told, d->room);
+  for (size_t i = 0; i < n; i++) {
+    ambulo__hold_state state = ambulo__hold_at(p->holds, (int)i, d->room);
+    size_t at = (size_t)k * n + i;
+    if (motion->hold_force) memcpy(motion->hold_force + 6 * at, state.force, sizeof state.force);
+    if (motion->hold_moment)
+      memcpy(motion->hold_moment + 6 * at, state.moment, sizeof state.moment);
+    if (motion->hold_power) motion->hold_power[at] = state.power;
   }
 }
 
@@ -218,6 +236,7 @@ ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *w
     finite &= unpack(&d, channels, 4 * c + 6, 3 * p->channels.points, count, motion->points);
     if (motion->zmp) fill_zmp(p, &d, channels, count, motion->zmp);
     for (int k = 0; p->devices && k < count; k++) fill_devices(p, &d, k, motion);
+    for (int k = 0; p->holds && k < count; k++) fill_holds(p, &d, k, motion);
     status = fill_effectors(p, &d, a, times, count, motion);
     if (!status && !finite) status = AMBULO_E_NUMERIC;
   }

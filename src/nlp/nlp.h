@@ -15,6 +15,7 @@
 
 #include "ambulo/solve.h"
 #include "device/devices.h"
+#include "device/holds.h"
 #include "gait/collision.h"
 #include "gait/foot_outline.h"
 #include "gait/gait.h"
@@ -36,6 +37,7 @@ typedef enum ambulo__phase_kind {
  */
 typedef struct ambulo__problem_keys {
   int file;            /* it was read from a file */
+  int terms;           /* of the objective that the file has */
   int gait;            /* the contacts come from `gait` */
   int steps;           /* of the gait */
   int unlike_steps;    /* two step lengths or times that differ */
@@ -71,6 +73,8 @@ struct ambulo_problem {
   ambulo__pairs pairs;  /* what automatic collision came to; all 0 of a problem with others */
   char *obstacle_names; /* of the definition's obstacles, and of problems made from it */
   struct ambulo__free_section *free; /* one block (reader/problem_free.h); NULL: nothing is free */
+  const ambulo_problem *extends;     /* what this one extends (nlp/extend.c); NULL: none */
+  ambulo_problem *owned_base;        /* freed with the problem; NULL if the caller owns it */
   const ambulo_model *model;
   ambulo__plan *plan;
   const ambulo__kernels *kernels;
@@ -85,13 +89,21 @@ struct ambulo_problem {
   int *before;              /* [nodes][feet] just before the node; NULL but for grids on events */
   double *ground;           /* [blocks][entries][8], nlp/ground.c; NULL without ground reaction */
   ambulo__devices *devices; /* NULL without */
-  double *told;             /* [blocks][devices][8], device/told.h; NULL without */
+  ambulo__holds *holds;     /* NULL without */
+  size_t taken_at;          /* of the kernels' scratch (ambulo__plan_take_wrench); 0: no contacts */
+  double *told;             /* [blocks][devices and holds][8], device/told.h; NULL without */
   ambulo__row_table table;
   ambulo__row_runs row_runs; /* the linear rows of the table, laid out for evaluation */
   int rows, equalities;
   ambulo__problem_keys keys;
   unsigned long long hash;
 };
+
+/* What the problem is without all that it was extended by. */
+static inline const ambulo_problem *ambulo__problem_root(const ambulo_problem *problem) {
+  while (problem->extends) problem = problem->extends;
+  return problem;
+}
 
 struct ambulo_workspace {
   ambulo_allocator allocator;
@@ -113,8 +125,11 @@ struct ambulo_workspace {
   double *motion_scratch; /* ... for one output's gradient by q, qd, qdd: [3][d] */
   double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
                              without ground reaction */
-  double *device_scratch; /* device/devices.h; NULL without devices */
+  double *device_scratch; /* ambulo__room; NULL without devices and holds */
   double *device_kept;    /* [nodes][ambulo__devices_entries] */
+  double *hold_kept;      /* [nodes][ambulo__holds_entries] */
+  double *bare_force;     /* [nodes][3][d]: of the bodies' own root force by qdd, where `wrench` has
+                             what is held too; NULL without holds */
   ambulo_fault fault;     /* of the last E_NUMERIC */
   double *fault_scratch;  /* [variables]: while it is looked for */
   long evaluations, jacobians;
@@ -169,14 +184,19 @@ static inline const double *ambulo__ground_block(const ambulo_problem *problem,
 
 /* The outputs of a block of nodes from its q, qd and qdd, the first channels: inverse dynamics and
  * what the devices leave of it. `ground` and `told` are the problem's or of other times; the
- * scratch is the kernels' and the devices' (may be NULL without). */
+ * scratch is the kernels', the room of ambulo__room (may be NULL without devices and holds). */
 void ambulo__mechanics_block(const ambulo_problem *problem, const double *ground,
                              const double *told, int block, double *channel, double *scratch,
-                             double *device_scratch);
-/* A block of `told`; NULL without devices. */
+                             double *room);
+size_t ambulo__room(const ambulo_problem *problem);
+/* Entries of `told` at a time. */
+static inline int ambulo__told_entries(const ambulo_problem *problem) {
+  return problem->channels.devices + problem->definition.hold_count;
+}
+/* A block of `told`; NULL without. */
 static inline const double *ambulo__told_block(const ambulo_problem *problem, const double *told,
                                                int block) {
-  return told ? told + (size_t)block * (size_t)problem->channels.devices * AMBULO__LANES : NULL;
+  return told ? told + (size_t)block * (size_t)ambulo__told_entries(problem) * AMBULO__LANES : NULL;
 }
 
 /* ------------------------------------------------------------- local rows */

@@ -8,7 +8,7 @@
  * put side by side, [order][row][column], once for all that are made of them.
  */
 #include "mechanics/lane_transpose.h"
-#include "nlp/nlp.h"
+#include "nlp/held.h"
 
 #include <string.h>
 
@@ -58,7 +58,9 @@ static void add_wrench(const ambulo_workspace *workspace, int node, const wrench
     if (!is_zero(f->force)) add_rows(d, f->force, force, gradient + o * d);
   }
   if (is_zero(f->by_acceleration)) return;
-  add_rows(d, f->by_acceleration, workspace->wrench[2] + at + 3 * d, gradient);
+  const double *force = workspace->bare_force ? workspace->bare_force + (size_t)node * 3 * (size_t)d
+                                              : workspace->wrench[2] + at + 3 * d;
+  add_rows(d, f->by_acceleration, force, gradient);
 }
 
 static void add_entries(const ambulo_workspace *workspace, int node, int row, double factor,
@@ -107,6 +109,7 @@ void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int ou
   wrench_factors wrench = {{0.0}, {0.0}, {0.0}};
   memset(gradient, 0, 3 * (size_t)p->coordinates * sizeof *gradient);
   if (p->devices && add_devices(workspace, node, output, gradient)) return;
+  if (p->holds) ambulo__held_add_output(workspace, node, output, gradient);
   int parts = ambulo__plan_parts(p->plan, output, part), reacts = 0;
   for (int k = 0; k < parts; k++) {
     double factor = part[k].factor, *sum = wrench_factor(p, &part[k], &wrench);

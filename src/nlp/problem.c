@@ -228,6 +228,8 @@ static ambulo_status check_symmetry(const ambulo_problem *p, ambulo_diagnostics 
   ambulo_status bodies = ambulo__collision_mirror_check(&p->definition, diagnostics);
   ambulo_status devices = ambulo__devices_mirror_check(&p->definition, diagnostics);
   if (bodies) status = bodies;
+  ambulo_status holds = ambulo__holds_mirror_check(&p->definition, diagnostics);
+  if (holds) status = holds;
   return terms ? terms : devices ? devices : status;
 }
 
@@ -242,6 +244,9 @@ static ambulo_status build(ambulo_problem *p, ambulo_diagnostics *diagnostics) {
   status = build_grid(p, diagnostics);
   if (!status) status = build_plan(p, diagnostics);
   if (!status) status = ambulo__devices_create(&p->definition, &p->allocator, &p->devices);
+  if (!status) status = ambulo__holds_create(&p->definition, p->plan, &p->allocator, &p->holds);
+  if (!status && p->holds && ambulo__plan_contacts(p->plan) > 0)
+    p->taken_at = ambulo__plan_take_wrench(p->plan);
   if (!status) status = ambulo__check_memory(p, diagnostics);
   ambulo_status symmetry = status ? AMBULO_OK : check_symmetry(p, diagnostics);
   if (symmetry == AMBULO_E_MEMORY) return symmetry;
@@ -327,11 +332,13 @@ void ambulo_problem_free(ambulo_problem *p) {
   ambulo__free_aligned(&a, p->ground);
   ambulo__free_aligned(&a, p->told);
   ambulo__devices_free(p->devices);
+  ambulo__holds_free(p->holds);
   ambulo__definition_free(&a, &p->definition);
   ambulo__pairs_free(&a, &p->pairs);
   ambulo__free(&a, p->obstacle_names);
   ambulo_model_free(p->extended_model);
   ambulo_model_free(p->owned_model);
   ambulo__free(&a, p->free);
+  ambulo_problem_free(p->owned_base);
   ambulo__free(&a, p);
 }

@@ -42,6 +42,11 @@ void ambulo__definition_set_pairs(const ambulo_allocator *allocator,
 ambulo_status ambulo__problem_with_grid(const ambulo_problem *problem, int intervals,
                                         int spline_intervals, const ambulo_allocator *allocator,
                                         ambulo_problem **out);
+/* extend.c: `base` extended by what `like` has beyond its root, which takes `base` over, also on
+ * failure; *extended is `base` itself where that is nothing. Errors: as ambulo_problem_extend. */
+ambulo_status ambulo__extend_alike(const ambulo_problem *like, ambulo_problem *base,
+                                   const ambulo_allocator *allocator,
+                                   ambulo_diagnostics *diagnostics, ambulo_problem **extended);
 /* ambulo_problem_create without the hash, a quarter of its time: for grids that nobody names. */
 ambulo_status ambulo__problem_create_unnamed(const ambulo_problem_definition *definition,
                                              const ambulo_allocator *allocator,

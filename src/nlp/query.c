@@ -49,6 +49,14 @@ const ambulo_device *ambulo_problem_device(const ambulo_problem *p, int index) {
   return index >= 0 && index < p->definition.device_count ? &p->definition.devices[index] : NULL;
 }
 
+int ambulo_problem_hold_count(const ambulo_problem *p) {
+  return p->definition.hold_count;
+}
+
+const ambulo_hold *ambulo_problem_hold(const ambulo_problem *p, int index) {
+  return index >= 0 && index < p->definition.hold_count ? &p->definition.holds[index] : NULL;
+}
+
 int ambulo_problem_term_count(const ambulo_problem *p) {
   return p->definition.term_count;
 }

@@ -27,6 +27,14 @@ static ambulo_status allocate_jacobians(ambulo_workspace *w, const ambulo_proble
     w->device_kept = ambulo__alloc_aligned(a, kept, word);
     if (!w->device_kept) return AMBULO_E_MEMORY;
   }
+  if (p->holds) {
+    size_t nodes = (size_t)p->nodes;
+    w->hold_kept = ambulo__alloc_aligned(a, nodes * ambulo__holds_entries(p->holds), word);
+    if (!w->hold_kept) return AMBULO_E_MEMORY;
+    if (grounded)
+      w->bare_force = ambulo__alloc_aligned(a, 3 * nodes * (size_t)p->coordinates, word);
+    if (grounded && !w->bare_force) return AMBULO_E_MEMORY;
+  }
   int complete = w->jq && w->jqd && w->jqdd && gathered == 3 * grounded;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
@@ -48,9 +56,8 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
-  if (p->devices)
-    w->device_scratch = ambulo__alloc_aligned(a, ambulo__devices_scratch(p->devices), word);
-  if (p->devices && !w->device_scratch) return AMBULO_E_MEMORY;
+  if (p->devices || p->holds) w->device_scratch = ambulo__alloc_aligned(a, ambulo__room(p), word);
+  if ((p->devices || p->holds) && !w->device_scratch) return AMBULO_E_MEMORY;
   int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch &&
                  w->row_value && w->term_value && w->user_gradient && w->user_slot &&
                  w->node_state && w->motion_scratch && w->fault_scratch;
@@ -115,7 +122,9 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->wrench[1],
                        w->wrench[2],
                        w->device_scratch,
-                       w->device_kept};
+                       w->device_kept,
+                       w->hold_kept,
+                       w->bare_force};
   for (size_t i = 0; i < sizeof aligned / sizeof *aligned; i++)
     ambulo__free_aligned(&a, aligned[i]);
   ambulo__free(&a, w->user_slot);

@@ -8,8 +8,18 @@
  *
  * Curves are compared as functions, at five angles: their constants may be ordered otherwise. Left
  * and right may stand in different terms; the share of term t on i needs as many like it on m as
- * on i. Of an upright term the line, seen from outside, has to be the reflection of its own, or of
- * another upright term's of the same weight.
+ * on i.
+ *
+ * An upright term asks where one point is off another, r_to - r_from over its length at q = 0,
+ * squared: it has to be the reflection of its own, or of another upright term's of the same weight,
+ * from either end. With P the reflection and m the partner of what a point moves with, lines a and
+ * b are, at every q,
+ *
+ *     both ends of a on segment s, of b on m(s):     P (r_to - r_from)_a = +- L_a / L_b (r_to -
+ * r_from)_b ends on segments that move against each other: P r_from,a = r_from,b and P r_to,a =
+ * r_to,b, on m(s_from) and m(s_to); or to and from changed
+ *
+ * at q = 0: a rigid line is told by its direction, one over joints by the place of either end.
  */
 #include "objective/mirror_terms.h"
 
@@ -184,46 +194,106 @@ static ambulo_status check_coordinates(const ambulo_problem_definition *d, int t
 
 /* ---------------------------------------------------------------- upright lines */
 
-/* unit vector along the line of an upright term; returns the segment it stands on */
-static int line_of(const ambulo__segments *s, const ambulo_term *term, double line[3]) {
-  double from[3], to[3], length = 0.0;
-  ambulo__segment_point(s, term->point[0], from);
-  ambulo__segment_point(s, term->point[1], to);
-  for (int k = 0; k < 3; k++) {
-    line[k] = to[k] - from[k];
-    length = hypot(length, line[k]);
+/* of an upright term at q = 0: what its ends move with and where they are, forward, up, left, m */
+typedef struct line {
+  int segment[2];
+  double place[2][3];
+} line;
+
+static line line_of(const ambulo__segments *s, const ambulo_term *term) {
+  line l;
+  for (int end = 0; end < 2; end++) {
+    l.segment[end] = s->of_link[s->model->points[term->point[end]].link];
+    ambulo__segment_point(s, term->point[end], l.place[end]);
   }
-  for (int k = 0; k < 3; k++) line[k] /= length;
-  return s->of_link[s->model->points[term->point[0]].link];
+  return l;
 }
 
-static int are_reflections(const ambulo__segments *s, const ambulo_term *a, const ambulo_term *b) {
-  double from[3], to[3], off = 0.0;
-  int segment = line_of(s, a, from), other = line_of(s, b, to);
-  int image = segment == 0 ? 0 : s->model->coordinates[segment - 1].mirror + 1;
-  for (int k = 0; k < 3; k++) off = fmax(off, fabs(k == 2 ? from[k] + to[k] : from[k] - to[k]));
-  return other == image && off <= AMBULO__MIRROR_TOLERANCE;
+static int is_rigid(const line *l) {
+  return l->segment[0] == l->segment[1];
+}
+
+/* unit vector from one end to the other */
+static void direction_of(const line *l, double direction[3]) {
+  double length = 0.0;
+  for (int k = 0; k < 3; k++) {
+    direction[k] = l->place[1][k] - l->place[0][k];
+    length = hypot(length, direction[k]);
+  }
+  for (int k = 0; k < 3; k++) direction[k] /= length;
+}
+
+static const char *mover_of(const ambulo__segments *s, int segment) {
+  return segment == 0 ? "the world" : s->model->coordinates[segment - 1].name;
+}
+
+/* 1 if b is the reflection of a in the size of a */
+static int is_reflected(const double a[3], double sign, const double b[3]) {
+  double off = 0.0, size = 0.0;
+  for (int k = 0; k < 3; k++) {
+    off = fmax(off, fabs((k == 2 ? -a[k] : a[k]) - sign * b[k]));
+    size = hypot(size, a[k]);
+  }
+  return off <= AMBULO__MIRROR_TOLERANCE * size;
+}
+
+/* turned: b's second end is the image of a's first one */
+static int are_reflections(const ambulo__segments *s, const line *a, const line *b, int turned) {
+  for (int end = 0; end < 2; end++) {
+    int segment = a->segment[end], other = b->segment[turned ? 1 - end : end];
+    if (other != (segment == 0 ? 0 : s->model->coordinates[segment - 1].mirror + 1)) return 0;
+  }
+  if (is_rigid(a)) {
+    double from[3], to[3];
+    direction_of(a, from);
+    direction_of(b, to);
+    return is_reflected(from, turned ? -1.0 : 1.0, to);
+  }
+  return is_reflected(a->place[0], 1.0, b->place[turned]) &&
+         is_reflected(a->place[1], 1.0, b->place[1 - turned]);
+}
+
+static ambulo_status refuse_line(const ambulo_problem_definition *d, const ambulo__segments *s,
+                                 int t, ambulo_diagnostics *list) {
+  const ambulo_term *term = &d->terms[t];
+  const char *names[2], *expected = "expected a line in the mirror plane, or another upright term "
+                                    "of weight";
+  line own = line_of(s, term);
+  double direction[3], left[2];
+  direction_of(&own, direction);
+  if (fabs(direction[2]) < AMBULO__MIRROR_TOLERANCE) direction[2] = 0.0;
+  for (int end = 0; end < 2; end++) {
+    names[end] = d->model->points[term->point[end]].name;
+    left[end] = fabs(own.place[end][2]) < AMBULO__MIRROR_TOLERANCE ? 0.0 : own.place[end][2];
+  }
+  if (is_rigid(&own))
+    return REFUSE(
+        list,
+        "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; it moves "
+        "with '%s' and points %.6g to the left at q = 0; %s %g on the other side, with "
+        "mirrored ends",
+        t, names[0], names[1], mover_of(s, own.segment[0]), direction[2], expected, term->weight);
+  return REFUSE(
+      list,
+      "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; '%s' moves "
+      "with '%s' and is %.6g m to the left at q = 0, '%s' with '%s' %.6g m; %s %g on the "
+      "other side, with mirrored ends",
+      t, names[0], names[1], names[0], mover_of(s, own.segment[0]), left[0], names[1],
+      mover_of(s, own.segment[1]), left[1], expected, term->weight);
 }
 
 static ambulo_status check_line(const ambulo_problem_definition *d, const ambulo__segments *s,
                                 int t, ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
+  line own = line_of(s, term);
   for (int u = 0; u < d->term_count; u++) {
     const ambulo_term *other = &d->terms[u];
-    if (other->kind == AMBULO_UPRIGHT && same(other->weight, term->weight) &&
-        are_reflections(s, term, other))
+    if (other->kind != AMBULO_UPRIGHT || !same(other->weight, term->weight)) continue;
+    line image = line_of(s, other);
+    if (are_reflections(s, &own, &image, 0) || are_reflections(s, &own, &image, 1))
       return AMBULO_OK;
   }
-  double line[3];
-  int segment = line_of(s, term, line);
-  return REFUSE(
-      list,
-      "objective[%d] (upright): the line from '%s' to '%s' has no mirror image; it moves "
-      "with '%s' and points %.6g to the left at q = 0; expected a line in the mirror plane, "
-      "or another upright term of weight %g on the other side, with mirrored ends",
-      t, d->model->points[term->point[0]].name, d->model->points[term->point[1]].name,
-      segment == 0 ? "the world" : d->model->coordinates[segment - 1].name,
-      fabs(line[2]) < AMBULO__MIRROR_TOLERANCE ? 0.0 : line[2], term->weight);
+  return refuse_line(d, s, t, list);
 }
 
 /* ---------------------------------------------------------------------- devices */

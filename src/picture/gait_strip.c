@@ -14,7 +14,7 @@
 
 #include "gait/contact_frame.h"
 #include "picture/gait_ground.h"
-#include "picture/gait_obstacles.h"
+#include "picture/gait_held.h"
 #include "picture/gait_svg.h"
 #include "picture/skeleton.h"
 #include "picture/gait_worn.h"
@@ -32,6 +32,7 @@ typedef struct strip {
   const ambulo_model *model;
   ambulo__skeleton skeleton;
   ambulo__gait_ground soil;
+  ambulo__held_places held;
   int reference;       /* link whose parent's origin moves with the body */
   double speed, start; /* of the reference along forward, m/s, m */
   double ground;       /* m */
@@ -289,15 +290,12 @@ static void draw_surroundings(const strip *s, const ambulo__stride *stride, doub
                               ambulo__text_buffer *text) {
   double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
   if (!walks(s)) half = fmax(-s->left, s->right) + around;
-  ambulo__figure_view view = {.origin = s->start + s->speed * t,
-                              .half = half,
-                              .x = ambulo__panel_time(s->panel, t),
-                              .base = s->base,
-                              .scale = s->scale,
-                              .time = t,
-                              .apart = stride->duration / (double)(stride->samples - 1)};
+  double apart = stride->duration / (double)(stride->samples - 1);
+  ambulo__figure_view view = {
+      s->start + s->speed * t, half, ambulo__panel_time(s->panel, t), s->base, s->scale, t, apart};
   if (!isfinite(view.origin)) return;
   ambulo__gait_obstacles_draw(stride->problem, &view, text);
+  ambulo__gait_held_draw(stride->problem, &s->held, &s->skeleton.pose, &view, text);
 }
 
 static void draw_level_ground(const strip *s, ambulo__text_buffer *text) {
@@ -388,12 +386,14 @@ ambulo_status ambulo__gait_strip(const ambulo_problem *problem, const double *x,
   strip s = {.panel = NULL};
   ambulo__stride shown = {.samples = 0};
   ambulo_status status = measure(problem, x, panel, &text->allocator, &s);
+  if (!status) status = ambulo__held_places_create(problem, x, &text->allocator, &s.held);
   if (!status) status = ambulo__stride_create(problem, x, s.figures, &text->allocator, &shown);
   if (!status) {
     draw_figures(&s, &shown, text);
     caption(&s, text);
   }
   ambulo__stride_free(&shown);
+  ambulo__free(&text->allocator, s.held.place);
   ambulo__gait_ground_free(&s.soil);
   ambulo__skeleton_free(&s.skeleton);
   return status;

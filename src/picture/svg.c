@@ -37,6 +37,8 @@ static const char style_sheet[] =
     ".worn{stroke-width:2.2;stroke-dasharray:.5 4.5;stroke-linecap:round}\n"
     ".device-text{fill:#23704a;font-weight:bold}\n"
     ".load{fill:#5b6470}\n"
+    ".box{fill:#d9b382;stroke:#7a5526;stroke-width:1.4}\n"
+    ".push{stroke:#b3261e;stroke-width:2.4;stroke-linecap:round}\n"
     ".left-mark{stroke:#e0662f;stroke-width:4;stroke-linecap:round}\n"
     ".right-mark{stroke:#2377bd;stroke-width:4;stroke-linecap:round}\n"
     ".trunk-mark{stroke:#1d2733;stroke-width:4;stroke-linecap:round}\n"

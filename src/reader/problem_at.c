@@ -1,8 +1,9 @@
 /* reader/problem_at.c - a problem file read again with its free parameters elsewhere.
  *
  * It is the text as it was when the problem was read, with the same overrides and one more for each
- * parameter: what a user would have by `--set`.
+ * parameter: what a user would have by `--set`; then extended as the problem was.
  */
+#include "nlp/problem.h"
 #include "reader/problem_free.h"
 
 #include <stdio.h>
@@ -15,7 +16,8 @@ ambulo_parameters ambulo_parameters_default(void) {
 }
 
 ambulo_parameters ambulo_problem_parameters(const ambulo_problem *problem) {
-  return problem->free ? problem->free->parameters : ambulo_parameters_default();
+  const ambulo__free_section *s = ambulo__problem_root(problem)->free;
+  return s ? s->parameters : ambulo_parameters_default();
 }
 
 /* names in "a, b" */
@@ -65,18 +67,20 @@ static int fill(const ambulo__free_section *s, const double *values, char *at,
 ambulo_status ambulo__problem_at(ambulo__text_loader *load, const ambulo_problem *problem,
                                  const double *values, const ambulo_allocator *allocator,
                                  ambulo_diagnostics *diagnostics, ambulo_problem **at) {
-  const ambulo__free_section *s = problem->free;
+  const ambulo__free_section *s = ambulo__problem_root(problem)->free;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   size_t most = (size_t)s->overrides + (size_t)s->parameters.count + 1;
   for (int i = 0; i < s->parameters.count; i++) most += (size_t)count_names(s->key[i].with);
   const char **override = ambulo__alloc(&own, most, sizeof *override);
   char *text = ambulo__alloc(&own, room_for(s), 1);
+  ambulo_problem *read = NULL;
   ambulo_status status = AMBULO_E_MEMORY;
   if (override && text) {
     int count = fill(s, values, text, override);
     status =
-        load(s->text, s->length, s->name, s->directory, override, count, &own, diagnostics, at);
+        load(s->text, s->length, s->name, s->directory, override, count, &own, diagnostics, &read);
   }
+  if (!status) status = ambulo__extend_alike(problem, read, &own, diagnostics, at);
   ambulo__free(&own, override);
   ambulo__free(&own, text);
   return status;

@@ -106,7 +106,7 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   const ambulo__yaml_node *node = ambulo__yaml_require(root, "model");
   const char *name = ambulo__yaml_file_name(node);
   if (!name[0]) return;
-  const char *path = ambulo__reader_path(reader, name);
+  const char *path = ambulo__reader_path(reader, node, name);
   if (!path) return;
   ambulo_status status =
       ambulo__model_load_with(path, &subject, reader->setting, reader->settings, &reader->allocator,
@@ -223,6 +223,7 @@ static ambulo_status create(ambulo__problem_reader *reader, const ambulo__yaml_n
   created->keys = reader->keys;
   created->keys.file = 1;
   created->keys.radians = reader->radians;
+  created->keys.terms = reader->definition.term_count;
   *problem = created;
   return AMBULO_OK;
 }
@@ -324,6 +325,6 @@ ambulo_status ambulo_problem_load_text(const char *text, size_t length, const ch
 ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *values,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 ambulo_problem **at) {
-  if (!problem || !values || !at || !problem->free) return AMBULO_E_ARGUMENT;
+  if (!problem || !values || !at || !ambulo__problem_root(problem)->free) return AMBULO_E_ARGUMENT;
   return ambulo__problem_at(ambulo_problem_load_text, problem, values, allocator, diagnostics, at);
 }

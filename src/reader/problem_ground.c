@@ -50,6 +50,10 @@ static void unknown_link(ambulo__problem_reader *reader, const ambulo__yaml_node
 
 static void read_one_load(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   double position[3] = {0.0, 0.0, 0.0};
+  if (ambulo__yaml_get(section, "hands")) {
+    ambulo__read_hold(reader, section);
+    return;
+  }
   const ambulo__yaml_node *node = ambulo__yaml_require(section, "link");
   const char *name = ambulo__yaml_name(node);
   double mass = ambulo__yaml_number_in(ambulo__yaml_require(section, "mass"), 1e-6, 1000.0, 1.0);

@@ -50,8 +50,9 @@ typedef struct ambulo__problem_reader {
 /* Zero-filled memory that lives as long as the reader; NULL sets reader->failure, and later faults
  * of the document, which may come of it, are not told. */
 void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t size);
-/* `name` seen from the reader's directory. */
-const char *ambulo__reader_path(ambulo__problem_reader *reader, const char *name);
+/* `name`, which stands at `node`, seen from the reader's directory; or the shipped file. */
+const char *ambulo__reader_path(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                const char *name);
 /* Frees blocks and model. */
 void ambulo__reader_clear(ambulo__problem_reader *reader);
 
@@ -87,6 +88,9 @@ void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml
 void ambulo__read_contact_rows(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* `ground`, `load`, `ground_reaction`; changes the model. After the constraints. */
 void ambulo__read_ground(ambulo__problem_reader *reader, const ambulo__yaml_node *root);
+/* An item of `load` that hands hold, at the end of definition.holds, of which there are at most
+ * AMBULO__MOST_LOADS. */
+void ambulo__read_hold(ambulo__problem_reader *reader, const ambulo__yaml_node *section);
 /* An angle that belongs to no coordinate, in the file's unit. */
 double ambulo__read_plain_angle(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                                 double fallback);

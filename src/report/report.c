@@ -1,6 +1,7 @@
 /* report/report.c - the result folder, all or nothing.
  *
- * Reading order: report.c, summary_json.h, summary_json.c, devices_json.h, solution_yaml.c,
+ * Reading order: report.c, summary_json.h, summary_json.c, devices_json.h, holds_json.h,
+ * solution_yaml.c,
  * versions.c.
  */
 #include "ambulo/report.h"
@@ -102,6 +103,11 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
       .effort = stride.effort,
       .along = stride.along,
       .device_power = stride.power,
+      .holds = stride.holds,
+      .hold = problem->definition.holds,
+      .hold_force = stride.hold_force,
+      .hold_moment = stride.hold_moment,
+      .hold_power = stride.hold_power,
   };
   ambulo__motion_csv(&table, text);
   status = write_text(folder, "motion.csv", text, diagnostics);

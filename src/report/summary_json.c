@@ -9,6 +9,7 @@
 #include "gait/gait.h"
 #include "report/approach_json.h"
 #include "report/devices_json.h"
+#include "report/holds_json.h"
 #include "report/economy_json.h"
 #include "report/reaction_json.h"
 #include "stride/strikes.h"
@@ -358,6 +359,7 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   if (!status) status = ambulo__economy_json(json, problem, result);
   if (!status) status = ambulo__approach_json(json, problem, result);
   if (!status) status = ambulo__devices_json(json, problem, result);
+  if (!status) status = ambulo__holds_json(json, problem, result);
   audit(json, result);
   between_nodes(json, result);
   explanation(json, result);

@@ -10,6 +10,8 @@
  * slope is that of their third number. A reach at the place p, within w along each axis,
  *
  *     (x - p) + w >= 0, (p - x) + w >= 0, or x - p = 0      dc/dp = -+1, dc/dw = 1
+ *
+ * x the point, or how far it is from the one that the place is relative to: then h does not count.
  */
 #include "sensitivity/partials.h"
 

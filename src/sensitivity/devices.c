@@ -58,7 +58,7 @@ static void add_device(const ambulo__stationary *s, int node, int device, double
   ambulo__device_told told = ambulo__device_told_at(&p->definition, device, p->times[node]);
   ambulo__device_state state =
       ambulo__device_at(p->devices, device, q, qd,
-                        p->told + ambulo__lane_index(node, p->channels.devices, 0), scratch);
+                        p->told + ambulo__lane_index(node, ambulo__told_entries(p), 0), scratch);
   ambulo__effort effort = ambulo__effort_of(of, state.along, state.rate, told.factor);
   double pull = ambulo__device_pull(p->devices, device, q, y, scratch);
   double own = ambulo__stationary_adjoint(s, node, ambulo__channel_effort(&p->channels, device));
@@ -69,7 +69,7 @@ static void add_device(const ambulo__stationary *s, int node, int device, double
   partials->of_devices += pull * effort.value;
 }
 
-/* (S.19) c dE/dp */
+/* (S.20) c dE/dp */
 ambulo_status ambulo__partials_of_devices(const ambulo__stationary *s, ambulo__pool *pool,
                                           ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;

@@ -171,7 +171,7 @@ static double by_written_for(const ambulo__parameters *p) {
   const ambulo_problem_definition *d = &p->problem->definition;
   const ambulo__partials *by = p->partials;
   double sum = 0.0;
-  for (int t = 0; p->problem->keys.written_for && t < d->term_count; t++) {
+  for (int t = 0; p->problem->keys.written_for && t < p->problem->keys.terms; t++) {
     const ambulo_term *term = &d->terms[t];
     int priced = term->kind == AMBULO_TORQUE_POWER && term->strength;
     int counts = term->kind == AMBULO_TORQUE_POWER || term->kind == AMBULO_TORQUE_SQUARED ||
@@ -269,10 +269,10 @@ static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? turning[what] : sliding[what],
                         ambulo__limits_of(c, (ambulo_limited)what)[side], by, label,
                         "model.links[%s].coordinate.%s[%d]",
-                        model->links[model->coordinate_link[i]].name, keys[what], side);
+                        model->links[model->coordinate_written[i]].name, keys[what], side);
   if (m >= 0)
     ambulo__parameter_with(p, sign, "model.links[%s].coordinate.%s[%d]",
-                           model->links[model->coordinate_link[m]].name, keys[what], other);
+                           model->links[model->coordinate_written[m]].name, keys[what], other);
 }
 
 static void add_ends(ambulo__parameters *p) {

@@ -1,7 +1,7 @@
 /* stride/stride.c - sampling a motion, and adding the mirrored second step (stride.h).
  *
  * Reading order: stride.h, stride.c, stride_feet.c, stride_devices.c,
- * strikes.h, impulse.h.
+ * stride_holds.c, strikes.h, impulse.h.
  */
 #include "stride/stride.h"
 
@@ -61,6 +61,7 @@ static void mirror_second_step(ambulo__stride *s, const sampling *sample, double
     ambulo__stride_mirror_place(s, s->zmp + 3 * (size_t)k);
     ambulo__stride_feet_mirror(s, k);
     ambulo__stride_devices_mirror(s, k);
+    ambulo__stride_holds_mirror(s, k);
   }
 }
 
@@ -80,7 +81,8 @@ static ambulo_status allocate(ambulo__stride *s, sampling *sample, double **scra
   *scratch = ambulo__alloc(a, 2 * d, sizeof(double));
   failed |= !s->times || !s->zmp || !sample->base || !sample->mirrored || !*scratch;
   ambulo_status status = failed ? AMBULO_E_MEMORY : ambulo__stride_feet_allocate(s);
-  return status ? status : ambulo__stride_devices_allocate(s);
+  if (!status) status = ambulo__stride_devices_allocate(s);
+  return status ? status : ambulo__stride_holds_allocate(s);
 }
 
 ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double *x, int samples,
@@ -92,6 +94,7 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   s.coordinates = ambulo_model_coordinate_count(s.model);
   s.feet = problem->channels.feet;
   s.devices = problem->channels.devices;
+  s.holds = problem->definition.hold_count;
   if (problem->definition.ground_reaction.kind == AMBULO_REACTION_SHARED)
     s.patches = s.model->patch_count;
   s.mirrored = ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED;
@@ -117,7 +120,10 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
                             .patch_free_moment = s.patch_free_moment,
                             .device_effort = s.effort,
                             .device_along = s.along,
-                            .device_power = s.power};
+                            .device_power = s.power,
+                            .hold_force = s.hold_force,
+                            .hold_moment = s.hold_moment,
+                            .hold_power = s.hold_power};
     status = ambulo_problem_motion(problem, workspace, x, s.samples, sample.base, &motion);
     /* a motion that blew up is still shown, holes and all */
     if (status == AMBULO_E_NUMERIC) status = AMBULO_OK;
@@ -151,6 +157,9 @@ void ambulo__stride_free(ambulo__stride *s) {
   ambulo__free(&s->allocator, s->effort);
   ambulo__free(&s->allocator, s->along);
   ambulo__free(&s->allocator, s->power);
+  ambulo__free(&s->allocator, s->hold_force);
+  ambulo__free(&s->allocator, s->hold_moment);
+  ambulo__free(&s->allocator, s->hold_power);
 }
 
 const ambulo_contact *ambulo__stride_contact(const ambulo__stride *s, int effector, double t) {

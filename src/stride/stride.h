@@ -31,6 +31,10 @@ typedef struct ambulo__stride {
   double *patch_force, *patch_cop, *patch_free_moment; /* likewise, [samples][patches] */
   int devices;
   double *effort, *along, *power; /* [samples][devices]: N m or N; rad or m; W on the body */
+  int holds;
+  double *hold_force,
+      *hold_moment;   /* [samples][holds][2][3], of each hand: N; N m about its point */
+  double *hold_power; /* [samples][holds], W */
 } ambulo__stride;
 
 /* samples = 0: the time nodes (of both steps); otherwise that many (>= 2) evenly spaced
@@ -61,6 +65,16 @@ double ambulo__stride_force(const ambulo__stride *stride, int k, int foot,
                             const double direction[3]);
 double ambulo__stride_peak(const ambulo__stride *stride, int foot);
 
+/* The same for what hands hold (stride_holds.c). */
+ambulo_status ambulo__stride_holds_allocate(ambulo__stride *stride);
+void ambulo__stride_holds_mirror(ambulo__stride *stride, int k);
+/* The largest force and moment of a hand, N and N m, and when. */
+typedef struct ambulo__hand_peak {
+  double force, force_time, moment, moment_time;
+} ambulo__hand_peak;
+ambulo__hand_peak ambulo__stride_hand_peak(const ambulo__stride *stride, int hold, int hand);
+/* What the hands' forces do to it: positive and negative, J. */
+void ambulo__stride_hold_work(const ambulo__stride *stride, int hold, double work[2]);
 /* A device over the stride: its effort where it is largest in size, N m or N; the work that it does
  * on the body, and that the body does on it (negative), J. */
 typedef struct ambulo__device_work {

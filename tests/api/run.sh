@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The library as a stranger meets it: installed below a folder of its own, found by pkg-config,
-# used by the README's C program, shared and static, and from C++. (The commands of the pages run in
-# tests/docs/run.sh.)
+# used by the README's C program, shared and static, from C++, and by the programs of docs/examples.
+# (The commands of the pages run in tests/docs/run.sh.)
 # Prints "N passed, N failed". Environment: OUT (build folder), CC, CFLAGS, LDFLAGS as in the build,
 # MODE (compiler flags of the variant, such as sanitizers).
 set -u
@@ -73,6 +73,50 @@ check 'C program, static library' build_static
 check 'C program runs, static' run_example "$work/static"
 check 'use from C++' build_cpp
 check 'C++ program runs' "$work/cpp"
+
+# each complete program, in a folder with nothing but the installed models; its last lines, and
+# what they have to say
+top=$PWD
+mkdir "$work/examples"
+cp -r "$work/root/usr/share/ambulo/models" "$work/examples/models"
+# shellcheck disable=SC2046,SC2086,SC2317
+build_program() { $cc -std=c11 -Wall -Wextra -Wconversion -Wshadow -Werror -pthread $mode \
+  "$top/docs/examples/$1.c" -o "$work/examples/$1" $(package --cflags --libs) -lm; }
+# shellcheck disable=SC2317
+run_program() { (cd "$work/examples" && "./$@" >"$work/said" 2>"$work/errors") ||
+  { cat "$work/said" "$work/errors"; false; }; }
+# shellcheck disable=SC2317
+says() { grep -qE "$1" "$work/said" || { cat "$work/said"; false; }; }
+# shellcheck disable=SC2317
+awk_says() { awk "$1" "$work/said" || { cat "$work/said"; false; }; }
+
+for source in docs/examples/*.c; do
+  name=$(basename "$source" .c)
+  check "$name: builds" build_program "$name"
+  check "$name: docs/guide-c-api.md names it" grep -q "examples/$name.c" docs/guide-c-api.md
+done
+check 'solve_walk runs' run_program solve_walk models/walk_normal.yaml walk gait.step_width=0.12
+check 'solve_walk: a solution' says '^walk_normal: feasible, and a first-order'
+check 'solve_walk: a folder' test -s "$work/examples/walk/summary.json"
+check 'solve_walk: no folder twice' eval '! run_program solve_walk models/walk_normal.yaml walk'
+check 'inverse_motion runs' run_program inverse_motion
+# noise of 2 mrad at 100 Hz is of no use without a filter
+check 'inverse_motion: the filter serves' awk_says \
+  '/^cut-off/ { off[NR] = $7 } END { exit !(off[1] > 20 && off[2] > 0 && off[2] < 1) }'
+check 'own_term runs' run_program own_term models/walk_normal.yaml
+check 'own_term: right gradients' awk_says \
+  '/^gradient/ { n++; if ($NF > 1e-7) bad = 1 } END { exit bad || n != 2 }'
+check 'own_term: the head is up, the knees do less' awk_says \
+  '{ head[$1] = $6; knees[$1] = $(NF - 1) }
+   END { exit !(head["before"] < 1.75 && head["after"] > 1.75499 && knees["after"] < knees["before"]) }'
+check 'what_it_costs runs' run_program what_it_costs models/walker_2d_step.yaml gait.step_length 0.4 1.1
+check 'what_it_costs: the best is cheaper' awk_says \
+  '/^best/ { better = $10 + 0 < $13 + 0 } /costs|saves/ { words++ } END { exit !(better && words == 5) }'
+check 'bodies_in_threads runs' run_program bodies_in_threads models/walk_without_reaction.yaml 1
+check 'bodies_in_threads: six solutions' awk_says '/ kg .*(optimal|feasible)/ { n++ } END { exit n != 6 }'
+cp "$work/said" "$work/one"
+check 'bodies_in_threads runs in three' run_program bodies_in_threads models/walk_without_reaction.yaml 3
+check 'bodies_in_threads: the same numbers' cmp "$work/said" "$work/one"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -37,6 +37,10 @@ static void unknown_status_is_still_a_text(void **state) {
 static void version_is_the_header_version(void **state) {
   (void)state;
   assert_string_equal(ambulo_version(), AMBULO_VERSION_STRING);
+  char numbers[40];
+  (void)snprintf(numbers, sizeof numbers, "%d.%d.%d", AMBULO_VERSION_MAJOR, AMBULO_VERSION_MINOR,
+                 AMBULO_VERSION_PATCH);
+  assert_string_equal(AMBULO_VERSION_STRING, numbers);
 }
 
 int main(void) {

@@ -47,22 +47,6 @@ static inline void random_device(random_source *source, const ambulo_model *m,
   }
 }
 
-static inline double device_pose(random_source *source, int regime) {
-  double quarter = 0.5 * acos(-1);
-  switch (regime) {
-  case 0:
-    return 0;
-  case 1:
-    return random_between(source, -1, 1) * pow(10, random_between(source, -9, -2));
-  case 2:
-    return random_between(source, -3, 3);
-  case 3:
-    return random_between(source, -200, 200);
-  default:
-    return (random_below(source, 5) - 2) * quarter + random_between(source, -1e-9, 1e-9);
-  }
-}
-
 static inline void device_case_open(device_case *c, int index) {
   random_source source = {4000 + (uint64_t)index};
   random_tree_make(&c->tree, 91 * (uint64_t)index + 3, 1 + index % (most_coordinates - 2));
@@ -77,7 +61,7 @@ static inline void device_case_open(device_case *c, int index) {
   c->devices = NULL;
   assert_int_equal(ambulo__devices_create(&c->definition, NULL, &c->devices), AMBULO_OK);
   for (int i = 0; i < c->d * AMBULO__LANES; i++) {
-    c->q[i] = device_pose(&source, index % 5);
+    c->q[i] = random_pose(&source, index % random_poses);
     c->qd[i] = random_between(&source, -2, 2);
   }
   for (int i = 0; i < c->n * AMBULO__LANES; i++)

@@ -63,6 +63,7 @@ static void test_numbers(void **state) {
 static void test_profiles(void **state) {
   (void)state;
   static const double falls[][2] = {{0.4, 1}, {0.2, 2}}, late[][2] = {{0.2, 1}, {1.2, 2}};
+  static const double level[][2] = {{0.4, 1}, {0.4, 2}}, whole[][2] = {{0.2, 1}, {1.0, 2}};
   REFUSES(NULL, v.kind = AMBULO_DEVICE_ACTUATOR; v.clock = AMBULO_DEVICE_BY_STRIDE);
   REFUSES("points[1] of 'spring' is at 0.2; expected rising numbers",
           v.kind = AMBULO_DEVICE_ACTUATOR;
@@ -70,6 +71,12 @@ static void test_profiles(void **state) {
   REFUSES("from 0.2 to 1.2 of the stride", v.kind = AMBULO_DEVICE_ACTUATOR;
           v.clock = AMBULO_DEVICE_BY_STRIDE; v.points = late);
   REFUSES(NULL, v.kind = AMBULO_DEVICE_ACTUATOR; v.clock = AMBULO_DEVICE_BY_TIME; v.points = late);
+  REFUSES("points[1] of 'spring' is at 0.4; expected rising numbers",
+          v.kind = AMBULO_DEVICE_ACTUATOR;
+          v.clock = AMBULO_DEVICE_BY_TIME; v.points = level);
+  REFUSES("from 0.2 to 1 of the stride; expected from 0 to less than 1",
+          v.kind = AMBULO_DEVICE_ACTUATOR;
+          v.clock = AMBULO_DEVICE_BY_STRIDE; v.points = whole);
   REFUSES("has no points", v.kind = AMBULO_DEVICE_ACTUATOR; v.clock = AMBULO_DEVICE_BY_TIME;
           v.points = NULL);
   REFUSES("unknown clock 5", v.kind = AMBULO_DEVICE_ACTUATOR; v.clock = (ambulo_device_clock)5);

@@ -113,6 +113,75 @@ static void test_what_has_no_image_is_refused(void **state) {
   ambulo_model_free(m);
 }
 
+/* balanced: 1 if v and its image are accepted with something of the image changed */
+#define WITH(...)                                                                                  \
+  do {                                                                                             \
+    ambulo_device two[2] = {v, ambulo__device_mirrored(m, &v)};                                    \
+    ambulo_device *other = &two[1];                                                                \
+    assert_true(is_balanced(m, two, 2));                                                           \
+    __VA_ARGS__;                                                                                   \
+    balanced = is_balanced(m, two, 2);                                                             \
+  } while (0)
+
+#define DIFFERS(...)                                                                               \
+  do {                                                                                             \
+    int balanced;                                                                                  \
+    WITH(__VA_ARGS__);                                                                             \
+    assert_true(!balanced);                                                                        \
+  } while (0)
+
+#define IS_ALIKE(...)                                                                              \
+  do {                                                                                             \
+    int balanced;                                                                                  \
+    WITH(__VA_ARGS__);                                                                             \
+    assert_true(balanced);                                                                         \
+  } while (0)
+
+/* every number that counts is compared, and no other */
+static void test_laws_and_clocks_are_compared(void **state) {
+  (void)state;
+  static const double rises[][2] = {{0.1, 1}, {0.5, 2}}, later[][2] = {{0.1, 1}, {0.6, 2}};
+  static const double higher[][2] = {{0.1, 1}, {0.5, 3}};
+  ambulo_model *m = person();
+  ambulo_device v = ambulo_device_default(AMBULO_DEVICE_SPRING);
+  v.name = "knee";
+  v.coordinate = ambulo_model_find_coordinate(m, "knee_angle_r");
+  v.stiffness = 90;
+  v.from = 0.1;
+  v.to = 0.6;
+  v.foot = 0;
+  IS_ALIKE(other->smoothing = 0.5);
+  IS_ALIKE(other->from = 0.2; other->ramp = 0.1; other->foot = 0); /* without a clutch */
+  DIFFERS(other->kind = AMBULO_DEVICE_DAMPER);
+  v.side = AMBULO_DEVICE_ABOVE;
+  DIFFERS(other->smoothing = 0.5);
+  v.clutch = 1;
+  DIFFERS(other->from = 0.2);
+  DIFFERS(other->to = 0.7);
+  DIFFERS(other->ramp = 0.1);
+  DIFFERS(other->foot = 0);
+  DIFFERS(other->clutch = 0);
+  v.clutch = 0;
+  v.kind = AMBULO_DEVICE_DAMPER;
+  v.damping = 3;
+  IS_ALIKE(other->stiffness = 1);
+  DIFFERS(other->damping = 4);
+  v.kind = AMBULO_DEVICE_ACTUATOR;
+  IS_ALIKE(other->points = later; other->point_count = 2); /* constant */
+  DIFFERS(other->amount = 2);
+  v.clock = AMBULO_DEVICE_BY_TIME;
+  v.points = rises;
+  v.point_count = 2;
+  IS_ALIKE(other->foot = 0);
+  DIFFERS(other->points = later);
+  DIFFERS(other->points = higher);
+  DIFFERS(other->point_count = 1);
+  DIFFERS(other->clock = AMBULO_DEVICE_BY_STRIDE);
+  v.clock = AMBULO_DEVICE_BY_STRIDE;
+  DIFFERS(other->foot = 0);
+  ambulo_model_free(m);
+}
+
 static void test_partners(void **state) {
   (void)state;
   ambulo_model *m = person();
@@ -140,6 +209,7 @@ static void test_partners(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_twice_is_once), cmocka_unit_test(test_a_turned_coordinate),
-      cmocka_unit_test(test_what_has_no_image_is_refused), cmocka_unit_test(test_partners)};
+      cmocka_unit_test(test_what_has_no_image_is_refused),
+      cmocka_unit_test(test_laws_and_clocks_are_compared), cmocka_unit_test(test_partners)};
   return cmocka_run_group_tests_name("device/mirror_devices", tests, NULL, NULL);
 }

@@ -87,17 +87,17 @@ options_exist() {
     while read -r option; do
       grep -q -e "$option\b" "$work/options" || { echo "$page: no option $option"; lost=1; }
     done < <(grep -oE '(^|[ `(])--[a-z][a-z-]+' "$page" | grep -oE -e '--[a-z-]+' | sort -u |
-      grep -vxE -e '--(cflags|libs|static|variable|export|sshloginfile|array|cpus-per-task|job-name|output)')
+      grep -vxE -e '--(cflags|libs|static|variable|export|sshloginfile|prefix|array|cpus-per-task|job-name|output)')
   done
   return $lost
 }
 
-# functions, types and constants that the pages name are in the headers
+# functions, types, constants and settings that the pages name are in the headers, or in Python
 names_exist() {
   local page name lost=0
   for page in README.md docs/*.md; do
     while read -r name; do
-      grep -rqE "\b$name\b" --include='*.h' include src || { echo "$page: no $name"; lost=1; }
+      grep -rqE "\b$name\b" --include='*.h' --include='*.py' include src || { echo "$page: no $name"; lost=1; }
     done < <(grep -oE '\b(ambulo_[a-z_]*[a-z]|AMBULO_[A-Z_]*[A-Z])\b' "$page" | sort -u)
   done
   return $lost

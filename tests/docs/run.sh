@@ -9,7 +9,9 @@
 #
 # The examples of --help run in a new folder, too. Shell blocks are run by bash and end at the first
 # command that fails; C programs are compiled and run by the page's own lines; complete YAML files
-# are checked, fragments in the shipped file that they name. exceptions.txt tells what is not run and
+# are checked, fragments in the shipped file that they name; the Python blocks of a page are one
+# script, without those that begin with "# needs MODULE, ..." where a module is missing, and none
+# where Python 3 has no cffi and numpy. exceptions.txt tells what is not run and
 # why; a block or a line that is neither run nor told there fails, and so does an exception that fits
 # nothing. sbatch and parallel are stand-ins (stand_ins/); make check-slurm has the real ones.
 #
@@ -203,11 +205,27 @@ session() { # WHERE FOLDER
   return $status
 }
 
+# the Python package as src/python puts it together; none without Python, cffi and numpy
+make_python() {
+  "${PYTHON:-python3}" -c 'import cffi, numpy' 2>/dev/null || return 1
+  "${PYTHON:-python3}" src/python/package.py stage "$out/libambulo.so" "$work/python"
+}
+is_python() { # FILE: are the modules that it needs there?
+  local needs
+  needs=$(sed -n '1s/^# needs //p' "$1")
+  [ -z "$needs" ] || "${PYTHON:-python3}" -c "import $needs" 2>/dev/null
+}
+python_session() { # WHERE FOLDER
+  in_world "$1" "$2" env PYTHONPATH="$work/python" MPLBACKEND=Agg timeout 300 \
+    "${PYTHON:-python3}" "$work/session.py"
+}
+
 # run_page PAGE WHERE FOLDER: its session, then its programs and YAML
 run_page() {
   local page=$1 where=$2 folder=$3 file place path first rest=()
   printf 'set -eE -o pipefail\ntrap '\''echo "at $place: $BASH_COMMAND"'\'' ERR\n' >"$work/session.sh"
   compile_lines "$page" "$where" >"$work/compile"
+  : >"$work/session.py"
   while IFS=$'\t' read -r file place; do
     path=$work/blocks/$page/$file
     first=$(head -n 1 "$path")
@@ -220,6 +238,7 @@ run_page() {
       cp "$path" "$folder/slurm_array.sh"
     elif ! exception "$page" "$where" "$first"; then
       case $file in
+      *.python) ! is_python "$path" || { echo "# $place"; cat "$path"; } >>"$work/session.py" ;;
       *.c) rest+=("C program" c_block "$place" "$path") ;;
       *.yaml) rest+=("YAML" yaml_block "$place" "$path") ;;
       *) count "$place: a block that is neither run nor in exceptions.txt: $first" false ;;
@@ -228,6 +247,11 @@ run_page() {
   done <"$work/blocks/$page/list"
   [ "$(grep -vc '^\(set\|trap\|place=\)' "$work/session.sh")" = 0 ] ||
     count "$where: $page: commands" session "$where" "$folder"
+  if [ -s "$work/session.py" ] && [ -d "$work/python" ]; then
+    count "$where: $page: Python" python_session "$where" "$folder"
+  elif [ -s "$work/session.py" ]; then
+    echo "skipped: tests/docs/run.sh: Python of $page: no python3 with cffi and numpy"
+  fi
   set -- "${rest[@]}"
   while [ $# -gt 0 ]; do
     count "$where: $3: $1" "$2" "$where" "$folder" "$4"
@@ -246,6 +270,7 @@ count 'exceptions.txt has four fields a line' read_exceptions
 count 'a clone' make_clone
 count 'make install' make_prefix
 make_tools
+make_python >"$work/log" 2>&1 || rm -rf "$work/python"
 count 'files of your own' make_given
 give "$work/clone"
 for page in $(pages); do extract "$page" "$page" 0; done

@@ -211,7 +211,7 @@ static void neither_workers_nor_stops_matter(void **state) {
 static void stopped_before_anything(void **state) {
   ambulo_fit *fit = truth_fit(state, "");
   ambulo_fit_options o = usual(1);
-  ambulo_fit_ending ending = AMBULO_FIT_CONVERGED;
+  ambulo_fit_ending ending = AMBULO_FIT_NOT_RUN;
   stopper s = {0};
   char *report = NULL;
   o.progress = stop_after;

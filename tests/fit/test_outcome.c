@@ -27,6 +27,7 @@ static void bounds_and_held_out(void **state) {
 
 static void endings(void **state) {
   (void)state;
+  assert_string_equal(ambulo__fit_ending_name(AMBULO_FIT_NOT_RUN), "not_run");
   assert_string_equal(ambulo__fit_ending_name(AMBULO_FIT_CONVERGED), "converged");
   assert_string_equal(ambulo__fit_ending_name(AMBULO_FIT_ITERATIONS), "iterations");
   assert_string_equal(ambulo__fit_ending_name(AMBULO_FIT_INTERRUPTED), "interrupted");

@@ -158,6 +158,10 @@ static void valleys_are_left(void **state) {
     if (p->from < 0) continue;
     again++;
     assert_int_equal(p->standing, AMBULO__FRONT_ON);
+    /* from what was better for the same weights */
+    const ambulo__front_point *left = &k.points[p->parent[1]];
+    assert_memory_equal(p->weight, left->weight, sizeof p->weight);
+    assert_true(ambulo__front_total(&k.front, p->weight, p->from) < left->total);
   }
   assert_true(again > 0);
 }

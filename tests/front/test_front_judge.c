@@ -91,6 +91,50 @@ static void ends_are_asked_for_again(void **state) {
   assert_close(ambulo__front_distance(&f, 2, 3), sqrt(2.0), 1e-12);
 }
 
+/* ends of the first round beside those that took their place: one has clearly less of its own term,
+ * one is where its successor is */
+static void ends_come_before_those_they_replace(void **state) {
+  (void)state;
+  ambulo__front f = made(2);
+  ambulo__front_request requests[3];
+  ambulo__front_report r;
+  int anchor[3], count = 0;
+  double lowest[3], range[3];
+  f.least = 0.05; /* so that shares of 0.01 are too little */
+  put(0, -0.05, 1.01, 0.0);
+  put(1, 1.0, 0.001, 0.0);
+  assert_int_equal(ambulo__front_anchors(&f, anchor, lowest, range, requests, &count), 0);
+  assert_int_equal(count, 2);
+  f.points = 4;
+  for (int i = 0; i < 2; i++)
+    memcpy(points[2 + i].weight, requests[i].weight, sizeof points->weight);
+  put(2, 0.0, 1.0, 0.0);
+  put(3, 1.0, 0.0, 0.0);
+  points[0].total += 0.096; /* other terms, by which each is the best of its own weights */
+  ambulo__front_judge(&f, &r);
+  assert_int_equal(points[0].standing, AMBULO__FRONT_OUTSIDE);
+  assert_int_equal(points[1].standing, AMBULO__FRONT_REPEATS);
+  assert_int_equal(points[1].better, 3);
+  assert_int_equal(points[2].standing, AMBULO__FRONT_ON);
+  assert_int_equal(points[3].standing, AMBULO__FRONT_ON);
+}
+
+/* of the weights of the file, whose shares sum to 1 */
+static void first_ends_have_nearly_all(void **state) {
+  (void)state;
+  static const double own[] = {2.0, 0.5, 10.0};
+  ambulo__front f = {.terms = 3, .wanted = 8, .least = 0.05, .point = points};
+  ambulo__front_request requests[3];
+  int anchor[3], count = 0;
+  double lowest[3], range[3];
+  memcpy(f.own, own, sizeof own);
+  assert_int_equal(ambulo__front_anchors(&f, anchor, lowest, range, requests, &count), 0);
+  assert_int_equal(count, 3);
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 3; i++)
+      assert_close(requests[k].weight[i], 3.0 * own[i] * (i == k ? 0.9 : 0.05), 1e-12);
+}
+
 static void weights_lead_between(void **state) {
   (void)state;
   ambulo__front f = made(2);
@@ -107,6 +151,14 @@ static void weights_lead_between(void **state) {
                ambulo__front_total(&f, request.weight, 1), 1e-9);
   assert_int_equal(ambulo__front_between(&f, 0, 1, 0.25, &request), 1);
   assert_true(request.weight[0] > 1.0 && request.from == -1);
+  /* from the motion at the nearer end, where neighbours are starts */
+  f.neighbour = 1;
+  for (int i = 1; i < 4; i++) {
+    assert_int_equal(ambulo__front_between(&f, 0, 1, 0.25 * i, &request), 1);
+    assert_int_equal(request.from, i < 3 ? 0 : 1);
+    assert_true(request.parent[0] == 0 && request.parent[1] == 1 && request.anchor == -1);
+  }
+  f.neighbour = 0;
   /* a solve that came back to an end settles it; one that failed does not */
   assert_int_equal(ambulo__front_is_refused(&f, 0, 1), 0);
   f.points = 3;
@@ -125,6 +177,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_standing),
       cmocka_unit_test(ends_are_asked_for_again),
+      cmocka_unit_test(ends_come_before_those_they_replace),
+      cmocka_unit_test(first_ends_have_nearly_all),
       cmocka_unit_test(weights_lead_between),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

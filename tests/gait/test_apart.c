@@ -1,6 +1,7 @@
 /* A point and a segment seen from above: their distance, and its slopes, which have no jump where
  * the nearest point comes to an end of the segment. */
 #include "gait/apart.h"
+#include "support/curved_slopes.h"
 #include "support/random_model.h"
 #include "support/test.h"
 
@@ -46,16 +47,6 @@ static void an_upright_segment_is_a_point(void **state) {
   assert_close(slope[POINT], 0.3, 1e-15);
 }
 
-static double difference(const ambulo__apart *apart, double *y, int c) {
-  const double here = y[c], h = 1e-6;
-  y[c] = here + h;
-  double more = ambulo__apart_value(apart, y, 1, NULL);
-  y[c] = here - h;
-  double less = ambulo__apart_value(apart, y, 1, NULL);
-  y[c] = here;
-  return (more - less) / (2.0 * h);
-}
-
 /* along any vertical, nearest at either end and between them */
 static void slopes_are_those_of_the_value(void **state) {
   (void)state;
@@ -70,7 +61,9 @@ static void slopes_are_those_of_the_value(void **state) {
     for (int i = 0; i < 3; i++) apart.up[i] /= sqrt(size);
     for (int c = 0; c < CHANNELS; c++) y[c] = random_between(&random, -0.3, 0.3);
     (void)ambulo__apart_value(&apart, y, 1, slope);
-    for (int c = 0; c < CHANNELS; c++) assert_close(slope[c], difference(&apart, y, c), 1e-5);
+    ambulo__curved row = {.form = AMBULO__CURVED_APART, .of.apart = apart};
+    for (int c = 0; c < CHANNELS; c++)
+      assert_close(slope[c], slope_by_difference(&row, y, c, 1e-6), 1e-5);
   }
 }
 

@@ -64,6 +64,18 @@ static void a_tip_that_lands_may_be_low(void **state) {
   expect(&f, "r_toe_in", "low", 0.5, -0.02);
   expect(&f, "r_toe_in", "low", 0.75, -(0.02 * part - ahead * (1.0 - part)));
   expect(&f, "r_toe", "low", 0.75, -0.02 * part);
+  /* not on its heel, nor on the way up, nor on a step */
+  static const ambulo_contact_mode mode[] = {AMBULO_CONTACT_HEEL, AMBULO_CONTACT_TOE};
+  for (int k = 0; k < 2; k++) {
+    ambulo_contact others[3] = {landing[0], landing[1], landing[2]};
+    others[2].mode = mode[k];
+    if (k == 1) others[2].place[2] = 0.1;
+    f.definition.contacts = others;
+    assert_close(ambulo__tip_drop(&f.definition, WALKER_RIGHT, 0.75, 0.65 / 0.7), 0.0, 0.0);
+  }
+  f.definition.contacts = landing;
+  assert_close(ambulo__tip_drop(&f.definition, WALKER_RIGHT, 0.15, 0.05 / 0.7), 0.0, 0.0);
+  assert_close(ambulo__tip_drop(&f.definition, WALKER_RIGHT, 0.75, 0.65 / 0.7), ahead, 1e-15);
   row_fixture_close(&f);
 }
 
@@ -121,6 +133,47 @@ static void the_last_swing_ends_at_the_last_node(void **state) {
   }
 }
 
+/* and a tip that lands there with the ball may be as low as it is ahead of the ball: with the
+ * contact of the next period, with one that only begins there, and that of a motion that does not
+ * repeat */
+static void the_last_landing_may_have_a_low_tip(void **state) {
+  (void)state;
+  for (int k = 0; k < 6; k++) {
+    int on_toes = k % 2, begins = k >= 2;
+    ambulo_contact_mode mode = on_toes ? AMBULO_CONTACT_TOE : AMBULO_CONTACT_FLAT;
+    row_fixture f;
+    row_fixture_open(&f, 0);
+    f.definition.contacts = (const ambulo_contact[]){
+        {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.0, 1.0, .place = {0.3, 0.1}},
+        {WALKER_RIGHT, k < 4 ? mode : AMBULO_CONTACT_FLAT, 0.0, 0.5, .place = {0.0, -0.08}},
+        {WALKER_RIGHT, mode, 1.0, 1.0, .place = {0.6, -0.08}}};
+    f.definition.contact_count = begins ? 3 : 2;
+    f.definition.clearance.height = 0.02;
+    f.definition.contact_tolerance = 0.002;
+    f.definition.ends = k < 4 ? AMBULO_ENDS_PERIODIC : AMBULO_ENDS_FREE;
+    ambulo_foot *foot = &f.model->feet[WALKER_RIGHT];
+    foot->has_tip = 1;
+    foot->tip = foot->toe[0];
+    for (int node = 0; node < ROW_NODES; node++) f.active[2 * node + WALKER_LEFT] = 0;
+    for (int node = 0; node < 2; node++) f.active[2 * node + WALKER_RIGHT] = 1;
+    row_event(&f, 4, WALKER_RIGHT, -1);
+    if (begins) f.active[2 * 4 + WALKER_RIGHT] = 2;
+    ambulo__clearance_rows(&f.context, &f.table);
+    expect(&f, "r_toe_in", "low", 1.0, on_toes ? 0.04 : 0.0); /* half of the foot's width */
+    expect(&f, "r_toe_in", "low", 0.75, -0.02);               /* 6 (1 - s) is still above 1 */
+    assert_close(ambulo__tip_drop(&f.definition, WALKER_RIGHT, 0.95, 0.9), on_toes ? 0.04 : 0.0,
+                 1e-15);
+    if (k == 5) { /* it is the other foot that lands */
+      f.definition.contacts = (const ambulo_contact[]){
+          {WALKER_RIGHT, AMBULO_CONTACT_FLAT, 0.0, 0.5, .place = {0.0, -0.08}},
+          {WALKER_LEFT, AMBULO_CONTACT_TOE, 1.0, 1.0, .place = {0.6, 0.1}}};
+      f.definition.contact_count = 2;
+      assert_close(ambulo__tip_drop(&f.definition, WALKER_RIGHT, 0.95, 0.9), 0.0, 0.0);
+    }
+    row_fixture_close(&f);
+  }
+}
+
 static void the_track_is_that_of_the_next_foothold(void **state) {
   (void)state;
   row_fixture f;
@@ -166,6 +219,7 @@ int main(void) {
                                      cmocka_unit_test(a_tip_that_lands_may_be_low),
                                      cmocka_unit_test(swings_hold_at_both_their_ends),
                                      cmocka_unit_test(the_last_swing_ends_at_the_last_node),
+                                     cmocka_unit_test(the_last_landing_may_have_a_low_tip),
                                      cmocka_unit_test(the_track_is_that_of_the_next_foothold),
                                      cmocka_unit_test(the_left_foot_is_the_mirror_image),
                                      cmocka_unit_test(planar_feet_only_have_heights)};

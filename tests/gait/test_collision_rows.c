@@ -3,6 +3,7 @@
  * reader.
  */
 #include "ambulo/ambulo.h"
+#include "model/neutral_pose.h"
 #include "nlp/nlp.h"
 #include "support/test.h"
 
@@ -94,6 +95,68 @@ static void rows_stand_at_their_nodes(void **state) {
   close_all(&f);
 }
 
+/* where s of the way between two ends is */
+static void on_the_way(const double from[3], const double to[3], double s, double at[3]) {
+  for (int i = 0; i < 3; i++) at[i] = from[i] + s * (to[i] - from[i]);
+}
+
+/* the rail and the crate of the task, beside the head that stands at q = 0, by trying all places of
+ * both: x forward, y up, z right */
+static double tried(double ends[2][3], double weight, int is_crate) {
+  static const double rail[2][3] = {{0.2, 1.0, 1.0}, {0.2, 1.2, -1.0}};
+  static const double center[3] = {0.4, 0.3, -0.1}, half[3] = {0.2, 0.3, 0.3};
+  const double c = cos(0.5235987755982988), l = 0.5; /* 30 degrees to the left, -z */
+  const double axes[3][3] = {{c, 0.0, -l}, {-l, 0.0, -c}, {0.0, 1.0, 0.0}};
+  enum { STEPS = 1000 };
+  double least = INFINITY;
+  for (int i = 0; i <= STEPS; i++) {
+    double s = (double)i / STEPS, x[3], y[3];
+    on_the_way(ends[0], ends[1], s, x);
+    for (int j = 0; j <= STEPS; j++) {
+      double t = (double)j / STEPS, square = weight * (s - 0.5) * (s - 0.5);
+      if (is_crate) {
+        for (int k = 0; k < 3; k++) {
+          double along = 0.0;
+          for (int m = 0; m < 3; m++) along += axes[k][m] * (x[m] - center[m]);
+          square += pow(fmax(0.0, fabs(along) - half[k]), 2.0);
+        }
+        least = fmin(least, square);
+        break;
+      }
+      on_the_way(rail[0], rail[1], t, y);
+      square += weight * (t - 0.5) * (t - 0.5);
+      for (int k = 0; k < 3; k++) square += (x[k] - y[k]) * (x[k] - y[k]);
+      least = fmin(least, square);
+    }
+  }
+  return sqrt(least);
+}
+
+static void obstacles_are_where_they_say(void **state) {
+  (void)state;
+  fixture f;
+  double ends[2][3];
+  open_with(&f, NULL);
+  const ambulo_model *m = f.p->model;
+  const ambulo_capsule *head = NULL;
+  for (int i = 0; i < m->capsule_count; i++)
+    if (!strcmp(m->capsules[i].name, "head")) head = &m->capsules[i];
+  assert_non_null(head);
+  ambulo__neutral_place(m, head->link, head->from, ends[0]);
+  ambulo__neutral_place(m, head->link, head->to, ends[1]);
+  double square = head->radius * head->radius;
+  for (int i = 0; i < 3; i++) square += pow(ends[1][i] - ends[0][i], 2.0);
+  double weight = 1e-3 * square, allowance = 0.25 / 6.0;
+  assert_int_equal(ambulo__evaluate(f.workspace, f.x), AMBULO_OK);
+  double distance = head->radius + 0.03 + 0.02 + allowance;
+  assert_close(first(&f, "obstacle", "head", "rail"),
+               tried(ends, weight, 0) - sqrt(distance * distance + 0.5 * weight), 1e-6);
+  distance = head->radius + allowance;
+  assert_close(first(&f, "obstacle", "head", "crate"),
+               tried(ends, weight, 1) - sqrt(distance * distance + 0.25 * weight), 1e-6);
+  close_all(&f);
+}
+
 /* the way between two points: of both, all along, and no matter how high the ground is */
 static void places_may_be_relative(void **state) {
   (void)state;
@@ -182,9 +245,11 @@ static void the_model_has_the_capsules_points(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_stand_at_their_nodes), cmocka_unit_test(places_are_above_the_ground),
-      cmocka_unit_test(places_may_be_relative), cmocka_unit_test(gradients_are_those_of_the_values),
-      cmocka_unit_test(the_model_has_the_capsules_points)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rows_stand_at_their_nodes),
+                                     cmocka_unit_test(obstacles_are_where_they_say),
+                                     cmocka_unit_test(places_are_above_the_ground),
+                                     cmocka_unit_test(places_may_be_relative),
+                                     cmocka_unit_test(gradients_are_those_of_the_values),
+                                     cmocka_unit_test(the_model_has_the_capsules_points)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Contact tubes at q = 0: left heel at (-0.05, 0.09), left toe at (0.17, 0.09) m, sole level. */
 #include "gait/bounded.h"
 #include "support/row_fixture.h"
+#include "support/toed_body.h"
 
 static const ambulo_contact contacts[] = {
     {WALKER_LEFT, AMBULO_CONTACT_HEEL, 0.0, 0.2, .place = {0.6, 0.1}},
@@ -165,6 +166,57 @@ static void a_foot_may_land_on_its_toes(void **state) {
   row_fixture_close(&f);
 }
 
+/* a tip that the ball's joint moves: heel, flat and toes down on a surface that rises by 0.1 */
+static void open_toed(row_fixture *f, double joint) {
+  static ambulo_contact down[3];
+  for (int k = 0; k < 3; k++) {
+    down[k] = contacts[k];
+    down[k].place[2] = 0.05;
+    down[k].normal[0] = -0.1;
+    down[k].normal[2] = 1.0;
+  }
+  row_fixture_open_body(f, toed_body_with(joint));
+  f->definition.contacts = down;
+  f->definition.contact_count = 3;
+  f->definition.contact_tolerance = 0.002;
+  f->definition.ground_height = 0.001;
+  for (int k = 0; k < 3; k++) f->active[2 * k + TOED_LEFT] = k;
+  ambulo__contact_tube_rows(&f->context, &f->table);
+}
+
+/* n . (tip - p) + e >= 0 wherever the foot is loaded, and nothing from above; in the air nothing.
+ * The row is linear: what it says is its gradient, n on the tip, and has to follow the tip. */
+static void toes_of_their_own_stay_above_the_surface(void **state) {
+  (void)state;
+  row_fixture f;
+  open_toed(&f, 0.01);
+  const double n[3] = {-0.1 / sqrt(1.01), 1.0 / sqrt(1.01), 0.0}; /* y is up, z to the right */
+  const double surface[3] = {0.6, 0.001 + 0.05, -0.1};
+  int tip = f.model->feet[TOED_LEFT].tip;
+  assert_int_not_equal(f.model->points[tip].link,
+                       f.model->points[f.model->feet[TOED_LEFT].toe_center].link);
+  for (int k = 0; k < 3; k++) {
+    double *r = row_channel(&f, k, ambulo__channel_point(&f.context.channels, tip, 0));
+    double above = 0.002;
+    for (int i = 0; i < 3; i++) above += n[i] * (r[i] - surface[i]);
+    expect(&f, "toe_l", "below", 0.25 * k, above);
+    for (int i = 0; i < 3; i++) {
+      r[i] += 0.01;
+      expect(&f, "toe_l", "below", 0.25 * k, above += 0.01 * n[i]);
+    }
+    int row = row_find(&f, "contact", "toe_l", "below", 0.25 * k);
+    assert_int_equal(f.table.rows[row].term_count, 2); /* the tip's x and y: nothing else counts */
+    assert_int_equal(row_count(&f, "contact", "toe_l", "above", 0.25 * k), 0);
+    assert_int_equal(row_count(&f, "contact", "toe_r", "below", 0.25 * k), 0);
+  }
+  assert_int_equal(row_count(&f, "contact", "toe_l", "below", 0.75), 0);
+  row_fixture_close(&f);
+  open_toed(&f, -0.02); /* tip and ball on one link: the foot's pitch says where the tip is */
+  for (int k = 0; k < 3; k++)
+    assert_int_equal(row_count(&f, "contact", "toe_l", "below", 0.25 * k), 0);
+  row_fixture_close(&f);
+}
+
 /* the pitch of a strike is asked at the first node of a contact, however far the next is */
 static void a_strike_is_the_first_node_of_any_grid(void **state) {
   (void)state;
@@ -216,6 +268,7 @@ int main(void) {
       cmocka_unit_test(events_hold_what_ends_and_what_begins),
       cmocka_unit_test(arcs_hold_feet_that_roll),
       cmocka_unit_test(a_foot_may_land_on_its_toes),
+      cmocka_unit_test(toes_of_their_own_stay_above_the_surface),
       cmocka_unit_test(a_strike_is_the_first_node_of_any_grid),
       cmocka_unit_test(the_last_node_of_a_repeating_motion_has_none)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -82,10 +82,13 @@ static void expect(row_fixture *f, const char *detail, double value) {
   assert_close(got, value, 1e-12);
 }
 
+/* a body of 1.4 m has 0.8 of the room about its centre */
 static void rows_are_the_wrench_about_the_centre(void **state) {
   (void)state;
+  const double room = 0.8 * 0.02;
   row_fixture f;
   prepare(&f, 0);
+  f.model->stature = 1.4;
   ambulo__flight_rows(&f.context, &f.table);
   const ambulo__channels *c = &f.context.channels;
   const double force[3] = {0.004, 0.007, -0.009}, moment[3] = {0.03, -0.02, 0.05},
@@ -103,12 +106,12 @@ static void rows_are_the_wrench_about_the_centre(void **state) {
   double about[3] = {moment[0] - (1.1 * -0.009 - 0.2 * 0.007),
                      moment[1] - (0.2 * 0.004 - 0.6 * -0.009),
                      moment[2] - (0.6 * 0.007 - 1.1 * 0.004)};
-  expect(&f, "tipped to the right", 0.02 - about[0]);
-  expect(&f, "tipped to the left", 0.02 + about[0]);
-  expect(&f, "turned to the left", 0.02 - about[1]);
-  expect(&f, "turned to the right", 0.02 + about[1]);
-  expect(&f, "tipped forward", 0.02 + about[2]);
-  expect(&f, "tipped backward", 0.02 - about[2]);
+  expect(&f, "tipped to the right", room - about[0]);
+  expect(&f, "tipped to the left", room + about[0]);
+  expect(&f, "turned to the left", room - about[1]);
+  expect(&f, "turned to the right", room + about[1]);
+  expect(&f, "tipped forward", room + about[2]);
+  expect(&f, "tipped backward", room - about[2]);
   row_fixture_close(&f);
 }
 
@@ -185,6 +188,13 @@ static void the_first_flight_is_found(void **state) {
   f.definition.contact_count = 1;
   assert_int_equal(ambulo__flight_span(&f.definition, &span), 1);
   assert_close(span.to, 1.0, 0.0);
+  const ambulo_contact step[] = {hop[0],
+                                 {WALKER_LEFT, AMBULO_CONTACT_FLAT, 0.8, 1.0, .place = {0.5, 0.1}}};
+  f.definition.contacts = step;
+  f.definition.contact_count = 2;
+  assert_int_equal(ambulo__flight_span(&f.definition, &span), 1);
+  assert_close(span.from, 0.5, 0.0);
+  assert_close(span.to, 0.8, 0.0);
   f.definition.contact_count = 0;
   assert_int_equal(ambulo__flight_span(&f.definition, &span), 1);
   assert_close(span.from, 0.0, 0.0);

@@ -1,6 +1,7 @@
 /* Rows of capsules: what they keep against the true gap, slopes against differences, near parallel,
  * touching and deep inside; in the lanes. */
 #include "gait/solid.h"
+#include "support/curved_slopes.h"
 #include "support/random_model.h"
 #include "support/test.h"
 
@@ -45,16 +46,6 @@ static void rows_are_a_little_less_than_the_gap(void **state) {
   }
 }
 
-static double difference(const ambulo__solid *s, double *y, int c) {
-  const double here = y[c], h = 1e-6;
-  y[c] = here + h;
-  double more = ambulo__solid_value(s, y, 1, NULL);
-  y[c] = here - h;
-  double less = ambulo__solid_value(s, y, 1, NULL);
-  y[c] = here;
-  return (more - less) / (2.0 * h);
-}
-
 static void slopes_are_those_of_the_value(void **state) {
   (void)state;
   random_source random = {6};
@@ -68,8 +59,9 @@ static void slopes_are_those_of_the_value(void **state) {
       y[OTHER + 3 + i] = s.ends[1][i] = y[ONE + 3 + i] + 0.02 * (i == 0) + 1e-5 * i;
     }
     (void)ambulo__solid_value(&s, y, 1, slope);
+    ambulo__curved row = {.form = AMBULO__CURVED_SOLID, .of.solid = s};
     for (int c = 0; c < CHANNELS; c++) {
-      double by = difference(&s, y, c);
+      double by = slope_by_difference(&row, y, c, 1e-6);
       if (s.kind == AMBULO__SOLID_BOX && fabs(slope[c] - by) > 1e-6)
         off++; /* where two ways out of a box are equally long */
       else

@@ -52,8 +52,9 @@ static void virtual_work(void **state) {
     cross(points + 3 * at, r.force + 3 * foot, r.moment + 3 * foot);
   }
   assert_int_equal(ambulo__ground_load_apply(&r.load, model, q, tau), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_gradient(mechanics, 1, q, zero, zero, NULL, NULL, weights, work,
-                                             rest, rest + MOST),
+  assert_int_equal(ambulo_mechanics_gradient(mechanics, 1, q, zero, zero,
+                                             &(ambulo_output_weights){.points = weights},
+                                             &(ambulo_motion_gradient){work, rest, rest + MOST}),
                    0);
   for (int i = 0; i < d; i++) assert_close(tau[i], -work[i], 1e-12);
   ambulo_mechanics_free(mechanics);

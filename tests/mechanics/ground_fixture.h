@@ -138,7 +138,7 @@ static inline void ground_case_open(ground_case *c, int number) {
   assert_non_null(b->reference_scratch);
   int regime = number < 0 ? 1 : number % 5;
   for (int i = 0; i < b->d * AMBULO__LANES; i++) {
-    b->q[i] = pose_value(&source, regime);
+    b->q[i] = random_pose(&source, regime);
     b->qd[i] = random_between(&source, -0.5, 0.5);
     b->qdd[i] = random_between(&source, -0.5, 0.5);
   }

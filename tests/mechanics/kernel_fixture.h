@@ -32,23 +32,6 @@ typedef struct kernel_case {
   void *reference_scratch;
 } kernel_case;
 
-/* Zero, small, moderate, large, near-singular: multiples of 90 degrees but for a little. */
-static inline double pose_value(random_source *source, int regime) {
-  double quarter = 0.5 * acos(-1);
-  switch (regime) {
-  case 0:
-    return 0;
-  case 1:
-    return random_between(source, -1, 1) * pow(10, random_between(source, -9, -2));
-  case 2:
-    return random_between(source, -3, 3);
-  case 3:
-    return random_between(source, -200, 200);
-  default:
-    return (random_below(source, 5) - 2) * quarter + random_between(source, -1e-9, 1e-9);
-  }
-}
-
 static inline double *lane_array(size_t count) {
   double *at = aligned_alloc(64, (count + 1) * 64);
   assert_non_null(at);
@@ -87,7 +70,7 @@ static inline void case_open(kernel_case *c, int number) {
   c->reference_scratch = malloc(ambulo_lagrangian_scratch_size(c->model));
   assert_non_null(c->reference_scratch);
   for (int i = 0; i < c->d * AMBULO__LANES; i++) {
-    c->q[i] = pose_value(&source, number % 5);
+    c->q[i] = random_pose(&source, number % random_poses);
     c->qd[i] = random_between(&source, -3, 3);
     c->qdd[i] = random_between(&source, -9, 9);
   }

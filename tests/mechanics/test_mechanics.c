@@ -104,8 +104,9 @@ static void check_jacobians_by_the_gradient(int number, int followers) {
   for (int i = 0; i < nodes * b.c.rows; i++) y[i] = random_between(&source, -1, 1);
   const double *yw = y + n, *yp = yw + 6 * nodes;
   assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, nodes, b.q, b.qd, b.qdd, &j), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd, y, yw, yp, g,
-                                             g + n, g + 2 * n),
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd,
+                                             &(ambulo_output_weights){y, yw, yp},
+                                             &(ambulo_motion_gradient){g, g + n, g + 2 * n}),
                    AMBULO_OK);
   const double *const tau[] = {j.tau_q, j.tau_qd, j.tau_qdd};
   const double *const wrench[] = {j.wrench_q, j.wrench_qd, j.wrench_qdd};
@@ -123,8 +124,9 @@ static void check_jacobians_by_the_gradient(int number, int followers) {
     }
     assert_true(difference(g + group * (int)n + node * d, 1, want, d, &where) < 1e-10);
   }
-  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd, NULL, NULL, NULL,
-                                             g, g + n, g + 2 * n),
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd,
+                                             &(ambulo_output_weights){NULL, NULL, NULL},
+                                             &(ambulo_motion_gradient){g, g + n, g + 2 * n}),
                    AMBULO_OK);
   for (size_t i = 0; i < 3 * n; i++) assert_true(g[i] == 0);
   double *const owned[] = {j.tau_q,      j.tau_qd,   j.tau_qdd, j.wrench_q, j.wrench_qd,
@@ -152,9 +154,10 @@ static void check_refused(batch *b, double *input, int at, double bad) {
                    AMBULO_E_NUMERIC);
   assert_int_equal(ambulo_mechanics_jacobians(b->mechanics, most_nodes, b->q, b->qd, b->qdd, &j),
                    AMBULO_E_NUMERIC);
-  assert_int_equal(ambulo_mechanics_gradient(b->mechanics, most_nodes, b->q, b->qd, b->qdd, b->qdd,
-                                             NULL, NULL, g, g + most_nodes * d,
-                                             g + 2 * most_nodes * d),
+  assert_int_equal(ambulo_mechanics_gradient(
+                       b->mechanics, most_nodes, b->q, b->qd, b->qdd,
+                       &(ambulo_output_weights){.tau = b->qdd},
+                       &(ambulo_motion_gradient){g, g + most_nodes * d, g + 2 * most_nodes * d}),
                    AMBULO_E_NUMERIC);
   assert_true(tau[0] == 7 && g[0] == 7);
   input[at] = good;
@@ -247,7 +250,13 @@ static void arguments_are_checked(void **state) {
                    AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, 1, x, NULL, x, x, NULL, NULL),
                    AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, x, NULL, NULL, x, NULL, x),
+  const ambulo_output_weights weights = {.tau = x};
+  const ambulo_motion_gradient whole = {x, x, x}, part = {x, NULL, x};
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, &weights, &part),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, &weights, NULL),
+                   AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, NULL, &whole),
                    AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, 1, x, x, x, NULL), AMBULO_E_ARGUMENT);
   ambulo_mechanics_free(NULL);

@@ -1,6 +1,7 @@
 /* What is measured at the point that the workspace holds: errors relative to sizes; and that
  * nothing in it takes NaN for zero. */
 #include "judge/candidates.h"
+#include "method/parameters.h"
 #include "support/engine_fixture.h"
 
 static void scatter(double *x, int n, double size) {
@@ -82,8 +83,53 @@ static void nan_is_no_zero(void **state) {
   engine_close(&f);
 }
 
+static void fill_at(engine_fixture *f, const double *x, double mu) {
+  assert_int_equal(ambulo__evaluate_jacobian(f->engine->workspace, x), AMBULO_OK);
+  assert_int_equal(ambulo__engine_fill_metric(f->engine, mu), 0);
+}
+
+/* largest difference of the base from what it is when filled afresh at `x` with mu */
+static double difference_from_fresh(engine_fixture *f, const double *x, double mu) {
+  ambulo__band *base = &f->engine->linearized.base;
+  size_t count = (size_t)base->n * (size_t)base->ld;
+  double *kept = malloc(count * sizeof *kept), worst = 0.0;
+  memcpy(kept, base->a, count * sizeof *kept);
+  f->engine->linearized.filled_mu = -1.0;
+  fill_at(f, x, mu);
+  for (size_t i = 0; i < count; i++) worst = fmax(worst, fabs(kept[i] - base->a[i]));
+  free(kept);
+  return worst;
+}
+
+/* H0 is kept over steps within the reach, mu follows; beyond, it is that of the point, wherever
+ * each of several short steps began */
+static void curvature_is_kept_nearby_only(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  double *moved = calloc((size_t)f.n, sizeof *moved);
+  for (int j = 0; j < f.n; j++) f.x[j] = 0.3 * sin(j);
+  fill_at(&f, f.x, 0.25);
+  for (int j = 0; j < f.n; j++) moved[j] = f.x[j] + 0.9 * AMBULO__METRIC_REACH;
+  fill_at(&f, moved, 0.5);
+  assert_true(difference_from_fresh(&f, moved, 0.5) > 1e-6);
+  f.engine->linearized.filled_mu = -1.0;
+  fill_at(&f, f.x, 0.25);
+  fill_at(&f, moved, 0.5);
+  assert_true(difference_from_fresh(&f, f.x, 0.5) <= 1e-12);
+  fill_at(&f, moved, 0.25);
+  moved[f.n / 2] += 0.2 * AMBULO__METRIC_REACH;
+  fill_at(&f, moved, 0.25);
+  assert_true(difference_from_fresh(&f, moved, 0.25) == 0.0);
+  moved[f.n / 2] = NAN;
+  assert_true(ambulo__evaluate_jacobian(f.engine->workspace, moved) != AMBULO_OK);
+  free(moved);
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(errors_are_relative_to_sizes),
+                                     cmocka_unit_test(curvature_is_kept_nearby_only),
                                      cmocka_unit_test(ends_count_among_the_equalities),
                                      cmocka_unit_test(nan_is_no_zero)};
   return cmocka_run_group_tests(tests, NULL, NULL);

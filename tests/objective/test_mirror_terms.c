@@ -4,6 +4,7 @@
 
 #include "ambulo/ambulo.h"
 #include "model/model.h"
+#include "model/neutral_pose.h"
 #include "support/fail_alloc.h"
 #include "support/messages.h"
 #include "support/test.h"
@@ -290,6 +291,57 @@ static void upright_lines_have_an_image(void **state) {
   line(&f, 1, "heel_l", "toe_l");
   f.terms[1].weight = 2.0;
   expect(&f, "another upright term of weight 1 on the other side");
+  /* only its direction counts: it may stand elsewhere, and in the other sense */
+  open_fixture(&f, 1, AMBULO_UPRIGHT);
+  line(&f, 0, "pelvis", "head_top");
+  for (int end = 0; end < 2; end++) f.model->points[f.terms[0].point[end]].position[2] += 0.1;
+  expect(&f, NULL);
+  open_fixture(&f, 2, AMBULO_UPRIGHT);
+  line(&f, 0, "heel_r", "toe_r");
+  line(&f, 1, "toe_l", "heel_l");
+  for (int end = 0; end < 2; end++) f.model->points[f.terms[1].point[end]].position[1] += 0.02;
+  expect(&f, NULL);
+}
+
+/* Ends on different links: each has to have its image, on the link's partner; a line may be the
+ * image of itself turned round. Neither the first end alone nor the direction at q = 0 tells. */
+static void upright_lines_over_joints_have_an_image(void **state) {
+  (void)state;
+  static const char other[] = "another upright term of weight 1 on the other side";
+  static const struct {
+    const char *line[2][2]; /* one or two */
+    const char *phrase;
+  } cases[] = {
+      {{{"heel_r", "heel_l"}}, NULL}, /* from foot to foot: it is its own image */
+      {{{"head_top", "heel_r"}},      /* the first end is its own image */
+       "is 0 m to the left at q = 0, 'heel_r' with 'subtalar_angle_r' -0."},
+      {{{"head_top", "heel_r"}, {"head_top", "heel_l"}}, NULL},
+      {{{"head_top", "heel_r"}, {"heel_l", "head_top"}}, NULL}, /* in either sense */
+      {{{"heel_r", "toe_l"}, {"heel_l", "toe_r"}}, NULL},
+      {{{"head_top", "heel_r"}, {"head_top", "toe_l"}}, other},
+      {{{"heel_r", "head_top"}, {"toe_l", "head_top"}}, other},
+  };
+  fixture f;
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    int count = cases[k].line[1][0] ? 2 : 1;
+    open_fixture(&f, count, AMBULO_UPRIGHT);
+    for (int t = 0; t < count; t++) line(&f, t, cases[k].line[t][0], cases[k].line[t][1]);
+    expect(&f, cases[k].phrase);
+  }
+  open_fixture(&f, 2, AMBULO_UPRIGHT); /* of the same direction, beside where it should be */
+  line(&f, 0, "heel_r", "toe_l");
+  line(&f, 1, "heel_l", "toe_r");
+  for (int end = 0; end < 2; end++) f.model->points[f.terms[1].point[end]].position[1] += 0.02;
+  expect(&f, "the line from 'heel_r' to 'toe_l' has no mirror image");
+  open_fixture(&f, 2, AMBULO_UPRIGHT); /* the same place at q = 0, on another link */
+  line(&f, 0, "head_top", "heel_r");
+  line(&f, 1, "head_top", "heel_l");
+  ambulo_point *heel = &f.model->points[point(&f, "heel_l")];
+  double place[3];
+  ambulo__neutral_place(f.model, heel->link, heel->position, place);
+  heel->link = ambulo_model_find_link(f.model, "shank_l");
+  ambulo__neutral_local(f.model, heel->link, place, heel->position);
+  expect(&f, "the line from 'head_top' to 'heel_r' has no mirror image");
 }
 
 /* tracking follows the data of one step: what they lack on one side is no difference */
@@ -337,6 +389,7 @@ int main(void) {
                                      cmocka_unit_test(curves_of_what_changes_its_sign),
                                      cmocka_unit_test(a_term_without_weight_is_left_alone),
                                      cmocka_unit_test(upright_lines_have_an_image),
+                                     cmocka_unit_test(upright_lines_over_joints_have_an_image),
                                      cmocka_unit_test(a_reference_may_lack_a_side),
                                      cmocka_unit_test(any_allocation_may_fail)};
   return cmocka_run_group_tests(tests, NULL, NULL);

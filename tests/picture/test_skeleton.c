@@ -1,6 +1,7 @@
 /* Stick figures: sides, and which lines exist. */
 #include "picture/skeleton.h"
 #include "support/arm.h"
+#include "support/toed_body.h"
 #include "support/walker_result.h"
 
 static void test_walker_has_legs_feet_and_a_head(void **state) {
@@ -43,6 +44,23 @@ static void test_a_whole_body_has_forearms_and_toes(void **state) {
   ambulo_model_free(model);
 }
 
+/* a tip that the ball goes with has no line of its own: those of the foot reach to the ball */
+static void test_toes_with_the_ball_are_part_of_the_foot(void **state) {
+  (void)state;
+  ambulo_model *model = toed_body();
+  ambulo__skeleton s;
+  assert_int_equal(ambulo__skeleton_create(model, NULL, &s), AMBULO_OK);
+  for (int foot = 0; foot < 2; foot++) {
+    int toes = model->points[model->feet[foot].tip].link, lines = 0;
+    assert_int_equal(toes, model->points[model->feet[foot].toe_center].link);
+    for (int b = 0; b < s.bone_count; b++)
+      lines += s.bones[b].link[0] == toes && s.bones[b].link[1] == toes;
+    assert_int_equal(lines, 0);
+  }
+  ambulo__skeleton_free(&s);
+  ambulo_model_free(model);
+}
+
 static void test_arm_has_two_links(void **state) {
   (void)state;
   ambulo_model *model = arm_create();
@@ -61,6 +79,7 @@ static void test_arm_has_two_links(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_walker_has_legs_feet_and_a_head),
                                      cmocka_unit_test(test_a_whole_body_has_forearms_and_toes),
+                                     cmocka_unit_test(test_toes_with_the_ball_are_part_of_the_foot),
                                      cmocka_unit_test(test_arm_has_two_links)};
   return cmocka_run_group_tests_name("picture/skeleton", tests, NULL, NULL);
 }

@@ -35,6 +35,26 @@ static inline int random_below(random_source *source, int limit) {
   return (int)(random_unit(source) * limit);
 }
 
+enum { random_poses = 5 };
+
+/* A coordinate, rad or m, in a regime below random_poses: zero, small, moderate, large,
+ * near-singular: multiples of 90 degrees but for a little. */
+static inline double random_pose(random_source *source, int regime) {
+  double quarter = 0.5 * acos(-1);
+  switch (regime) {
+  case 0:
+    return 0;
+  case 1:
+    return random_between(source, -1, 1) * pow(10, random_between(source, -9, -2));
+  case 2:
+    return random_between(source, -3, 3);
+  case 3:
+    return random_between(source, -200, 200);
+  default:
+    return (random_below(source, 5) - 2) * quarter + random_between(source, -1e-9, 1e-9);
+  }
+}
+
 typedef struct random_tree {
   ambulo_link links[random_max_links];
   ambulo_coordinate coordinates[random_max_links];

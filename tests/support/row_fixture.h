@@ -8,7 +8,8 @@
 
 enum { ROW_NODES = 5 };
 
-/* The walker for 1 s at nodes 0, 0.25, ... 1 with a cubic B-spline of 4 intervals. */
+/* A body, usually the walker, for 1 s at nodes 0, 0.25, ... 1 with a cubic B-spline of 4 intervals.
+ */
 typedef struct row_fixture {
   ambulo_model *model;
   ambulo__basis *basis;
@@ -20,9 +21,10 @@ typedef struct row_fixture {
   double *channel; /* [nodes][channels] */
 } row_fixture;
 
-static inline void row_fixture_open(row_fixture *f, int planar) {
+/* takes the body over */
+static inline void row_fixture_open_body(row_fixture *f, ambulo_model *body) {
   memset(f, 0, sizeof *f);
-  f->model = walker_create(planar);
+  f->model = body;
   f->definition = ambulo_problem_definition_default();
   f->definition.model = f->model;
   f->definition.intervals = ROW_NODES - 1;
@@ -47,6 +49,10 @@ static inline void row_fixture_open(row_fixture *f, int planar) {
           f->model, p, f->channel + k * count + ambulo__channel_point(&f->context.channels, p, 0));
     }
   }
+}
+
+static inline void row_fixture_open(row_fixture *f, int planar) {
+  row_fixture_open_body(f, walker_create(planar));
 }
 
 /* a grid on events: at `node` the foot was in contact `before` (-1: in the air) until then */

@@ -1,6 +1,6 @@
 /* support/toed_body.h - models/lower_body_18.yaml with a joint between foot and toes: a hinge about
- * the foot's z axis 2 cm behind its ball, which the ball and all points ahead of the joint go with.
- * Coordinates 18 and 19 are toes_r and toes_l. */
+ * the foot's z axis, which all points ahead of it go with: 2 cm behind the ball, and so the ball
+ * too, or ahead of it, and so the tip alone. Coordinates 18 and 19 are toes_r and toes_l. */
 #ifndef AMBULO_TESTS_TOED_BODY_H
 #define AMBULO_TESTS_TOED_BODY_H
 
@@ -17,12 +17,13 @@ typedef struct toed_parts {
 
 /* a fixed link that carries the frame to the joint, and the toes, whose frame is the foot's again
  */
-static inline void toed_joint(toed_parts *parts, int links, const ambulo_model *body, int foot) {
+static inline void toed_joint(toed_parts *parts, int links, const ambulo_model *body, int foot,
+                              double ahead) {
   static const char *const names[2][2] = {{"ball_joint_r", "toes_r"}, {"ball_joint_l", "toes_l"}};
   const ambulo_foot *f = &body->feet[foot];
   const double *ball = body->points[f->toe_center].position;
   int on = body->points[f->toe_center].link, at = links + 2 * foot;
-  double x = ball[0] - 0.02, y = 0.5 * ball[1];
+  double x = ball[0] + ahead, y = 0.5 * ball[1];
   ambulo_link *joint = &parts->links[at], *toes = joint + 1;
   *joint = *toes = ambulo_link_default();
   joint->name = names[foot][0];
@@ -54,7 +55,8 @@ static inline void toed_joint(toed_parts *parts, int links, const ambulo_model *
   c->range[1] = 1.0;
 }
 
-static inline ambulo_model *toed_body(void) {
+/* the hinge `ahead` of the ball, m */
+static inline ambulo_model *toed_body_with(double ahead) {
   ambulo_model *body = NULL, *toed = NULL;
   assert_int_equal(ambulo_model_load("models/lower_body_18.yaml", NULL, NULL, NULL, &body),
                    AMBULO_OK);
@@ -64,7 +66,7 @@ static inline ambulo_model *toed_body(void) {
   memcpy(parts->links, body->links, (size_t)links * sizeof *parts->links);
   memcpy(parts->coordinates, body->coordinates, (size_t)coordinates * sizeof *parts->coordinates);
   memcpy(parts->points, body->points, (size_t)body->point_count * sizeof *parts->points);
-  for (int foot = 0; foot < 2; foot++) toed_joint(parts, links, body, foot);
+  for (int foot = 0; foot < 2; foot++) toed_joint(parts, links, body, foot, ahead);
   ambulo_model_definition definition = ambulo_model_definition_default();
   definition.name = "toed body";
   definition.links = parts->links;
@@ -85,6 +87,10 @@ static inline ambulo_model *toed_body(void) {
   free(parts);
   ambulo_model_free(body);
   return toed;
+}
+
+static inline ambulo_model *toed_body(void) {
+  return toed_body_with(-0.02);
 }
 
 #endif

@@ -15,12 +15,7 @@ static ambulo_sweep *loaded(void **state, const char *text) {
 }
 
 static void refused(void **state, const char *text, const char *message) {
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_sweep *sweep = NULL;
-  assert_int_not_equal(sweep_load(state, text, list, &sweep), AMBULO_OK);
-  assert_null(sweep);
-  assert_message(list, 0, message);
-  ambulo_diagnostics_free(list);
+  sweep_refused_over(state, sweep_problem, text, message);
 }
 
 static ambulo_case case_of(const ambulo_sweep *sweep, int index) {

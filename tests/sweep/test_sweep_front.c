@@ -13,28 +13,17 @@ static const char problem[] =
     "  - {term: torque_rate, weight: 0}\n";
 
 static ambulo_status load(void **state, const char *text, const ambulo_allocator *allocator,
-                          ambulo_diagnostics *list, ambulo_sweep **sweep) {
-  char whole[2048];
-  (void)snprintf(whole, sizeof whole, "ambulo: 1\nkind: sweep\nname: s\nbase: p.yaml\n%s", text);
-  scratch_write(scratch_path(state, "p.yaml"), problem);
-  scratch_write(scratch_path(state, "one.yaml"), sweep_model);
-  scratch_write(scratch_path(state, "s.yaml"), whole);
-  return ambulo_sweep_load(scratch_path(state, "s.yaml"), allocator, list, sweep);
+                          ambulo_sweep **sweep) {
+  return sweep_load_over(state, problem, text, allocator, NULL, sweep);
 }
 
 static void refused(void **state, const char *text, const char *message) {
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_sweep *s = NULL;
-  assert_int_not_equal(load(state, text, NULL, list, &s), AMBULO_OK);
-  assert_null(s);
-  assert_message(list, 0, message);
-  ambulo_diagnostics_free(list);
+  sweep_refused_over(state, problem, text, message);
 }
 
 static void ends_are_cases(void **state) {
   ambulo_sweep *s = NULL;
-  assert_int_equal(load(state, "front: {terms: [rest, torque_squared]}\n", NULL, NULL, &s),
-                   AMBULO_OK);
+  assert_int_equal(load(state, "front: {terms: [rest, torque_squared]}\n", NULL, &s), AMBULO_OK);
   assert_int_equal(ambulo_sweep_front_points(s), 12);
   assert_int_equal(ambulo_sweep_case_count(s), 2);
   assert_int_equal(ambulo_sweep_axis_count(s), 2);
@@ -52,7 +41,7 @@ static void ends_are_cases(void **state) {
   assert_int_equal(load(state,
                         "front: {terms: [rest, acceleration, torque_squared], points: 30, least: "
                         "0.05}\nstart_from: neighbour\n",
-                        NULL, NULL, &s),
+                        NULL, &s),
                    AMBULO_OK);
   assert_int_equal(ambulo_sweep_front_points(s), 30);
   assert_int_equal(ambulo_sweep_case_count(s), 3);
@@ -61,7 +50,7 @@ static void ends_are_cases(void **state) {
   assert_int_equal(s->front.neighbour, 1);
   ambulo_sweep_free(s);
   s = NULL;
-  assert_int_equal(load(state, "axes:\n  - {key: time.duration, values: [1]}\n", NULL, NULL, &s),
+  assert_int_equal(load(state, "axes:\n  - {key: time.duration, values: [1]}\n", NULL, &s),
                    AMBULO_OK);
   assert_int_equal(ambulo_sweep_front_points(s), 0);
   ambulo_sweep_free(s);
@@ -102,7 +91,7 @@ static void points_are_appended_once(void **state) {
                         "front: {terms: [rest, torque_squared]}\n"
                         "outputs: [objective, {output: duration, label: d, unit: s}]\n"
                         "limits: {seconds: 7}\n",
-                        NULL, NULL, &s),
+                        NULL, &s),
                    AMBULO_OK);
   assert_int_equal(ambulo__sweep_clone_front(s, &t), AMBULO_OK);
   assert_int_equal(ambulo_sweep_case_count(t), 0);
@@ -145,7 +134,7 @@ static void memory_may_run_out_anywhere(void **state) {
     ambulo_status status = load(state,
                                 "front: {terms: [rest, torque_squared]}\n"
                                 "outputs: [objective]\n",
-                                &allocator, NULL, &s);
+                                &allocator, &s);
     if (!status) status = ambulo__sweep_clone_front(s, &t);
     if (!status) status = ambulo__sweep_append_point(t, &request, NULL, &index);
     assert_true(status == AMBULO_OK || status == AMBULO_E_MEMORY);

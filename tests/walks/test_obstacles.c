@@ -116,17 +116,12 @@ static void expect_box(const char *name, double longest) {
     double share = s == 0 || s == 500 ? 0.5 / 500.0 : 1.0 / 500.0;
     for (int f = 0; f < 2; f++) weight += share * ambulo__stride_force(&stride, s, f, m->up);
   }
-  assert_close(weight, 1.0,
-               2e-3); /* body weights with the load: mean force of a motion that ends as it began */
-  assert_close(m->mass, 85.0, 1e-4);
+  /* mean force of a motion that ends as it began, in weights of the body alone */
+  assert_close(weight, 85.0 / 75.0, 2e-3);
+  assert_close(m->mass, 75.0, 1e-4);
   ambulo__stride_free(&stride);
   ambulo__pose_free(&pose);
   close_task(&k);
-}
-
-static void a_box_to_a_table(void **state) {
-  (void)state;
-  expect_box("lift", 0.34);
 }
 
 static void a_box_while_walking(void **state) {
@@ -137,7 +132,6 @@ static void a_box_while_walking(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(over_a_beam), cmocka_unit_test(under_a_ceiling),
-      cmocka_unit_test(to_a_place_behind_a_fence), cmocka_unit_test(a_box_to_a_table),
-      cmocka_unit_test(a_box_while_walking)};
+      cmocka_unit_test(to_a_place_behind_a_fence), cmocka_unit_test(a_box_while_walking)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

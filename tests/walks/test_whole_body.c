@@ -130,7 +130,90 @@ static void locked_arms_cost_more(void **state) {
   close_walk(&locked);
 }
 
-/* toes of their own: off the ground nowhere below it, bent by more than 30 degrees at push-off */
+/* the lowest tip of a loaded foot at the nodes, m above the ground: inverse dynamics of its own
+ * tells where points are */
+static double lowest_loaded_tip(const walk *w) {
+  const ambulo_model *m = w->problem->model;
+  ambulo__stride nodes;
+  assert_int_equal(ambulo__stride_create(w->problem, ambulo_result_x(w->result), 0, NULL, &nodes),
+                   AMBULO_OK);
+  size_t d = (size_t)nodes.coordinates;
+  double *zero = calloc(2 * d, sizeof *zero), least = INFINITY, wrench[6];
+  double(*points)[3] = malloc((size_t)m->point_count * sizeof *points);
+  void *scratch = malloc(ambulo_lagrangian_scratch_size(m));
+  assert_true(zero && points && scratch);
+  for (int k = 0; k < nodes.samples; k++) {
+    assert_int_equal(ambulo_lagrangian_inverse_dynamics(m, nodes.q + (size_t)k * d, zero, zero,
+                                                        zero + d, wrench, points[0], scratch),
+                     AMBULO_OK);
+    for (int foot = 0; foot < 2; foot++)
+      if (ambulo__stride_contact(&nodes, foot, nodes.times[k]))
+        least = fmin(least, points[m->feet[foot].tip][1]);
+  }
+  free(scratch);
+  free(points);
+  free(zero);
+  ambulo__stride_free(&nodes);
+  return least;
+}
+
+/* largest difference of the gradients of the rows that keep the left tip above the ground from
+ * central differences, over one control point in the middle; their number */
+static double tip_gradient_error(const walk *w, int *rows) {
+  enum { STEPS = 2 };
+  static const double step = 1e-5;
+  const ambulo_problem *p = w->problem;
+  int n = ambulo_problem_variable_count(p), count = ambulo_problem_row_count(p);
+  int first = n / 2 - n / 2 % w->stride.coordinates;
+  double worst = 0.0, objective, *x = malloc((size_t)n * sizeof *x);
+  double *gradient = malloc((size_t)n * sizeof *gradient);
+  double *value = malloc((size_t)(STEPS * count) * sizeof *value);
+  ambulo_workspace *workspace = NULL;
+  ambulo_row row;
+  assert_true(x && gradient && value);
+  assert_int_equal(ambulo_workspace_create(p, NULL, &workspace), AMBULO_OK);
+  memcpy(x, ambulo_result_x(w->result), (size_t)n * sizeof *x);
+  *rows = 0;
+  for (int i = first; i < first + w->stride.coordinates; i++) {
+    double before = x[i];
+    for (int side = 0; side < STEPS; side++) {
+      x[i] = before + (side ? step : -step);
+      assert_int_equal(
+          ambulo_problem_evaluate(p, workspace, x, &objective, NULL, value + side * count),
+          AMBULO_OK);
+    }
+    x[i] = before;
+    for (int r = 0; r < count; r++) {
+      assert_int_equal(ambulo_problem_row(p, r, &row), AMBULO_OK);
+      if (strcmp(row.family, "contact") || strcmp(row.subject, "toe_l")) continue;
+      assert_int_equal(ambulo_problem_row_gradient(p, workspace, x, r, gradient), AMBULO_OK);
+      worst = fmax(worst, fabs((value[count + r] - value[r]) / (2.0 * step) - gradient[i]));
+      *rows += i == first;
+    }
+  }
+  ambulo_workspace_free(workspace);
+  free(value);
+  free(gradient);
+  free(x);
+  return worst;
+}
+
+/* toes of their own: while the foot is loaded they rest on the ground, as far below it as contacts
+ * may be and no further */
+static void loaded_toes_stay_above_the_ground(void **state) {
+  (void)state;
+  walk w;
+  open_walk(&w, "walk_whole_body_45.yaml", NULL, 0);
+  double e = w.problem->definition.contact_tolerance, least = lowest_loaded_tip(&w);
+  if (!(least >= -e - 1e-6 && least < 0.0)) fail_msg("a loaded tip is at %g m", least);
+  int rows;
+  double error = tip_gradient_error(&w, &rows);
+  assert_true(rows > 40);
+  if (!(error < 1e-8)) fail_msg("a row's gradient is off by %g", error);
+  close_walk(&w);
+}
+
+/* toes of their own bend by more than 30 degrees at push-off */
 static void toes_bend_at_push_off(void **state) {
   (void)state;
   walk w;
@@ -151,6 +234,7 @@ int main(void) {
       cmocka_unit_test(arms_swing_against_the_legs),
       cmocka_unit_test(arms_swing_further_the_faster),
       cmocka_unit_test(locked_arms_cost_more),
+      cmocka_unit_test(loaded_toes_stay_above_the_ground),
       cmocka_unit_test(toes_bend_at_push_off),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,36 @@
+/* ambulo/extend.h - terms and rows added to a problem that is there, from a file or from C. */
+#ifndef AMBULO_EXTEND_H
+#define AMBULO_EXTEND_H
+
+#include "ambulo/problem.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is added to a problem that is there, whatever it was made from: a term or a row of the
+ * caller's own on a walk of a file. Borrowed during the call only, except the callbacks' user
+ * pointers, which must outlive the problem. */
+typedef struct ambulo_extension {
+  int cookie;               /* set by ambulo_extension_default() */
+  const ambulo_term *terms; /* of any kind; they follow the problem's own */
+  int term_count;
+  const ambulo_user_row *user_rows; /* likewise */
+  int user_row_count;
+} ambulo_extension;
+AMBULO_API ambulo_extension ambulo_extension_default(void); /* nothing */
+
+/* `problem` with the extension: the same unknowns, rows and terms before those that are added,
+ * options, and free parameters (parameters.h), whose values are tried with the extension as well.
+ * It uses the model of `problem`, before which it must be freed. Errors: as ambulo_problem_create;
+ * E_ARGUMENT for an extension that did not come from ambulo_extension_default(). */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_extend(const ambulo_problem *problem,
+                                                                const ambulo_extension *extension,
+                                                                const ambulo_allocator *allocator,
+                                                                ambulo_diagnostics *diagnostics,
+                                                                ambulo_problem **extended);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,123 @@
+"""Inverse dynamics of given motions, on arrays."""
+
+from typing import NamedTuple, Optional
+
+import numpy
+
+from ._native import Call, Handle, Owner, ffi, lib
+from .model import InverseDynamics, Model
+
+NULL = ffi.NULL
+
+
+class Gradient(NamedTuple):
+    """Of one weighted sum, each [n][d]."""
+
+    q: numpy.ndarray
+    qd: numpy.ndarray
+    qdd: numpy.ndarray
+
+
+class Jacobians(NamedTuple):
+    """n nodes, d coordinates, p points."""
+
+    tau_q: numpy.ndarray
+    """[n][d][d]: rows are those of tau."""
+    tau_qd: numpy.ndarray
+    tau_qdd: numpy.ndarray
+    """The mass matrix."""
+    wrench_q: numpy.ndarray
+    """[n][6][d]."""
+    wrench_qd: numpy.ndarray
+    wrench_qdd: numpy.ndarray
+    points_q: numpy.ndarray
+    """[n][3 p][d]."""
+
+
+def array_of(values, shape, what) -> numpy.ndarray:
+    """C-contiguous doubles of a shape, which is checked."""
+    values = numpy.ascontiguousarray(values, dtype=float)
+    if values.shape != tuple(shape):
+        raise ValueError(f"{what} is an array {list(values.shape)}; expected {list(shape)}")
+    return values
+
+
+def doubles(array: Optional[numpy.ndarray]):
+    """The memory of an array as `double *`; NULL for None."""
+    return NULL if array is None else ffi.from_buffer("double[]", array)
+
+
+class Mechanics(Owner):
+    """Inverse dynamics of a model, with its scratch memory: for one thread at a time.
+
+    >>> with ambulo.Mechanics(model) as mechanics:
+    ...     tau = mechanics.inverse_dynamics(q, qd, qdd).tau
+
+    Motions are arrays [n][d]: one row for each time, one column for each of
+    ``model.coordinate_names``; rad or m, and per second. Rates that are left out are zero. Pass many
+    times at once: eight are computed together.
+    """
+
+    def __init__(self, model: Model):
+        out = ffi.new("ambulo_mechanics **")
+        with Call() as call:
+            call(lib.ambulo_mechanics_create(model._pointer, NULL, out))
+        self._handle = Handle(out[0], lib.ambulo_mechanics_free, model._handle)
+        self.model = model
+        self._coordinates = lib.ambulo_model_coordinate_count(model._pointer)
+        self._points = lib.ambulo_model_point_count(model._pointer)
+
+    def _motion(self, q, qd, qdd):
+        q = numpy.ascontiguousarray(q, dtype=float)
+        if q.ndim != 2 or q.shape[1] != self._coordinates or len(q) < 1:
+            raise ValueError(f"q is an array {list(q.shape)}; expected [n][{self._coordinates}]")
+        qd = numpy.zeros_like(q) if qd is None else array_of(qd, q.shape, "qd")
+        qdd = numpy.zeros_like(q) if qdd is None else array_of(qdd, q.shape, "qdd")
+        return q, qd, qdd
+
+    def inverse_dynamics(self, q, qd=None, qdd=None) -> InverseDynamics:
+        """Torques, root wrench and points; no force acts but gravity."""
+        q, qd, qdd = self._motion(q, qd, qdd)
+        n = len(q)
+        tau, wrench = numpy.empty_like(q), numpy.empty((n, 6))
+        points = numpy.empty((n, self._points, 3))
+        with Call() as call:
+            call(lib.ambulo_mechanics_inverse_dynamics(
+                self._pointer, n, doubles(q), doubles(qd), doubles(qdd), doubles(tau),
+                doubles(wrench), doubles(points)))
+        return InverseDynamics(tau, wrench, points)
+
+    def gradient(self, q, qd=None, qdd=None, *, tau_weights=None, wrench_weights=None,
+                 point_weights=None) -> Gradient:
+        """Gradient of the sum of all outputs, each times its weight (arrays in the shapes of
+        ``InverseDynamics``), with respect to q, qd and qdd: one reverse sweep."""
+        q, qd, qdd = self._motion(q, qd, qdd)
+        n = len(q)
+        weights = [None if values is None else array_of(values, shape, what)
+                   for values, shape, what in (
+                       (tau_weights, q.shape, "tau_weights"),
+                       (wrench_weights, (n, 6), "wrench_weights"),
+                       (point_weights, (n, self._points, 3), "point_weights"))]
+        found = Gradient(*(numpy.empty_like(q) for _ in range(3)))
+        memory = [doubles(array) for array in (*weights, *found)]
+        with Call() as call:
+            call(lib.ambulo_mechanics_gradient(
+                self._pointer, n, doubles(q), doubles(qd), doubles(qdd),
+                ffi.new("ambulo_output_weights *", memory[:3]),
+                ffi.new("ambulo_motion_gradient *", memory[3:])))
+        return found
+
+    def jacobians(self, q, qd=None, qdd=None) -> Jacobians:
+        """All derivatives of torques, root wrench and points."""
+        q, qd, qdd = self._motion(q, qd, qdd)
+        n, d = q.shape
+        shapes = [(n, d, d)] * 3 + [(n, 6, d)] * 3 + [(n, 3 * self._points, d)]
+        found = Jacobians(*(numpy.empty(shape) for shape in shapes))
+        struct = ffi.new("ambulo_jacobians *")
+        memory = [doubles(array) for array in found]
+        for name, pointer in zip(Jacobians._fields, memory):
+            setattr(struct, name, pointer)
+        with Call() as call:
+            call(lib.ambulo_mechanics_jacobians(self._pointer, n, doubles(q), doubles(qd),
+                                                doubles(qdd), struct))
+        return found

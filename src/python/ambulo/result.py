@@ -1,0 +1,194 @@
+"""What a solve found, and how good it is."""
+
+import json
+from typing import Any, Dict, List, Optional
+
+import numpy
+
+from . import _records as records
+from ._native import Call, Handle, Owner, ffi, lib, path_of, text_of
+from .errors import Message
+from .motion import Motion
+from .records import Carrier, from_c
+
+NULL = ffi.NULL
+
+
+class Result(Owner):
+    """The point that a solve ended at; made by ``Problem.solve`` and its kin.
+
+    Three facts are kept apart: that there is a result at all (the call was legal), its ``verdict``
+    (what the point is), and its ``audit`` (how good it is). ``problem`` is the problem it belongs
+    to, which with free parameters is the one at their best values.
+    """
+
+    def __init__(self, problem, pointer, messages: List[Message]):
+        self._handle = Handle(pointer, lib.ambulo_result_free, problem._handle)
+        self.problem = problem._twin()
+        self.messages = messages
+
+    # -------------------------------------------------------------------- point
+
+    @property
+    def verdict(self) -> records.Verdict:
+        """OPTIMAL, FEASIBLE, INFEASIBLE, ...; prints as "optimal"."""
+        return records.Verdict(lib.ambulo_result_verdict(self._pointer))
+
+    @property
+    def is_solution(self) -> bool:
+        """Whether the motion can be used: verdict optimal or feasible."""
+        return bool(lib.ambulo_verdict_is_solution(lib.ambulo_result_verdict(self._pointer)))
+
+    def _array(self, pointer, *shape) -> numpy.ndarray:
+        size = int(numpy.prod(shape))
+        if pointer == NULL or not size:
+            return numpy.full(shape, numpy.nan)
+        return numpy.frombuffer(ffi.buffer(pointer, 8 * size), dtype=float).reshape(shape).copy()
+
+    @property
+    def x(self) -> numpy.ndarray:
+        """The unknowns [control_points][d]."""
+        count = self.problem.control_point_count
+        return self._array(lib.ambulo_result_x(self._pointer), count,
+                           self.problem.variable_count // count)
+
+    @property
+    def objective(self) -> float:
+        return lib.ambulo_result_objective(self._pointer)
+
+    @property
+    def terms(self) -> Dict[str, float]:
+        """Terms of the objective by name, weighted; of several of one name the sum."""
+        names = self.problem.term_names
+        values = self._array(lib.ambulo_result_terms(self._pointer), len(names))
+        found: Dict[str, float] = {}
+        for name, value in zip(names, values):
+            found[name] = found.get(name, 0.0) + float(value)
+        return found
+
+    @property
+    def rows(self) -> numpy.ndarray:
+        """Values of the rows, each in its unit; ``problem.rows()`` describes them."""
+        return self._array(lib.ambulo_result_rows(self._pointer), self.problem.row_count)
+
+    @property
+    def multipliers(self) -> numpy.ndarray:
+        """[row_count]: of the Lagrangian f - sum of multiplier times row."""
+        return self._array(lib.ambulo_result_multipliers(self._pointer), self.problem.row_count)
+
+    def motion(self, times=None) -> Motion:
+        """The motion at ``times`` in [0, duration]; None: the time nodes; a whole number: so many
+        equally spaced ones."""
+        if isinstance(times, int):
+            times = numpy.linspace(0.0, self.problem.duration, times)
+        return self.problem.motion(self.x, times)
+
+    # --------------------------------------------------------------- how good it is
+
+    def _optional(self, pointer, kind):
+        return None if pointer == NULL else from_c(kind, pointer)
+
+    @property
+    def audit(self) -> records.Audit:
+        return from_c(records.Audit, lib.ambulo_result_audit(self._pointer))
+
+    @property
+    def dense_audit(self) -> Optional[records.DenseAudit]:
+        """What happens between the nodes; None: nothing is known."""
+        return self._optional(lib.ambulo_result_dense_audit(self._pointer), records.DenseAudit)
+
+    @property
+    def families(self) -> List[records.Violation]:
+        """Worst violation of each family of rows."""
+        pointer = self._pointer
+        return [from_c(records.Violation, lib.ambulo_result_family(pointer, i))
+                for i in range(lib.ambulo_result_family_count(pointer))]
+
+    @property
+    def explanation(self) -> Optional[records.Explanation]:
+        """Why there is no solution; None where there is one."""
+        return self._optional(lib.ambulo_result_explanation(self._pointer), records.Explanation)
+
+    @property
+    def iterations(self) -> int:
+        return lib.ambulo_result_iterations(self._pointer)
+
+    @property
+    def evaluations(self) -> int:
+        return lib.ambulo_result_evaluations(self._pointer)
+
+    @property
+    def timing(self) -> records.Timing:
+        """Wall time and where it went, s."""
+        return from_c(records.Timing, lib.ambulo_result_timing(self._pointer))
+
+    @property
+    def nlopt(self) -> records.NloptWork:
+        return from_c(records.NloptWork, lib.ambulo_result_nlopt(self._pointer))
+
+    @property
+    def starts(self) -> Optional[records.Starts]:
+        """Valleys that several starts ended in; None for one start."""
+        return self._optional(lib.ambulo_result_starts(self._pointer), records.Starts)
+
+    @property
+    def ending(self) -> str:
+        """Why the solver ended, in words."""
+        return text_of(lib.ambulo_result_ending(self._pointer))
+
+    @property
+    def ending_code(self) -> records.Ending:
+        return records.Ending(lib.ambulo_result_ending_code(self._pointer))
+
+    @property
+    def parameters(self) -> Optional[records.ParametersOutcome]:
+        """What became of free parameters; None without."""
+        return self._optional(lib.ambulo_result_parameters(self._pointer),
+                              records.ParametersOutcome)
+
+    # ----------------------------------------------------------- sensitivities
+
+    def sensitivities(self) -> List[records.Sensitivity]:
+        """What each number of the problem costs at this optimum, dearest first; empty where the
+        point is not optimal. ``ambulo.to_pandas(result.sensitivities())`` makes a table."""
+        out = ffi.new("ambulo_sensitivity_list **")
+        with Call() as call:
+            call(lib.ambulo_sensitivities(self.problem._pointer, self._pointer, NULL, out))
+        made = ffi.gc(out[0], lib.ambulo_sensitivities_free)
+        return from_c(records.SensitivityList, made).items
+
+    # ------------------------------------------------------------------- output
+
+    def summary(self) -> Dict[str, Any]:
+        """What summary.json says (docs/results.md)."""
+        out = ffi.new("char **")
+        with Call() as call:
+            call(lib.ambulo_report_summary(self.problem._pointer, self._pointer, NULL, out))
+        text = text_of(out[0])
+        lib.ambulo_text_free(out[0], NULL)
+        return json.loads(text)
+
+    def write(self, folder, *, samples: int = 0, overwrite: bool = False, norms=None) -> None:
+        """Writes the result folder that ``ambulo solve`` writes, all or nothing: summary.json,
+        motion.csv at the nodes or ``samples`` equally spaced times, motion.sto, solution.yaml,
+        gait.svg with curves of people from the folder ``norms`` behind."""
+        carrier = Carrier()
+        options = carrier.new(records.ReportOptions(
+            samples=samples, overwrite=int(overwrite), norms=None if norms is None else str(norms)))
+        with Call() as call:
+            call(lib.ambulo_report_write(self.problem._pointer, self._pointer, path_of(folder),
+                                         options, NULL, call.messages))
+
+    def rows_to_pandas(self):
+        """All rows with their values and multipliers, a pandas.DataFrame."""
+        from .tables import to_pandas
+
+        table = to_pandas(self.problem.rows())
+        return table.assign(value=self.rows, multiplier=self.multipliers)
+
+    def __repr__(self):
+        if self._handle is None:
+            return "<Result, closed>"
+        worst = self.audit.violation
+        return (f"<Result of {self.problem.name}: {self.verdict}, objective {self.objective:.6g}, "
+                f"violation {worst.worst:.1e} {worst.unit or ''}>".replace(" >", ">"))

@@ -1,0 +1,12 @@
+/* report/holds_json.h - the part of summary.json about what hands hold. */
+#ifndef AMBULO_REPORT_HOLDS_JSON_H
+#define AMBULO_REPORT_HOLDS_JSON_H
+
+#include "ambulo/solve.h"
+#include "format/json_text.h"
+
+/* The member "held"; none where nothing is. E_MEMORY. */
+ambulo_status ambulo__holds_json(ambulo__json *json, const ambulo_problem *problem,
+                                 const ambulo_result *result);
+
+#endif
