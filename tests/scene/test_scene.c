@@ -163,20 +163,29 @@ static void seats_and_places(void **state) {
     assert_true(ambulo__yaml_numbers(ambulo__yaml_item(surface, i), 3, corner));
     for (int axis = 0; axis < 3; axis++) mean[axis] += 0.25 * corner[axis];
   }
-  assert_close(mean[0], -0.17, 1e-4);
-  assert_close(mean[2], 0.45, 1e-4);
+  const ambulo_contact *held = sit.problem->definition.contacts;
+  while (held->mode != AMBULO_CONTACT_PATCH) held++;
+  for (int axis = 0; axis < 3; axis++) assert_close(mean[axis], held->place[axis], 1e-4);
   (void)scene_named(ambulo__yaml_get(sit.read.root, "forces"), "seat");
   shut_scene(&sit);
 
-  scene lift = open_scene("models/lift.yaml", NULL, 0, NULL, 1.0);
-  const ambulo__yaml_node *places = ambulo__yaml_get(lift.read.root, "places");
-  assert_int_equal(ambulo__yaml_items(places), 2); /* not the one that is relative */
-  const ambulo__yaml_node *worn = ambulo__yaml_get(lift.read.root, "worn");
+  static const char *const load[] = {"load=[{link: thorax, mass: 8, position: [0, 0, 0]}, {link: "
+                                     "pelvis, mass: 2, position: [0, 0, 0]}]"};
+  scene carrying = open_scene("models/walk.yaml", load, 1, NULL, 1.0);
+  const ambulo__yaml_node *worn = ambulo__yaml_get(carrying.read.root, "worn");
   assert_int_equal(ambulo__yaml_items(worn), 2);
   for (int i = 0; i < 2; i++)
-    assert_close(ambulo__yaml_number(ambulo__yaml_get(ambulo__yaml_item(worn, i), "mass"), 0), 5,
-                 0);
-  shut_scene(&lift);
+    assert_close(ambulo__yaml_number(ambulo__yaml_get(ambulo__yaml_item(worn, i), "mass"), 0),
+                 i ? 2 : 8, 0);
+  shut_scene(&carrying);
+
+  scene reach = open_scene("models/reach_standing.yaml", NULL, 0, NULL, 1.0);
+  const ambulo_problem_definition *d = &reach.problem->definition;
+  int places = 0; /* not those that are relative */
+  for (int i = 0; i < d->reach_count; i++) places += !d->reaches[i].is_relative;
+  assert_true(places > 0);
+  assert_int_equal(ambulo__yaml_items(ambulo__yaml_get(reach.read.root, "places")), places);
+  shut_scene(&reach);
 }
 
 static void people_beside_a_walk(void **state) {
