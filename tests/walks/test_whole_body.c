@@ -256,11 +256,8 @@ int main(void) {
       cmocka_unit_test(arms_swing_against_the_legs),
       cmocka_unit_test(arms_swing_further_the_faster),
       cmocka_unit_test(locked_arms_cost_more),
-<<<<<<< HEAD
       cmocka_unit_test(loaded_toes_stay_above_the_ground),
-=======
       cmocka_unit_test(running_arms_swing_on_bent_elbows),
->>>>>>> h-flight
       cmocka_unit_test(toes_bend_at_push_off),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
