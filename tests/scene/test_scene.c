@@ -188,6 +188,22 @@ static void seats_and_places(void **state) {
   shut_scene(&reach);
 }
 
+/* a body between two hands, which are two points of its own list */
+static void what_hands_hold(void **state) {
+  (void)state;
+  scene lift = open_scene("models/lift.yaml", NULL, 0, NULL, 1.0);
+  const ambulo_hold *hold = lift.problem->definition.holds;
+  const ambulo__yaml_node *held = ambulo__yaml_get(lift.read.root, "held");
+  assert_int_equal(ambulo__yaml_items(held), lift.problem->definition.hold_count);
+  const ambulo__yaml_node *box = scene_named(held, hold->name);
+  int one = ambulo__yaml_integer(ambulo__yaml_get(box, "one"), 0, 9999, -1);
+  int other = ambulo__yaml_integer(ambulo__yaml_get(box, "other"), 0, 9999, -1);
+  assert_int_not_equal(one, other);
+  assert_close(ambulo__yaml_number(ambulo__yaml_get(box, "mass"), 0), hold->mass, 0);
+  assert_close(ambulo__yaml_number(ambulo__yaml_get(box, "from"), 0), hold->from, 1e-12);
+  shut_scene(&lift);
+}
+
 static void people_beside_a_walk(void **state) {
   (void)state;
   ambulo__people people;
@@ -250,6 +266,7 @@ int main(void) {
       cmocka_unit_test(curves_are_the_strides),
       cmocka_unit_test(surroundings_are_the_problems),
       cmocka_unit_test(seats_and_places),
+      cmocka_unit_test(what_hands_hold),
       cmocka_unit_test(people_beside_a_walk),
       cmocka_unit_test(a_motion_that_is_not_finite),
       cmocka_unit_test(memory_may_run_out_anywhere),
