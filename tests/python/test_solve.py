@@ -85,7 +85,7 @@ class Results(Case):
         result.write(self.folder / "out", samples=9)
         names = {path.name for path in (self.folder / "out").iterdir()}
         self.assertEqual(names, {"summary.json", "motion.csv", "motion.sto", "solution.yaml",
-                                 "gait.svg"})
+                                 "gait.svg", "scene.json"})
         self.assertEqual(result.summary()["objective"]["total"], result.objective)
         self.fails("E_IO", result.write, self.folder / "out")
         result.write(self.folder / "out", overwrite=True)
