@@ -87,7 +87,7 @@ measured() { # FILE
     }' other/motion.sto >"$1"
 }
 alike() { # CURVE LEAST CORRELATION, of compared.json
-  grep -o "\"$1\": {[^}]*" compared.json | grep -o '"r": [-0-9.]*' |
+  tr '\n' ' ' <compared.json | grep -o "\"$1\": {[^}]*" | grep -o '"r": [-0-9.]*' |
     awk -v least="$2" '{ print; good = $2 >= least } END { exit !good }'
 }
 opensim() {
@@ -130,7 +130,7 @@ latin_hypercube:
     - {key: subject.stature, name: stature, range: [1.5, 1.95]}
     - {key: subject.mass, name: mass, range: [50, 100]}
 axes:
-  - {key: "devices[ankle_spring_r].stiffness", name: stiffness, values: [0, 180]}
+  - {key: "devices[ankle_spring_r].stiffness", name: stiffness, values: [1, 180]}
 outputs: [objective, {output: min(tau.ankle_angle_r), label: ankle, unit: N m}]
 END
   check 'the list of cases' "$AMBULO" batch study.yaml --dry-run
