@@ -7,6 +7,8 @@ import sys
 
 import pandas
 
+ANKLE = "min(tau.ankle_angle_r)"
+
 
 def main():
     table = pandas.read_csv(sys.argv[1])
@@ -14,13 +16,13 @@ def main():
     wide = table[table.state == "optimal"].pivot(index=["stature", "mass"], columns="stiffness", values="objective")
     whole = wide.dropna()
     saved = 100 * (1 - whole[180] / whole[1])
-    ankle = table[table.state == "optimal"].groupby("stiffness").ankle.mean()
+    ankle = table[table.state == "optimal"].groupby("stiffness")[ANKLE].mean()
     print(f"{len(table)} walks, {len(whole)} subjects with both; the spring saves "
           f"{saved.min():.1f} to {saved.max():.1f} % of the objective")
     checks = {
         "a row for each walk": len(table) == 2 * subjects,
         "at least 95 % of subjects with both": len(whole) >= 0.95 * subjects,
-        "numbers are numbers": all(table[c].dtype.kind in "fi" for c in ("stature", "mass", "objective", "ankle")),
+        "numbers are numbers": all(table[c].dtype.kind in "fi" for c in ("stature", "mass", "objective", ANKLE)),
         "the spring saves everybody something": len(saved) > 0 and (saved > 0).all(),
         "it takes load off the ankle": ankle[180] > ankle[1],
     }
