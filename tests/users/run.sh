@@ -60,6 +60,9 @@ has() { # MODULE WHAT
 }
 optimal() { grep -q '"verdict": "optimal"' "$1/summary.json"; }
 between_too() { ! grep -q 'not between' "$1"; }
+problem_of() { # PAGE FILE: the problem that the page writes, for what it can do
+  sed -n '/^cat >.*_walk.yaml <</,/^END$/p' "$top/docs/$1.md" | sed '1d; $d' >"$2"
+}
 imports() {
   "$AMBULO" import "$models/../tests/import/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
   echo "skipped: $1 (built without expat)"
@@ -79,12 +82,12 @@ alike() { # CURVE LEAST CORRELATION, of compared.json
 }
 opensim() {
   imports 'a model of OpenSim to a walk' || return
-  local walk=$here/walker_walk.yaml deviation=0.0001 # m: scene.json has places to 0.1 mm
+  local deviation=0.0001 # m: scene.json has places to 0.1 mm
   [ "$osim" = "$here/walker.osim" ] || deviation=0.003 # knees whose splines are frozen
   check 'import' "$AMBULO" import "$osim" -o walker.yaml \
     --heel right=calcn_r:0,0,-0.03:0,0,0.03 --toe right=calcn_r:0.18,0,-0.04:0.18,0,0.04 \
     --heel left=calcn_l:0,0,-0.03:0,0,0.03 --toe left=calcn_l:0.18,0,-0.04:0.18,0,0.04
-  cp "$walk" walk.yaml
+  problem_of tutorial-opensim-model walk.yaml
   check 'check' "$AMBULO" check walk.yaml
   "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
   check 'an imported model walks, from zero' optimal walk
@@ -143,7 +146,7 @@ for folder in ("../../../../share", "../../cmeel.prefix/share"):
 END
 }
 a_robot_walks() { # URDF PROBLEM
-  check "import $(basename "$1")" "$AMBULO" import "$1" -o robot.yaml --force
+  check "import $(basename "$1")" "$AMBULO" import "$1" -o biped.yaml --force
   check 'check' "$AMBULO" check "$2"
   # the grid that the solver asks for
   "$AMBULO" solve "$2" -o trajectory --force >said 2>&1
@@ -158,11 +161,12 @@ a_robot_walks() { # URDF PROBLEM
     echo "$(basename "$1"): optimal at the nodes, not between them"
   fi
   ! has pinocchio 'the trajectory in Pinocchio' ||
-    counted "$python" "$here/replay.py" "$1" robot.yaml trajectory/motion.csv
+    counted "$python" "$here/replay.py" "$1" biped.yaml trajectory/motion.csv
 }
 urdf() {
   imports 'a robot to a trajectory' || return
-  a_robot_walks "$here/biped.urdf" robot_walk.yaml
+  problem_of tutorial-urdf walk.yaml
+  a_robot_walks "$here/biped.urdf" walk.yaml
   check 'the small robot keeps to it between the nodes' between_too said
   local real
   real=$(humanoid)
@@ -172,7 +176,7 @@ urdf() {
   fi
   # its two sides differ by some grams: both are predicted
   sed -e 's/steps: 1/steps: 2/; s/kind: mirrored/kind: periodic/; s/step_length: [^,]*, speed: [^,]*/step_length: 0.3, speed: 0.5/' \
-    -e 's/intervals: 14/intervals: 20/' robot_walk.yaml >real_walk.yaml
+    -e 's/intervals: 14/intervals: 20/' walk.yaml >real_walk.yaml
   a_robot_walks "$real" real_walk.yaml
 }
 
@@ -195,7 +199,6 @@ tasks() {
 . "$here/browser.sh"
 for way in ${*:-opensim study urdf tasks}; do
   mkdir "$work/$way" && cd "$work/$way" || exit 1
-  cp "$here"/*_walk.yaml .
   "$way"
 done
 cd / || exit 1
