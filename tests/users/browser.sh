@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2154
 # Sourced by run.sh: pages of tasks in a browser, headless, in the frames of one page.
 # browser_checks NAME...: NAME.html of the present folder is the page of the problem NAME.
 browser_checks() {

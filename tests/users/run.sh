@@ -49,6 +49,7 @@ counted() { # COMMAND...: says and counts what it prints as "N passed, N failed"
   local status=0
   "$@" >"$work/log" 2>&1 || status=$?
   grep -v '^[0-9]* passed, ' "$work/log"
+  # shellcheck disable=SC2046
   set -- $(sed -n 's/^\([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p' "$work/log")
   passed=$((passed + ${1:-0})) failed=$((failed + ${2:-0}))
   [ "$status" = 0 ] || [ "${2:-0}" != 0 ] || failed=$((failed + 1))
