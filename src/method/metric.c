@@ -122,6 +122,14 @@ static double *row_at(const ambulo__metric *metric, int row, int width) {
   return g;
 }
 
+/* whether a form changes with anything: those of coordinates whose scale is zero do not */
+static int has_slope(const ambulo__form *form) {
+  for (int c = 0; c < form->count; c++) {
+    if (form->slope[c] != 0.0) return 1; /* NaN, too */
+  }
+  return 0;
+}
+
 /* Weighted gradients of one composite term's residuals in `width` unknowns; returns the rows used
  * so far. One over two nodes is kept whole: split, as 2 a^2 + 2 b^2 >= (a + b)^2, the rate of a
  * force between nodes that stand close would look as stiff as the force itself over the square of
@@ -134,9 +142,10 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
   int forms = ambulo__term_forms(term, &context, node);
   double weight = scale * term->weight * ambulo__term_quadrature(p, term, node);
   for (int j = 0; j < forms && count < metric->row_capacity; j++) {
-    double *row = row_at(metric, count++, width);
     ambulo__form form;
     ambulo__term_form(term, &context, node, j, &form);
+    if (!has_slope(&form)) continue;
+    double *row = row_at(metric, count++, width);
     double root = sqrt(ambulo__worse(0.0, weight * ambulo__term_residual(term, form.u).curvature));
     memset(row, 0, (size_t)width * sizeof *row);
     for (int c = 0; c < form.count; c++) {

@@ -44,6 +44,10 @@
  * free; 0.05: +15 % iterations of walks, yardstick_72 +2.8 % of the objective (other minima); 0.1:
  * +50 %. T: engine_point (double). */
 #define AMBULO__METRIC_REACH 0.01
+/* times an optimality tolerance that is tighter than usual: the same. 0 (as usual): walker_2d_step
+ * with contacts that share and 1e-6 ends 0.5 % higher with a KKT residual of 8e-6, not 1e-7 (other
+ * minima). T: sensitivities. */
+#define AMBULO__METRIC_SHARE 10.0
 /* factor by which mu changes. x: +9 % iterations at 1 (none), free at 4. T: pipeline. */
 #define AMBULO__DAMPING_CHANGE 2.0
 /* of the promised descent: an inner solve that brought more than this found the model too timid.

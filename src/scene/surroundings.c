@@ -160,7 +160,30 @@ static void device(ambulo__json *json, const ambulo__stride *s, int i) {
   ambulo__series(json, "effort", s->effort + i, s->devices, s->samples, unit);
 }
 
+/* "held": bodies between hands, drawn while they are held */
+static void held(ambulo__json *json, const ambulo__stride *s, ambulo__scene_body *body) {
+  const ambulo_problem_definition *d = &s->problem->definition;
+  ambulo__json_open(json, "held", '[');
+  for (int i = 0; i < d->hold_count; i++) {
+    const ambulo_hold *hold = &d->holds[i];
+    const ambulo_point *hand = &s->model->points[hold->hand[0]];
+    ambulo__json_open(json, NULL, '{');
+    ambulo__json_text(json, "name", hold->name);
+    ambulo__json_integer(json, "one", ambulo__scene_body_point(body, hand->link, hand->position));
+    if (hold->hand[1] >= 0) hand = &s->model->points[hold->hand[1]];
+    ambulo__json_integer(json, "other", ambulo__scene_body_point(body, hand->link, hand->position));
+    ambulo__scene_json_place(json, "center", hold->center);
+    ambulo__scene_json_place(json, "size", hold->size);
+    ambulo__json_number(json, "from", fmax(hold->from, 0.0));
+    ambulo__json_number(json, "to", fmin(hold->to, s->duration));
+    ambulo__json_number(json, "mass", hold->mass);
+    ambulo__json_close(json, '}');
+  }
+  ambulo__json_close(json, ']');
+}
+
 void ambulo__scene_worn(ambulo__json *json, const ambulo__stride *s, ambulo__scene_body *body) {
+  held(json, s, body);
   ambulo__json_open(json, "worn", '[');
   for (int i = 0; i < ambulo__worn_count(s); i++) {
     ambulo__worn mark;

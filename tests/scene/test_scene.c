@@ -163,19 +163,44 @@ static void seats_and_places(void **state) {
     assert_true(ambulo__yaml_numbers(ambulo__yaml_item(surface, i), 3, corner));
     for (int axis = 0; axis < 3; axis++) mean[axis] += 0.25 * corner[axis];
   }
-  assert_close(mean[0], -0.17, 1e-4);
-  assert_close(mean[2], 0.45, 1e-4);
+  const ambulo_contact *held = sit.problem->definition.contacts;
+  while (held->mode != AMBULO_CONTACT_PATCH) held++;
+  for (int axis = 0; axis < 3; axis++) assert_close(mean[axis], held->place[axis], 1e-4);
   (void)scene_named(ambulo__yaml_get(sit.read.root, "forces"), "seat");
   shut_scene(&sit);
 
-  scene lift = open_scene("models/lift.yaml", NULL, 0, NULL, 1.0);
-  const ambulo__yaml_node *places = ambulo__yaml_get(lift.read.root, "places");
-  assert_int_equal(ambulo__yaml_items(places), 2); /* not the one that is relative */
-  const ambulo__yaml_node *worn = ambulo__yaml_get(lift.read.root, "worn");
+  static const char *const load[] = {"load=[{link: thorax, mass: 8, position: [0, 0, 0]}, {link: "
+                                     "pelvis, mass: 2, position: [0, 0, 0]}]"};
+  scene carrying = open_scene("models/walk.yaml", load, 1, NULL, 1.0);
+  const ambulo__yaml_node *worn = ambulo__yaml_get(carrying.read.root, "worn");
   assert_int_equal(ambulo__yaml_items(worn), 2);
   for (int i = 0; i < 2; i++)
-    assert_close(ambulo__yaml_number(ambulo__yaml_get(ambulo__yaml_item(worn, i), "mass"), 0), 5,
-                 0);
+    assert_close(ambulo__yaml_number(ambulo__yaml_get(ambulo__yaml_item(worn, i), "mass"), 0),
+                 i ? 2 : 8, 0);
+  shut_scene(&carrying);
+
+  scene reach = open_scene("models/reach_standing.yaml", NULL, 0, NULL, 1.0);
+  const ambulo_problem_definition *d = &reach.problem->definition;
+  int places = 0; /* not those that are relative */
+  for (int i = 0; i < d->reach_count; i++) places += !d->reaches[i].is_relative;
+  assert_true(places > 0);
+  assert_int_equal(ambulo__yaml_items(ambulo__yaml_get(reach.read.root, "places")), places);
+  shut_scene(&reach);
+}
+
+/* a body between two hands, which are two points of its own list */
+static void what_hands_hold(void **state) {
+  (void)state;
+  scene lift = open_scene("models/lift.yaml", NULL, 0, NULL, 1.0);
+  const ambulo_hold *hold = lift.problem->definition.holds;
+  const ambulo__yaml_node *held = ambulo__yaml_get(lift.read.root, "held");
+  assert_int_equal(ambulo__yaml_items(held), lift.problem->definition.hold_count);
+  const ambulo__yaml_node *box = scene_named(held, hold->name);
+  int one = ambulo__yaml_integer(ambulo__yaml_get(box, "one"), 0, 9999, -1);
+  int other = ambulo__yaml_integer(ambulo__yaml_get(box, "other"), 0, 9999, -1);
+  assert_int_not_equal(one, other);
+  assert_close(ambulo__yaml_number(ambulo__yaml_get(box, "mass"), 0), hold->mass, 0);
+  assert_close(ambulo__yaml_number(ambulo__yaml_get(box, "from"), 0), hold->from, 1e-12);
   shut_scene(&lift);
 }
 
@@ -241,6 +266,7 @@ int main(void) {
       cmocka_unit_test(curves_are_the_strides),
       cmocka_unit_test(surroundings_are_the_problems),
       cmocka_unit_test(seats_and_places),
+      cmocka_unit_test(what_hands_hold),
       cmocka_unit_test(people_beside_a_walk),
       cmocka_unit_test(a_motion_that_is_not_finite),
       cmocka_unit_test(memory_may_run_out_anywhere),

@@ -160,6 +160,7 @@ export class Figure {
 
   // two loads that keep their distance, one on each side, are one box between them
   addCarried() {
+    for (const h of this.scene.held ?? []) if (h.mass > 0) this.addHeld(h);
     const loads = this.scene.worn.filter((w) => w.kind === "load");
     const pair = ["left", "right"].map((side) => loads.filter((w) => w.side === side));
     if (pair[0].length === 1 && pair[1].length === 1 && loads.length === 2 && this.keepApart(pair))
@@ -172,6 +173,22 @@ export class Figure {
     }
     for (const device of this.scene.worn.filter((w) => w.kind === "device")) this.addDevice(device);
     return undefined;
+  }
+
+  // between the hands while they hold it; before and after, where they took it and put it down
+  addHeld(held) {
+    const [f, l, u] = held.size.every((x) => x > 0) ? held.size : [0.12, 0.12, 0.12];
+    const mesh = this.addMesh(new BoxGeometry(f, u, l), this.materials.carried);
+    this.parts.push((where) => {
+      const last = this.scene.samples - 1, { duration } = this.scene;
+      const t = ((where[0] + where[1]) / last) * duration;
+      const at = sampleAt(this.scene, Math.min(Math.max(t, held.from), held.to));
+      pointAt(this.scene, held.one, at, one);
+      pointAt(this.scene, held.other, at, other);
+      way.subVectors(other, one);
+      mesh.position.addVectors(one, other).multiplyScalar(0.5).add(toView(...held.center, one));
+      mesh.rotation.set(0, way.lengthSq() > 1e-6 ? Math.atan2(-way.x, -way.z) : 0, 0);
+    });
   }
 
   keepApart([[left], [right]]) {
