@@ -198,7 +198,8 @@ tasks() {
 
 # shellcheck source=tests/users/browser.sh
 . "$here/browser.sh"
-for way in ${*:-opensim study urdf tasks}; do
+[ $# -gt 0 ] || set -- opensim study urdf tasks
+for way; do
   mkdir "$work/$way" && cd "$work/$way" || exit 1
   "$way"
 done
