@@ -15,7 +15,7 @@ cp -r docs/images "$work/"
 # page only links to are shown
 for page in $pages; do
   sed -E '/^ *```/,/^ *```/!{
-    s/\[`?([^]`]*)`?\]\(\.\.\/[^)]*\)/`\1`/g
+    s/\[`?([^]`]*)`?\]\((\.\.|examples)\/[^)]*\)/`\1`/g
     s/(^|[^!])(\[[^]]*\]\(images\/)/\1!\2/g
   }' "docs/$page" >"$work/$page"
 done

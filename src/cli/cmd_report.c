@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/format.h"
 #include "cli/output.h"
+#include "cli/shipped.h"
 
 /* --motion with the body that it moves; returns 0, or the exit code after a usage error */
 static int read_motion(const ambulo__cli_input *input, ambulo_page_options *options) {
@@ -41,6 +42,9 @@ static char *output_of(const ambulo__cli_input *input) {
 }
 
 static int run(const ambulo__cli_input *input) {
+  enum { PATH = 4096 };
+  char shipped[PATH];
+  const char *named = ambulo__cli_value(input, "body");
   ambulo_page_options options = ambulo_page_options_default();
   int code = read_motion(input, &options);
   if (code) return code;
@@ -50,9 +54,9 @@ static int run(const ambulo__cli_input *input) {
   ambulo__cli_body body = {.model = NULL};
   char *output = output_of(input);
   ambulo_status status = output ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (named && ambulo__cli_find_file(named, shipped, sizeof shipped)) named = shipped;
   if (!status && options.motion)
-    code =
-        ambulo__cli_body_load(input, ambulo__cli_value(input, "body"), diagnostics, &body, &status);
+    code = ambulo__cli_body_load(input, named, diagnostics, &body, &status);
   if (!code) {
     options.body = body.model;
     options.ground_height = body.ground_height;
@@ -73,7 +77,7 @@ static const ambulo__cli_option options_table[] = {
     {"force", 0, NULL, "write over a file that is no page by ambulo"},
     {"size", 0, "MB", "motions of a batch that its page holds at most (default: 12)"},
     {"motion", 0, "FILE", "a measured motion (CSV, STO, MOT), as a ghost beside the result"},
-    {"body", 0, "FILE", "the model, or the problem, of that motion"},
+    {"body", 0, "FILE", "the model, or the problem, of that motion; a shipped name will do"},
     {"from", 0, "S", "begin with this time of the motion (default: its first)"},
     {"to", 0, "S", "end with this time of it (default: its last)"},
     AMBULO__CLI_BODY_OPTIONS,

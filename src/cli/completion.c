@@ -43,6 +43,10 @@ static void print_words(const ambulo__cli_command *c) {
 static int is_folder(const char *value) {
   return strstr(value, "DIR") != NULL;
 }
+/* arguments that are folders, and nothing else: "DIR [DIR...]" */
+static int takes_folders(const ambulo__cli_command *c) {
+  return is_folder(c->arguments) && !strchr(c->arguments, '|') && !c->words;
+}
 static int is_file(const char *value) {
   return strstr(value, "FILE") != NULL;
 }
@@ -71,7 +75,7 @@ static void bash_command(const ambulo__cli_command *c) {
   printf("--help'\n");
   printf("      words=\"");
   print_words(c);
-  printf("\"\n      ;;\n");
+  printf("\"\n%s      ;;\n", takes_folders(c) ? "      kind=-d\n" : "");
 }
 
 /* a loop, not mapfile: macOS has bash 3.2; names with blanks stay whole */
@@ -83,14 +87,14 @@ static const char bash_head[] =
     "}\n"
     "_ambulo() {\n"
     "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n"
-    "  local options='' words=''\n"
+    "  local options='' words='' kind=-f\n"
     "  COMPREPLY=()\n"
     "  if [ \"$COMP_CWORD\" = 1 ]; then\n"
     "    _ambulo_reply -W '";
 static const char bash_tail[] = "  esac\n"
                                 "  case $cur in\n"
                                 "    -*) _ambulo_reply -W \"$options\" -- \"$cur\" ;;\n"
-                                "    *) _ambulo_reply -f -W \"$words\" -- \"$cur\" ;;\n"
+                                "    *) _ambulo_reply $kind -W \"$words\" -- \"$cur\" ;;\n"
                                 "  esac\n"
                                 "}\n"
                                 "complete -o filenames -F _ambulo ambulo\n";
@@ -156,7 +160,7 @@ static void zsh_command(const ambulo__cli_command *c) {
   quote(c->arguments, "[]:\\");
   printf(":{ _alternative \"words:name:(");
   print_words(c);
-  printf(")\" \"files:file:_files\" }' ;;\n");
+  printf(")\" \"files:file:_files%s\" }' ;;\n", takes_folders(c) ? " -/" : "");
 }
 
 static void print_zsh(const ambulo__cli_command *const *commands, int count) {

@@ -149,7 +149,8 @@ static void read_line(const ambulo__problem_reader *reader, const ambulo__yaml_n
     if (!name[0]) continue;
     term->point[end] = ambulo_model_find_point(reader->model, name);
     if (term->point[end] < 0)
-      (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM, NULL,
+      (void)ambulo__yaml_error(item, AMBULO_E_PROBLEM,
+                               "'ambulo info' of the model lists its points",
                                "unknown point (got '%s'); expected a point of the model", name);
   }
 }

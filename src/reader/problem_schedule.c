@@ -28,7 +28,11 @@ static int read_foot(const ambulo__problem_reader *reader, const ambulo__yaml_no
   int feet = ambulo_model_foot_count(reader->model);
   if (feet > MOST_FEET) feet = MOST_FEET;
   if (feet == 0) {
-    if (node) (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM, NULL, "the model has no feet");
+    if (node)
+      (void)ambulo__yaml_error(node, AMBULO_E_PROBLEM,
+                               "feet of the model file (docs/model-format.md); of an imported one: "
+                               "ambulo import --foot, or --heel and --toe",
+                               "the model has no feet");
     return -1;
   }
   for (int i = 0; i < feet; i++) names[i] = ambulo_model_foot(reader->model, i)->name;
@@ -247,10 +251,10 @@ static void expand(ambulo__problem_reader *reader, const ambulo__yaml_node *sect
   ambulo_status status = ambulo_gait_expand(reader->model, gait, NULL, 0, &count);
   if (status == AMBULO_E_ARGUMENT) {
     /* the keys have been checked one by one: what is left is the model, or an earlier error */
-    if (ambulo_model_foot_count(reader->model) == 2) return;
+    int feet = ambulo_model_foot_count(reader->model);
+    if (feet == 2 || feet == 0) return; /* of none it is told at first_foot */
     (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, "write the schedule out under 'contacts'",
-                             "the model has %d feet; expected 2 for a regular gait",
-                             ambulo_model_foot_count(reader->model));
+                             "the model has %d feet; expected 2 for a regular gait", feet);
     return;
   }
   ambulo_contact *contacts = ambulo__reader_alloc(reader, (size_t)count, sizeof *contacts);

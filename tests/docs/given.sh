@@ -102,6 +102,11 @@ awk -F '\t' -v OFS=, '
   }' ik.mot >person.csv
 rm -r of_walk of_walk.csv
 
+# for the tutorials: a model and a motion of OpenSim, a robot
+users=$(dirname "$0")/../users
+cp "$users/walker.osim" "$users/biped.urdf" .
+awk -F '\t' -f "$users/measured.awk" ik.mot >measured.mot
+
 # walks of people whose prices nobody knows, for docs/guide-fit.md: the left foot strikes at 0
 people() { # NAME STEP_LENGTH DURATION
   ambulo solve "$models/walk_normal.yaml" -o of_people --force --quiet \

@@ -162,6 +162,11 @@ check 'bash: a file with a blank' expect 'my walk.yaml ' ambulo solve my
 check 'bash: kinds of new' expect 'jump ' ambulo new ju
 check 'bash: kinds of models' expect 'sweep ' ambulo models sw
 check 'bash: every command after help' expect 'solve ' ambulo help so
+check 'bash: how a root hangs' expect 'fixed free ' ambulo import robot.urdf --root ''
+check 'bash: options of import' expect '--heel --help ' ambulo import robot.urdf --he
+check 'bash: files to import' expect 'a folder my walk.yaml other.csv ' ambulo import ''
+check 'bash: a motion for the page' expect 'my walk.yaml ' ambulo report 'a folder' --motion my
+check 'bash: folders to report' expect 'a folder ' ambulo report ''
 check 'bash: the script is sound' bash -n "$completion"
 if has zsh 'its completion'; then
   check 'zsh: the script is sound' zsh -n "$share/zsh/site-functions/_ambulo"

@@ -159,7 +159,7 @@
     box?.querySelector(".jump")?.click();
     const time = parseFloat(/at ([\d.]+) s/.exec(box?.textContent)?.[1]);
     check("it shows when", Math.abs(clock() - time) < 0.02, clock());
-    check("the verdict is no praise", /bad/.test($("badge").className));
+    check("the verdict is no praise", /\bbad\b/.test($("badge").className));
   } else if (kind === "study") {
     await frame();
     names();

@@ -1,0 +1,208 @@
+#!/usr/bin/env bash
+# Four ways of four kinds of users, from what they have to what they want to see:
+#
+#   opensim  a model of OpenSim to a walk, beside a measured motion, and back into OpenSim
+#   study    subjects times a device: a batch, its table in pandas, its page
+#   urdf     a humanoid robot to a trajectory, replayed in Pinocchio
+#   tasks    lift, stairs, run: each solved, and its page used in a browser
+#
+# Arguments: only these ways. What needs pandas, Pinocchio, OpenSim or chromium skips with a word.
+# AMBULO_PYTHON names another Python, AMBULO_OSIM a model with the coordinates of Rajagopal's (one
+# named so is taken of several, separated by ':'), AMBULO_MOTION a motion measured with it (STO, MOT, CSV),
+# AMBULO_URDF a humanoid on its feet of boxes; without it the G1 of example-robot-data, if it is there.
+# AMBULO_SUBJECTS=500 makes the study that large (3). Prints "N passed, N failed".
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+top=$(cd "$here/../.." && pwd)
+AMBULO=${AMBULO:-$top/build/ambulo}
+AMBULO=$(cd "$(dirname "$AMBULO")" && pwd)/$(basename "$AMBULO")
+python=${AMBULO_PYTHON:-python3}
+case ${MODE:-} in
+*-fsanitize=* | *--coverage*)
+  echo '[  SKIPPED ]'
+  echo 'skipped: tests/users/run.sh: what users do is done with what users build'
+  exit 0
+  ;;
+esac
+export OPENBLAS_NUM_THREADS=1 LC_ALL=C.UTF-8 PYTHONDONTWRITEBYTECODE=1
+models=$("$AMBULO" --models)
+# both before the folder changes
+osim=$(tr ':' '\n' <<<"${AMBULO_OSIM:-}" | grep -i rajagopal | head -n 1)
+osim=$(realpath "${osim:-$here/walker.osim}")
+motion=${AMBULO_MOTION:+$(realpath "$AMBULO_MOTION")}
+work=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-users-XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+passed=0 failed=0
+
+check() { # NAME COMMAND...: counts, and shows the output of what failed
+  local name=$1
+  shift
+  if "$@" >"$work/log" 2>&1; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $name"
+    tail -n 20 "$work/log" | sed 's/^/  /'
+  fi
+}
+counted() { # COMMAND...: says and counts what it prints as "N passed, N failed"
+  local status=0
+  "$@" >"$work/log" 2>&1 || status=$?
+  grep -v '^[0-9]* passed, ' "$work/log"
+  # shellcheck disable=SC2046
+  set -- $(sed -n 's/^\([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p' "$work/log")
+  passed=$((passed + ${1:-0})) failed=$((failed + ${2:-0}))
+  [ "$status" = 0 ] || [ "${2:-0}" != 0 ] || failed=$((failed + 1))
+}
+has() { # MODULE WHAT
+  "$python" -c "import $1" 2>/dev/null && return
+  echo "skipped: $2 (no Python with $1)"
+  return 1
+}
+optimal() { grep -q '"verdict": "optimal"' "$1/summary.json"; }
+between_too() { ! grep -q 'not between' "$1"; }
+problem_of() { # PAGE FILE: the problem that the page writes, for what it can do
+  sed -n '/^cat >.*_walk.yaml <</,/^END$/p' "$top/docs/$1.md" | sed '1d; $d' >"$2"
+}
+imports() {
+  "$AMBULO" import "$models/../tests/import/every_joint.urdf" 2>&1 | grep -q 'built without expat' || return 0
+  echo "skipped: $1 (built without expat)"
+  return 1
+}
+
+# --------------------------------------------------------------- OpenSim
+
+# a measured motion, made up: three strides of another body at another speed, pelvis above the ground
+measured() { # FILE
+  "$AMBULO" solve "$models/walk_normal.yaml" -o other --samples 65 -q || return 1
+  awk -F '\t' -f "$here/measured.awk" other/motion.sto >"$1"
+}
+alike() { # CURVE LEAST CORRELATION, of compared.json
+  tr '\n' ' ' <compared.json | grep -o "\"$1\": {[^}]*" | grep -o '"r": [-0-9.]*' |
+    awk -v least="$2" '{ print; good = $2 >= least } END { exit !good }'
+}
+opensim() {
+  imports 'a model of OpenSim to a walk' || return
+  local deviation=0.0001 # m: scene.json has places to 0.1 mm
+  [ "$osim" = "$here/walker.osim" ] || deviation=0.003 # knees whose splines are frozen
+  check 'import' "$AMBULO" import "$osim" -o walker.yaml \
+    --heel right=calcn_r:0,0,-0.03:0,0,0.03 --toe right=calcn_r:0.18,0,-0.04:0.18,0,0.04 \
+    --heel left=calcn_l:0,0,-0.03:0,0,0.03 --toe left=calcn_l:0.18,0,-0.04:0.18,0,0.04
+  problem_of tutorial-opensim-model walk.yaml
+  check 'check' "$AMBULO" check walk.yaml
+  "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
+  check 'an imported model walks, from zero' optimal walk
+  check 'and between the nodes too' between_too said
+  if [ -n "$motion" ]; then cp "$motion" measured.sto; else check 'a motion' measured measured.sto; fi
+  check 'the motion as curves' "$AMBULO" compare measured.sto --cycles cycles.csv
+  check 'the walk beside it' sh -c "'$AMBULO' compare walk cycles.csv --json >compared.json"
+  check 'hips go alike' alike hip_flexion 0.9
+  check 'knees go alike' alike knee_flexion 0.8
+  check 'torques of the motion, with its masses' "$AMBULO" inverse walker.yaml measured.sto -o torques.csv
+  check 'its page, with the motion as a ghost' "$AMBULO" report walk --motion measured.sto --body walker.yaml
+  check 'no column is missing' sh -c "! '$AMBULO' inverse walker.yaml walk/motion.csv 2>&1 | grep 'no column'"
+  ! has opensim 'the walk in OpenSim' || counted "$python" "$here/in_opensim.py" "$osim" walk $deviation
+}
+
+# ----------------------------------------------------------------- study
+
+study() {
+  local subjects=${AMBULO_SUBJECTS:-3}
+  "$AMBULO" new device -o exo.yaml
+  cat >study.yaml <<END
+ambulo: 1
+kind: sweep
+name: springs
+base: exo.yaml
+latin_hypercube:
+  samples: $subjects
+  seed: 7
+  axes:
+    - {key: subject.stature, name: stature, range: [1.5, 1.95]}
+    - {key: subject.mass, name: mass, range: [50, 100]}
+axes:
+  - {key: "devices[ankle_spring_r].stiffness", name: stiffness, values: [1, 180]}
+outputs: [objective, min(tau.ankle_angle_r)]
+END
+  check 'the list of cases' "$AMBULO" batch study.yaml --dry-run
+  check 'the batch' "$AMBULO" batch study.yaml -o study -q
+  check 'the table' "$AMBULO" collect study
+  check 'the page' "$AMBULO" report study
+  check 'a line for each case' test "$(grep -vc '^#' study/results.csv)" = $((2 * subjects + 1))
+  check 'every case in the page' test "$(grep -o '"state": *"optimal"' study/report.html | wc -l)" -ge 1
+  ! has pandas 'the table in pandas' || counted "$python" "$here/table.py" study/results.csv "$subjects"
+}
+
+# ------------------------------------------------------------------ urdf
+
+humanoid() {
+  [ -z "${AMBULO_URDF:-}" ] || { tr ':' '\n' <<<"$AMBULO_URDF" | head -n 1; return; }
+  "$python" - <<'END' 2>/dev/null
+import glob, os, pinocchio
+up = os.path.dirname(pinocchio.__file__)
+for folder in ("../../../../share", "../../cmeel.prefix/share"):
+    for path in glob.glob(os.path.join(up, folder, "example-robot-data/robots/g1_description/urdf/g1_29dof_rev_1_0.urdf")):
+        print(os.path.realpath(path))
+        raise SystemExit
+END
+}
+a_robot_walks() { # URDF PROBLEM
+  check "import $(basename "$1")" "$AMBULO" import "$1" -o biped.yaml --force
+  check 'check' "$AMBULO" check "$2"
+  # the grid that the solver asks for
+  "$AMBULO" solve "$2" -o trajectory --force >said 2>&1
+  local finer
+  finer=$(sed -n 's/.*--set \(time.intervals=[0-9]*\).*/\1/p' said | head -n 1)
+  [ -z "$finer" ] || "$AMBULO" solve "$2" -o trajectory --force --set "$finer" >said 2>&1
+  check 'a robot walks, from zero' optimal trajectory
+  check 'its page' "$AMBULO" report trajectory
+  if between_too said; then
+    echo "$(basename "$1"): optimal, between the nodes too${finer:+, with $finer}"
+  else
+    echo "$(basename "$1"): optimal at the nodes, not between them"
+  fi
+  ! has pinocchio 'the trajectory in Pinocchio' ||
+    counted "$python" "$here/replay.py" "$1" biped.yaml trajectory/motion.csv
+}
+urdf() {
+  imports 'a robot to a trajectory' || return
+  problem_of tutorial-urdf walk.yaml
+  a_robot_walks "$here/biped.urdf" walk.yaml
+  check 'the small robot keeps to it between the nodes' between_too said
+  local real
+  real=$(humanoid)
+  if [ -z "$real" ]; then
+    echo 'skipped: a real humanoid (no packages pin and example-robot-data, no AMBULO_URDF)'
+    return
+  fi
+  # its two sides differ by some grams: both are predicted
+  sed -e 's/steps: 1/steps: 2/; s/kind: mirrored/kind: periodic/; s/step_length: [^,]*, speed: [^,]*/step_length: 0.3, speed: 0.5/' \
+    -e 's/intervals: 14/intervals: 20/' walk.yaml >real_walk.yaml
+  a_robot_walks "$real" real_walk.yaml
+}
+
+# ----------------------------------------------------------------- tasks
+
+tasks() {
+  local name
+  for name in lift stairs run; do
+    check "ambulo new $name" "$AMBULO" new $name -o $name.yaml
+    "$AMBULO" solve $name.yaml -o $name >said 2>&1
+    check "$name" optimal $name
+    check "$name: between the nodes too" between_too said
+    check "the page of $name" "$AMBULO" report $name
+  done
+  mv lift/report.html lift.html && mv run/report.html run.html && mv stairs/report.html stairs_up.html
+  browser_checks lift stairs_up run
+}
+
+# shellcheck source=tests/users/browser.sh
+. "$here/browser.sh"
+[ $# -gt 0 ] || set -- opensim study urdf tasks
+for way; do
+  mkdir "$work/$way" && cd "$work/$way" || exit 1
+  "$way"
+done
+cd / || exit 1
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
