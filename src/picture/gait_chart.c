@@ -37,8 +37,10 @@ static double chart_y(const ambulo__gait_chart *c, double value) {
 void ambulo__chart_grid(ambulo__gait_chart *c, ambulo__text_buffer *text) {
   int decimals;
   double step = ambulo__nice_step(c->high - c->low, 4, &decimals);
-  c->low = floor(c->low / step + 1e-9) * step;
-  c->high = ceil(c->high / step - 1e-9) * step;
+  /* a curve that passes a line of the grid by less than its own width, as rounding does, needs no
+   * further one */
+  c->low = floor(c->low / step + 0.02) * step;
+  c->high = ceil(c->high / step - 0.02) * step;
   ambulo__text_buffer label;
   ambulo__text_init_part(&label, text);
   int lines = (int)lround((c->high - c->low) / step);

@@ -70,18 +70,6 @@ static int choose(const ambulo__stride *s, int chosen[MOST_COLUMNS]) {
   return count;
 }
 
-/* "hip_flexion_r" -> "Hip flexion" */
-static void pretty_name(const ambulo_model *model, int i, ambulo__text_buffer *out) {
-  const ambulo_coordinate *c = &model->coordinates[i];
-  size_t length = strlen(c->name);
-  if (c->mirror != i && length > 2 && c->name[length - 2] == '_') length -= 2;
-  for (size_t k = 0; k < length; k++) {
-    char letter = c->name[k] == '_' ? ' ' : c->name[k];
-    if (k == 0 && letter >= 'a' && letter <= 'z') letter = (char)(letter - 'a' + 'A');
-    ambulo__text_append_char(out, letter);
-  }
-}
-
 /* ------------------------------------------------------------------- drawing */
 
 static void draw_chart(ambulo__gait_chart *c, int coordinate, const char *quantity,
@@ -93,7 +81,7 @@ static void draw_chart(ambulo__gait_chart *c, int coordinate, const char *quanti
   int count = pair[1] == coordinate ? 1 : 2;
   ambulo__text_buffer title;
   ambulo__text_init_part(&title, text);
-  pretty_name(model, coordinate, &title);
+  ambulo__coordinate_title(model, coordinate, &title);
   ambulo__text_append(&title, title_end);
   ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0, ambulo__text_data(&title));
   ambulo__text_free(&title);
