@@ -6,7 +6,7 @@
 
 static const double shortest_line = 0.01;  /* m */
 static const double lightest_body = 0.001; /* of the whole: below, it is a sensor, or noise */
-static const double head_radius = 0.105;  /* m, of an adult */
+static const double head_radius = 0.105;   /* m, of an adult */
 
 /* --------------------------------------------------------------------- sides */
 
