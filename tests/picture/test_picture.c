@@ -166,7 +166,9 @@ static void names(void **state) {
   assert_non_null(strstr(svg, "and on </title>"));
   const char *title = strstr(svg, "<text class=\"title\"");
   assert_non_null(title);
-  assert_true(strstr(title, "\xe2\x80\xa6</text>") < strstr(title, "\n"));
+  const char *dots = strstr(title, "\xe2\x80\xa6</text>");
+  assert_non_null(dots);
+  assert_true(dots < strchr(title, '\n'));
   assert_non_null(strstr(svg, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"180mm\""));
   free(svg);
   w.problem->definition.name = kept;
