@@ -33,7 +33,7 @@ has_lapack() {
   local source='extern void dpbtrf_(void); int main(void) { dpbtrf_(); return 0; }'
   links "$source" -lopenblas || links "$source" -llapack -lblas
 }
-# without it `ambulo import` only says that it is missing
+# without them `ambulo import`, and `ambulo draw` for PDF and PNG, only say that they are missing
 has_expat() { links '#include <expat.h>
 int main(void) { return XML_ParserCreate(0) == 0; }' -lexpat; }
 has_cmocka() { links '#include <stdarg.h>
@@ -73,6 +73,7 @@ package() {
   apt-get:yaml) echo libyaml-dev ;;
   apt-get:lapack) echo libopenblas-dev ;;
   apt-get:expat) echo libexpat1-dev ;;
+  apt-get:rsvg-convert) echo librsvg2-bin ;;
   apt-get:cmocka) echo libcmocka-dev ;;
   apt-get:python) echo python3 python3-venv ;;
   dnf:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc glibc-devel ;; esac ;;
@@ -82,11 +83,13 @@ package() {
   dnf:yaml) echo libyaml-devel ;;
   dnf:lapack) echo openblas-devel ;;
   dnf:expat) echo expat-devel ;;
+  dnf:rsvg-convert) echo librsvg2-tools ;;
   dnf:cmocka) echo libcmocka-devel ;;
   dnf:python) echo python3 ;;
   dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
   brew:compiler | brew:cxx) echo gcc ;;
   brew:yaml) echo libyaml ;;
+  brew:rsvg-convert) echo librsvg ;;
   brew:lapack) echo openblas ;;
   brew:clang-tidy) echo llvm ;;
   none:compiler) echo 'a C11 compiler' ;;
@@ -126,9 +129,10 @@ missing() {
   fi
 }
 
-# what is built without where it cannot be had
+# what is built, or drawn, without where it cannot be had
 optional() {
   has_expat || package expat
+  has_program rsvg-convert || package rsvg-convert
 }
 
 as_root() {
@@ -175,12 +179,15 @@ make_environment() {
 
 wanted=$(missing | tr '\n' ' ')
 extra=$(optional | tr '\n' ' ')
+left_out=
+case $extra in *expat*) left_out='ambulo import is left out' ;; esac
+case $extra in *rsvg*) left_out="${left_out:+$left_out, }ambulo draw makes SVG only" ;; esac
 if [ -n "${extra// /}" ] && [ "${2:-}" = --list ]; then
-  echo "without ${extra% }: ambulo import is left out; 'make setup' installs it" >&2
+  echo "without ${extra% }: $left_out; 'make setup' installs it" >&2
 elif [ -n "${extra// /}" ]; then
   echo "installing: $extra(optional)"
   # shellcheck disable=SC2086
-  install $extra || echo "could not install ${extra% }: ambulo import is left out" >&2
+  install $extra || echo "could not install ${extra% }: $left_out" >&2
 fi
 [ -n "${wanted// /}" ] || { make_environment "${2:-}"; exit; }
 if [ "${2:-}" = --list ]; then

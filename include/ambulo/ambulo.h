@@ -13,6 +13,7 @@
  *     collision.h  parts of a problem: capsules, obstacles, places to reach
  *     report.h     results on disk, comparison with people
  *     page.h       results to watch, as one HTML file
+ *     picture.h    results as pictures: SVG, PDF, PNG
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
  *     import.h     models of OpenSim, URDF and MuJoCo
@@ -50,6 +51,7 @@
 #include "ambulo/model.h"
 #include "ambulo/page.h"
 #include "ambulo/parameters.h"
+#include "ambulo/picture.h"
 #include "ambulo/problem.h"
 #include "ambulo/report.h"
 #include "ambulo/sensitivity.h"

@@ -17,5 +17,6 @@ extern const ambulo__cli_command ambulo__cli_models;
 extern const ambulo__cli_command ambulo__cli_new;
 extern const ambulo__cli_command ambulo__cli_import;
 extern const ambulo__cli_command ambulo__cli_report;
+extern const ambulo__cli_command ambulo__cli_draw;
 
 #endif

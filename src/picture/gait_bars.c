@@ -79,8 +79,8 @@ double ambulo__gait_bars(const ambulo__stride *stride, const ambulo__panel *pane
     if (!ambulo__gait_shows(stride, e)) continue;
     ambulo__side side = side_of(model, e);
     draw_bar(stride, e, side, y, panel, text);
-    ambulo__svg_label(text, side_text[side], panel->x - 10.0, y + bar_height - 3.0,
-                      ambulo__effector_name(model, e));
+    ambulo__svg_label_within(text, side_text[side], panel->x - 10.0, y + bar_height - 3.0,
+                             panel->x - 14.0, 12.0, ambulo__effector_name(model, e));
     y += bar_pitch;
   }
   return y - panel->y;

@@ -13,7 +13,12 @@ typedef struct ambulo__gait_chart {
   int columns;
   double factor;    /* to the unit shown */
   double low, high; /* of the axis, in the unit shown */
+  /* not NULL: the box is 100 wide, and curves are over the percent of the cycle of their side */
+  const ambulo__gait_people *cycles;
 } ambulo__gait_chart;
+
+/* The axis of time, or of percent, under the box. */
+void ambulo__chart_axis(const ambulo__gait_chart *chart, ambulo__text_buffer *text);
 
 /* Sets low and high so that zero and the columns fit. */
 void ambulo__chart_range(ambulo__gait_chart *chart, const int *columns, int count);
@@ -28,9 +33,12 @@ void ambulo__chart_curve(const ambulo__gait_chart *chart, int column, ambulo__si
 void ambulo__chart_widen_devices(ambulo__gait_chart *chart, int coordinate);
 void ambulo__chart_devices(const ambulo__gait_chart *chart, int coordinate,
                            ambulo__text_buffer *text);
-/* A curve of people in the same colours: a pale band where there are deviations, a dashed line
- * elsewhere. */
+/* Of a pair of curves of people: over the percent of the cycle both feet have the same. */
+int ambulo__chart_alike(const ambulo__gait_chart *chart, const ambulo__people_curve *a,
+                        const ambulo__people_curve *b);
+/* A curve of people in the same colours (`both`: in grey): a pale band where there are deviations,
+ * a dashed line elsewhere. */
 void ambulo__chart_people(const ambulo__gait_chart *chart, const ambulo__people_curve *people,
-                          ambulo__text_buffer *text);
+                          int both, ambulo__text_buffer *text);
 
 #endif

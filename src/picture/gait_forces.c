@@ -60,9 +60,10 @@ static void draw_people(ambulo__gait_chart *c, const char *name, ambulo__gait_pe
   ambulo__chart_widen(c, &right);
   ambulo__chart_widen(c, &left);
   ambulo__chart_grid(c, text);
-  ambulo__chart_people(c, &right, text);
-  ambulo__chart_people(c, &left, text);
-  people->shown[left.file] |= left.curve != NULL;
+  int both = ambulo__chart_alike(c, &left, &right);
+  if (!both) ambulo__chart_people(c, &right, 0, text);
+  ambulo__chart_people(c, &left, both, text);
+  people->shown[left.file] += left.curve != NULL;
 }
 
 static void draw_force(ambulo__gait_chart *c, const curves *all, const char *name, double *values,
@@ -75,18 +76,19 @@ static void draw_force(ambulo__gait_chart *c, const curves *all, const char *nam
       values[k * all->count + i] = force_along(s, k, all->effector[i], direction);
   }
   ambulo__svg_label(text, "panel", c->box.x, c->box.y - 14.0,
-                    upward ? "Ground reaction upward, body weights"
-                           : "Ground reaction forward, body weights");
+                    people->per_kg
+                        ? upward ? "Ground reaction upward, N/kg" : "Ground reaction forward, N/kg"
+                    : upward ? "Ground reaction upward, body weights"
+                             : "Ground reaction forward, body weights");
   ambulo__chart_range(c, all->column, all->count);
   draw_people(c, name, people, text);
   for (int i = all->count - 1; i >= 0; i--) ambulo__chart_curve(c, i, all->side[i], text);
-  ambulo__panel axis = c->box;
-  axis.y += c->box.height;
-  ambulo__time_axis(&axis, 4, "s", text);
+  ambulo__chart_axis(c, text);
 }
 
 ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
-                                  ambulo__gait_people *people, ambulo__text_buffer *text) {
+                                  const ambulo__gait_style *style, ambulo__gait_people *people,
+                                  ambulo__text_buffer *text) {
   const double label_room = 44.0, gap = 30.0;
   curves all = curves_of(stride);
   if (all.count == 0) return AMBULO_OK;
@@ -94,12 +96,15 @@ ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__pa
   double *values = ambulo__alloc(&text->allocator, count, sizeof *values);
   if (!values) return AMBULO_E_MEMORY;
   double width = 0.5 * (panel->width - gap) - label_room;
-  ambulo__gait_chart up = {
-      .box = {panel->x + label_room, panel->y, width, panel->height, stride->duration},
-      .stride = stride,
-      .values = values,
-      .columns = all.count,
-      .factor = 1.0};
+  double mass = ambulo__gait_mass(stride->model);
+  ambulo__gait_chart up = {.box = {panel->x + label_room, panel->y, width, panel->height,
+                                   style->percent ? 100.0 : stride->duration},
+                           .stride = stride,
+                           .values = values,
+                           .columns = all.count,
+                           .factor =
+                               style->per_kg ? ambulo__model_weight(stride->model) / mass : 1.0,
+                           .cycles = style->percent ? people : NULL};
   ambulo__gait_chart ahead = up;
   ahead.box.x += width + label_room + gap;
   draw_force(&up, &all, "up", values, people, text);

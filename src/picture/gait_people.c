@@ -23,12 +23,21 @@ static int is_level(const ambulo_problem *problem) {
   return problem->definition.rise == 0.0 && fabs(atan2(along, up)) < level;
 }
 
-int ambulo__gait_is_walk(const ambulo_problem *problem) {
+double ambulo__gait_mass(const ambulo_model *model) {
+  return ambulo__model_weight(model) / sqrt(ambulo__dot(model->gravity, model->gravity));
+}
+
+/* steps that follow each other for ever: a walk or a run, on any ground */
+static int repeats(const ambulo_problem *problem) {
   ambulo_ends ends = ambulo_problem_ends(problem);
-  ambulo__span flight;
   return (ends == AMBULO_ENDS_MIRRORED || ends == AMBULO_ENDS_PERIODIC) &&
-         problem->definition.travel != 0.0 && problem->model->foot_count == 2 &&
-         is_level(problem) && !ambulo__flight_span(&problem->definition, &flight);
+         problem->definition.travel != 0.0 && problem->model->foot_count == 2;
+}
+
+int ambulo__gait_is_walk(const ambulo_problem *problem) {
+  ambulo__span flight;
+  return repeats(problem) && is_level(problem) &&
+         !ambulo__flight_span(&problem->definition, &flight);
 }
 
 /* ------------------------------------------------------------------- strikes */
@@ -62,8 +71,18 @@ static ambulo_status find_strikes(ambulo__gait_people *g) {
   return failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
 
-/* percent of the cycle of a side at time t; NaN without strikes */
-static double percent_at(const ambulo__gait_people *g, ambulo__side side, double t) {
+int ambulo__gait_cycles(const ambulo__gait_people *g) {
+  return g->count[AMBULO__LEFT] > 0 && g->count[AMBULO__RIGHT] > 0;
+}
+
+static ambulo__side first_side(const ambulo__gait_people *g) {
+  if (!ambulo__gait_cycles(g)) return AMBULO__RIGHT;
+  return g->strikes[AMBULO__LEFT][0] < g->strikes[AMBULO__RIGHT][0] ? AMBULO__LEFT : AMBULO__RIGHT;
+}
+
+/* NaN without strikes */
+double ambulo__gait_percent(const ambulo__gait_people *g, ambulo__side side, double t) {
+  if (side == AMBULO__MIDDLE) side = first_side(g);
   int n = g->count[side];
   const double *strike = g->strikes[side];
   double period = g->stride->duration;
@@ -80,9 +99,9 @@ ambulo_status ambulo__gait_people_create(const ambulo__stride *stride, const amb
                                          ambulo__gait_people *gait) {
   ambulo__gait_people g = {.allocator = ambulo__allocator_or_default(allocator), .stride = stride};
   ambulo_status status = AMBULO_OK;
-  if (people && ambulo__gait_is_walk(stride->problem)) {
+  if (repeats(stride->problem)) {
     status = find_strikes(&g);
-    if (g.count[AMBULO__LEFT] > 0 && g.count[AMBULO__RIGHT] > 0) g.people = people;
+    if (ambulo__gait_cycles(&g) && ambulo__gait_is_walk(stride->problem)) g.people = people;
   }
   *gait = g;
   if (status) ambulo__gait_people_free(gait);
@@ -141,9 +160,8 @@ ambulo__people_curve ambulo__people_coordinate(const ambulo__gait_people *g, con
   const ambulo_model *model = g->stride->model;
   const char *const part[3] = {quantity, model->coordinates[coordinate].name, NULL};
   ambulo__people_curve found = find(g, ambulo__coordinate_side(model, coordinate), part);
-  if (!found.curve || found.curve->entry->unit != AMBULO__UNIT_MOMENT) return found;
-  double gravity = sqrt(ambulo__dot(model->gravity, model->gravity));
-  found.scale *= ambulo__model_weight(model) / gravity;
+  if (!found.curve || found.curve->entry->unit == AMBULO__UNIT_ANGLE) return found;
+  if (!g->per_kg) found.scale *= ambulo__gait_mass(model);
   if (g->stride->feet == 0) found.curve = NULL;
   return found;
 }
@@ -153,13 +171,19 @@ ambulo__people_curve ambulo__people_force(const ambulo__gait_people *g, const ch
   const ambulo_model *model = g->stride->model;
   const char *const part[3] = {"grf", side_word[side], direction};
   ambulo__people_curve found = find(g, side, part);
-  found.scale /= sqrt(ambulo__dot(model->gravity, model->gravity));
+  if (!g->per_kg) found.scale /= sqrt(ambulo__dot(model->gravity, model->gravity));
   return found;
 }
 
 int ambulo__people_at(const ambulo__people_curve *c, int k, double *mean, double *band) {
   if (!c->curve) return 0;
-  double percent = percent_at(c->of, c->side, c->of->stride->times[k]);
+  double t = c->of->stride->times[k];
+  return ambulo__people_at_percent(c, ambulo__gait_percent(c->of, c->side, t), mean, band);
+}
+
+int ambulo__people_at_percent(const ambulo__people_curve *c, double percent, double *mean,
+                              double *band) {
+  if (!c->curve) return 0;
   const double *at = c->curve->percent;
   int last = c->curve->points - 1, high = 1;
   if (!(percent >= at[0] - 1e-6) || percent > at[last] + 1e-6) return 0;

@@ -25,6 +25,7 @@ typedef struct ambulo__gait_people {
   double *strikes[3];              /* by ambulo__side, rising, s, in the motion as it is shown */
   int count[3];                    /* 0 for the middle */
   int shown[AMBULO__PEOPLE_FILES]; /* curves that were drawn, by their file */
+  int per_kg;                      /* 1: moments and powers per kg, forces in N/kg */
 } ambulo__gait_people;
 
 /* One curve of people beside one of the motion. */
@@ -36,24 +37,35 @@ typedef struct ambulo__people_curve {
   double scale, shift;
 } ambulo__people_curve;
 
+/* Mass of the body with what it carries, kg: what moments are divided by. */
+double ambulo__gait_mass(const ambulo_model *model);
 /* 1 if curves of people belong behind the motion of this problem. */
 int ambulo__gait_is_walk(const ambulo_problem *problem);
 /* `people` (may be NULL) must outlive it. Errors: E_MEMORY. */
 ambulo_status ambulo__gait_people_create(const ambulo__stride *stride, const ambulo__people *people,
                                          const ambulo_allocator *allocator,
                                          ambulo__gait_people *gait);
+/* The cycle of a side alone, without people: 1 when both feet strike in a motion that repeats.
+ * Percent of the cycle at time t; of the side that strikes first, for the middle. */
+int ambulo__gait_cycles(const ambulo__gait_people *gait);
+double ambulo__gait_percent(const ambulo__gait_people *gait, ambulo__side side, double t);
 void ambulo__gait_people_free(ambulo__gait_people *gait); /* accepts a zero-filled one */
 
-/* Of a coordinate: its angle in degrees (`quantity` "q"), or its torque in N m ("tau"), which
- * people have only beside a motion with ground reaction. */
+/* Of a coordinate: its angle in degrees (`quantity` "q"), its torque in N m ("tau") or its power in
+ * W ("power"), which people have only beside a motion with ground reaction; the latter two per kg
+ * where gait->per_kg says so. */
 ambulo__people_curve ambulo__people_coordinate(const ambulo__gait_people *gait,
                                                const char *quantity, int coordinate);
-/* Of a foot's force in body weights; `direction` "up" or "forward". */
+/* Of a foot's force in body weights, or N/kg; `direction` "up" or "forward". */
 ambulo__people_curve ambulo__people_force(const ambulo__gait_people *gait, const char *direction,
                                           ambulo__side side);
 
 /* Mean and twice the deviation at sample k of the stride, in the unit shown; 0 outside of all
  * strides. The band is 0 where the people have no deviations. */
 int ambulo__people_at(const ambulo__people_curve *curve, int k, double *mean, double *band);
+
+/* The same at a percent of the cycle. */
+int ambulo__people_at_percent(const ambulo__people_curve *curve, double percent, double *mean,
+                              double *band);
 
 #endif

@@ -9,8 +9,9 @@
 #include <math.h>
 
 #include "picture/svg.h"
+#include "trajectory/basis.h"
 
-enum { CURVE_SAMPLES = 241 };
+enum { FEWEST_STEPS = 240, STEPS_A_PIECE = 3, MOST_STEPS = 6000 };
 
 static const double page_width = 1200.0, margin = 40.0;
 
@@ -71,6 +72,7 @@ static void device_legend(const ambulo_problem *problem, double right, ambulo__t
                     at_joints ? "device (its torque: dotted)" : "device");
 }
 
+/* underscores of a name are read as spaces */
 static void heading(const ambulo_problem *problem, const ambulo_result *result, int sides,
                     ambulo__text_buffer *text) {
   const char *name = ambulo_problem_name(problem);
@@ -78,12 +80,14 @@ static void heading(const ambulo_problem *problem, const ambulo_result *result, 
   ambulo__text_init_part(&line, text);
   for (const char *c = name ? name : "motion"; *c; c++)
     ambulo__text_append_char(&line, *c == '_' ? ' ' : *c);
-  ambulo__svg_label(text, "title", margin, 46.0, ambulo__text_data(&line));
+  double right = page_width - margin, first = right - (sides ? 168.0 : 0.0);
+  if (ambulo_problem_device_count(problem)) first -= 300.0;
+  ambulo__svg_label_within(text, "title", margin, 46.0, first - margin, 22.0,
+                           ambulo__text_data(&line));
   ambulo__text_clear(&line);
   subtitle(problem, result, &line);
   ambulo__svg_label(text, "subtitle", margin, 69.0, ambulo__text_data(&line));
   ambulo__text_free(&line);
-  double right = page_width - margin;
   device_legend(problem, sides ? right - 168.0 : right, text);
   if (!sides) return;
   ambulo__svg_line(text, "left-mark", right - 146.0, 41.5, right - 126.0, 41.5);
@@ -93,7 +97,7 @@ static void heading(const ambulo_problem *problem, const ambulo_result *result, 
 }
 
 void ambulo__people_legend(const ambulo__gait_people *people, const ambulo__panel *panel,
-                           ambulo__text_buffer *text) {
+                           const ambulo__gait_style *style, ambulo__text_buffer *text) {
   double y = panel->y, x = panel->x + 44.0;
   for (int f = 0; f < AMBULO__PEOPLE_FILES; f++) {
     if (!people->shown[f]) continue;
@@ -101,7 +105,11 @@ void ambulo__people_legend(const ambulo__gait_people *people, const ambulo__pane
     int has_band = file->reference.curves[0].sd != NULL;
     ambulo__text_buffer line;
     ambulo__text_init_part(&line, text);
-    if (has_band) {
+    if (style->percent && has_band) {
+      ambulo__svg_rectangle(text, "both-people", x, y - 10.0, 44.0, 12.0);
+    } else if (style->percent) {
+      ambulo__svg_line(text, "trunk people", x, y - 4.0, x + 44.0, y - 4.0);
+    } else if (has_band) {
       ambulo__svg_rectangle(text, "left-people", x, y - 10.0, 20.0, 12.0);
       ambulo__svg_rectangle(text, "right-people", x + 24.0, y - 10.0, 20.0, 12.0);
     } else {
@@ -110,7 +118,8 @@ void ambulo__people_legend(const ambulo__gait_people *people, const ambulo__pane
     }
     ambulo__text_append(&line, has_band ? "people, mean \xc2\xb1 2 SD: " : "people, mean: ");
     ambulo__text_append(&line, file->source ? file->source : file->path);
-    ambulo__svg_label(text, "legend", x + 54.0, y, ambulo__text_data(&line));
+    ambulo__svg_label_within(text, "legend", x + 54.0, y, panel->width - 98.0, 12.0,
+                             ambulo__text_data(&line));
     ambulo__text_free(&line);
     y += 19.0;
   }
@@ -129,8 +138,8 @@ typedef struct layout {
   double height;
 } layout;
 
-static ambulo_status arrange(const ambulo__stride *stride, const double *x, int people,
-                             layout *page) {
+static ambulo_status arrange(const ambulo__stride *stride, const double *x,
+                             const ambulo__gait_style *style, int people, layout *page) {
   int lanes = 0, forces = stride->feet + stride->patches > 0;
   for (int e = 0; e < ambulo__effector_count(stride->model); e++)
     lanes += ambulo_problem_contact_count(stride->problem) && ambulo__gait_shows(stride, e);
@@ -142,8 +151,11 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x, int 
   page->bars.y = strip.y + strip.height + 30.0;
   page->axis = page->bars;
   page->axis.y = page->bars.y + 19.0 * (double)lanes + (lanes ? 3.0 : -12.0);
-  ambulo__panel curves = {margin, page->axis.y + 78.0, page_width - 2.0 * margin, 430.0,
-                          stride->duration};
+  page->height = page->axis.y + 34.0;
+  if (style->without_curves) return status;
+  double top = style->without_strip ? 120.0 : page->axis.y + 78.0;
+  double rows = style->powers ? 252.0 : 0.0;
+  ambulo__panel curves = {margin, top, page_width - 2.0 * margin, 430.0 + rows, stride->duration};
   page->curves = curves;
   page->forces = curves;
   page->forces.y = curves.y + curves.height + 66.0;
@@ -154,36 +166,69 @@ static ambulo_status arrange(const ambulo__stride *stride, const double *x, int 
   return status;
 }
 
-static ambulo_status draw_page(const ambulo_problem *problem, const ambulo_result *result,
-                               const ambulo__stride *stride, ambulo__gait_people *people,
+static ambulo_status draw_strip(const ambulo__stride *stride, const double *x, const layout *page,
+                                ambulo__text_buffer *text) {
+  ambulo_status status = ambulo__gait_strip(stride->problem, x, &page->strip, text);
+  ambulo__gait_bars(stride, &page->bars, text);
+  ambulo__time_axis(&page->axis, 9, "s", text);
+  return status;
+}
+
+static ambulo_status draw_curves(const ambulo__stride *stride, const ambulo__gait_style *style,
+                                 ambulo__gait_people *people, const layout *page,
+                                 ambulo__text_buffer *text) {
+  ambulo_status status = ambulo__gait_curves(stride, &page->curves, style, people, text);
+  if (!status) status = ambulo__gait_forces(stride, &page->forces, style, people, text);
+  ambulo__people_legend(people, &page->people, style, text);
+  return status;
+}
+
+static ambulo_status draw_page(const ambulo_result *result, const ambulo__stride *stride,
+                               const ambulo__gait_style *style, ambulo__gait_people *people,
                                ambulo__text_buffer *text) {
   layout page;
   const double *x = ambulo_result_x(result);
-  ambulo_status status = arrange(stride, x, people->people != NULL, &page);
+  ambulo_status status = arrange(stride, x, style, people->people != NULL, &page);
   if (status) return status;
-  const char *name = ambulo_problem_name(problem);
-  ambulo__svg_begin(text, page_width, page.height, name ? name : "motion");
-  heading(problem, result, has_sides(stride->model), text);
-  status = ambulo__gait_strip(problem, x, &page.strip, text);
-  ambulo__gait_bars(stride, &page.bars, text);
-  ambulo__time_axis(&page.axis, 9, "s", text);
-  ambulo__gait_curves(stride, &page.curves, people, text);
-  if (!status) status = ambulo__gait_forces(stride, &page.forces, people, text);
-  ambulo__people_legend(people, &page.people, text);
+  const char *name = ambulo_problem_name(stride->problem);
+  ambulo__svg_begin_wide(text, page_width, page.height, style->millimetres, name ? name : "motion");
+  heading(stride->problem, result, has_sides(stride->model), text);
+  if (!style->without_strip) status = draw_strip(stride, x, &page, text);
+  if (!status && !style->without_curves) status = draw_curves(stride, style, people, &page, text);
   ambulo__svg_end(text);
   return status ? status : ambulo__text_status(text);
 }
 
-ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
-                               const ambulo__people *people, ambulo__text_buffer *text) {
+/* Curves are smooth between the breakpoints of the spline and may have corners there: samples at
+ * all of them where they are evenly spaced, and several between two. */
+static int samples_of(const ambulo_problem *problem) {
+  int pieces = ambulo__basis_intervals(problem->basis);
+  if (ambulo_problem_ends(problem) == AMBULO_ENDS_MIRRORED) pieces *= 2;
+  int steps = (FEWEST_STEPS + pieces - 1) / pieces;
+  if (steps < STEPS_A_PIECE) steps = STEPS_A_PIECE;
+  if (pieces * steps > MOST_STEPS) steps = 1;
+  return pieces * steps + 1;
+}
+
+ambulo_status ambulo__gait_picture(const ambulo_problem *problem, const ambulo_result *result,
+                                   const ambulo__people *people, const ambulo__gait_style *style,
+                                   ambulo__text_buffer *text, int *shown) {
   ambulo__stride stride = {.samples = 0};
   ambulo__gait_people behind = {.people = NULL};
-  ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result), CURVE_SAMPLES,
-                                               &text->allocator, &stride);
+  ambulo_status status = ambulo__stride_create(problem, ambulo_result_x(result),
+                                               samples_of(problem), &text->allocator, &stride);
   if (status) return status;
   status = ambulo__gait_people_create(&stride, people, &text->allocator, &behind);
-  if (!status) status = draw_page(problem, result, &stride, &behind, text);
+  behind.per_kg = style->per_kg;
+  if (!status) status = draw_page(result, &stride, style, &behind, text);
+  for (int f = 0; shown && f < AMBULO__PEOPLE_FILES; f++) *shown += behind.shown[f];
   ambulo__gait_people_free(&behind);
   ambulo__stride_free(&stride);
   return status;
+}
+
+ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
+                               const ambulo__people *people, ambulo__text_buffer *text) {
+  static const ambulo__gait_style usual = {.millimetres = 0.0};
+  return ambulo__gait_picture(problem, result, people, &usual, text, NULL);
 }

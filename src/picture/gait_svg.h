@@ -16,6 +16,20 @@
 ambulo_status ambulo__gait_svg(const ambulo_problem *problem, const ambulo_result *result,
                                const ambulo__people *people, ambulo__text_buffer *text);
 
+/* What is drawn of it, and how. Zero-filled: all of it, in N m and s, as gait.svg. */
+typedef struct ambulo__gait_style {
+  int without_strip, without_curves;
+  int powers;         /* 1: a third row of curves */
+  int per_kg;         /* 1: N m/kg, W/kg, N/kg in place of N m, W, body weights */
+  int percent;        /* 1: curves over the cycle of their foot, or (no steps) over the motion */
+  double millimetres; /* width on paper; 0: 1200 px */
+} ambulo__gait_style;
+
+/* *shown (may be NULL): how many curves of people were drawn. Errors: E_MEMORY. */
+ambulo_status ambulo__gait_picture(const ambulo_problem *problem, const ambulo_result *result,
+                                   const ambulo__people *people, const ambulo__gait_style *style,
+                                   ambulo__text_buffer *text, int *shown);
+
 /* ---------------------------------------------- its parts, each in its file */
 
 /* A region of the picture, px; time runs from 0 to `duration` across its width. */
@@ -48,17 +62,20 @@ double ambulo__gait_bars(const ambulo__stride *stride, const ambulo__panel *pane
 void ambulo__time_axis(const ambulo__panel *panel, int parts, const char *unit,
                        ambulo__text_buffer *text);
 
-/* Curves of up to three coordinates (pairs left and right): angles above, torques below. */
-void ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
-                         ambulo__gait_people *people, ambulo__text_buffer *text);
+/* Curves of up to three coordinates (pairs left and right): angles above, torques below, then
+ * powers. Errors: E_MEMORY. */
+ambulo_status ambulo__gait_curves(const ambulo__stride *stride, const ambulo__panel *panel,
+                                  const ambulo__gait_style *style, ambulo__gait_people *people,
+                                  ambulo__text_buffer *text);
 
 /* Forces on feet and patches, upward and forward, side by side; nothing without ground reaction.
  * Errors: E_MEMORY. */
 ambulo_status ambulo__gait_forces(const ambulo__stride *stride, const ambulo__panel *panel,
-                                  ambulo__gait_people *people, ambulo__text_buffer *text);
+                                  const ambulo__gait_style *style, ambulo__gait_people *people,
+                                  ambulo__text_buffer *text);
 
 /* Who the people are whose curves were drawn, a line each, from y = panel->y down. */
 void ambulo__people_legend(const ambulo__gait_people *people, const ambulo__panel *panel,
-                           ambulo__text_buffer *text);
+                           const ambulo__gait_style *style, ambulo__text_buffer *text);
 
 #endif

@@ -4,23 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-static const double shortest_line = 0.01; /* m */
-static const double head_radius = 0.105;  /* m, of an adult */
+static const double shortest_line = 0.01;  /* m */
+static const double lightest_body = 0.001; /* of the whole: below, it is a sensor, or noise */
+static const double head_radius = 0.105;   /* m, of an adult */
 
 /* --------------------------------------------------------------------- sides */
-
-static int ends_with(const char *text, const char *ending) {
-  size_t length = strlen(text), tail = strlen(ending);
-  return length >= tail && strcmp(text + length - tail, ending) == 0;
-}
-
-ambulo__side ambulo__coordinate_side(const ambulo_model *model, int coordinate) {
-  const ambulo_coordinate *c = &model->coordinates[coordinate];
-  if (c->mirror == coordinate) return AMBULO__MIDDLE;
-  if (ends_with(c->name, "_l") || strstr(c->name, "left")) return AMBULO__LEFT;
-  if (ends_with(c->name, "_r") || strstr(c->name, "right")) return AMBULO__RIGHT;
-  return c->mirror > coordinate ? AMBULO__RIGHT : AMBULO__LEFT;
-}
 
 static void fill_sides(ambulo__skeleton *skeleton) {
   const ambulo_model *model = skeleton->model;
@@ -57,9 +45,10 @@ static int is_massless_root(const ambulo_model *model, int i) {
 }
 
 /* 1 if the line from the parent's joint to this link's is drawn */
-static int has_own_line(const ambulo_model *model, int i) {
+static int has_own_line(const ambulo__skeleton *skeleton, int i) {
+  const ambulo_model *model = skeleton->model;
   const ambulo_link *link = &model->links[i];
-  if (is_massless_root(model, i)) return 0;
+  if (is_massless_root(model, i) || !skeleton->bears[i]) return 0;
   if (link->coordinate >= 0 && !model->coordinates[link->coordinate].actuated) return 0;
   if (link->type == AMBULO_PRISMATIC) return 1;
   return hypot(link->a, link->d) > shortest_line;
@@ -92,6 +81,37 @@ static int link_has_point(const ambulo_model *model, int link) {
   return 0;
 }
 
+/* parents stand before their children */
+static void find_joints(ambulo__skeleton *skeleton) {
+  const ambulo_model *model = skeleton->model;
+  double whole = 0.0;
+  for (int i = 0; i < model->link_count; i++) {
+    const ambulo_link *link = &model->links[i];
+    int stays = link->parent >= 0 && link->type != AMBULO_PRISMATIC &&
+                hypot(link->a, link->d) <= shortest_line;
+    skeleton->joint[i] = stays ? skeleton->joint[link->parent] : i;
+    whole += link->mass;
+  }
+  for (int i = model->link_count - 1; i >= 0; i--) {
+    const ambulo_link *link = &model->links[i];
+    skeleton->bears[i] |= link->mass > lightest_body * whole || link_has_point(model, i) ||
+                          (link->coordinate >= 0 && link->mass > 0.0);
+    if (link->parent >= 0) skeleton->bears[link->parent] |= skeleton->bears[i];
+  }
+}
+
+/* 1 if something is drawn from the joint of link i: a line to the next joint, or to a point */
+static int is_joined(const ambulo__skeleton *skeleton, int i) {
+  const ambulo_model *model = skeleton->model;
+  for (int k = 0; k < model->link_count; k++) {
+    int parent = model->links[k].parent;
+    if (skeleton->joint[k] == skeleton->joint[i] && link_has_point(model, k)) return 1;
+    if (parent >= 0 && skeleton->joint[parent] == skeleton->joint[i] && has_own_line(skeleton, k))
+      return 1;
+  }
+  return 0;
+}
+
 /* the line to the head stops below it: the bone's second end is the centre of the head */
 static void add_head(ambulo__skeleton *skeleton, const ambulo_point *top) {
   double length = 0.0, center[3];
@@ -119,7 +139,7 @@ static void add_limb_ends(ambulo__skeleton *skeleton, int head) {
   for (int i = 0; i < model->link_count; i++) {
     int is_parent = 0, furthest = -1;
     for (int k = 0; k < model->link_count; k++) is_parent |= model->links[k].parent == i;
-    if (is_parent || i == head || has_own_line(model, i) || carries_a_foot(model, i)) continue;
+    if (is_parent || i == head || has_own_line(skeleton, i) || carries_a_foot(model, i)) continue;
     double length = shortest_line;
     for (int p = 0; p < model->point_count; p++) {
       const double *at = model->points[p].position;
@@ -137,9 +157,9 @@ static void add_lines(ambulo__skeleton *skeleton) {
   const ambulo_model *model = skeleton->model;
   for (int i = 0; i < model->link_count; i++) {
     const ambulo_link *link = &model->links[i];
-    if (has_own_line(model, i)) {
+    if (has_own_line(skeleton, i)) {
       add_bone(skeleton, link->parent, NULL, i, NULL, line_side(skeleton, i), 0.0);
-    } else if (link->mass > 0.0 && !link_has_point(model, i)) {
+    } else if (link->mass > 0.0 && skeleton->bears[i] && !is_joined(skeleton, i)) {
       double length = hypot(hypot(link->com[0], link->com[1]), link->com[2]);
       if (length > shortest_line) add_bone(skeleton, i, NULL, i, link->com, skeleton->side[i], 0.0);
     }
@@ -157,12 +177,15 @@ ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_al
   s.bone_capacity = 2 * model->link_count + 3 * model->foot_count + 1;
   s.bones = ambulo__alloc(&s.allocator, (size_t)s.bone_capacity, sizeof *s.bones);
   s.side = ambulo__alloc(&s.allocator, links, sizeof *s.side);
+  s.joint = ambulo__alloc(&s.allocator, links, sizeof *s.joint);
+  s.bears = ambulo__alloc(&s.allocator, links, sizeof *s.bears);
   ambulo_status status = ambulo__pose_create(model, &s.allocator, &s.pose);
-  if (status || !s.bones || !s.side) {
+  if (status || !s.bones || !s.side || !s.joint || !s.bears) {
     ambulo__skeleton_free(&s);
     return AMBULO_E_MEMORY;
   }
   fill_sides(&s);
+  find_joints(&s);
   add_lines(&s);
   *skeleton = s;
   return AMBULO_OK;
@@ -171,5 +194,7 @@ ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_al
 void ambulo__skeleton_free(ambulo__skeleton *skeleton) {
   ambulo__free(&skeleton->allocator, skeleton->bones);
   ambulo__free(&skeleton->allocator, skeleton->side);
+  ambulo__free(&skeleton->allocator, skeleton->joint);
+  ambulo__free(&skeleton->allocator, skeleton->bears);
   ambulo__pose_free(&skeleton->pose);
 }

@@ -2,15 +2,16 @@
  *
  * Lines: from each link's joint to the next (origins of parent and child frame, where they
  * are more than 1 cm apart), ankle - heel - toe - ankle for feet, from the root body to a
- * point named "head_top" with a head below it, or to the centre of mass of a body that has
- * no other line. Virtual links that place the whole body in the world are not drawn.
+ * point named "head_top" with a head below it, or to the centre of mass of a body at whose
+ * joint no line begins. A model with `origin`s, an imported one, has several links at one joint
+ * (model/placement.h): they count as one. Not drawn: virtual links that place the whole body in
+ * the world, and frames beyond which there is nothing that weighs, moves or touches (sensors).
  */
 #ifndef AMBULO_PICTURE_SKELETON_H
 #define AMBULO_PICTURE_SKELETON_H
 
 #include "mechanics/pose.h"
-
-typedef enum ambulo__side { AMBULO__MIDDLE, AMBULO__LEFT, AMBULO__RIGHT } ambulo__side;
+#include "picture/coordinate_name.h"
 
 typedef struct ambulo__bone {
   int link[2];     /* links its ends are fixed to; -1: the world */
@@ -26,14 +27,13 @@ typedef struct ambulo__skeleton {
   ambulo__bone *bones;
   int bone_count, bone_capacity;
   ambulo__side *side; /* [links] */
+  int *joint;         /* [links]: the first link whose joint is in the same place at every pose */
+  int *bears;         /* [links]: 1 if it or a link beyond weighs, moves or has a point */
 } ambulo__skeleton;
 
 /* Errors: E_MEMORY. */
 ambulo_status ambulo__skeleton_create(const ambulo_model *model, const ambulo_allocator *allocator,
                                       ambulo__skeleton *skeleton);
 void ambulo__skeleton_free(ambulo__skeleton *skeleton); /* accepts a zero-filled one */
-
-/* Left, right or neither, by the names of a coordinate that has a mirror image. */
-ambulo__side ambulo__coordinate_side(const ambulo_model *model, int coordinate);
 
 #endif

@@ -32,6 +32,8 @@ static const char style_sheet[] =
     ".curve{stroke-width:2.2}\n"
     ".left-people{fill:#e0662f;fill-opacity:.17}\n"
     ".right-people{fill:#2377bd;fill-opacity:.17}\n"
+    ".both-people{fill:#5f6b78;fill-opacity:.2}\n"
+    ".trunk.people{stroke:#5f6b78}\n"
     ".people{stroke-width:1.3;stroke-dasharray:5 3;stroke-linecap:butt;stroke-opacity:.75}\n"
     ".device{fill:none;stroke:#2e8b57;stroke-width:2.6;stroke-linecap:round}\n"
     ".worn{stroke-width:2.2;stroke-dasharray:.5 4.5;stroke-linecap:round}\n"
@@ -85,11 +87,22 @@ static void open_element(ambulo__text_buffer *text, const char *name, const char
   ambulo__text_append_format(text, "<%s class=\"%s\"", name, style);
 }
 
-void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, const char *title) {
+/* " width="180mm"" */
+static void length_attribute(ambulo__text_buffer *text, const char *name, double value,
+                             const char *unit) {
+  ambulo__text_append_format(text, " %s=\"", name);
+  number(text, value);
+  ambulo__text_append_format(text, "%s\"", unit);
+}
+
+void ambulo__svg_begin_wide(ambulo__text_buffer *text, double width, double height,
+                            double millimetres, const char *title) {
+  double scale = millimetres > 0.0 ? millimetres / width : 1.0;
+  const char *unit = millimetres > 0.0 ? "mm" : "";
   ambulo__text_append(text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                             "<svg xmlns=\"http://www.w3.org/2000/svg\"");
-  attribute(text, "width", width);
-  attribute(text, "height", height);
+  length_attribute(text, "width", scale * width, unit);
+  length_attribute(text, "height", scale * height, unit);
   ambulo__text_append(text, " viewBox=\"0 0 ");
   number(text, width);
   ambulo__text_append_char(text, ' ');
@@ -99,6 +112,10 @@ void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, c
   ambulo__text_append(text, "</title>\n");
   ambulo__text_append(text, style_sheet);
   ambulo__svg_rectangle(text, "background", 0.0, 0.0, width, height);
+}
+
+void ambulo__svg_begin(ambulo__text_buffer *text, double width, double height, const char *title) {
+  ambulo__svg_begin_wide(text, width, height, 0.0, title);
 }
 
 void ambulo__svg_end(ambulo__text_buffer *text) {
@@ -139,6 +156,19 @@ void ambulo__svg_label(ambulo__text_buffer *text, const char *style, double x, d
   open_element(text, "text", style);
   attribute(text, "x", x);
   attribute(text, "y", y);
+  ambulo__text_append_char(text, '>');
+  escape(text, label);
+  ambulo__text_append(text, "</text>\n");
+}
+
+void ambulo__svg_label_sized(ambulo__text_buffer *text, const char *style, double x, double y,
+                             double font_size, const char *label) {
+  open_element(text, "text", style);
+  attribute(text, "x", x);
+  attribute(text, "y", y);
+  ambulo__text_append(text, " style=\"font-size:");
+  number(text, font_size);
+  ambulo__text_append(text, "px\"");
   ambulo__text_append_char(text, '>');
   escape(text, label);
   ambulo__text_append(text, "</text>\n");
