@@ -69,8 +69,12 @@ LAPACK_LIBS = $(or $(call probe,openblas,--libs),$(if $(call links,-lopenblas),-
   $(call probe,lapack blas,--libs),-llapack -lblas)
 ifeq ($(shell uname -s),Darwin)
   export PKG_CONFIG_PATH := $(PKG_CONFIG_PATH):$(shell brew --prefix openblas 2>/dev/null)/lib/pkgconfig
-  SHARED := -dynamiclib -install_name @rpath/libambulo.so.$(SOVERSION)
+  # what POSIX alone does not name: MAP_ANONYMOUS, _SC_NPROCESSORS_ONLN
+  ALL_CPPFLAGS += -D_DARWIN_C_SOURCE
+  shared_name = libambulo$(1).dylib
+  SHARED := -dynamiclib -install_name @rpath/$(call shared_name,.$(SOVERSION))
 else
+  shared_name = libambulo.so$(1)
   SHARED := -shared -Wl,-soname,libambulo.so.$(SOVERSION) $(if $(filter san,$(VARIANT)),,-Wl,-z,defs)
 endif
 DEPENDENCIES := nlopt yaml-0.1
@@ -78,6 +82,8 @@ DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflag
 LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(LAPACK_LIBS)) -lm -lpthread
 CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
+
+SHARED_LIBRARY = $(OUT)/$(call shared_name,)
 
 # ----------------------------------------------------------------- sources
 
@@ -125,12 +131,15 @@ help:
 	@echo 'make bench-peers  mechanics and solves beside other programs, in one run'
 	@echo 'make setup        only install what is missing'
 	@echo 'make install      to PREFIX (/usr/local), below DESTDIR if set; make uninstall'
+	@echo 'make deb          Debian packages of the build, in build/deb; lintian, where it is there'
+	@echo 'make book         the pages of docs/ as one, build/book/ambulo.html (needs pandoc)'
+	@echo 'make cross-objects  compile for aarch64 and for musl, where the compilers are there'
 	@echo 'make clean        remove build/'
 	@echo 'variables         VARIANT=release|debug|san|cov  CC=  CFLAGS=  LDFLAGS=  JOBS=  V=1'
 
 # ------------------------------------------------------------------- build
 
-all: $(OUT)/libambulo.a $(OUT)/libambulo.so $(if $(CLI_SOURCES),$(OUT)/ambulo)
+all: $(OUT)/libambulo.a $(SHARED_LIBRARY) $(if $(CLI_SOURCES),$(OUT)/ambulo)
 
 # rewritten only when what it says changes: objects are rebuilt with new flags, archives
 # with a new list of sources
@@ -164,7 +173,7 @@ $(OUT)/libambulo.a: $(LIB_OBJECTS) $(OUT)/obj/sources
 	@rm -f $@
 	$(call quiet,AR $@)$(AR) rcs $@ $(LIB_OBJECTS)
 
-$(OUT)/libambulo.so: $(LIB_OBJECTS) $(OUT)/obj/sources
+$(SHARED_LIBRARY): $(LIB_OBJECTS) $(OUT)/obj/sources
 	$(call quiet,LD $@)$(CC) $(MODE) $(SHARED) $(LIB_OBJECTS) $(LDFLAGS) $(LIBS) -o $@
 
 $(OUT)/ambulo: $(CLI_OBJECTS) $(OUT)/libambulo.a
@@ -277,8 +286,8 @@ lint-order: build/.ready-build
 lint-size:
 	@.setup/lint_size.sh
 lint-symbols: build/.ready-build
-	$(submake) $(OUT)/libambulo.so $(OUT)/libambulo.a
-	@.setup/lint_symbols.sh $(OUT)/libambulo.so $(OUT)/libambulo.a
+	$(submake) $(SHARED_LIBRARY) $(OUT)/libambulo.a
+	@.setup/lint_symbols.sh $(SHARED_LIBRARY) $(OUT)/libambulo.a
 lint-callers: build/.ready-build
 	$(submake) $(OUT)/libambulo.a $(OUT)/ambulo
 	@.setup/lint_callers.sh $(OUT)/obj/src
@@ -297,15 +306,17 @@ lint-leftovers:
 
 # ----------------------------------------------------------------- install
 
+# PREFIX/lib, or where a distribution has libraries: make install LIBDIR=/usr/lib/x86_64-linux-gnu
+LIBDIR ?= $(PREFIX)/lib
 MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' -o -name '*.md' 2>/dev/null)
-TARGET = $(DESTDIR)$(PREFIX)
+DOCS = LICENSE README.md CHANGELOG.md $(wildcard CITATION.cff CONTRIBUTING.md docs/*.md docs/images/*.svg)
 
 # where the loader does not look by itself, programs are told where the library is
 RPATH = $(if $(filter /usr,$(PREFIX)),,-Wl,-rpath,$${libdir} )
 
 define PKG_CONFIG_FILE
 prefix=$(PREFIX)
-libdir=$${prefix}/lib
+libdir=$(if $(filter $(PREFIX)/%,$(LIBDIR)),$${prefix}$(LIBDIR:$(PREFIX)%=%),$(LIBDIR))
 includedir=$${prefix}/include
 
 Name: ambulo
@@ -317,21 +328,51 @@ Cflags: -I$${includedir}
 endef
 export PKG_CONFIG_FILE
 
+# "mode <tab> file <tab> place" of all that is installed
+define PLACES
+{ place() { printf '%s\t%s\t%s\n' "$$@"; }; share=$(PREFIX)/share; \
+  place 755 $(OUT)/ambulo $(PREFIX)/bin/ambulo; \
+  place 644 $(OUT)/libambulo.a $(LIBDIR)/libambulo.a; \
+  place 755 $(SHARED_LIBRARY) $(LIBDIR)/$(call shared_name,.$(VERSION)); \
+  place link $(call shared_name,.$(VERSION)) $(LIBDIR)/$(call shared_name,.$(SOVERSION)); \
+  place link $(call shared_name,.$(SOVERSION)) $(LIBDIR)/$(call shared_name,); \
+  place 644 $$stage/ambulo.pc $(LIBDIR)/pkgconfig/ambulo.pc; \
+  for file in ambulo-config.cmake ambulo-config-version.cmake; do \
+    place 644 $$stage/$$file $(LIBDIR)/cmake/ambulo/$$file; done; \
+  for file in $(HEADERS); do place 644 $$file $(PREFIX)/$$file; done; \
+  for file in $(MODELS); do place 644 $$file $$share/ambulo/$$file; done; \
+  for file in $(DOCS); do place 644 $$file $$share/doc/ambulo/$$file; done; \
+  (cd $$stage/share && find . -type f) | sort | while read -r file; do \
+    place 644 $$stage/share/$$file $$share/$${file#./}; done; }
+endef
+
+# in a folder of its own, so that two may go on at once
 install: all
-	install -d $(TARGET)/bin $(TARGET)/lib/pkgconfig $(TARGET)/include/ambulo
-	install -m 755 $(OUT)/ambulo $(TARGET)/bin/ambulo
-	install -m 644 $(OUT)/libambulo.a $(TARGET)/lib/libambulo.a
-	install -m 755 $(OUT)/libambulo.so $(TARGET)/lib/libambulo.so.$(VERSION)
-	ln -sf libambulo.so.$(VERSION) $(TARGET)/lib/libambulo.so.$(SOVERSION)
-	ln -sf libambulo.so.$(SOVERSION) $(TARGET)/lib/libambulo.so
-	install -m 644 $(HEADERS) $(TARGET)/include/ambulo
-	@printf '%s\n' "$$PKG_CONFIG_FILE" > $(TARGET)/lib/pkgconfig/ambulo.pc
-	@for file in $(MODELS); do install -D -m 644 $$file $(TARGET)/share/ambulo/$$file || exit 1; done
+	@stage=$$(mktemp -d) && trap 'rm -rf "$$stage"' EXIT && \
+	.setup/manual.sh $(OUT)/ambulo "$$stage/share" && \
+	printf '%s\n' "$$PKG_CONFIG_FILE" > "$$stage/ambulo.pc" && \
+	.setup/cmake_config.sh '$(VERSION)' '$(PREFIX)' '$(LIBDIR)' '$(LIBS)' "$$stage" && \
+	$(PLACES) | .setup/place.sh install '$(DESTDIR)' '$(PREFIX)'
+	@.setup/after_install.sh '$(DESTDIR)' '$(PREFIX)' '$(LIBDIR)'
 
 uninstall:
-	rm -f $(TARGET)/bin/ambulo $(TARGET)/lib/libambulo.a $(TARGET)/lib/libambulo.so* \
-	  $(TARGET)/lib/pkgconfig/ambulo.pc
-	rm -rf $(TARGET)/include/ambulo $(TARGET)/share/ambulo
+	@.setup/place.sh uninstall '$(DESTDIR)' '$(PREFIX)'
+
+.PHONY: book
+book:
+	@.setup/book.sh build/book/ambulo.html
+
+.PHONY: objects cross-objects
+objects: $(LIB_OBJECTS) $(CLI_OBJECTS)
+cross-objects:
+	@JOBS=$(JOBS) .setup/cross.sh aarch64
+	@JOBS=$(JOBS) .setup/cross.sh musl
+
+.PHONY: deb
+deb: build/.ready-build
+	$(submake) all
+	@.setup/deb.sh $(OUT) build/deb
+	@if command -v lintian >/dev/null; then lintian --fail-on error,warning build/deb/*.deb; fi
 
 clean:
 	rm -rf build

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing on this machine: .setup/install.sh build|test|lint|valgrind [--list]
+# Installs what is missing on this machine: .setup/install.sh build|test|lint|valgrind|package [--list]
 #
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
@@ -99,6 +99,11 @@ missing() {
     has_program clang-tidy || package clang-tidy
   fi
   [ "$purpose" != valgrind ] || has_program valgrind || package valgrind
+  # what tests of the package try, and skip without: make book, make deb, find_package, the manual
+  if [ "$purpose" = package ]; then
+    for program in pandoc cmake mandoc zsh fish lintian; do has_program $program || package $program; done
+    has_program dpkg-shlibdeps || package dpkg-dev
+  fi
 }
 
 as_root() {

@@ -311,7 +311,9 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
     const ambulo_problem_definition *definition, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
-/* From a file; the model it names is loaded with it and owned by the problem.
+/* From a file; the model it names is loaded with it and owned by the problem. A name of a model or
+ * a reference that is not beside the file is looked for below the folder that the environment calls
+ * AMBULO_MODELS, if it is set, which a note says.
  * overrides[i] is "path=value" ("time.intervals=36"), applied before anything is
  * read. Errors: as ambulo_model_load and ambulo_problem_create. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load(

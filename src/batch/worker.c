@@ -14,7 +14,13 @@
 #include <string.h>
 #include <unistd.h>
 
+/* a shared library of macOS has no `environ` of its own (untested) */
+#ifdef __APPLE__
+#include <crt_externs.h>
+#define environ (*_NSGetEnviron())
+#else
 extern char **environ;
+#endif
 
 enum { FIXED_ARGUMENTS = 10, FIXED_VARIABLES = 2 };
 

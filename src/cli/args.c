@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cli/output.h"
+#include "cli/shipped.h"
 
 /* ------------------------------------------------------------- nearest word */
 
@@ -219,25 +220,51 @@ static int parse(parser *p, int *help) {
   return check_arguments(p);
 }
 
+enum { PATH = 4096 };
+
+/* puts paths of shipped files in the place of their names; 0: no memory */
+static int find_files(parser *p, char **paths) {
+  int most = p->command->files;
+  for (int i = 0; i < p->argument_count && (most < 0 || i < most); i++) {
+    char path[PATH];
+    if (!ambulo__cli_find_file(p->arguments[i], path, sizeof path)) continue;
+    size_t size = strlen(path) + 1;
+    paths[i] = malloc(size);
+    if (!paths[i]) return 0;
+    memcpy(paths[i], path, size);
+    p->arguments[i] = paths[i];
+  }
+  return 1;
+}
+
+static int run_command(parser *p, char **paths) {
+  int help = 0, code = parse(p, &help);
+  if (help) ambulo__cli_print_help(p->command);
+  if (help || code) return code;
+  if (!find_files(p, paths)) {
+    ambulo__cli_error("E_MEMORY", NULL, "not enough memory for the names of files");
+    return 5;
+  }
+  ambulo__cli_input input = {p->command, p->arguments, p->argument_count,
+                             p->options, p->values,    p->given_count};
+  return p->command->run(&input);
+}
+
 int ambulo__cli_run(const ambulo__cli_command *command, int argc, char **argv) {
   size_t room = (size_t)argc + 1;
   parser p = {.command = command, .argc = argc, .next = 2, .argv = argv};
   p.arguments = calloc(room, sizeof *p.arguments);
   p.values = calloc(room, sizeof *p.values);
   p.options = calloc(room, sizeof *p.options);
-  int code = 5, help = 0;
-  if (p.arguments && p.values && p.options) {
-    code = parse(&p, &help);
-    if (help) {
-      ambulo__cli_print_help(command);
-    } else if (!code) {
-      ambulo__cli_input input = {command,   p.arguments, p.argument_count,
-                                 p.options, p.values,    p.given_count};
-      code = command->run(&input);
-    }
+  char **paths = calloc(room, sizeof *paths);
+  int code = 5;
+  if (p.arguments && p.values && p.options && paths) {
+    code = run_command(&p, paths);
   } else {
     ambulo__cli_error("E_MEMORY", NULL, "not enough memory for the command line");
   }
+  for (size_t i = 0; paths && i < room; i++) free(paths[i]);
+  free(paths);
   free(p.arguments);
   free(p.values);
   free(p.options);

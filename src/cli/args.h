@@ -19,7 +19,9 @@ typedef struct ambulo__cli_command {
   const char *example;     /* lines to paste */
   const ambulo__cli_option *options;
   int option_count;
-  int minimum, maximum;                       /* number of positional arguments; maximum < 0: any */
+  int minimum, maximum; /* number of positional arguments; maximum < 0: any */
+  int files;            /* so many of the first may be names of shipped files; < 0: all of them */
+  const char *words;    /* a shell command that lists what the arguments may be; NULL: only files */
   int (*run)(const ambulo__cli_input *input); /* returns the exit code */
 } ambulo__cli_command;
 
@@ -53,5 +55,14 @@ const char *ambulo__cli_nearest(const char *word, const char *const *words, int 
 
 /* help.c: the page of one command, on stdout. */
 void ambulo__cli_print_help(const ambulo__cli_command *command);
+/* --help, which every command has. */
+extern const ambulo__cli_option ambulo__cli_help_option;
+
+/* exit_codes.c: what the codes mean, in lines of "CODE", "meaning". */
+typedef struct ambulo__cli_exit_code {
+  const char *code, *meaning;
+} ambulo__cli_exit_code;
+enum { AMBULO__CLI_EXIT_CODES = 8 };
+extern const ambulo__cli_exit_code ambulo__cli_exit_codes[AMBULO__CLI_EXIT_CODES];
 
 #endif

@@ -10,6 +10,7 @@
 #include "cli/format.h"
 #include "cli/front_words.h"
 #include "cli/output.h"
+#include "cli/own_program.h"
 #include "cli/stop_signals.h"
 
 enum { MOST_WORKERS = 1024, MOST_SHARDS = 1000000, LINE = 240 };
@@ -74,6 +75,7 @@ static int read_shard(const ambulo__cli_input *input, ambulo_batch_options *o) {
 static int read_options(const ambulo__cli_input *input, ambulo_batch_options *o) {
   *o = ambulo_batch_options_default();
   o->force = ambulo__cli_flag(input, "force");
+  o->program = ambulo__cli_worker_program();
   return ambulo__cli_integer(input, "jobs", 1, MOST_WORKERS, &o->workers) &&
          ambulo__cli_number(input, "case-time", 0.0, 1e9, &o->case_seconds) &&
          ambulo__cli_integer(input, "case-memory", 0, 100000000, &o->case_megabytes) &&
@@ -163,6 +165,7 @@ static int run(const ambulo__cli_input *input) {
     code = ambulo__cli_usage_error("batch", "its points follow from each other",
                                    "--shard with a front; expected one run with -j N");
   } else {
+    if (dry) (void)ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
     code = dry ? ambulo__cli_dry_run(sweep, directory, o.workers)
                : run_sweep(input, sweep, &o, diagnostics);
   }
@@ -203,5 +206,7 @@ const ambulo__cli_command ambulo__cli_batch = {
     .option_count = sizeof options / sizeof options[0],
     .minimum = 0,
     .maximum = 1,
+    .files = 1,
+    .words = "ambulo models --names sweep",
     .run = run,
 };

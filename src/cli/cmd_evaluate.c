@@ -89,5 +89,7 @@ const ambulo__cli_command ambulo__cli_evaluate = {
     .option_count = sizeof options / sizeof options[0],
     .minimum = 2,
     .maximum = 2,
+    .files = 1,
+    .words = "ambulo models --names problem",
     .run = run,
 };

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/format.h"
 #include "cli/output.h"
+#include "cli/own_program.h"
 #include "cli/stop_signals.h"
 
 enum { MOST_WORKERS = 1024, LINE = 240 };
@@ -52,6 +53,7 @@ static int show(void *user, const ambulo_fit_progress *p) {
 static int read_options(const ambulo__cli_input *input, ambulo_fit_options *o) {
   *o = ambulo_fit_options_default();
   o->force = ambulo__cli_flag(input, "force");
+  o->program = ambulo__cli_worker_program();
   return ambulo__cli_integer(input, "jobs", 1, MOST_WORKERS, &o->workers) &&
          ambulo__cli_number(input, "case-time", 0.0, 1e9, &o->case_seconds) &&
          ambulo__cli_integer(input, "case-memory", 0, 100000000, &o->case_megabytes) &&
@@ -148,5 +150,7 @@ const ambulo__cli_command ambulo__cli_fit = {
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
     .maximum = 1,
+    .files = 1,
+    .words = "ambulo models --names fit",
     .run = run,
 };

@@ -141,5 +141,7 @@ const ambulo__cli_command ambulo__cli_inverse = {
     .option_count = sizeof options_table / sizeof options_table[0],
     .minimum = 2,
     .maximum = 2,
+    .files = 2,
+    .words = "ambulo models --names",
     .run = run,
 };

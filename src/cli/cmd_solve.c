@@ -303,5 +303,7 @@ const ambulo__cli_command ambulo__cli_solve = {
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,
     .maximum = 1,
+    .files = 1,
+    .words = "ambulo models --names problem",
     .run = run,
 };

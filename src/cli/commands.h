@@ -13,5 +13,7 @@ extern const ambulo__cli_command ambulo__cli_compare;
 extern const ambulo__cli_command ambulo__cli_batch;
 extern const ambulo__cli_command ambulo__cli_collect;
 extern const ambulo__cli_command ambulo__cli_fit;
+extern const ambulo__cli_command ambulo__cli_models;
+extern const ambulo__cli_command ambulo__cli_new;
 
 #endif

@@ -32,8 +32,9 @@ static void print_indented(const char *text) {
   putchar('\n');
 }
 
+const ambulo__cli_option ambulo__cli_help_option = {"help", 'h', NULL, "this page"};
+
 void ambulo__cli_print_help(const ambulo__cli_command *command) {
-  static const ambulo__cli_option help = {"help", 'h', NULL, "this page"};
   int width = 0;
   char label[80];
   for (int i = 0; i < command->option_count; i++) {
@@ -46,7 +47,7 @@ void ambulo__cli_print_help(const ambulo__cli_command *command) {
          command->option_count ? " [options]" : "");
   printf("%s\n\noptions:\n", command->description);
   for (int i = 0; i < command->option_count; i++) print_option(&command->options[i], width);
-  print_option(&help, width);
+  print_option(&ambulo__cli_help_option, width);
   printf("\nexample:\n");
   print_indented(command->example);
 }

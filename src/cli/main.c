@@ -9,15 +9,17 @@
 
 #include "cli/blas.h"
 #include "cli/commands.h"
+#include "cli/completion.h"
 #include "cli/format.h"
+#include "cli/man.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
 #include "cli/worker.h"
 
 static const ambulo__cli_command *const commands[] = {
-    &ambulo__cli_solve, &ambulo__cli_evaluate, &ambulo__cli_check,
-    &ambulo__cli_info,  &ambulo__cli_inverse,  &ambulo__cli_compare,
-    &ambulo__cli_batch, &ambulo__cli_collect,  &ambulo__cli_fit,
+    &ambulo__cli_solve,   &ambulo__cli_evaluate, &ambulo__cli_check, &ambulo__cli_info,
+    &ambulo__cli_inverse, &ambulo__cli_compare,  &ambulo__cli_batch, &ambulo__cli_collect,
+    &ambulo__cli_fit,     &ambulo__cli_models,   &ambulo__cli_new,
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
@@ -26,11 +28,13 @@ static void print_overview(void) {
   printf("usage: ambulo COMMAND ARGUMENTS [options]\n\ncommands:\n");
   for (int i = 0; i < COMMAND_COUNT; i++)
     printf("  %-10s %s\n", commands[i]->name, commands[i]->summary);
-  printf("\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts;\n"
-         "'ambulo --models' names the folder of the shipped models and problems.\n");
-  printf("exit codes: 0 solved; 1 ended without a valid solution; 2 usage; 3 invalid input;\n"
-         "            4 input/output; 5 memory or size limit; 6 internal error;\n"
-         "            130/143 interrupted (the best point is saved)\n");
+  printf(
+      "\n'ambulo COMMAND --help' explains a command; 'ambulo --version' names the parts;\n"
+      "'ambulo --models' names the folder of the shipped models and problems, which are found by\n"
+      "their names from anywhere.\n");
+  printf("exit codes:\n");
+  for (int i = 0; i < AMBULO__CLI_EXIT_CODES; i++)
+    printf("  %-10s %s\n", ambulo__cli_exit_codes[i].code, ambulo__cli_exit_codes[i].meaning);
   printf("\nexample:\n  ambulo solve models/yardstick_12.yaml -o walk\n");
 }
 
@@ -63,6 +67,22 @@ static int unknown_command(const char *word) {
                                  word[0] == '-' ? "option" : "command", word);
 }
 
+/* "--man COMMAND", "--completion SHELL": what `make install` puts beside the program */
+static int print_generated(const char *option, const char *word) {
+  if (!strcmp(option, "--completion"))
+    return ambulo__cli_print_completion(word, commands, COMMAND_COUNT);
+  if (!word) {
+    ambulo__cli_print_man_overview(commands, COMMAND_COUNT);
+    return 0;
+  }
+  for (int i = 0; i < COMMAND_COUNT; i++) {
+    if (strcmp(word, commands[i]->name) != 0) continue;
+    ambulo__cli_print_man(commands[i]);
+    return 0;
+  }
+  return unknown_command(word);
+}
+
 /* the overview, or the page of a command */
 static int print_help(const char *word) {
   if (!word) print_overview();
@@ -78,7 +98,9 @@ static int dispatch(int argc, char **argv) {
   if (argc < 2) return ambulo__cli_usage_error(NULL, NULL, "no command given");
   const char *word = argv[1];
   if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help"))
-    return print_help(argc > 2 ? argv[2] : NULL);
+    return argc > 2 && (!strcmp(argv[2], "--man") || !strcmp(argv[2], "--completion"))
+               ? print_generated(argv[2], argc > 3 ? argv[3] : NULL)
+               : print_help(argc > 2 ? argv[2] : NULL);
   if (!strcmp(word, "--version") || !strcmp(word, "version")) {
     print_version();
     return 0;
@@ -95,6 +117,7 @@ static int dispatch(int argc, char **argv) {
 int main(int argc, char **argv) {
   if (!ambulo__cli_become_worker()) return 128 + SIGTERM;
   ambulo__cli_guard_streams();
+  ambulo__cli_shipped_announce();
   ambulo__cli_single_threaded_blas(argv);
   /* a closed pipe and a file size limit show up as failed writes, so that files are whole */
   signal(SIGPIPE, SIG_IGN);

@@ -11,25 +11,34 @@
 #include <unistd.h>
 
 #include "cli/output.h"
+#include "cli/own_program.h"
 
 enum { PATH = 4096 };
+static const char variable[] = "AMBULO_MODELS";
 
 static int is_there(const char *path) {
   struct stat info;
   return stat(path, &info) == 0;
 }
 
-/* the folder of the program, without links */
-static int own_folder(char folder[PATH]) {
-  ssize_t length = readlink("/proc/self/exe", folder, PATH - 1);
-  if (length <= 0) return 0;
-  folder[length] = '\0';
-  char *slash = strrchr(folder, '/');
-  if (slash) *slash = '\0';
-  return slash != NULL;
+static int is_file(const char *path) {
+  struct stat info;
+  return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
-int ambulo__cli_shipped_folder(char *buffer, size_t size) {
+/* the folder of the program, without links */
+static int own_folder(char folder[PATH]) {
+  char own[PATH];
+  char *plain = ambulo__cli_own_program(own, sizeof own) ? realpath(own, NULL) : NULL;
+  char *slash = plain ? strrchr(plain, '/') : NULL;
+  int fits = slash && strlen(plain) < PATH;
+  if (slash) *slash = '\0';
+  if (fits) ambulo__cli_format(folder, PATH, "%s", plain);
+  free(plain);
+  return fits;
+}
+
+static int beside_program(char *buffer, size_t size) {
   /* installed; built; built as a variant */
   static const char *const places[] = {"../share/ambulo/models", "../models", "../../models"};
   char folder[PATH], path[2 * PATH];
@@ -47,6 +56,14 @@ int ambulo__cli_shipped_folder(char *buffer, size_t size) {
   return 0;
 }
 
+int ambulo__cli_shipped_folder(char *buffer, size_t size) {
+  const char *named = getenv(variable);
+  if (!named || !named[0]) return beside_program(buffer, size);
+  if (strlen(named) >= size || !is_there(named)) return 0;
+  ambulo__cli_format(buffer, size, "%s", named);
+  return 1;
+}
+
 int ambulo__cli_shipped_file(const char *name, char *buffer, size_t size) {
   char folder[PATH], path[2 * PATH];
   if (!ambulo__cli_shipped_folder(folder, sizeof folder)) return 0;
@@ -54,6 +71,30 @@ int ambulo__cli_shipped_file(const char *name, char *buffer, size_t size) {
   int fits = is_there(path) && strlen(path) < size;
   if (fits) ambulo__cli_format(buffer, size, "%s", path);
   return fits;
+}
+
+void ambulo__cli_shipped_announce(void) {
+  char folder[PATH];
+  const char *named = getenv(variable);
+  if (named && named[0]) return;
+  if (beside_program(folder, sizeof folder)) (void)setenv(variable, folder, 1);
+}
+
+int ambulo__cli_find_file(const char *word, char *buffer, size_t size) {
+  char name[PATH];
+  size_t length = strlen(word);
+  if (length == 0 || length + sizeof ".yaml" > sizeof name || is_file(word)) return 0;
+  ambulo__cli_format(name, sizeof name, "%s.yaml", word);
+  int here = is_file(name) && strlen(name) < size, below = word[0] != '/' && !strstr(word, "..");
+  if (here) {
+    ambulo__cli_format(buffer, size, "%s", name);
+  } else if (!below || !((ambulo__cli_shipped_file(word, buffer, size) && is_file(buffer)) ||
+                         (ambulo__cli_shipped_file(name, buffer, size) && is_file(buffer)))) {
+    return 0;
+  }
+  fprintf(stderr, "ambulo: note: '%s' is not here: %s%s is taken\n", word,
+          here ? "" : "the shipped ", buffer);
+  return 1;
 }
 
 void ambulo__cli_shipped_hint(const char *file) {
@@ -64,6 +105,7 @@ void ambulo__cli_shipped_hint(const char *file) {
   if (is_there(path))
     fprintf(stderr,
             "  hint: '%s' is one of the shipped files; cp -r \"$(ambulo --models)\" . copies them "
-            "to the folder 'models' here\n",
+            "to the folder 'models' here,\n        and without a folder before it the name alone "
+            "is found from anywhere\n",
             name);
 }

@@ -72,8 +72,10 @@ static ambulo_status read_condition(ambulo_fit *fit, int index, const ambulo__ya
                              "two conditions are named '%s'; expected different names", c->name);
   read_after(fit, index, ambulo__yaml_get(node, "after"));
   const char *file = ambulo__yaml_file_name(c->reference_node);
-  c->reference = ambulo__sibling_path(&fit->allocator, fit->path, file);
-  ambulo_status status = c->reference ? read_set(fit, c) : AMBULO_E_MEMORY;
+  ambulo_status status =
+      ambulo__named_file(&fit->allocator, fit->path, file, ambulo__yaml_place(c->reference_node),
+                         fit->diagnostics, &c->reference);
+  if (!status) status = read_set(fit, c);
   if (!status) ambulo__yaml_close(node);
   return status;
 }

@@ -160,8 +160,11 @@ static ambulo_status read_compare(ambulo_fit *fit, const ambulo__yaml_node *node
     fit->compare.pelvic_tilt = radians_per_degree * ambulo__yaml_number_in(tilt, -90.0, 90.0, 0.0);
   ambulo__yaml_close(node);
   if (!map) return AMBULO_OK;
-  fit->compare.map = ambulo__sibling_path(&fit->allocator, fit->path, ambulo__yaml_file_name(map));
-  return fit->compare.map ? AMBULO_OK : AMBULO_E_MEMORY;
+  char *path = NULL;
+  ambulo_status status = ambulo__named_file(&fit->allocator, fit->path, ambulo__yaml_file_name(map),
+                                            ambulo__yaml_place(map), fit->diagnostics, &path);
+  fit->compare.map = path;
+  return status;
 }
 
 /* a fault in one section must not make strangers of those that would have been read after it */
@@ -178,9 +181,10 @@ static ambulo_status read_sections(ambulo_fit *fit) {
   expect_all(root);
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
   fit->name = ambulo__yaml_name(ambulo__yaml_require(root, "name"));
-  const char *problem = ambulo__yaml_file_name(ambulo__yaml_require(root, "problem"));
-  fit->problem = ambulo__sibling_path(&fit->allocator, fit->path, problem);
-  ambulo_status status = fit->problem ? AMBULO_OK : AMBULO_E_MEMORY;
+  const ambulo__yaml_node *problem = ambulo__yaml_require(root, "problem");
+  ambulo_status status =
+      ambulo__named_file(&fit->allocator, fit->path, ambulo__yaml_file_name(problem),
+                         ambulo__yaml_place(problem), fit->diagnostics, &fit->problem);
   if (!status) status = read_compare(fit, ambulo__yaml_get(root, "compare"));
   if (!status) status = read_parameters(fit, ambulo__yaml_require(root, "parameters"));
   if (!status) status = ambulo__fit_read_conditions(fit, ambulo__yaml_require(root, "conditions"));

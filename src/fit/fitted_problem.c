@@ -96,9 +96,26 @@ static ambulo_status add_numbers(rewrite *w, ambulo__yaml *document, const doubl
   return status;
 }
 
+/* *yes: the name is found from anywhere, since it is that of a shipped file that the problem takes,
+ * by the name or as its neighbour */
+static ambulo_status is_shipped(const ambulo_fit *fit, const char *name, int *yes) {
+  const ambulo_allocator *a = &fit->allocator;
+  char *taken = NULL, *shipped = NULL, *beside = ambulo__sibling_path(a, fit->problem, name);
+  ambulo_status status = beside ? ambulo__shipped_path(a, beside, name, &taken) : AMBULO_E_MEMORY;
+  if (!status) status = ambulo__shipped_path(a, "", name, &shipped);
+  *yes = taken || (shipped && strcmp(shipped, beside) == 0);
+  ambulo__free(a, taken);
+  ambulo__free(a, shipped);
+  ambulo__free(a, beside);
+  return status;
+}
+
 static ambulo_status add_name(rewrite *w, const ambulo__yaml_node *node) {
   const char *name = ambulo__yaml_text(node);
+  int shipped = 0;
   if (!name[0] || name[0] == '/' || !w->way[0]) return AMBULO_OK;
+  if (is_shipped(w->fit, name, &shipped)) return AMBULO_E_MEMORY;
+  if (shipped) return AMBULO_OK; /* found by its name from anywhere */
   ambulo__text_buffer text;
   ambulo__text_init(&text, &w->fit->allocator);
   ambulo__text_append_char(&text, '"');

@@ -10,11 +10,13 @@
 static const double across = 1e-6; /* m */
 static const double ring = 5.0;    /* px */
 
+/* comparisons, not fmin and fmax: as a reduction over corners those stop gcc 12 for aarch64 with an
+ * internal error */
 static void widen(ambulo__outline *o, double forward, double up, double radius) {
-  o->from = fmin(o->from, forward - radius);
-  o->to = fmax(o->to, forward + radius);
-  o->low = fmin(o->low, up - radius);
-  o->high = fmax(o->high, up + radius);
+  if (forward - radius < o->from) o->from = forward - radius;
+  if (forward + radius > o->to) o->to = forward + radius;
+  if (up - radius < o->low) o->low = up - radius;
+  if (up + radius > o->high) o->high = up + radius;
 }
 
 ambulo__outline ambulo__obstacle_outline(const ambulo_problem *p, int obstacle) {

@@ -106,7 +106,7 @@ static void read_model(ambulo__problem_reader *reader, const ambulo__yaml_node *
   const ambulo__yaml_node *node = ambulo__yaml_require(root, "model");
   const char *name = ambulo__yaml_file_name(node);
   if (!name[0]) return;
-  const char *path = ambulo__reader_path(reader, name);
+  const char *path = ambulo__reader_path(reader, node, name);
   if (!path) return;
   ambulo_status status =
       ambulo__model_load_with(path, &subject, reader->setting, reader->settings, &reader->allocator,

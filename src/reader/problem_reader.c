@@ -1,6 +1,8 @@
 /* reader/problem_reader.c - memory, file names and sections of a problem reader. */
 #include "reader/problem_reader.h"
 
+#include "base/paths.h"
+
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -27,7 +29,14 @@ void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t 
   return block->memory;
 }
 
-const char *ambulo__reader_path(ambulo__problem_reader *reader, const char *name) {
+static const char *copy_text(ambulo__problem_reader *reader, const char *text) {
+  size_t size = strlen(text) + 1;
+  char *copy = ambulo__reader_alloc(reader, size, 1);
+  if (copy) memcpy(copy, text, size);
+  return copy;
+}
+
+static const char *beside(ambulo__problem_reader *reader, const char *name) {
   size_t directory = strlen(reader->directory), length = strlen(name);
   if (name[0] == '/' || directory == 0) return name;
   int slash = reader->directory[directory - 1] != '/';
@@ -36,6 +45,22 @@ const char *ambulo__reader_path(ambulo__problem_reader *reader, const char *name
   memcpy(path, reader->directory, directory);
   if (slash) path[directory] = '/';
   memcpy(path + directory + slash, name, length);
+  return path;
+}
+
+const char *ambulo__reader_path(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                const char *name) {
+  const char *path = beside(reader, name);
+  char *shipped = NULL;
+  if (!path) return NULL;
+  if (ambulo__shipped_path(&reader->allocator, path, name, &shipped)) {
+    reader->failure = AMBULO_E_MEMORY;
+    return NULL;
+  }
+  if (!shipped) return path;
+  ambulo__note_shipped(reader->diagnostics, ambulo__yaml_place(node), name, shipped);
+  path = copy_text(reader, shipped);
+  ambulo__free(&reader->allocator, shipped);
   return path;
 }
 

@@ -50,8 +50,9 @@ typedef struct ambulo__problem_reader {
 /* Zero-filled memory that lives as long as the reader; NULL sets reader->failure, and later faults
  * of the document, which may come of it, are not told. */
 void *ambulo__reader_alloc(ambulo__problem_reader *reader, size_t count, size_t size);
-/* `name` seen from the reader's directory. */
-const char *ambulo__reader_path(ambulo__problem_reader *reader, const char *name);
+/* `name`, which stands at `node`, seen from the reader's directory; or the shipped file. */
+const char *ambulo__reader_path(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
+                                const char *name);
 /* Frees blocks and model. */
 void ambulo__reader_clear(ambulo__problem_reader *reader);
 

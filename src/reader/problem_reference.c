@@ -128,7 +128,7 @@ static const double *resample(ambulo__problem_reader *reader, const ambulo__moti
 static const double *read_motion(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                                  const sampling *wanted, double *scale) {
   const char *name = ambulo__yaml_file_name(node);
-  const char *path = name[0] ? ambulo__reader_path(reader, name) : NULL;
+  const char *path = name[0] ? ambulo__reader_path(reader, node, name) : NULL;
   if (!path) return NULL;
   ambulo__motion *motion = NULL;
   ambulo_status status =

@@ -159,14 +159,16 @@ static ambulo_status read_head(ambulo_sweep *s, const ambulo__yaml *document,
   (void)ambulo__yaml_integer(ambulo__yaml_require(root, "ambulo"), 1, 1, 1);
   const ambulo__yaml_node *name = ambulo__yaml_require(root, "name");
   ambulo_status status = ambulo__sweep_copy(s, name, &s->name);
-  const char *base = ambulo__yaml_file_name(ambulo__yaml_require(root, "base"));
+  const ambulo__yaml_node *base = ambulo__yaml_require(root, "base");
+  const char *base_name = ambulo__yaml_file_name(base);
   const ambulo__yaml_node *pattern = ambulo__yaml_get(root, "case_name");
   if (!status) status = ambulo__sweep_copy(s, pattern, &s->case_name);
   s->case_name_spot = ambulo__spot_of(pattern);
   if (s->name && !s->name[0])
     status = ambulo__yaml_error(name, AMBULO_E_SCHEMA, NULL, "the name is empty; expected a text");
-  s->base = ambulo__sibling_path(&s->allocator, s->path, base);
-  if (!s->base) status = AMBULO_E_MEMORY;
+  if (!status)
+    status = ambulo__named_file(&s->allocator, s->path, base_name, ambulo__yaml_place(base),
+                                s->diagnostics, &s->base);
   return status ? status : ambulo__yaml_finish(document);
 }
 

@@ -60,16 +60,24 @@ static ambulo_status is_file(const ambulo_sweep *sweep, const char *path, int *y
   return none ? AMBULO_OK : ambulo__io_error(sweep->diagnostics, path, "inspect");
 }
 
+/* as the reader of problems finds it, without a word: it may be no file at all */
+static ambulo_status path_of_value(const ambulo_sweep *sweep, const char *base, const char *name,
+                                   char **path) {
+  const ambulo__place nowhere = {NULL, 0, 0, NULL};
+  return ambulo__named_file(&sweep->allocator, base, name, nowhere, NULL, path);
+}
+
 ambulo_status ambulo__sweep_hash_value(const ambulo_sweep *sweep, const char *name,
                                        unsigned long long *hash) {
   double number;
   *hash = 0;
   if (!name[0] || ambulo__parse_double(name, strlen(name), &number)) return AMBULO_OK;
   const char *base = sweep->base ? sweep->base : sweep->path;
-  char *path = ambulo__sibling_path(&sweep->allocator, base, name), *text = NULL;
+  char *path = NULL, *text = NULL;
   size_t length = 0;
   int yes = 0;
-  ambulo_status status = path ? is_file(sweep, path, &yes) : AMBULO_E_MEMORY;
+  ambulo_status status = path_of_value(sweep, base, name, &path);
+  if (!status) status = is_file(sweep, path, &yes);
   if (yes) {
     status = ambulo__read_file(path, MOST_FILE_BYTES, &sweep->allocator, sweep->diagnostics, &text,
                                &length);

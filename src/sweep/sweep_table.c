@@ -97,10 +97,12 @@ ambulo_status ambulo__sweep_read_table(ambulo_sweep *sweep, const ambulo__yaml_n
   if (!name[0]) return AMBULO_E_SCHEMA;
   char *text = NULL;
   size_t length = 0;
-  sweep->table = ambulo__sibling_path(&sweep->allocator, sweep->path, name);
-  if (!sweep->table) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__read_file(sweep->table, MOST_TABLE_BYTES, &sweep->allocator,
-                                           sweep->diagnostics, &text, &length);
+  ambulo_status status =
+      ambulo__named_file(&sweep->allocator, sweep->path, name, ambulo__yaml_place(node),
+                         sweep->diagnostics, &sweep->table);
+  if (status) return status;
+  status = ambulo__read_file(sweep->table, MOST_TABLE_BYTES, &sweep->allocator, sweep->diagnostics,
+                             &text, &length);
   if (!status)
     status =
         ambulo__refuse_foreign(text, length, AMBULO__TAKES_CSV, sweep->table, sweep->diagnostics);

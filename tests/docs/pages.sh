@@ -87,7 +87,7 @@ options_exist() {
     while read -r option; do
       grep -q -e "$option\b" "$work/options" || { echo "$page: no option $option"; lost=1; }
     done < <(grep -oE '(^|[ `(])--[a-z][a-z-]+' "$page" | grep -oE -e '--[a-z-]+' | sort -u |
-      grep -vxE -e '--(cflags|libs|static|variable|export|sshloginfile|array|cpus-per-task|job-name|output)')
+      grep -vxE -e '--(cflags|libs|static|variable|export|sshloginfile|prefix|array|cpus-per-task|job-name|output)')
   done
   return $lost
 }

@@ -14,7 +14,7 @@ static void names_start_in_the_directory(void **state) {
   for (int i = 0; i < 4; i++) {
     ambulo__problem_reader reader = {.allocator = ambulo__allocator_or_default(NULL),
                                      .directory = cases[i][0]};
-    assert_string_equal(ambulo__reader_path(&reader, cases[i][1]), cases[i][2]);
+    assert_string_equal(ambulo__reader_path(&reader, NULL, cases[i][1]), cases[i][2]);
     ambulo__reader_clear(&reader);
   }
 }
