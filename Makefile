@@ -80,6 +80,10 @@ endif
 DEPENDENCIES := nlopt yaml-0.1
 DEPENDENCY_CFLAGS := $(foreach name,$(DEPENDENCIES),$(call probe,$(name),--cflags))
 LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(LAPACK_LIBS)) -lm -lpthread
+# expat is optional: without it `ambulo import` says so
+EXPAT := $(if $(call links,-include expat.h -lexpat),$(call libs_of,expat,-lexpat))
+DEPENDENCY_CFLAGS += $(if $(EXPAT),-DAMBULO_HAS_EXPAT $(call probe,expat,--cflags))
+LIBS += $(EXPAT)
 CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 

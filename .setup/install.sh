@@ -4,7 +4,7 @@
 # Nothing is guessed from package lists: each need is tried out (a header compiled, a library
 # linked, a program run), and only what fails is installed, by apt-get, dnf or brew. Silent
 # when nothing is missing; exit status 1 with the list of packages when it cannot help,
-# or when --list only asks.
+# or when --list only asks. What is optional never fails it.
 set -u
 purpose=${1:-build}
 compiler=${CC:-cc}
@@ -29,6 +29,9 @@ has_lapack() {
   local source='extern void dpbtrf_(void); int main(void) { dpbtrf_(); return 0; }'
   links "$source" -lopenblas || links "$source" -llapack -lblas
 }
+# without it `ambulo import` only says that it is missing
+has_expat() { links '#include <expat.h>
+int main(void) { return XML_ParserCreate(0) == 0; }' -lexpat; }
 has_cmocka() { links '#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -51,7 +54,7 @@ else manager=none; fi
 # Homebrew keeps libraries out of the compiler's sight
 search=
 if [ "$manager" = brew ]; then
-  for name in nlopt libyaml openblas cmocka; do
+  for name in nlopt libyaml openblas expat cmocka; do
     folder=$(brew --prefix "$name" 2>/dev/null) && search="$search -I$folder/include -L$folder/lib"
   done
 fi
@@ -64,6 +67,7 @@ package() {
   apt-get:nlopt) echo libnlopt-dev ;;
   apt-get:yaml) echo libyaml-dev ;;
   apt-get:lapack) echo libopenblas-dev ;;
+  apt-get:expat) echo libexpat1-dev ;;
   apt-get:cmocka) echo libcmocka-dev ;;
   dnf:compiler) case $compiler in *clang*) echo clang ;; *) echo gcc glibc-devel ;; esac ;;
   dnf:cxx) case $compiler in *clang*) echo clang libstdc++-devel ;; *) echo gcc-c++ ;; esac ;;
@@ -71,6 +75,7 @@ package() {
   dnf:nlopt) echo NLopt-devel ;;
   dnf:yaml) echo libyaml-devel ;;
   dnf:lapack) echo openblas-devel ;;
+  dnf:expat) echo expat-devel ;;
   dnf:cmocka) echo libcmocka-devel ;;
   dnf:clang-format | dnf:clang-tidy) echo clang-tools-extra ;;
   brew:compiler | brew:cxx) echo gcc ;;
@@ -106,6 +111,11 @@ missing() {
   fi
 }
 
+# what is built without where it cannot be had
+optional() {
+  has_expat || package expat
+}
+
 as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"
   elif has_program sudo; then sudo "$@"
@@ -132,6 +142,14 @@ install() {
 }
 
 wanted=$(missing | tr '\n' ' ')
+extra=$(optional | tr '\n' ' ')
+if [ -n "${extra// /}" ] && [ "${2:-}" = --list ]; then
+  echo "without ${extra% }: ambulo import is left out; 'make setup' installs it" >&2
+elif [ -n "${extra// /}" ]; then
+  echo "installing: $extra(optional)"
+  # shellcheck disable=SC2086
+  install $extra || echo "could not install ${extra% }: ambulo import is left out" >&2
+fi
 [ -n "${wanted// /}" ] || exit 0
 if [ "${2:-}" = --list ]; then
   echo "missing: $wanted"

@@ -7,7 +7,7 @@
 #   - the program includes and links only public names and its own.
 set -u
 objects=$1
-order=(base model format trajectory mechanics gait device objective nlp linear method judge solver sensitivity reader outer
+order=(base model format trajectory mechanics gait device objective nlp linear method judge solver sensitivity reader import outer
   inverse stride compare picture report front sweep batch collect fit cli)
 faults=0
 

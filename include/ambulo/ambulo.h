@@ -12,6 +12,7 @@
  *     report.h     results on disk, comparison with people
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
+ *     import.h     models of OpenSim, URDF and MuJoCo
  *     status.h     status codes, messages, allocator
  *
  * Lifecycle:  model/problem --load or create--> solve --> result --> report --> free
@@ -34,6 +35,7 @@
 #include "ambulo/evaluate.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
+#include "ambulo/import.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"

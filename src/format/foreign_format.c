@@ -21,6 +21,7 @@ typedef struct look {
 /* ------------------------------------------------------------------- first bytes */
 
 #define BY_HAND "Ambulo has no importer for it: write the skeleton in YAML, docs/model-format.md"
+#define IMPORT "import it first: ambulo import FILE -o model.yaml (docs/guide-import.md)"
 #define UNPACK "unpack it first"
 #define NO_MARKERS                                                                                 \
   "it holds markers: let OpenSim's inverse kinematics make joint angles of them (.mot), which "    \
@@ -145,9 +146,7 @@ static int is_element(look text, const char *name) {
 }
 
 static const format *of_xml(look text) {
-  static const format model = {"an OpenSim model (.osim)",
-                               BY_HAND
-                               "; models/opensim_2d_gait10.yaml is one that was made from an .osim",
+  static const format model = {"an OpenSim model (.osim)", IMPORT,
                                "a motion of OpenSim is its .sto or .mot"};
   static const format settings = {
       "a settings file of OpenSim (XML)", NO_FILE_OF_OURS,
@@ -156,9 +155,11 @@ static const format *of_xml(look text) {
     const char *root;
     format is;
   } roots[] = {
-      {"robot", {"a URDF robot", BY_HAND, NULL}},
-      {"mujoco", {"a MuJoCo model (MJCF)", BY_HAND, NULL}},
-      {"mujocoinclude", {"a part of a MuJoCo model (MJCF)", BY_HAND, NULL}},
+      {"robot", {"a URDF robot", IMPORT, NULL}},
+      {"mujoco", {"a MuJoCo model (MJCF)", IMPORT, NULL}},
+      {"mujocoinclude",
+       {"a part of a MuJoCo model (MJCF)", "import the model that includes it: ambulo import",
+        NULL}},
       {"sdf", {"an SDFormat model", BY_HAND, NULL}},
       {"svg", {"a drawing (SVG)", NO_FILE_OF_OURS, NULL}},
       {"html",

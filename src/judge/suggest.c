@@ -40,7 +40,7 @@ static void set_limit(const ambulo__advice *a, int i, const char *key, const dou
       (void)snprintf(text[k], sizeof text[k], "none");
   }
   ambulo__advice_set(a, "model.links[%s].coordinate.%s=[%s, %s]",
-                     model->links[model->coordinate_link[i]].name, key, text[0], text[1]);
+                     model->links[model->coordinate_written[i]].name, key, text[0], text[1]);
 }
 
 /* the partner's limit binds in the mirrored half of the stride: both have to move */

@@ -89,6 +89,8 @@ ambulo_status ambulo__model_copy(const ambulo_model *model, const ambulo_point *
   memcpy((*copy)->left, model->left, sizeof model->left);
   (*copy)->mass = model->mass;
   (*copy)->units = model->units;
+  memcpy((*copy)->coordinate_written, model->coordinate_written,
+         (size_t)model->coordinate_count * sizeof *model->coordinate_written);
   memcpy((*copy)->capsule_point, model->capsule_point,
          (size_t)model->capsule_count * sizeof *model->capsule_point);
   memcpy((*copy)->loads, model->loads, sizeof model->loads);

@@ -108,7 +108,7 @@ static void copy_links(ambulo_model *m, const ambulo_model_definition *d, const 
     coordinate->name = keep(text, coordinate->name);
     coordinate->type = link->type;
     coordinate->mirror = n->new_coordinate[coordinate->mirror < 0 ? old : coordinate->mirror];
-    m->coordinate_link[link->coordinate] = i;
+    m->coordinate_link[link->coordinate] = m->coordinate_written[link->coordinate] = i;
   }
 }
 
@@ -164,14 +164,15 @@ static int allocate(ambulo_model *m, const ambulo_model_definition *d) {
   m->links = ambulo__alloc(a, links, sizeof *m->links);
   m->coordinates = ambulo__alloc(a, coordinates, sizeof *m->coordinates);
   m->coordinate_link = ambulo__alloc(a, coordinates, sizeof *m->coordinate_link);
+  m->coordinate_written = ambulo__alloc(a, coordinates, sizeof *m->coordinate_written);
   m->points = ambulo__alloc(a, (size_t)d->point_count, sizeof *m->points);
   m->neutral = ambulo__alloc(a, 3 * (size_t)d->point_count, sizeof *m->neutral);
   m->feet = ambulo__alloc(a, (size_t)d->foot_count, sizeof *m->feet);
   m->patches = ambulo__alloc(a, (size_t)d->patch_count, sizeof *m->patches);
   m->capsules = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsules);
   m->capsule_point = ambulo__alloc(a, (size_t)d->capsule_count, sizeof *m->capsule_point);
-  return m->text && m->links && m->coordinates && m->coordinate_link && m->points && m->neutral &&
-         m->feet && m->patches && m->capsules && m->capsule_point;
+  return m->text && m->links && m->coordinates && m->coordinate_link && m->coordinate_written &&
+         m->points && m->neutral && m->feet && m->patches && m->capsules && m->capsule_point;
 }
 
 static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
@@ -238,6 +239,7 @@ void ambulo_model_free(ambulo_model *model) {
   ambulo__free(&a, model->links);
   ambulo__free(&a, model->coordinates);
   ambulo__free(&a, model->coordinate_link);
+  ambulo__free(&a, model->coordinate_written);
   ambulo__free(&a, model->points);
   ambulo__free(&a, model->neutral);
   ambulo__free(&a, model->feet);

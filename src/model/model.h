@@ -34,6 +34,7 @@ struct ambulo_model {
   int link_count;
   ambulo_coordinate *coordinates; /* [coordinate_count]; ancestors before descendants */
   int *coordinate_link;           /* [coordinate_count]: the link that carries coordinate i */
+  int *coordinate_written;        /* [coordinate_count]: the link that its file describes it with */
   int coordinate_count;
   ambulo_point *points; /* [point_count] */
   double *neutral;      /* [point_count][3]: where they are at q = 0, world frame, m */

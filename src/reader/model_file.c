@@ -27,8 +27,9 @@ static int allocate(ambulo__reader *r) {
   r->capsules = ambulo__alloc(a, capsules, sizeof *r->capsules);
   r->link_places = ambulo__alloc(a, all, sizeof *r->link_places);
   r->link_names = ambulo__alloc(a, all, sizeof *r->link_names);
-  if (!r->links || !r->coordinates || !r->points || !r->feet || !r->patches || !r->capsules ||
-      !r->link_places || !r->link_names)
+  r->origins = ambulo__origins_create(a, r->definition.link_count);
+  if (!r->origins || !r->links || !r->coordinates || !r->points || !r->feet || !r->patches ||
+      !r->capsules || !r->link_places || !r->link_names)
     return 0;
   r->coordinate_places = r->link_places + links;
   r->point_places = r->coordinate_places + links;
@@ -59,6 +60,10 @@ static void release(ambulo__reader *r) {
   ambulo__free(a, r->capsules);
   ambulo__free(a, r->link_places);
   ambulo__free(a, r->link_names);
+  ambulo__free(a, r->origins);
+  ambulo__free(a, r->rows);
+  ambulo__free(a, r->row_places);
+  ambulo__free(a, r->row_names);
 }
 
 /* ------------------------------------------------------------------ sections */
@@ -120,6 +125,7 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
   d->feet = r->feet;
   d->patches = r->patches;
   d->capsules = r->capsules;
+  ambulo__expand_origins(r);
 }
 
 /* ------------------------------------------------------------------- loading */
@@ -155,6 +161,7 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
     ambulo__model_units units = {reader.angle, reader.length, reader.moment, reader.force,
                                  reader.mass};
     (*model)->units = units;
+    ambulo__name_written(&reader, *model);
   }
   release(&reader);
   return status;

@@ -45,7 +45,14 @@ static void read_parent(ambulo__reader *reader, const ambulo__yaml_node *item, i
 }
 
 static void read_dh(ambulo__reader *reader, const ambulo__yaml_node *item, ambulo_link *link) {
-  const ambulo__yaml_node *node = ambulo__yaml_require(item, "dh");
+  const ambulo__yaml_node *node = ambulo__yaml_get(item, "dh");
+  if (!node && !ambulo__yaml_is(item, AMBULO__YAML_MAPPING)) return; /* said before */
+  if (!node) {
+    (void)ambulo__yaml_error(item, AMBULO_E_SCHEMA, NULL,
+                             "link '%s' has no place; expected `dh`, or `origin` and `axis`",
+                             link->name);
+    return;
+  }
   const ambulo__yaml_node *list = ambulo__by_sex(reader, node);
   double unused[4];
   if (!list) return;
@@ -94,7 +101,7 @@ static void read_link(ambulo__reader *reader, const ambulo__yaml_node *item, int
   int choice = ambulo__yaml_choice(ambulo__yaml_require(item, "joint"), types, 3, -1);
   link->type = choice == 1 ? AMBULO_REVOLUTE : choice == 2 ? AMBULO_PRISMATIC : AMBULO_FIXED;
   read_parent(reader, item, index, root);
-  read_dh(reader, item, link);
+  if (!ambulo__read_origin(reader, item, index)) read_dh(reader, item, link);
   ambulo__read_body(reader, item, link);
   const ambulo__yaml_node *coordinate = ambulo__yaml_get(item, "coordinate");
   if (link->type != AMBULO_FIXED) {

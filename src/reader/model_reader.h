@@ -10,6 +10,8 @@
 #include "model/check.h"
 #include "model/composite.h"
 
+typedef struct ambulo__origin ambulo__origin; /* of a link (model_placement.c) */
+
 typedef struct ambulo__reader {
   ambulo_allocator allocator;
   ambulo_diagnostics *diagnostics;
@@ -33,6 +35,12 @@ typedef struct ambulo__reader {
       *capsule_places;
   const char **link_names, **coordinate_names, **point_names, **foot_names, **patch_names,
       **capsule_names;
+  ambulo__origin *origins; /* [links of the file + 1] */
+  /* what links with an origin became, NULL where there is none: DH rows, of more links than the
+   * file has */
+  ambulo_link *rows;
+  ambulo__place *row_places;
+  char *row_names;
 } ambulo__reader;
 
 ambulo_status ambulo__reader_status(const ambulo__reader *reader);
@@ -69,6 +77,13 @@ void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root)
 void ambulo__read_units(ambulo__reader *reader, const ambulo__yaml_node *root,
                         const ambulo_subject *asked);
 void ambulo__read_links(ambulo__reader *reader, const ambulo__yaml_node *list);
+/* `origin` and `axis` of a link; 0 if it has neither. */
+int ambulo__read_origin(ambulo__reader *reader, const ambulo__yaml_node *item, int index);
+ambulo__origin *ambulo__origins_create(const ambulo_allocator *allocator, int links);
+/* After all sections: links with an origin become DH rows, and references to links follow. */
+void ambulo__expand_origins(ambulo__reader *reader);
+/* Tells the model which link of the file describes a coordinate. */
+void ambulo__name_written(const ambulo__reader *reader, ambulo_model *model);
 void ambulo__read_body(ambulo__reader *reader, const ambulo__yaml_node *link_node,
                        ambulo_link *link);
 void ambulo__read_points(ambulo__reader *reader, const ambulo__yaml_node *list);

@@ -269,10 +269,10 @@ static void add_limit(ambulo__parameters *p, int what, int i, int side) {
   ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? turning[what] : sliding[what],
                         ambulo__limits_of(c, (ambulo_limited)what)[side], by, label,
                         "model.links[%s].coordinate.%s[%d]",
-                        model->links[model->coordinate_link[i]].name, keys[what], side);
+                        model->links[model->coordinate_written[i]].name, keys[what], side);
   if (m >= 0)
     ambulo__parameter_with(p, sign, "model.links[%s].coordinate.%s[%d]",
-                           model->links[model->coordinate_link[m]].name, keys[what], other);
+                           model->links[model->coordinate_written[m]].name, keys[what], other);
 }
 
 static void add_ends(ambulo__parameters *p) {

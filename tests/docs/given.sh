@@ -52,6 +52,46 @@ table() { # the columns whose names match $1, renamed by $2; angles (q.*) in deg
 table '^q\.' q Coordinates >ik.mot
 table '^(grf|cop)\.' forces forces >grf.mot
 
+# a robot on two legs, as a URDF, for docs/guide-import.md
+limb() { # SIDE Y: hip, knee, ankle, and a foot of a box
+  for part in "thigh hip trunk 0 $2 -0.1 -0.6 1.8 3" "shank knee thigh_$1 0 0 -0.4 -0.1 2.4 2" \
+    "foot ankle shank_$1 0 0 -0.4 -0.8 0.8 1"; do
+    # shellcheck disable=SC2086
+    set -- "$1" "$2" $part
+    echo "<link name='$3_$1'><inertial><origin xyz='0.02 0 -0.04'/><mass value='${11}'/>"
+    echo "<inertia ixx='0.03' ixy='0' ixz='0' iyy='0.03' iyz='0' izz='0.01'/></inertial>"
+    [ "$3" != foot ] || echo "<collision><origin xyz='0.04 0 -0.04'/>" \
+      "<geometry><box size='0.2 0.08 0.02'/></geometry></collision>"
+    echo "</link><joint name='$4_$1' type='revolute'><origin xyz='$6 $7 $8'/><parent link='$5'/>"
+    echo "<child link='$3_$1'/><axis xyz='0 1 0'/><limit lower='$9' upper='${10}' effort='90' velocity='9'/></joint>"
+  done
+}
+{
+  echo "<robot name='stilts'><link name='trunk'><inertial><mass value='20'/>"
+  echo "<inertia ixx='0.9' ixy='0' ixz='0' iyy='0.8' iyz='0' izz='0.4'/></inertial></link>"
+  limb r -0.1
+  limb l 0.1
+  echo '</robot>'
+} >robot.urdf
+
+# a body without geometry, as an OpenSim model
+bone() { # BODY PARENT X Y Z JOINT COORDINATE: coordinates of the joint
+  echo "<Body name='$1'><mass>4</mass><mass_center>0 -0.1 0</mass_center><inertia_xx>0.05</inertia_xx>"
+  echo "<inertia_yy>0.02</inertia_yy><inertia_zz>0.05</inertia_zz><Joint><$6 name='$7_joint'>"
+  echo "<parent_body>$2</parent_body><location_in_parent>$3 $4 $5</location_in_parent><CoordinateSet><objects>"
+  for coordinate in $7; do
+    echo "<Coordinate name='$coordinate'><range>-1.5 1.5</range></Coordinate>"
+  done
+  echo "</objects></CoordinateSet></$6></Joint></Body>"
+}
+{
+  echo "<OpenSimDocument Version='30000'><Model name='gait'><BodySet><objects>"
+  bone pelvis ground 0 0 0 PlanarJoint 'pelvis_tilt pelvis_tx pelvis_ty'
+  bone calcn_r pelvis 0 -0.9 0.1 PinJoint leg_r
+  bone calcn_l pelvis 0 -0.9 -0.1 PinJoint leg_l
+  echo '</objects></BodySet></Model></OpenSimDocument>'
+} >gait.osim
+
 # three strides, one after the other, as a CSV
 awk -F '\t' -v OFS=, '
   /^time/ { $1 = $1; print "# inDegrees=yes"; print; on = 1; next }

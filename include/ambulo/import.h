@@ -1,0 +1,67 @@
+/* ambulo/import.h - models of other programs: OpenSim (.osim), URDF and MuJoCo (.xml) to YAML.
+ *
+ * What comes out is the text of a model file (docs/model-format.md) that loads, with comments that
+ * say where it came from and what could not be carried over (docs/guide-import.md). Files are XML
+ * and read with expat, an optional library: ambulo_import_available() tells whether this library
+ * was built with it.
+ */
+#ifndef AMBULO_IMPORT_H
+#define AMBULO_IMPORT_H
+
+#include "ambulo/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How the root of a body without a joint to the world hangs on it. OpenSim and MuJoCo models say
+ * it themselves; a URDF does not. */
+typedef enum ambulo_import_root {
+  AMBULO_ROOT_AS_IS, /* as the source says; of a URDF: free, unless its root is named `world` */
+  AMBULO_ROOT_FREE,  /* on three sliders and three hinges */
+  AMBULO_ROOT_FIXED
+} ambulo_import_root;
+
+typedef struct ambulo_import_options {
+  int cookie;       /* set by ambulo_import_options_default() */
+  const char *name; /* of the model; NULL: as the source */
+  ambulo_import_root root;
+  /* "COORDINATE=VALUE", rad or m: where coordinates that drive a spline, that others follow or that
+   * are held stand; elsewhere the source's default value, or 0. */
+  const char *const *pose;
+  int pose_count;
+  /* "FOOT=LINK": a foot, whose corners come from the geometry of a link. None: links whose names
+   * say so. */
+  const char *const *feet;
+  int foot_count;
+  /* "FOOT=LINK:X,Y,Z" or, with two corners, "FOOT=LINK:X,Y,Z:X,Y,Z", m: corners by hand. */
+  const char *const *heels;
+  int heel_count;
+  const char *const *toes;
+  int toe_count;
+  int unlock;         /* 1: coordinates that the source locks become coordinates all the same */
+  int repair_inertia; /* 1: an inertia that no body can have is raised to the nearest possible */
+  int overwrite;      /* 1: `output` may be a file that ambulo did not write */
+} ambulo_import_options;
+AMBULO_API ambulo_import_options ambulo_import_options_default(void);
+
+/* 1 if the library reads XML. */
+AMBULO_API int ambulo_import_available(void);
+
+/* Reads a model file of another program, whose format its root element tells, and writes a model
+ * file to `output` (whole or not at all), or returns its text in *text, to be freed with
+ * ambulo_text_free, when output is NULL. What was left out or changed is a warning each, and a
+ * comment in the file. `options` (NULL: defaults), `allocator`, `diagnostics` and `text` (with an
+ * output) may be NULL.
+ * Errors: E_ARGUMENT, E_IO (also: built without expat), E_PARSE, E_SCHEMA, E_MODEL, E_LIMIT,
+ * E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_import_model(const char *path, const char *output,
+                                                              const ambulo_import_options *options,
+                                                              const ambulo_allocator *allocator,
+                                                              ambulo_diagnostics *diagnostics,
+                                                              char **text);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,403 @@
+"""Imported models against Pinocchio, MuJoCo and OpenSim: mass matrix and torques over random poses.
+
+Arguments: the program and a scratch folder. Prints a line for each model and, last, "N passed, N failed"; "skipped: ..." where a package is
+missing. Our numbers are those of `ambulo inverse`: tau(q, qd, qdd), and columns of the mass matrix
+as tau(q, 0, e_i) - tau(q, 0, 0).
+"""
+
+import csv
+import glob
+import importlib.util
+import math
+import os
+import random
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+
+BOUND = 1e-9  # of the largest number of what is compared
+POSES = 5
+
+
+def run(*words):
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(" ".join(words) + "\n" + done.stderr)
+    return done.stdout
+
+
+def convert(ambulo, source, target, *options):
+    run(ambulo, "import", source, "-o", target, "--force", *options)
+    return target
+
+
+def coordinates(model):
+    """Names and whether they are angles, in the order of the file."""
+    found = []
+    for line in open(model, encoding="utf-8"):
+        if "- {name: " in line and "joint: " in line:
+            angle = "joint: revolute" in line
+        if "coordinate: {name: " in line:
+            found.append((line.split("coordinate: {name: ")[1].split(",")[0].split("}")[0], angle))
+    return found
+
+
+def our_torques(ambulo, model, names, states, scratch):
+    """tau of states [(q, qd, qdd)], each a list in the order of names."""
+    table = os.path.join(scratch, "states.csv")
+    with open(table, "w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file)
+        rows.writerow(["time"] + [k + n for k in ("q.", "qd.", "qdd.") for n in names])
+        for i, state in enumerate(states):
+            rows.writerow([i] + [repr(x) for part in state for x in part])
+    text = run(ambulo, "inverse", model, table, "--angles", "radians", "--grf", "none")
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    return [[float(row["tau." + n]) for n in names] for row in csv.DictReader(lines)]
+
+
+def random_states(names, seed):
+    draw = random.Random(seed)
+    d = len(names)
+    states = []
+    for _ in range(POSES):
+        q = [draw.uniform(-1, 1) for _ in range(d)]
+        states.append((q, [draw.uniform(-2, 2) for _ in range(d)],
+                       [draw.uniform(-5, 5) for _ in range(d)]))
+    zero = [0.0] * d
+    for q, _, _ in list(states):
+        states.append((q, zero, zero))
+        for i in range(d):
+            states.append((q, zero, [float(i == k) for k in range(d)]))
+    return states
+
+
+def judge(label, ours, theirs):
+    size = max(1.0, max(abs(x) for row in theirs for x in row))
+    worst = max(abs(a - b) for r, s in zip(ours, theirs) for a, b in zip(r, s)) / size
+    good = worst <= BOUND and len(ours) == len(theirs)
+    print(f"{'ok' if good else 'FAILED':8} {label}: {len(ours[0])} coordinates, "
+          f"{len(ours)} states, worst difference {worst:.1e} of the largest torque")
+    return good
+
+
+# ----------------------------------------------------------------- Pinocchio
+
+
+def pin_states(pin, model, names, held, states):
+    """(q, v, a) of Pinocchio. The root is a composite of the six joints of the import."""
+    root = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
+    for state in states:
+        values = [dict(zip(names, part)) for part in state]
+        q = pin.neutral(model)
+        v, a = [0.0] * model.nv, [0.0] * model.nv
+        for j in range(1, model.njoints):
+            joint, name = model.joints[j], model.names[j]
+            if joint.nv == 6:
+                for i, n in enumerate(root):
+                    q[joint.idx_q + i] = values[0][n]
+                    v[joint.idx_v + i], a[joint.idx_v + i] = values[1][n], values[2][n]
+                continue
+            angle = values[0].get(name, held.get(name, 0.0))
+            if joint.nq == 2:
+                q[joint.idx_q], q[joint.idx_q + 1] = math.cos(angle), math.sin(angle)
+            else:
+                q[joint.idx_q] = angle
+            v[joint.idx_v], a[joint.idx_v] = values[1].get(name, 0.0), values[2].get(name, 0.0)
+        yield q, v, a
+
+
+def pin_columns(model, names):
+    root = ["base_tx", "base_ty", "base_tz", "base_tilt", "base_list", "base_rotation"]
+    at = {}
+    for j in range(1, model.njoints):
+        joint, name = model.joints[j], model.names[j]
+        for i in range(joint.nv):
+            at[root[i] if joint.nv == 6 else name] = joint.idx_v + i
+    return [at[n] for n in names]
+
+
+def compare_urdf(ambulo, source, scratch, seed):
+    import numpy as np
+    import pinocchio as pin
+
+    target = convert(ambulo, source, os.path.join(scratch, "model.yaml"), "--repair-inertia")
+    names = [n for n, _ in coordinates(target)]
+    root = pin.JointModelComposite()
+    for joint in (pin.JointModelPX(), pin.JointModelPY(), pin.JointModelPZ(), pin.JointModelRY(),
+                  pin.JointModelRX(), pin.JointModelRZ()):
+        root.addJoint(joint, pin.SE3.Identity())
+    free = "base_tx" in names
+    model = pin.buildModelFromUrdf(source, root) if free else pin.buildModelFromUrdf(source)
+    model.gravity.linear[:] = [0, 0, -9.81]
+    held = {}
+    for joint in ET.parse(source).getroot().findall("joint"):
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            held[joint.get("name")] = float(mimic.get("offset", 0))
+    data = model.createData()
+    states = random_states(names, seed)
+    columns = pin_columns(model, names)
+    theirs = []
+    for q, v, a in pin_states(pin, model, names, held, states):
+        theirs.append(pin.rnea(model, data, q, np.array(v), np.array(a))[columns].tolist())
+    return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
+
+
+# ------------------------------------------------------------------- MuJoCo
+
+
+def mujoco_replace(mujoco, body, joint, new):
+    """A joint of several coordinates by joints of one: (name, slides, axis in the body's frame)."""
+    pos = list(joint.pos)
+    for name, slides, axis in new:
+        kind = mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE
+        body.add_joint(name=name, type=kind, axis=axis, pos=pos, limited=0)
+
+
+def mujoco_model(mujoco, np, source):
+    compiled = mujoco.MjModel.from_xml_path(source)
+    spec = mujoco.MjSpec.from_file(source)
+    for part in (spec.actuators, spec.tendons, spec.equalities, spec.sensors, spec.keys, spec.excludes):
+        for item in list(part):
+            spec.delete(item)
+    unit = np.eye(3)
+    for body in spec.bodies:
+        for joint in list(body.joints):
+            name = joint.name
+            if joint.type == mujoco.mjtJoint.mjJNT_FREE:
+                name, turn = name or "base", np.zeros(9)
+                mujoco.mju_quat2Mat(turn, compiled.body(body.name).quat)
+                world = turn.reshape(3, 3)  # rows: the world's axes in the body's
+                parts = [("_tx", 1, 0), ("_ty", 1, 1), ("_tz", 1, 2), ("_tilt", 0, 1), ("_list", 0, 0),
+                         ("_rotation", 0, 2)]
+                mujoco_replace(mujoco, body, joint, [(name + n, s, world[k]) for n, s, k in parts])
+                spec.delete(joint)
+            elif joint.type == mujoco.mjtJoint.mjJNT_BALL:
+                parts = zip("xyz", unit)
+                mujoco_replace(mujoco, body, joint, [(f"{name}_{n}", 0, axis) for n, axis in parts])
+                spec.delete(joint)
+    return spec.compile()
+
+
+def compare_mjcf(ambulo, source, scratch, seed):
+    import mujoco
+    import numpy as np
+
+    target = convert(ambulo, source, os.path.join(scratch, "model.yaml"))
+    names = [n for n, _ in coordinates(target)]
+    model = mujoco_model(mujoco, np, source)
+    model.dof_armature[:] = 0
+    data = mujoco.MjData(model)
+    at = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, n) for n in names]
+    assert min(at) >= 0 and model.nv == len(names), (names, model.nv)
+    states = random_states(names, seed)
+    theirs = []
+    for q, v, a in states:
+        for k, j in enumerate(at):
+            data.qpos[model.jnt_qposadr[j]] = q[k]
+            data.qvel[model.jnt_dofadr[j]], data.qacc[model.jnt_dofadr[j]] = v[k], a[k]
+        mujoco.mj_fwdPosition(model, data)
+        mujoco.mj_fwdVelocity(model, data)
+        tau = np.zeros(model.nv)
+        mujoco.mj_rne(model, data, 1, tau)
+        theirs.append([float(tau[model.jnt_dofadr[j]]) for j in at])
+    return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
+
+
+def package_files(package, *paths):
+    spec = importlib.util.find_spec(package)
+    folder = os.path.dirname(spec.origin) if spec and spec.origin else ""
+    return [os.path.join(folder, p) for p in paths if os.path.exists(os.path.join(folder, p))]
+
+
+def mjcfs():
+    wanted = os.environ.get("AMBULO_MJCF")
+    if wanted:
+        return wanted.split(":")
+    here = os.path.dirname(os.path.abspath(__file__))
+    return (sorted(glob.glob(os.path.join(here, "*.xml")))
+            + package_files("gymnasium", "envs/mujoco/assets/humanoid.xml",
+                            "envs/mujoco/assets/walker2d_v5.xml", "envs/mujoco/assets/ant.xml")
+            + package_files("dm_control", "suite/humanoid.xml", "suite/humanoid_CMU.xml",
+                            "suite/walker.xml"))
+
+
+# ------------------------------------------------------------------ OpenSim
+
+
+def osim_freeze(osim, model, state):
+    """Axes that follow a coordinate by anything but a line become constants where it stands by
+    default; so OpenSim moves what an import moves."""
+    for k in range(model.getJointSet().getSize()):
+        joint = osim.CustomJoint.safeDownCast(model.updJointSet().get(k))
+        if joint is None:
+            continue
+        spatial, taken = joint.upd_SpatialTransform(), set()
+        for i in range(6):
+            axis = spatial.updTransformAxis(i)
+            names = axis.getCoordinateNames()
+            if names.size() == 0 or not axis.hasFunction():
+                continue
+            coordinate = model.getCoordinateSet().get(names.getValue(0))
+            at = [osim.Vector(1, x) for x in (coordinate.getDefaultValue(), 0.0, 1.0, 0.5, -0.7)]
+            value = [axis.getFunction().calcValue(x) for x in at]
+            slope, bent = value[2] - value[1], 0.0
+            for x, y in zip(at[3:], value[3:]):
+                bent = max(bent, abs(y - value[1] - slope * x.get(0)))
+            if bent > 1e-9 or names.getValue(0) in taken:
+                axis.set_function(osim.Constant(value[0]))
+                axis.setCoordinateNames(osim.ArrayStr())
+            elif slope:
+                taken.add(names.getValue(0))
+
+
+def osim_held(osim, model):
+    """Values of coordinates that an import holds: locked ones, and dependent ones."""
+    held = {}
+    for k in range(model.getCoordinateSet().getSize()):
+        c = model.getCoordinateSet().get(k)
+        held[c.getName()] = c.getDefaultValue()
+    for k in range(model.getConstraintSet().getSize()):
+        coupler = osim.CoordinateCouplerConstraint.safeDownCast(model.getConstraintSet().get(k))
+        if coupler is None:
+            continue
+        x = osim.Vector(1, held[coupler.getIndependentCoordinateNames().get(0)])
+        held[coupler.getDependentCoordinateName()] = coupler.getFunction().calcValue(x)
+    return held
+
+
+def osim_turns(q, v, a):
+    """Angular velocity and acceleration of turns about x, then y, then z of the body, as OpenSim's
+    free and ball joints have for speeds: E(q), its product with the rates, and its derivative."""
+    c1, s1, c2, s2 = math.cos(q[0]), math.sin(q[0]), math.cos(q[1]), math.sin(q[1])
+    e = [[1, 0, s2], [0, c1, -s1 * c2], [0, s1, c1 * c2]]
+    de = [[0, 0, c2 * v[1]],
+          [0, -s1 * v[0], -c1 * c2 * v[0] + s1 * s2 * v[1]],
+          [0, c1 * v[0], -s1 * c2 * v[0] - c1 * s2 * v[1]]]
+    speed = [sum(e[i][k] * v[k] for k in range(3)) for i in range(3)]
+    push = [sum(e[i][k] * a[k] + de[i][k] * v[k] for k in range(3)) for i in range(3)]
+    return e, speed, push
+
+
+def osim_balls(model):
+    """Names of the three turns of every free or ball joint."""
+    found = []
+    for k in range(model.getJointSet().getSize()):
+        joint = model.getJointSet().get(k)
+        if joint.getConcreteClassName() in ("FreeJoint", "BallJoint"):
+            found.append([joint.get_coordinates(i).getName() for i in range(3)])
+    return found
+
+
+def osim_torques(osim, model, names, scale, held, states):
+    model.updConstraintSet().clearAndDestroy()
+    model.updForceSet().clearAndDestroy()
+    for k in range(model.getCoordinateSet().getSize()):
+        model.updCoordinateSet().get(k).set_locked(False)
+        model.updCoordinateSet().get(k).set_clamped(False)
+    model.finalizeConnections()
+    state = model.initSystem()
+    coordinates = [model.getCoordinateSet().get(k) for k in range(model.getCoordinateSet().getSize())]
+    # where the speed of a coordinate stands among the generalized speeds
+    at = {}
+    for c in coordinates:
+        state.setU(osim.Vector(state.getNU(), 0.0))
+        c.setSpeedValue(state, 1.0)
+        at[c.getName()] = [state.getU().get(i) for i in range(state.getNU())].index(1.0)
+    solver = osim.InverseDynamicsSolver(model)
+    for q, v, a in states:
+        values = dict(zip(names, zip(q, v, a)))
+        acceleration = osim.Vector(state.getNU(), 0.0)
+        for c in coordinates:
+            n = c.getName()
+            x, dx, ddx = values.get(n, (held[n] * scale.get(n, 1.0), 0.0, 0.0))
+            c.setValue(state, x / scale.get(n, 1.0), False)
+            c.setSpeedValue(state, dx / scale.get(n, 1.0))
+            acceleration.set(at[n], ddx / scale.get(n, 1.0))
+        turned = []
+        for ball in osim_balls(model):
+            e, speed, push = osim_turns(*zip(*[values[n] for n in ball]))
+            for n, u, w in zip(ball, speed, push):
+                model.getCoordinateSet().get(n).setSpeedValue(state, u)
+                acceleration.set(at[n], w)
+            turned.append((ball, e))
+        tau = solver.solve(state, acceleration)
+        ours = {n: tau.get(at[n]) / scale.get(n, 1.0) for n in names}
+        for ball, e in turned:
+            for k, n in enumerate(ball):
+                ours[n] = sum(e[i][k] * tau.get(at[ball[i]]) for i in range(3))
+        yield [ours[n] for n in names]
+
+
+def compare_osim(ambulo, source, scratch, seed):
+    import opensim as osim
+
+    osim.Logger.setLevelString("error")
+    target = convert(ambulo, source, os.path.join(scratch, "model.yaml"))
+    names = [n for n, _ in coordinates(target)]
+    model = osim.Model(source)
+    state = model.initSystem()
+    held = osim_held(osim, model)
+    osim_freeze(osim, model, state)
+    scale = {}
+    for line in open(target, encoding="utf-8"):
+        if "times the coordinate of the source" in line:
+            words = line.split("#   - ")[1].split()
+            scale[words[0]] = float(words[2])
+    states = random_states(names, seed)
+    theirs = list(osim_torques(osim, model, names, scale, held, states))
+    return judge(os.path.basename(source), our_torques(ambulo, target, names, states, scratch), theirs)
+
+
+def osims():
+    wanted = os.environ.get("AMBULO_OSIM")
+    if wanted:
+        return wanted.split(":")
+    return sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "*.osim")))
+
+
+def urdfs():
+    wanted = os.environ.get("AMBULO_URDF")
+    if wanted:
+        return wanted.split(":")
+    import pinocchio
+
+    prefix = os.path.dirname(pinocchio.__file__)
+    found = {}
+    for folder in ("../../../../share/example-robot-data", "../../cmeel.prefix/share/example-robot-data"):
+        for path in glob.glob(os.path.join(prefix, folder, "robots", "**", "*.urdf"), recursive=True):
+            found.setdefault(os.path.basename(path), os.path.realpath(path))
+    # humanoids, an arm on a table, joints that follow others, continuous joints
+    here = os.path.dirname(os.path.abspath(__file__))
+    names = ("talos_full_v2.urdf", "icub.urdf", "g1_29dof_rev_1_0.urdf", "romeo.urdf",
+             "simple_humanoid.urdf", "human.urdf", "ur5_robot.urdf", "double_pendulum_continuous.urdf")
+    return sorted(glob.glob(os.path.join(here, "*.urdf"))) + [found[n] for n in names if n in found]
+
+
+def main():
+    ambulo, scratch = sys.argv[1:3]
+    passed = failed = 0
+    sources = []
+    if importlib.util.find_spec("pinocchio") is None:
+        print("skipped: URDF against Pinocchio (no package `pin`)")
+    else:
+        sources = [(compare_urdf, path) for path in urdfs()]
+        if len(sources) < 2:
+            print("skipped: humanoids against Pinocchio (no package `example-robot-data`)")
+    if importlib.util.find_spec("opensim") is None:
+        print("skipped: OpenSim models against OpenSim (no package `opensim`)")
+    else:
+        sources += [(compare_osim, path) for path in osims()]
+    if importlib.util.find_spec("mujoco") is None:
+        print("skipped: MuJoCo models against MuJoCo (no package `mujoco`)")
+    else:
+        sources += [(compare_mjcf, path) for path in mjcfs()]
+    for i, (compare, path) in enumerate(sources):
+        good = compare(ambulo, path, scratch, i)
+        passed, failed = passed + good, failed + (not good)
+    print(f"{passed} passed, {failed} failed")
+    return failed > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
