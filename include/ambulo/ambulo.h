@@ -35,6 +35,7 @@
 #include "ambulo/evaluate.h"
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
+#include "ambulo/export.h"
 #include "ambulo/import.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"

@@ -16,5 +16,6 @@ extern const ambulo__cli_command ambulo__cli_fit;
 extern const ambulo__cli_command ambulo__cli_models;
 extern const ambulo__cli_command ambulo__cli_new;
 extern const ambulo__cli_command ambulo__cli_import;
+extern const ambulo__cli_command ambulo__cli_export;
 
 #endif
