@@ -89,7 +89,7 @@ const ambulo__cli_command ambulo__cli_export = {
     .option_count = sizeof options_table / sizeof options_table[0],
     .minimum = 1,
     .maximum = 2,
-    .files = 2,
+    .files = 1,
     .words = "ambulo models --names",
     .run = run,
 };

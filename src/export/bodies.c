@@ -151,9 +151,8 @@ static int can_append(const ambulo__bodies *bodies, const chain *c, ambulo_joint
   if (c->joints == 0) return 1;
   if (bodies->single) return 0;
   int slide = all_slide(bodies->model, c);
-  if (!slide &&
-      (type == AMBULO_PRISMATIC || ambulo__dot(c->after.p, c->after.p) > same_point * same_point))
-    return 0;
+  int meets = ambulo__dot(c->after.p, c->after.p) <= same_point * same_point;
+  if (!slide && (type == AMBULO_PRISMATIC || (!meets && !commutes(bodies->model, c)))) return 0;
   return is_independent(bodies->model, c, type, axis);
 }
 
@@ -203,7 +202,13 @@ static void add_link(builder *b, int index) {
   }
 }
 
-/* frames that are asked for: of leaves, of branches, of points and patches */
+/* A point that stays where it is while the joints behind it turn: a hinge's origin (place_open). */
+static int is_center(const ambulo_model *model, const ambulo_point *point) {
+  return model->links[point->link].type == AMBULO_REVOLUTE &&
+         ambulo__dot(point->position, point->position) == 0.0;
+}
+
+/* frames that are asked for: of leaves, of branches, of points */
 static void find_kept(builder *b) {
   const ambulo_model *model = b->bodies->model;
   for (int i = 0; i < model->link_count; i++) {
@@ -211,7 +216,26 @@ static void find_kept(builder *b) {
     for (int k = i + 1; k < model->link_count; k++) children += model->links[k].parent == i;
     b->kept[i] = children != 1;
   }
-  for (int i = 0; i < model->point_count; i++) b->kept[model->points[i].link] = 1;
+  for (int i = 0; i < model->point_count; i++)
+    if (!is_center(model, &model->points[i])) b->kept[model->points[i].link] = 1;
+}
+
+/* Links that became parts of a joint: fixed in the body behind them with all its joints done, else
+ * by their origin alone, through which the hinges that follow go. */
+static void place_open(builder *b) {
+  ambulo__bodies *bodies = b->bodies;
+  const ambulo_model *model = bodies->model;
+  for (int i = model->link_count - 1; i >= 0; i--) {
+    int child = i + 1;
+    if (b->closed[i]) continue;
+    while (child < model->link_count && model->links[child].parent != i) child++;
+    bodies->body_of[i] = bodies->body_of[child];
+    const ambulo__export_body *body = &bodies->list[bodies->body_of[i]];
+    ambulo__rigid back = ambulo__rigid_inverse(&body->after);
+    bodies->place[i] = b->open[i].joints == body->joints
+                           ? ambulo__rigid_times(&back, &b->open[i].after)
+                           : ambulo__rigid_shift(back.p);
+  }
 }
 
 /* ------------------------------------------------------------------ sliders of a root */
@@ -280,6 +304,7 @@ static void build(builder *b) {
       add_link(b, i);
     }
   }
+  place_open(b);
 }
 
 static ambulo_status create(const ambulo_model *model, int single, int root,
