@@ -3,12 +3,13 @@
 
 #include "cli/body.h"
 #include "cli/commands.h"
+#include "cli/forces.h"
 #include "cli/output.h"
 
 static int read_options(const ambulo__cli_input *input, ambulo_export_options *o,
                         ambulo_inverse_options *inverse) {
   static const char *const formats[] = {"opensim", "urdf", "npz"};
-  const char *format = ambulo__cli_value(input, "format"), *grf = ambulo__cli_value(input, "grf");
+  const char *format = ambulo__cli_value(input, "format");
   const char *angles = ambulo__cli_value(input, "angles");
   int chosen = -1;
   for (int i = 0; format && i < 3; i++)
@@ -27,9 +28,6 @@ static int read_options(const ambulo__cli_input *input, ambulo_export_options *o
   o->free_root = ambulo__cli_flag(input, "free-root");
   o->overwrite = ambulo__cli_flag(input, "force");
   o->inverse = inverse;
-  inverse->without_forces = grf && strcmp(grf, "none") == 0;
-  inverse->forces = inverse->without_forces ? NULL : grf;
-  inverse->force_columns = ambulo__cli_value(input, "force-columns");
   if (angles)
     inverse->angles =
         strcmp(angles, "degrees") == 0 ? AMBULO_ANGLES_DEGREES : AMBULO_ANGLES_RADIANS;
@@ -44,15 +42,19 @@ static int run(const ambulo__cli_input *input) {
   if (!output) return ambulo__cli_usage_error("export", NULL, "-o is missing; expected a name");
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo__cli_body body = {.model = NULL};
+  ambulo__cli_forces forces = {.table = NULL};
   ambulo_status status = AMBULO_OK;
   int code = ambulo__cli_body_load(input, input->arguments[0], diagnostics, &body, &status);
   if (!code) {
     inverse.ground_height = body.ground_height;
     if (!status)
+      status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &inverse);
+    if (!status)
       status = ambulo_export(body.model, input->argument_count > 1 ? input->arguments[1] : NULL,
                              output, &options, NULL, diagnostics);
     code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
   }
+  ambulo__cli_forces_free(&forces);
   ambulo__cli_body_free(&body);
   ambulo_diagnostics_free(diagnostics);
   return code;
@@ -65,8 +67,7 @@ static const ambulo__cli_option options_table[] = {
     {"free-root", 0, NULL,
      "URDF: leave the root's own coordinates out, for programs that\n"
      "give it a free joint, as an .npz has it"},
-    {"grf", 0, "FILE|none", "forces on the feet, as for ambulo inverse"},
-    {"force-columns", 0, "MAP", "columns of forces of each foot, likewise"},
+    AMBULO__CLI_FORCE_OPTIONS,
     {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
     AMBULO__CLI_BODY_OPTIONS,
 };
