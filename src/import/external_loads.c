@@ -138,8 +138,9 @@ static const ambulo__xml_node *read_forces(loads *l, const ambulo__xml_node *roo
   }
   for (const ambulo__xml_node *n = ambulo__osim_objects(root, "ExternalLoads"); n; n = n->next)
     if (ambulo__xml_is(n, "ExternalForce")) read_force(l, n);
-  for (int foot = 0; foot < l->model->foot_count; foot++) count += l->columns[foot].length > 0;
-  if (!l->xml->status && count == 0)
+  for (int foot = 0; foot < l->model->foot_count; foot++)
+    count += l->columns[foot].length > 0 || l->columns[foot].failed;
+  if (!l->xml->status && !l->xml->arena->failed && count == 0)
     ambulo__xml_error(l->xml, list, AMBULO_E_SCHEMA, NULL,
                       "no force acts on a foot of model '%.60s'", l->model->name);
   return list;
