@@ -188,6 +188,60 @@ static void a_folder_for_opensim(void **state) {
   ambulo_model_free(model);
 }
 
+/* element `index` of an array of an archive, whose bytes are not machine's but little-endian */
+static double element(const char *archive, size_t length, const char *name, const char *shape,
+                      size_t index) {
+  for (size_t i = 0; i + 128 < length; i++) {
+    if (memcmp(archive + i, name, strlen(name)) != 0) continue;
+    const char *npy = archive + i + strlen(name);
+    assert_memory_equal(npy, "\x93NUMPY", 6);
+    assert_non_null(strstr(npy + 10, shape));
+    size_t header = 10 + (size_t)(unsigned char)npy[8];
+    uint64_t bits = 0;
+    for (int b = 7; b >= 0; b--)
+      bits = bits << 8 | (unsigned char)npy[header + 8 * index + (size_t)b];
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+  }
+  fail();
+  return 0.0;
+}
+
+/* z up, y left: the world's z is -y */
+static void an_archive(void **state) {
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *file = scratch_path(state, "m.npz");
+  ambulo_export_options o = options_of(AMBULO_EXPORT_NPZ);
+  scratch_write(motion, motion_text);
+  assert_int_equal(ambulo_export(model, motion, file, &o, NULL, NULL), AMBULO_OK);
+  FILE *in = fopen(file, "rb");
+  assert_non_null(in);
+  static char bytes[20000];
+  size_t length = fread(bytes, 1, sizeof bytes, in);
+  (void)fclose(in);
+  static const double turned[7] = {0, 0, 0.1 + 0.534643 * 1.75, 0.70710678118654757,
+                                   0, 0, 0.70710678118654757};
+  static const int quaternion[4] = {6, 3, 4, 5};
+  for (size_t i = 0; i < 7; i++) {
+    size_t there = i < 3 ? i : (size_t)quaternion[i - 3];
+    assert_close(element(bytes, length, "q.npy", "(5, 13, )", i), turned[i], 1e-12);
+    assert_close(element(bytes, length, "qpos.npy", "(5, 13, )", i), turned[there], 1e-12);
+  }
+  static const double wrench[6] = {10, -20, 700, 0, 0, 3};
+  static const double point[3] = {0.2, -0.05, 0};
+  for (size_t i = 0; i < 6; i++)
+    assert_close(element(bytes, length, "contact_wrench.npy", "(5, 2, 6, )", 3 * 12 + i), wrench[i],
+                 1e-12);
+  for (size_t i = 0; i < 3; i++)
+    assert_close(element(bytes, length, "contact_point.npy", "(5, 2, 3, )", 3 * 6 + i), point[i],
+                 1e-12);
+  /* still: what is left over is weight less the plate, in the pelvis' axes */
+  double rest = element(bytes, length, "tau.npy", "(5, 12, )", 3 * 12 + 1);
+  assert_close(rest, 9.81 * ambulo_model_mass(model) - 700.0, 1e-9);
+  ambulo_model_free(model);
+}
+
 /* ------------------------------------------------------------- refusals and files */
 
 static void arguments(void **state) {
@@ -299,6 +353,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(opensim_comes_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(limits_come_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(what_is_lost_is_told, scratch_open, scratch_close),
