@@ -12,6 +12,7 @@
  *     report.h     results on disk, comparison with people
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
+ *     export.h     models and motions for OpenSim, URDF and NumPy
  *     import.h     models of OpenSim, URDF and MuJoCo
  *     status.h     status codes, messages, allocator
  *
