@@ -125,6 +125,40 @@ static void limits_come_back(void **state) {
   ambulo_model_free(model);
 }
 
+/* a point of a link that is part of the ground is where that is */
+static void markers(void **state) {
+  ambulo_link links[2] = {ambulo_link_default(), ambulo_link_default()};
+  ambulo_coordinate coordinate = ambulo_coordinate_default();
+  ambulo_point point = {.name = "mark", .link = 0, .position = {0, 0.25, 0.125}};
+  ambulo_model_definition d = ambulo_model_definition_default();
+  ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
+  ambulo_model *model = NULL;
+  const char *file = scratch_path(state, "m.osim");
+  links[0].name = "post";
+  links[0].parent = -1;
+  links[0].type = AMBULO_FIXED;
+  links[0].d = 0.5;
+  links[1].name = "arm";
+  links[1].type = coordinate.type = AMBULO_REVOLUTE;
+  links[1].mass = links[1].inertia[0] = links[1].inertia[1] = links[1].inertia[2] = 1.0;
+  coordinate.name = "q";
+  d.name = "m";
+  d.links = links;
+  d.link_count = 2;
+  d.coordinates = &coordinate;
+  d.coordinate_count = d.point_count = 1;
+  d.points = &point;
+  assert_int_equal(ambulo_model_create(&d, NULL, NULL, &model), AMBULO_OK);
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
+  char *text = read_whole(file);
+  const char *mark = strstr(text, "<Marker name=\"mark\">");
+  assert_non_null(mark);
+  assert_non_null(strstr(mark, "<socket_parent_frame>/ground</socket_parent_frame>"));
+  assert_non_null(strstr(mark, "<location>0 0.25 0.625</location>"));
+  free(text);
+  ambulo_model_free(model);
+}
+
 /* -------------------------------------------------------------------------- motions */
 
 /* a walker that hangs still, its right foot pressed from 0.2 s on */
@@ -352,6 +386,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(urdf_comes_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(opensim_comes_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(limits_come_back, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(markers, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
