@@ -1,4 +1,4 @@
-"""Exported models and motions: imported again, and in Pinocchio, MuJoCo and OpenSim.
+"""Exported models and motions: imported again, and in OpenSim, Pinocchio and MuJoCo.
 
 Arguments: the program, the folder of the models and a scratch folder. Prints a line for each
 comparison and, last, "N passed, N failed"; "skipped: ..." where a package is missing. Torques and
@@ -231,15 +231,47 @@ class Run:
                                - turn @ (a[:3] + np.cross(v[3:6], v[:3]))).max(),
                         np.abs(archive["qpos"][k, 3:7] - archive["q"][k, [6, 3, 4, 5]]).max())
         label = f"{problem}.npz in Pinocchio"
-        if len(archive["contact_links"]) == 0:  # nothing carries it
-            worst = 0.0
-        return all([said(label + ", root", worst, 1e-8, "of the weight (times 1 m)"),
+        carried = len(archive["contact_links"]) == 0 or said(label + ", root", worst, 1e-8,
+                                                             "of the weight (times 1 m)")
+        return all([carried,
                     said(label + ", torques", rest, 1e-8, "of the weight times 1 m"),
                     said(label + ", MuJoCo's rates", drift, 1e-9, "SI")])
 
+    def mujoco_torques(self, problem, result):
+        """qpos, qvel, qacc in MuJoCo, of a body each of whose joints has one axis; no contacts."""
+        import mujoco
+        import numpy as np
+
+        urdf = self.export(problem, "--format", "urdf", "--free-root", "free.urdf")
+        archive = np.load(self.export(problem, result, "--format", "npz", "motion.npz"))
+        spec = mujoco.MjSpec.from_file(urdf)
+        spec.compiler.fusestatic = False
+        spec.body(str(archive["root_link"][0])).add_freejoint()
+        spec.option.gravity = archive["gravity"]
+        model = spec.compile()
+        data, worst = mujoco.MjData(model), 0.0
+        at = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, str(n)) for n in archive["joint_names"]]
+        to = {"qpos": (data.qpos, 7, model.jnt_qposadr[at]), "qvel": (data.qvel, 6, model.jnt_dofadr[at]),
+              "qacc": (data.qacc, 6, model.jnt_dofadr[at])}
+        weight = model.body_mass.sum() * 9.81
+        for k in range(len(archive["times"])):
+            for name, (field, base, columns) in to.items():
+                field[:base], field[columns] = archive[name][k, :base], archive[name][k, base:]
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_fwdVelocity(model, data)
+            tau, own = np.zeros(model.nv), archive["tau"][k]
+            mujoco.mj_rne(model, data, 1, tau)
+            turn = np.zeros(9)
+            mujoco.mju_quat2Mat(turn, archive["qpos"][k, 3:7])
+            force = turn.reshape(3, 3) @ own[:3]  # MuJoCo's is in the world's axes
+            worst = max(worst, np.abs(tau[:3] - force).max(), np.abs(tau[3:6] - own[3:6]).max(),
+                        np.abs(tau[model.jnt_dofadr[at]] - own[6:]).max())
+        return said(f"{problem}.npz in MuJoCo", worst / weight, 1e-9, "of the weight (times 1 m)")
+
 
 def main():
-    run = Run(*sys.argv[1:4])
+    run = Run(*[os.path.abspath(path) for path in sys.argv[1:4]])
+    os.chdir(run.scratch)  # where OpenSim leaves its log
     checks = [(run.round_trip, name, kind) for name in MODELS for kind in ("osim", "urdf")]
     result, step = run.path("walk"), run.path("step")
     imports.run(run.ambulo, "solve", run.model("walk_normal"), "-o", result)
@@ -257,6 +289,10 @@ def main():
             checks += [(run.points, name) for name in MODELS[2:]]
     else:
         print("skipped: exported models and motions in Pinocchio (no package `pin`)")
+    if importlib.util.find_spec("mujoco"):
+        checks.append((run.mujoco_torques, "walker_2d_step", step))
+    else:
+        print("skipped: exported motions in MuJoCo (no package `mujoco`)")
     results = [check(*words) for check, *words in checks]
     print(f"{sum(results)} passed, {len(results) - sum(results)} failed")
     return not all(results)

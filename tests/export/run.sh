@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Exported models and motions, imported again and in OpenSim and Pinocchio (peers.py). Skipped without
-# expat or Python with numpy, in part without the packages opensim and pin; AMBULO_PYTHON names another
-# Python.
+# Exported models and motions, imported again and in OpenSim, Pinocchio and MuJoCo (peers.py). Skipped
+# without expat or Python with numpy, in part without the packages opensim, pin and mujoco; AMBULO_PYTHON
+# names another Python.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 ambulo=${AMBULO:-build/ambulo}
