@@ -8,7 +8,7 @@
 set -u
 objects=$1
 order=(base model format trajectory mechanics gait device objective nlp linear method judge solver sensitivity reader import outer
-  inverse stride compare picture scene report front sweep batch collect fit page cli)
+  inverse export stride compare picture scene report front sweep batch collect fit page cli)
 faults=0
 
 fault() {

@@ -16,6 +16,7 @@
  *     picture.h    results as pictures: SVG, PDF, PNG
  *     inverse.h    inverse dynamics of motions in files
  *     batch.h      many problems: sweeps
+ *     export.h     models and motions for OpenSim, URDF and NumPy
  *     import.h     models of OpenSim, URDF and MuJoCo
  *     status.h     status codes, messages, allocator
  *
@@ -45,6 +46,7 @@
 #include "ambulo/fit.h"
 #include "ambulo/ground.h"
 #include "ambulo/hold.h"
+#include "ambulo/export.h"
 #include "ambulo/import.h"
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"

@@ -61,6 +61,19 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_import_model(const char *path, 
                                                               ambulo_diagnostics *diagnostics,
                                                               char **text);
 
+/* Reads an OpenSim file of external loads (<ExternalLoads>, versions 3 and 4): *forces becomes the
+ * path of its table, as seen from here, *columns what of it acts on which foot of `model`, in the
+ * form of ambulo_inverse_options.force_columns; both to be freed with ambulo_text_free. A force
+ * belongs to the foot on whose link, or on a link fixed to it, it is applied, or, where the model
+ * has no such link, to the one foot of the side that the name of a calcn, foot or toes says. Forces
+ * on other bodies and those switched off are left out, with a warning. `allocator`, `diagnostics`
+ * may be NULL.
+ * Errors: E_ARGUMENT, E_IO (also: built without expat), E_PARSE, E_SCHEMA (also: expressed in
+ * another body than ground), E_MEMORY; outputs are then untouched. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_import_external_loads(
+    const char *path, const ambulo_model *model, const ambulo_allocator *allocator,
+    ambulo_diagnostics *diagnostics, char **forces, char **columns);
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
 
 #include "cli/body.h"
 #include "cli/commands.h"
+#include "cli/forces.h"
 #include "cli/format.h"
 #include "cli/output.h"
 
@@ -47,10 +48,6 @@ static int read_units(const ambulo__cli_input *input, ambulo_inverse_options *o)
 
 static int read_options(const ambulo__cli_input *input, ambulo_inverse_options *o) {
   static const char *const sources[] = {"file", "spline"};
-  const char *forces = ambulo__cli_value(input, "grf");
-  o->without_forces = forces && strcmp(forces, "none") == 0;
-  o->forces = o->without_forces ? NULL : forces;
-  o->force_columns = ambulo__cli_value(input, "force-columns");
   o->strict = ambulo__cli_flag(input, "strict");
   o->overwrite = ambulo__cli_flag(input, "force");
   int source = choose(input, "derivatives", sources, 2, 0);
@@ -80,6 +77,7 @@ static int run(const ambulo__cli_input *input) {
   if (!read_options(input, &options)) return 2;
   ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
   ambulo__cli_body body = {.model = NULL};
+  ambulo__cli_forces forces = {.table = NULL};
   ambulo_status status = AMBULO_OK;
   char *text = NULL;
   int code = ambulo__cli_body_load(input, input->arguments[0], diagnostics, &body, &status);
@@ -88,12 +86,15 @@ static int run(const ambulo__cli_input *input) {
     options.ground_height = body.ground_height;
     const char *subject = status ? input->arguments[0] : motion;
     if (!status)
+      status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &options);
+    if (!status)
       status = ambulo_inverse_dynamics_motion(body.model, motion, output, &options, NULL,
                                               diagnostics, NULL, output ? NULL : &text);
     code = ambulo__cli_diagnostics(diagnostics, status, subject);
   }
   if (text) fputs(text, stdout);
   ambulo_text_free(text, NULL);
+  ambulo__cli_forces_free(&forces);
   ambulo__cli_body_free(&body);
   ambulo_diagnostics_free(diagnostics);
   return code;
@@ -103,12 +104,7 @@ static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "write the CSV there (default: standard output)"},
     {"force", 0, NULL, "write over an input, or a file that ambulo did not write"},
     {"strict", 0, NULL, "warnings are errors: exit code 3, nothing is written"},
-    {"grf", 0, "FILE|none",
-     "forces on the feet (CSV, STO or MOT), taken off the torques\n"
-     "(default: the columns grf.* of the motion, if it has some)"},
-    {"force-columns", 0, "MAP",
-     "columns of forces of each foot, when their names do not tell:\n"
-     "left=ground_force_1,right=ground_force_2+ground_force_3 or right=none"},
+    AMBULO__CLI_FORCE_OPTIONS,
     {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
     {"lengths", 0, "m|cm|mm", "unit of the motion's lengths (default: m)"},
     {"time", 0, "s|ms", "unit of the motion's times (default: s)"},

@@ -18,5 +18,6 @@ extern const ambulo__cli_command ambulo__cli_new;
 extern const ambulo__cli_command ambulo__cli_import;
 extern const ambulo__cli_command ambulo__cli_report;
 extern const ambulo__cli_command ambulo__cli_draw;
+extern const ambulo__cli_command ambulo__cli_export;
 
 #endif

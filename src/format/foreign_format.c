@@ -150,7 +150,7 @@ static const format *of_xml(look text) {
                                "a motion of OpenSim is its .sto or .mot"};
   static const format settings = {
       "a settings file of OpenSim (XML)", NO_FILE_OF_OURS,
-      "name the .sto or .mot that it names; identifiers of forces go to --force-columns"};
+      "name the .sto or .mot that it names; external loads go behind --grf, as FILE.xml"};
   static const struct {
     const char *root;
     format is;

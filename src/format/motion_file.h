@@ -3,7 +3,8 @@
  * Formats, one header row and numbers with '.' below it:
  *   CSV  cells separated by ',', lines that start with '#' are comments
  *   STO, MOT (OpenSim)  a title and key=value lines up to "endheader", then columns
- *        separated by tabs or spaces; inDegrees=yes|no states the unit of angles. nRows, where
+ *        separated by tabs or spaces; inDegrees=yes|no states the unit of angles, which are in
+ *        degrees where there is no version=... either, as OpenSim takes files of SIMM. nRows, where
  *        given, must agree with the table (a cut-off file is noticed); nColumns should.
  * A comment "# inDegrees=yes" says the same in a CSV. The first column is "time" (s),
  * strictly increasing; names are unique; every number is finite, except that points of the
@@ -23,9 +24,9 @@
 
 typedef struct ambulo__motion {
   ambulo_allocator allocator;
-  int rows, columns;    /* columns: without time */
-  int in_degrees;       /* 1: angles are in degrees, as in the file; 0: radians */
-  int unit_stated;      /* 1: the file says which */
+  int rows, columns; /* columns: without time */
+  int in_degrees;    /* 1: angles are in degrees, as in the file or by SIMM's custom; 0: radians */
+  int unit_stated;   /* 1: the file says which */
   int declared_columns; /* as the header says, with time; -1: it does not. Published files are wrong
                            about it; rows of another length than the names are faults */
   double body_mass;     /* kg, of a table by ambulo; NaN: not stated */

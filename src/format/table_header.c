@@ -57,11 +57,26 @@ static ambulo_status read_degrees(const header_reader *reader, const ambulo__tab
   return AMBULO_OK;
 }
 
+/* SIMM's "datarows 8" */
+static ambulo_status read_words(const header_reader *reader) {
+  size_t position = 0;
+  ambulo__table_cell key, value, rest;
+  if (!ambulo__table_next_cell(reader->line, AMBULO__CELLS_BLANK, &position, &key) ||
+      !ambulo__table_next_cell(reader->line, AMBULO__CELLS_BLANK, &position, &value) ||
+      ambulo__table_next_cell(reader->line, AMBULO__CELLS_BLANK, &position, &rest))
+    return AMBULO_OK;
+  if (ambulo__table_cell_is(&key, "datarows"))
+    return read_count(reader, &value, &reader->header->declared_rows);
+  if (ambulo__table_cell_is(&key, "datacolumns"))
+    return read_count(reader, &value, &reader->header->declared_columns);
+  return AMBULO_OK;
+}
+
 /* line[from..): "key = value" */
 static ambulo_status read_key(const header_reader *reader, size_t from, int is_sto) {
   const ambulo__table_line *line = reader->line;
   const char *equals = memchr(line->start + from, '=', line->length - from);
-  if (!equals) return AMBULO_OK;
+  if (!equals) return is_sto ? read_words(reader) : AMBULO_OK;
   size_t split = (size_t)(equals - line->start), position = 0;
   ambulo__table_line left = {.start = line->start + from, .length = split - from};
   ambulo__table_line right = {.start = equals + 1, .length = line->length - split - 1};
@@ -74,6 +89,7 @@ static ambulo_status read_key(const header_reader *reader, size_t from, int is_s
   value.column += (int)split + 1;
   if (ambulo__table_cell_is(&key, "inDegrees")) return read_degrees(reader, &value);
   if (!is_sto) return AMBULO_OK;
+  if (ambulo__table_cell_is(&key, "version")) reader->header->has_version = 1;
   if (ambulo__table_cell_is(&key, "nRows") || ambulo__table_cell_is(&key, "datarows"))
     return read_count(reader, &value, &reader->header->declared_rows);
   if (ambulo__table_cell_is(&key, "nColumns") || ambulo__table_cell_is(&key, "datacolumns"))

@@ -236,7 +236,9 @@ static ambulo_status read_rows(table_reader *reader) {
       ambulo__motion_create(rows, reader->name_count, (const char *const *)reader->names,
                             reader->allocator, &reader->motion);
   if (status) return status;
-  reader->motion->in_degrees = reader->header.in_degrees;
+  /* SIMM's angles are in degrees, and OpenSim takes them so without inDegrees or version */
+  int simm = reader->is_sto && !reader->header.unit_stated && !reader->header.has_version;
+  reader->motion->in_degrees = reader->header.in_degrees || simm;
   reader->motion->unit_stated = reader->header.unit_stated;
   reader->motion->declared_columns = (int)reader->header.declared_columns;
   reader->motion->body_mass = reader->header.body_mass;

@@ -16,9 +16,13 @@
 static const double radian = 3.14159265358979323846 / 180.0;
 
 /* 1 if the file's angles are in degrees */
-static int in_degrees(const ambulo__inverse *v) {
+static int in_degrees(ambulo__inverse *v) {
   ambulo__place place = {.file = v->file};
   ambulo_angle_unit wanted = v->options.angles;
+  if (wanted == AMBULO_ANGLES_OF_FILE && v->given->in_degrees && !v->given->unit_stated)
+    ambulo__doubt(&v->doubts, v->file, "say which: --angles degrees or --angles radians",
+                  "the header has neither inDegrees nor version: angles are taken in degrees, as "
+                  "OpenSim takes such files");
   if (wanted == AMBULO_ANGLES_OF_FILE) return v->given->in_degrees;
   int degrees = wanted == AMBULO_ANGLES_DEGREES;
   if (v->given->unit_stated && degrees != v->given->in_degrees)

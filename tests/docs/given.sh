@@ -51,6 +51,17 @@ table() { # the columns whose names match $1, renamed by $2; angles (q.*) in deg
 }
 table '^q\.' q Coordinates >ik.mot
 table '^(grf|cop)\.' forces forces >grf.mot
+load() { # BODY PREFIX: columns of a plate, as OpenSim's external loads name them
+  echo "<ExternalForce name='$1'><applied_to_body>$1</applied_to_body>"
+  echo "<force_identifier>$2ground_force_v</force_identifier>"
+  echo "<point_identifier>$2ground_force_p</point_identifier></ExternalForce>"
+}
+{
+  echo "<OpenSimDocument Version='40000'><ExternalLoads name='loads'><objects>"
+  load calcn_r ''
+  load calcn_l 1_
+  echo '</objects><datafile>grf.mot</datafile></ExternalLoads></OpenSimDocument>'
+} >external_loads.xml
 
 # a robot on two legs, as a URDF, for docs/guide-import.md
 limb() { # SIDE Y: hip, knee, ankle, and a foot of a box

@@ -54,6 +54,12 @@ static void sizes_of_the_table(void **state) {
   assert_int_equal(take("datarows = 8", 1, 1).declared_rows, 8);
   assert_int_equal(take("nColumns=9", 1, 1).declared_columns, 9);
   assert_int_equal(take("# nRows=7", 1, 0).declared_rows, -1);
+  assert_int_equal(take("datarows 8", 1, 1).declared_rows, 8); /* SIMM */
+  assert_int_equal(take("datacolumns\t9 ", 1, 1).declared_columns, 9);
+  assert_int_equal(take("datarows 8 of 9", 1, 1).declared_rows, -1);
+  assert_int_equal(take("name datarows", 1, 1).declared_rows, -1);
+  assert_int_equal(take("version=1", 2, 1).has_version, 1);
+  assert_int_equal(take("# version=1", 2, 0).has_version, 0);
   ambulo__table_header header = ambulo__table_header_default();
   ambulo__table_line line = {.start = "nRows=x", .length = 7, .number = 3};
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);

@@ -58,6 +58,15 @@ static void degrees_are_noticed(void **state) {
   ambulo__motion *motion = read_ok("t\ninDegrees=yes\nendheader\ntime\tq\n0\t1\n", "a.mot");
   assert_int_equal(motion->in_degrees, 1);
   ambulo__motion_free(motion);
+  /* measured with OpenSim 4.6: degrees without a version, radians with one */
+  motion =
+      read_ok("name t\ndatacolumns 2\ndatarows 1\nrange 0 1\nendheader\ntime\tq\n0\t1\n", "a.mot");
+  assert_int_equal(motion->in_degrees, 1);
+  assert_int_equal(motion->unit_stated, 0);
+  ambulo__motion_free(motion);
+  motion = read_ok("t\nversion=1\nendheader\ntime\tq\n0\t1\n", "a.mot");
+  assert_int_equal(motion->in_degrees, 0);
+  ambulo__motion_free(motion);
   motion = read_ok("# inDegrees=yes\ntime,q\n0,1\n", "a.csv");
   assert_int_equal(motion->in_degrees, 1);
   ambulo__motion_free(motion);

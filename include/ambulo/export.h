@@ -1,0 +1,49 @@
+/* ambulo/export.h - models and motions for other programs: OpenSim, URDF, NumPy's .npz.
+ *
+ * What comes out moves as the model does: the same mass matrix, coordinates of the same names
+ * (docs/guide-export.md). The world is turned to the other program's axes: OpenSim's ground has y
+ * up, a URDF's world z up, both x near forward.
+ */
+#ifndef AMBULO_EXPORT_H
+#define AMBULO_EXPORT_H
+
+#include "ambulo/inverse.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ambulo_export_format {
+  AMBULO_EXPORT_OPENSIM, /* without a motion the file .osim; with one a folder: model.osim,
+                            motion.mot and, where there are forces on feet, grf.mot and
+                            external_loads.xml */
+  AMBULO_EXPORT_URDF,    /* a file; no motion */
+  AMBULO_EXPORT_NPZ      /* a file: the motion in the coordinates of Pinocchio and MuJoCo, whose
+                            root is one free joint */
+} ambulo_export_format;
+
+typedef struct ambulo_export_options {
+  int cookie; /* set by ambulo_export_options_default() */
+  ambulo_export_format format;
+  int free_root; /* URDF: 1: without the coordinates that carry the root, for programs that give it
+                    a free joint of their own (as the motion of an .npz has it) */
+  int overwrite; /* 1: `output` may be any file, or a folder that an export made */
+  const ambulo_inverse_options *inverse; /* how the motion is read; NULL: the defaults */
+} ambulo_export_options;
+AMBULO_API ambulo_export_options ambulo_export_options_default(void); /* OpenSim */
+
+/* Writes `output`, whole or not at all. `motion`: a table as of ambulo_inverse_dynamics_motion, or
+ * a result folder, whose motion.csv is taken; NULL: the model alone (not with NPZ). `options`,
+ * `allocator`, `diagnostics` may be NULL. Errors: E_ARGUMENT, E_IO, E_PARSE, E_SCHEMA, E_MODEL (a
+ * name that the other program has for itself; of a URDF's free root: there is none), E_LIMIT,
+ * E_NUMERIC, E_MEMORY. */
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_export(const ambulo_model *model,
+                                                        const char *motion, const char *output,
+                                                        const ambulo_export_options *options,
+                                                        const ambulo_allocator *allocator,
+                                                        ambulo_diagnostics *diagnostics);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

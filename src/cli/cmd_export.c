@@ -1,0 +1,96 @@
+/* cli/cmd_export.c - ambulo export: a model, and a motion, for other programs. */
+#include <string.h>
+
+#include "cli/body.h"
+#include "cli/commands.h"
+#include "cli/forces.h"
+#include "cli/output.h"
+
+static int read_options(const ambulo__cli_input *input, ambulo_export_options *o,
+                        ambulo_inverse_options *inverse) {
+  static const char *const formats[] = {"opensim", "urdf", "npz"};
+  const char *format = ambulo__cli_value(input, "format");
+  const char *angles = ambulo__cli_value(input, "angles");
+  int chosen = -1;
+  for (int i = 0; format && i < 3; i++)
+    if (strcmp(format, formats[i]) == 0) chosen = i;
+  if (chosen < 0) {
+    ambulo__cli_usage_error("export", NULL, "--format is '%s'; expected opensim, urdf or npz",
+                            format ? format : "not given");
+    return 0;
+  }
+  if (angles && strcmp(angles, "degrees") != 0 && strcmp(angles, "radians") != 0) {
+    ambulo__cli_usage_error("export", NULL, "--angles is '%s'; expected degrees or radians",
+                            angles);
+    return 0;
+  }
+  o->format = (ambulo_export_format)chosen;
+  o->free_root = ambulo__cli_flag(input, "free-root");
+  o->overwrite = ambulo__cli_flag(input, "force");
+  o->inverse = inverse;
+  if (angles)
+    inverse->angles =
+        strcmp(angles, "degrees") == 0 ? AMBULO_ANGLES_DEGREES : AMBULO_ANGLES_RADIANS;
+  return 1;
+}
+
+static int run(const ambulo__cli_input *input) {
+  const char *output = ambulo__cli_value(input, "output");
+  ambulo_export_options options = ambulo_export_options_default();
+  ambulo_inverse_options inverse = ambulo_inverse_options_default();
+  if (!read_options(input, &options, &inverse)) return 2;
+  if (!output) return ambulo__cli_usage_error("export", NULL, "-o is missing; expected a name");
+  ambulo_diagnostics *diagnostics = ambulo_diagnostics_create(NULL);
+  ambulo__cli_body body = {.model = NULL};
+  ambulo__cli_forces forces = {.table = NULL};
+  ambulo_status status = AMBULO_OK;
+  int code = ambulo__cli_body_load(input, input->arguments[0], diagnostics, &body, &status);
+  if (!code) {
+    inverse.ground_height = body.ground_height;
+    if (!status)
+      status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &inverse);
+    if (!status)
+      status = ambulo_export(body.model, input->argument_count > 1 ? input->arguments[1] : NULL,
+                             output, &options, NULL, diagnostics);
+    code = ambulo__cli_diagnostics(diagnostics, status, input->arguments[0]);
+  }
+  ambulo__cli_forces_free(&forces);
+  ambulo__cli_body_free(&body);
+  ambulo_diagnostics_free(diagnostics);
+  return code;
+}
+
+static const ambulo__cli_option options_table[] = {
+    {"format", 0, "opensim|urdf|npz", "what to write"},
+    {"output", 'o', "FILE|DIR", "where to; a folder with opensim and a motion, else a file"},
+    {"force", 0, NULL, "write over any file, or a folder that an export made"},
+    {"free-root", 0, NULL,
+     "URDF: leave the root's own coordinates out, for programs that\n"
+     "give it a free joint, as an .npz has it"},
+    AMBULO__CLI_FORCE_OPTIONS,
+    {"angles", 0, "degrees|radians", "unit of the motion's angles (default: as its file states)"},
+    AMBULO__CLI_BODY_OPTIONS,
+};
+
+const ambulo__cli_command ambulo__cli_export = {
+    .name = "export",
+    .arguments = "MODEL.yaml|PROBLEM.yaml [RESULT_DIR|MOTION]",
+    .summary = "a model and a motion for OpenSim, URDF, Pinocchio, MuJoCo",
+    .description =
+        "Writes the model as other programs read it, and a motion of it: a result folder, or a\n"
+        "table as ambulo inverse takes it.\n"
+        "  opensim  FILE.osim; with a motion a folder: model.osim, motion.mot, grf.mot and\n"
+        "           external_loads.xml\n"
+        "  urdf     the model alone\n"
+        "  npz      the motion alone: arrays of NumPy in the coordinates of Pinocchio and MuJoCo\n"
+        "Masses, coordinates and their names are the model's. See docs/guide-export.md.",
+    .example = "ambulo export models/walk_normal.yaml walk --format opensim -o walk_opensim\n"
+               "ambulo export models/lower_body_21.yaml --format urdf -o body.urdf",
+    .options = options_table,
+    .option_count = sizeof options_table / sizeof options_table[0],
+    .minimum = 1,
+    .maximum = 2,
+    .files = 1,
+    .words = "ambulo models --names",
+    .run = run,
+};

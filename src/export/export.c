@@ -1,0 +1,191 @@
+/* export/export.c - ambulo_export: a model and a motion for another program.
+ *
+ * Reading order: bodies.h, osim_text.c, urdf_text.c, motion_source.h, opensim_motion.c,
+ * free_base.h, npz_motion.c, npz.h.
+ */
+#include "ambulo/export.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/output_check.h"
+#include "export/npz_motion.h"
+#include "export/texts.h"
+
+enum { OPTIONS_COOKIE = 0x61657870 };
+
+static const char *const file_names[] = {"model.osim", "motion.mot", "grf.mot",
+                                         "external_loads.xml"};
+static const ambulo__folder_mark mark = {"model.osim", AMBULO__XML_MARK, file_names,
+                                         sizeof file_names / sizeof *file_names};
+
+/* what one export needs */
+typedef struct job {
+  const ambulo_model *model;
+  const char *motion, *output;
+  const ambulo_export_options *options;
+  const ambulo_allocator *allocator;
+  ambulo_diagnostics *diagnostics;
+  ambulo__bodies bodies;
+  ambulo__source source;
+  ambulo__text_buffer text;
+} job;
+
+ambulo_export_options ambulo_export_options_default(void) {
+  return (ambulo_export_options){.cookie = OPTIONS_COOKIE};
+}
+
+/* ------------------------------------------------------------------------ refusals */
+
+static ambulo_status check_names(const job *j, const char *own) {
+  for (int i = 0; i < j->model->link_count; i++)
+    if (strcmp(j->model->links[i].name, own) == 0)
+      return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                           "a link is named '%s', as the other program's world is; expected "
+                           "another name",
+                           own);
+  return AMBULO_OK;
+}
+
+static ambulo_status check_asked(const job *j) {
+  ambulo_export_format format = j->options->format;
+  if (format == AMBULO_EXPORT_NPZ && !j->motion)
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
+                         "--format urdf writes the model alone",
+                         "an .npz holds a motion, and none is given");
+  if (format == AMBULO_EXPORT_URDF && j->motion)
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
+                         "--format npz writes the motion", "a URDF holds no motion");
+  if (j->options->free_root && format != AMBULO_EXPORT_URDF)
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "a free root is a choice of URDF alone");
+  if (j->options->free_root && ambulo__free_root(j->model) < 0)
+    return ambulo__error(j->diagnostics, AMBULO_E_MODEL, ambulo__nowhere, NULL,
+                         "the root is no free body: its first joints are actuated, or branch "
+                         "before any mass; expected coordinates with actuated: false");
+  return check_names(j, format == AMBULO_EXPORT_OPENSIM ? "ground" : "world");
+}
+
+/* --------------------------------------------------------------------- what is lost */
+
+static void tell_gravity(const job *j) {
+  double g[3];
+  ambulo__rigid_vector(&j->bodies.world, j->model->gravity, g);
+  if (g[0] == 0.0 && g[1] == 0.0 && g[2] == -9.81) return;
+  ambulo__warning(j->diagnostics, ambulo__nowhere, NULL,
+                  "a URDF says nothing of gravity: it is %g %g %g m/s^2 in its axes", g[0], g[1],
+                  g[2]);
+}
+
+static void tell_limits(const job *j) {
+  int uneven = 0;
+  const char *first = "";
+  for (int i = j->model->coordinate_count - 1; i >= 0; i--) {
+    const ambulo_coordinate *c = &j->model->coordinates[i];
+    if (c->torque[0] == -c->torque[1] && c->speed[0] == -c->speed[1]) continue;
+    uneven++;
+    first = c->name;
+  }
+  if (uneven)
+    ambulo__warning(j->diagnostics, ambulo__nowhere, NULL,
+                    "limits of torque or speed of %d coordinates ('%s') differ by direction: a "
+                    "URDF has one of each, the larger",
+                    uneven, first);
+}
+
+/* ------------------------------------------------------------------------- writing */
+
+static ambulo_status write_single(job *j) {
+  ambulo_status status = ambulo__text_status(&j->text);
+  if (status) return status;
+  return ambulo__write_file(j->output, ambulo__text_data(&j->text), j->text.length, 1, j->allocator,
+                            j->diagnostics);
+}
+
+typedef void print(const ambulo__bodies *, const ambulo__source *, ambulo__text_buffer *);
+
+static void print_model(const ambulo__bodies *bodies, const ambulo__source *source,
+                        ambulo__text_buffer *text) {
+  (void)source;
+  ambulo__export_osim(bodies, text);
+}
+
+/* a folder, whole or not at all */
+static ambulo_status write_folder(job *j) {
+  static print *const prints[] = {print_model, ambulo__mot_text, ambulo__grf_text,
+                                  ambulo__external_loads_text};
+  ambulo__folder *folder = NULL;
+  ambulo_status status = ambulo__folder_begin(j->output, j->options->overwrite ? &mark : NULL,
+                                              j->allocator, j->diagnostics, &folder);
+  if (status) return status;
+  for (int i = 0; !status && i < (j->source.feet ? 4 : 2); i++) {
+    ambulo__text_clear(&j->text);
+    prints[i](&j->bodies, &j->source, &j->text);
+    status = ambulo__text_status(&j->text);
+    if (!status)
+      status = ambulo__folder_write(folder, file_names[i], ambulo__text_data(&j->text),
+                                    j->text.length, j->diagnostics);
+  }
+  if (!status) return ambulo__folder_commit(folder, j->diagnostics);
+  ambulo__folder_abort(folder);
+  return status;
+}
+
+static ambulo_status write_format(job *j) {
+  ambulo_status status = AMBULO_OK;
+  switch (j->options->format) {
+  case AMBULO_EXPORT_OPENSIM:
+    status = ambulo__bodies_merged(j->model, j->allocator, &j->bodies);
+    if (status) return status;
+    if (j->motion) return write_folder(j);
+    ambulo__export_osim(&j->bodies, &j->text);
+    return write_single(j);
+  case AMBULO_EXPORT_URDF:
+    status = ambulo__bodies_single(j->model, j->options->free_root, j->allocator, &j->bodies);
+    if (status) return status;
+    tell_gravity(j);
+    tell_limits(j);
+    ambulo__export_urdf(&j->bodies, &j->text);
+    return write_single(j);
+  case AMBULO_EXPORT_NPZ:
+    break;
+  }
+  status = ambulo__bodies_single(j->model, 1, j->allocator, &j->bodies);
+  if (!status) status = ambulo__npz_motion(&j->bodies, &j->source, &j->text);
+  return status ? status : write_single(j);
+}
+
+static ambulo_status run(job *j) {
+  int folder = j->options->format == AMBULO_EXPORT_OPENSIM && j->motion;
+  ambulo_status status = check_asked(j);
+  if (!status && !folder)
+    status = ambulo__output_check(j->output, &j->motion, 1, j->options->overwrite, j->diagnostics);
+  if (!status && j->motion)
+    status = ambulo__source_read(j->model, j->motion, j->options->inverse, j->allocator,
+                                 j->diagnostics, &j->source);
+  return status ? status : write_format(j);
+}
+
+ambulo_status ambulo_export(const ambulo_model *model, const char *motion, const char *output,
+                            const ambulo_export_options *options, const ambulo_allocator *allocator,
+                            ambulo_diagnostics *diagnostics) {
+  const ambulo_export_options defaults = ambulo_export_options_default();
+  if (!options) options = &defaults;
+  if (!model || !output || !output[0] || (motion && !motion[0]) ||
+      options->cookie != OPTIONS_COOKIE || (unsigned)options->format > AMBULO_EXPORT_NPZ)
+    return AMBULO_E_ARGUMENT;
+  size_t errors = ambulo_diagnostics_error_count(diagnostics);
+  job j = {.model = model,
+           .motion = motion,
+           .output = output,
+           .options = options,
+           .allocator = allocator,
+           .diagnostics = diagnostics};
+  ambulo__text_init(&j.text, allocator);
+  ambulo_status status = run(&j);
+  ambulo__text_free(&j.text);
+  ambulo__source_free(&j.source);
+  ambulo__bodies_free(&j.bodies);
+  return ambulo__conclude(diagnostics, errors, status, output);
+}

@@ -1,0 +1,34 @@
+/* export/motion_source.h - a motion with its torques and forces, as inverse dynamics has them.
+ *
+ * Read by ambulo_inverse_dynamics_motion (ambulo/inverse.h), so that what is exported is what
+ * `ambulo inverse` says: units, filters, rates, forces of feet and their points. */
+#ifndef AMBULO_EXPORT_MOTION_SOURCE_H
+#define AMBULO_EXPORT_MOTION_SOURCE_H
+
+#include "ambulo/inverse.h"
+#include "base/alloc.h"
+#include "base/diagnostics.h"
+
+typedef struct ambulo__source {
+  ambulo_allocator allocator;
+  const char *name;
+  int rows, coordinates;
+  int feet; /* of the model; 0: the motion has no forces */
+  double *time;
+  double *q, *qd, *qdd, *tau; /* [rows][coordinates], SI, rad */
+  double *wrench;             /* [rows][6]: moment about the world's origin, force */
+  /* [rows][feet][3], world axes. Points are those of the nearest row with one while the foot is in
+   * the air, where forces are zero; a foot that never has one: the origin */
+  double *force, *point;
+  double *free_moment; /* [rows][feet], about up */
+} ambulo__source;
+
+/* `motion`: a table, or a folder with a motion.csv. Errors: those of inverse dynamics. Fills
+ * *source, which ambulo__source_free releases. */
+ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
+                                  const ambulo_inverse_options *options,
+                                  const ambulo_allocator *allocator,
+                                  ambulo_diagnostics *diagnostics, ambulo__source *source);
+void ambulo__source_free(ambulo__source *source); /* accepts a zero-filled one */
+
+#endif

@@ -1,0 +1,398 @@
+/* ambulo_export: models of random trees come back by the import with the same torques; motions;
+ * what is refused; files whole or not at all. */
+#include "ambulo/export.h"
+
+#include <sys/stat.h>
+
+#include "ambulo/import.h"
+#include "support/fail_alloc.h"
+#include "support/messages.h"
+#include "support/random_model.h"
+#include "support/scratch.h"
+
+static ambulo_export_options options_of(ambulo_export_format format) {
+  ambulo_export_options o = ambulo_export_options_default();
+  o.format = format;
+  o.overwrite = 1;
+  return o;
+}
+
+static void skip_without_expat(void) {
+  if (ambulo_import_available()) return;
+  print_message("skipped: built without expat\n");
+  skip();
+}
+
+/* ---------------------------------------------------------------------- round trips */
+
+/* tau of a model in the order of another's coordinates, by the plain recursion of the Lagrangian */
+static void torques(const ambulo_model *model, const ambulo_model *order, const double *state,
+                    double *tau) {
+  enum { MOST = 64 };
+  double q[3][MOST], own[MOST];
+  int d = ambulo_model_coordinate_count(order);
+  for (int i = 0; i < d; i++) {
+    int at = ambulo_model_find_coordinate(model, ambulo_model_coordinate(order, i)->name);
+    assert_true(at >= 0);
+    for (int k = 0; k < 3; k++) q[k][at] = state[k * d + i];
+  }
+  void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(model, q[0], q[1], q[2], own, NULL, NULL, scratch),
+      AMBULO_OK);
+  free(scratch);
+  for (int i = 0; i < d; i++)
+    tau[i] = own[ambulo_model_find_coordinate(model, ambulo_model_coordinate(order, i)->name)];
+}
+
+static void compare_models(const ambulo_model *a, const ambulo_model *b, random_source *source) {
+  enum { MOST = 64 };
+  double state[3 * MOST], one[MOST], two[MOST], size = 1.0;
+  int d = ambulo_model_coordinate_count(a);
+  assert_int_equal(ambulo_model_coordinate_count(b), d);
+  for (int i = 0; i < 3 * d; i++) state[i] = random_between(source, -2, 2);
+  torques(a, a, state, one);
+  torques(b, a, state, two);
+  for (int i = 0; i < d; i++) size = fmax(size, fabs(one[i]));
+  for (int i = 0; i < d; i++) assert_close(two[i] / size, one[i] / size, 1e-12);
+}
+
+static void there_and_back(void **state, uint64_t seed, ambulo_export_format format) {
+  random_tree *tree = malloc(sizeof *tree);
+  random_source source = {seed};
+  ambulo_model *model = NULL, *back = NULL;
+  ambulo_export_options o = options_of(format);
+  ambulo_import_options in = ambulo_import_options_default();
+  const char *file = scratch_path(state, "m.xml"), *yaml = scratch_path(state, "m.yaml");
+  random_tree_make(tree, seed, 1 + (int)(seed % 9));
+  if (seed % 3 == 0) random_tree_put_on_root(tree, seed);
+  /* a URDF's gravity is its reader's */
+  memcpy(tree->definition.gravity, (double[]){0, -9.81, 0}, sizeof tree->definition.gravity);
+  for (int i = 0; i < tree->definition.coordinate_count; i++)
+    tree->coordinates[i].actuated = (int)(seed + (uint64_t)i) % 2;
+  assert_int_equal(ambulo_model_create(&tree->definition, NULL, NULL, &model), AMBULO_OK);
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
+  in.overwrite = 1;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo_status status = ambulo_import_model(file, yaml, &in, NULL, list, NULL);
+  for (size_t i = 0; status && i < ambulo_diagnostics_count(list); i++) {
+    char text[400];
+    ambulo_diagnostics_format(list, i, text, sizeof text);
+    print_error("seed %d: %s\n", (int)seed, text);
+  }
+  assert_int_equal(status, AMBULO_OK);
+  assert_int_equal(ambulo_model_load(yaml, NULL, NULL, NULL, &back), AMBULO_OK);
+  for (int pose = 0; pose < 3; pose++) compare_models(model, back, &source);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(back);
+  ambulo_model_free(model);
+  free(tree);
+}
+
+static void urdf_comes_back(void **state) {
+  skip_without_expat();
+  for (uint64_t seed = 1; seed <= 60; seed++) there_and_back(state, seed, AMBULO_EXPORT_URDF);
+}
+
+static void opensim_comes_back(void **state) {
+  skip_without_expat();
+  for (uint64_t seed = 1; seed <= 60; seed++) there_and_back(state, seed, AMBULO_EXPORT_OPENSIM);
+}
+
+/* ranges, limits of torques, names; sliders of the root with their offset */
+static void limits_come_back(void **state) {
+  skip_without_expat();
+  ambulo_model *model = NULL, *back = NULL;
+  ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
+  const char *file = scratch_path(state, "m.osim"), *yaml = scratch_path(state, "m.yaml");
+  assert_int_equal(ambulo_model_load("models/lower_body_21.yaml", NULL, NULL, NULL, &model),
+                   AMBULO_OK);
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo_import_model(file, yaml, NULL, NULL, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo_model_load(yaml, NULL, NULL, NULL, &back), AMBULO_OK);
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    const ambulo_coordinate *a = ambulo_model_coordinate(model, i);
+    const ambulo_coordinate *b =
+        ambulo_model_coordinate(back, ambulo_model_find_coordinate(back, a->name));
+    double offset = strcmp(a->name, "pelvis_ty") == 0 ? 0.534643 * 1.75 : 0.0;
+    assert_non_null(b);
+    for (int k = 0; k < 2; k++) {
+      assert_close(b->range[k], a->range[k] + offset, 1e-12);
+      if (a->actuated) assert_close(b->torque[k], a->torque[k], 1e-12 * fabs(a->torque[k]));
+    }
+  }
+  ambulo_model_free(back);
+  ambulo_model_free(model);
+}
+
+/* a point of a link that is part of the ground is where that is */
+static void markers(void **state) {
+  ambulo_link links[2] = {ambulo_link_default(), ambulo_link_default()};
+  ambulo_coordinate coordinate = ambulo_coordinate_default();
+  ambulo_point point = {.name = "mark", .link = 0, .position = {0, 0.25, 0.125}};
+  ambulo_model_definition d = ambulo_model_definition_default();
+  ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
+  ambulo_model *model = NULL;
+  const char *file = scratch_path(state, "m.osim");
+  links[0].name = "post";
+  links[0].parent = -1;
+  links[0].type = AMBULO_FIXED;
+  links[0].d = 0.5;
+  links[1].name = "arm";
+  links[1].type = coordinate.type = AMBULO_REVOLUTE;
+  links[1].mass = links[1].inertia[0] = links[1].inertia[1] = links[1].inertia[2] = 1.0;
+  coordinate.name = "q";
+  d.name = "m";
+  d.links = links;
+  d.link_count = 2;
+  d.coordinates = &coordinate;
+  d.coordinate_count = d.point_count = 1;
+  d.points = &point;
+  assert_int_equal(ambulo_model_create(&d, NULL, NULL, &model), AMBULO_OK);
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
+  char *text = read_whole(file);
+  const char *mark = strstr(text, "<Marker name=\"mark\">");
+  assert_non_null(mark);
+  assert_non_null(strstr(mark, "<socket_parent_frame>/ground</socket_parent_frame>"));
+  assert_non_null(strstr(mark, "<location>0 0.25 0.625</location>"));
+  free(text);
+  ambulo_model_free(model);
+}
+
+/* -------------------------------------------------------------------------- motions */
+
+/* a walker that hangs still, its right foot pressed from 0.2 s on */
+static const char motion_text[] =
+    "time,q.pelvis_ty,q.knee_angle_r,grf.right.x,grf.right.y,grf.right.z,cop.right.x,cop.right.y,"
+    "cop.right.z,free_moment.right,grf.left.x,grf.left.y,grf.left.z,cop.left.x,cop.left.y,"
+    "cop.left.z,free_moment.left\n"
+    "0,0.1,0.5,0,0,0,nan,nan,nan,0,0,0,0,nan,nan,nan,0\n"
+    "0.1,0.1,0.5,0,0,0,nan,nan,nan,0,0,0,0,nan,nan,nan,0\n"
+    "0.2,0.1,0.5,10,700,20,0.1,0,0.05,3,0,0,0,nan,nan,nan,0\n"
+    "0.3,0.1,0.5,10,700,20,0.2,0,0.05,3,0,0,0,nan,nan,nan,0\n"
+    "0.4,0.1,0.5,10,700,20,0.2,0,0.05,3,0,0,0,nan,nan,nan,0\n";
+
+static ambulo_model *walker(void) {
+  ambulo_model *model = NULL;
+  assert_int_equal(ambulo_model_load("models/walker_2d.yaml", NULL, NULL, NULL, &model), AMBULO_OK);
+  return model;
+}
+
+/* cell of a table behind endheader */
+static double cell(const char *text, const char *column, int row) {
+  const char *head = strstr(text, "endheader\n") + 10, *at = head;
+  int index = 0;
+  for (; strncmp(at, column, strlen(column)) != 0 || !strchr("\t\n", at[strlen(column)]); index++) {
+    at = strpbrk(at, "\t\n");
+    assert_non_null(at);
+    assert_true(*at++ == '\t');
+  }
+  for (at = head; row >= 0; row--) at = strchr(at, '\n') + 1;
+  for (; index > 0; index--) at = strchr(at, '\t') + 1;
+  return strtod(at, NULL);
+}
+
+static char *folder_text(const char *folder, const char *name) {
+  char path[600];
+  (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+  return read_whole(path);
+}
+
+static void a_folder_for_opensim(void **state) {
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
+  scratch_write(motion, motion_text);
+  assert_int_equal(ambulo_export(model, motion, folder, NULL, NULL, NULL), AMBULO_OK);
+  assert_int_equal(entries_in(folder), 4);
+  char *mot = folder_text(folder, "motion.mot"), *grf = folder_text(folder, "grf.mot"),
+       *loads = folder_text(folder, "external_loads.xml");
+  assert_non_null(strstr(mot, "inDegrees=yes\n"));
+  assert_close(cell(mot, "knee_angle_r", 1), 0.5 * 180 / acos(-1), 1e-13);
+  assert_close(cell(mot, "pelvis_ty", 1), 0.1 + 0.534643 * 1.75, 1e-12);
+  assert_close(cell(grf, "ground_force_right_vy", 3), 700, 1e-12);
+  assert_close(cell(grf, "ground_force_right_px", 4), 0.2, 1e-12);
+  assert_close(cell(grf, "ground_force_right_px", 1), 0.1, 1e-12); /* in the air: the next one */
+  assert_close(cell(grf, "ground_torque_right_y", 3), 3, 1e-12);
+  assert_close(cell(grf, "ground_force_left_px", 3), 0, 0); /* never down */
+  assert_non_null(strstr(loads, "<applied_to_body>foot_r</applied_to_body>"));
+  assert_non_null(strstr(loads, "<torque_identifier>ground_torque_right_</torque_identifier>"));
+  free(mot);
+  free(grf);
+  free(loads);
+  ambulo_model_free(model);
+}
+
+/* element `index` of an array of an archive, whose bytes are not machine's but little-endian */
+static double element(const char *archive, size_t length, const char *name, const char *shape,
+                      size_t index) {
+  for (size_t i = 0; i + 128 < length; i++) {
+    if (memcmp(archive + i, name, strlen(name)) != 0) continue;
+    const char *npy = archive + i + strlen(name);
+    assert_memory_equal(npy, "\x93NUMPY", 6);
+    assert_non_null(strstr(npy + 10, shape));
+    size_t header = 10 + (size_t)(unsigned char)npy[8];
+    uint64_t bits = 0;
+    for (int b = 7; b >= 0; b--)
+      bits = bits << 8 | (unsigned char)npy[header + 8 * index + (size_t)b];
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+  }
+  fail();
+  return 0.0;
+}
+
+/* z up, y left: the world's z is -y */
+static void an_archive(void **state) {
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *file = scratch_path(state, "m.npz");
+  ambulo_export_options o = options_of(AMBULO_EXPORT_NPZ);
+  scratch_write(motion, motion_text);
+  assert_int_equal(ambulo_export(model, motion, file, &o, NULL, NULL), AMBULO_OK);
+  FILE *in = fopen(file, "rb");
+  assert_non_null(in);
+  static char bytes[20000];
+  size_t length = fread(bytes, 1, sizeof bytes, in);
+  (void)fclose(in);
+  static const double turned[7] = {0, 0, 0.1 + 0.534643 * 1.75, 0.70710678118654757,
+                                   0, 0, 0.70710678118654757};
+  static const int quaternion[4] = {6, 3, 4, 5};
+  for (size_t i = 0; i < 7; i++) {
+    size_t there = i < 3 ? i : (size_t)quaternion[i - 3];
+    assert_close(element(bytes, length, "q.npy", "(5, 13, )", i), turned[i], 1e-12);
+    assert_close(element(bytes, length, "qpos.npy", "(5, 13, )", i), turned[there], 1e-12);
+  }
+  static const double wrench[6] = {10, -20, 700, 0, 0, 3};
+  static const double point[3] = {0.2, -0.05, 0};
+  for (size_t i = 0; i < 6; i++)
+    assert_close(element(bytes, length, "contact_wrench.npy", "(5, 2, 6, )", 3 * 12 + i), wrench[i],
+                 1e-12);
+  for (size_t i = 0; i < 3; i++)
+    assert_close(element(bytes, length, "contact_point.npy", "(5, 2, 3, )", 3 * 6 + i), point[i],
+                 1e-12);
+  /* still: what is left over is weight less the plate, in the pelvis' axes */
+  double rest = element(bytes, length, "tau.npy", "(5, 12, )", 3 * 12 + 1);
+  assert_close(rest, 9.81 * ambulo_model_mass(model) - 700.0, 1e-9);
+  ambulo_model_free(model);
+}
+
+/* ------------------------------------------------------------- refusals and files */
+
+static void arguments(void **state) {
+  ambulo_model *model = walker();
+  const char *file = scratch_path(state, "x");
+  ambulo_export_options none = {0}, o = options_of(AMBULO_EXPORT_URDF);
+  assert_int_equal(ambulo_export(NULL, NULL, file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_export(model, NULL, NULL, &o, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_export(model, NULL, "", &o, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_export(model, "", file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_export(model, NULL, file, &none, NULL, NULL), AMBULO_E_ARGUMENT);
+  o.format = (ambulo_export_format)3;
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(entries_in(*state), 0);
+  ambulo_model_free(model);
+}
+
+static void refused(void **state, const char *model_file, const char *motion,
+                    const ambulo_export_options *o, ambulo_status want, const char *said) {
+  ambulo_model *model = NULL;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(ambulo_model_load(model_file, NULL, NULL, NULL, &model), AMBULO_OK);
+  assert_int_equal(ambulo_export(model, motion, scratch_path(state, "none"), o, NULL, list), want);
+  assert_message(list, 0, said);
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(model);
+}
+
+static void refusals(void **state) {
+  const char *motion = scratch_path(state, "m.csv");
+  const char *walker_file = "models/walker_2d.yaml";
+  ambulo_export_options o = options_of(AMBULO_EXPORT_NPZ);
+  scratch_write(motion, motion_text);
+  refused(state, walker_file, NULL, &o, AMBULO_E_ARGUMENT, "an .npz holds a motion");
+  o.format = AMBULO_EXPORT_URDF;
+  refused(state, walker_file, motion, &o, AMBULO_E_ARGUMENT, "a URDF holds no motion");
+  o.free_root = 1;
+  refused(state, "models/pendulum.yaml", NULL, &o, AMBULO_E_MODEL, "the root is no free body");
+  o.format = AMBULO_EXPORT_OPENSIM;
+  refused(state, walker_file, NULL, &o, AMBULO_E_ARGUMENT, "a free root is a choice of URDF");
+  assert_int_equal(entries_in(*state), 1);
+}
+
+static void what_is_lost_is_told(void **state) {
+  ambulo_model *model = walker(), *up = NULL;
+  ambulo_conditions slope = ambulo_conditions_default();
+  ambulo_export_options o = options_of(AMBULO_EXPORT_URDF);
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  slope.slope = 0.1;
+  assert_int_equal(ambulo_model_adapt(model, &slope, NULL, NULL, &up), AMBULO_OK);
+  assert_int_equal(ambulo_export(up, NULL, scratch_path(state, "u"), &o, NULL, list), AMBULO_OK);
+  assert_message(list, 0, "a URDF says nothing of gravity: it is -0.979366 0 -9.76099 m/s^2");
+  assert_message(list, 1, "limits of torque or speed of 6 coordinates ('hip_flexion_r')");
+  ambulo_diagnostics_free(list);
+  ambulo_model_free(up);
+  ambulo_model_free(model);
+}
+
+static void nothing_is_written_over(void **state) {
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
+  ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
+  scratch_write(motion, motion_text);
+  o.overwrite = 0;
+  assert_int_equal(ambulo_export(model, NULL, motion, &o, NULL, NULL), AMBULO_E_IO);
+  assert_file_equal(motion, motion_text);
+  assert_int_equal(ambulo_export(model, motion, folder, &o, NULL, NULL), AMBULO_OK);
+  assert_int_equal(ambulo_export(model, motion, folder, &o, NULL, NULL), AMBULO_E_IO);
+  o.overwrite = 1;
+  assert_int_equal(ambulo_export(model, motion, folder, &o, NULL, NULL), AMBULO_OK);
+  char path[600];
+  (void)snprintf(path, sizeof path, "%s/notes", folder);
+  scratch_write(path, "mine\n");
+  assert_int_equal(ambulo_export(model, motion, folder, &o, NULL, NULL), AMBULO_E_IO);
+  assert_file_equal(path, "mine\n");
+  ambulo_model_free(model);
+}
+
+static void memory_may_run_out_anywhere(void **state) {
+  static const ambulo_export_format formats[] = {AMBULO_EXPORT_OPENSIM, AMBULO_EXPORT_URDF,
+                                                 AMBULO_EXPORT_NPZ, AMBULO_EXPORT_OPENSIM};
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *file = scratch_path(state, "file"),
+             *folder = scratch_path(state, "folder");
+  scratch_write(motion, motion_text);
+  for (int f = 0; f < 4; f++) {
+    ambulo_export_options o = options_of(formats[f]);
+    for (long k = 0; k < 100000; k += k < 100 ? 1 : 13) {
+      fail_alloc memory = fail_alloc_at(k);
+      ambulo_allocator allocator = fail_alloc_hook(&memory);
+      ambulo_status status =
+          ambulo_export(model, f > 1 ? motion : NULL, f == 3 ? folder : file, &o, &allocator, NULL);
+      if (!memory.failed) {
+        assert_int_equal(status, AMBULO_OK);
+        assert_int_equal(memory.live, 0);
+        break;
+      }
+      assert_int_equal(status, AMBULO_E_MEMORY);
+      assert_int_equal(memory.live, 0);
+    }
+  }
+  assert_int_equal(entries_in(*state), 3); /* no temporary is left */
+  ambulo_model_free(model);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(urdf_comes_back, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(opensim_comes_back, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(limits_come_back, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(markers, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(what_is_lost_is_told, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(nothing_is_written_over, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(memory_may_run_out_anywhere, scratch_open, scratch_close)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
