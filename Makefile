@@ -348,7 +348,8 @@ lint-leftovers:
 # PREFIX/lib, or where a distribution has libraries: make install LIBDIR=/usr/lib/x86_64-linux-gnu
 LIBDIR ?= $(PREFIX)/lib
 MODELS = $(shell find models -type f -name '*.yaml' -o -name '*.csv' -o -name '*.md' 2>/dev/null)
-DOCS = LICENSE README.md CHANGELOG.md $(wildcard CITATION.cff CONTRIBUTING.md docs/*.md docs/images/*.svg)
+DOCS = LICENSE README.md CHANGELOG.md $(wildcard CITATION.cff CONTRIBUTING.md docs/*.md docs/images/*.svg \
+  docs/images/*.png docs/examples/*)
 
 # where the loader does not look by itself, programs are told where the library is
 RPATH = $(if $(filter /usr,$(PREFIX)),,-Wl,-rpath,$${libdir} )
