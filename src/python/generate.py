@@ -48,6 +48,7 @@ SHAPES = {
 OWN = {
     ("ambulo_options", "progress"), ("ambulo_parameters", "problem_at"),
     ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
+    ("ambulo_export_options", "inverse"),
 }
 
 # Numbers that stand for something of the model and may be given by its name.
