@@ -146,11 +146,11 @@ const ambulo__cli_command ambulo__cli_draw = {
         "with the parts, units and people that options ask for, from the solution's spline "
         "itself.\n"
         "PDF and PNG need rsvg-convert (librsvg) on PATH. See docs/guide-pictures.md.",
-    .example =
-        "ambulo solve models/walk_normal.yaml -o walk\n"
-        "ambulo draw walk -o walk.pdf\n"
-        "ambulo draw models/walk_normal.yaml walk --curves --powers --per-kg --percent --width 180 "
-        "-o curves.pdf",
+    .example = "ambulo solve models/walk_normal.yaml -o on_paper\n"
+               "ambulo draw on_paper -o walk.pdf\n"
+               "ambulo draw models/walk_normal.yaml on_paper --curves --powers --per-kg --percent "
+               "--width 180 "
+               "-o curves.pdf",
     .options = options,
     .option_count = sizeof options / sizeof options[0],
     .minimum = 1,

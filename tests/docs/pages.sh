@@ -92,12 +92,13 @@ options_exist() {
   return $lost
 }
 
-# functions, types, constants and settings that the pages name are in the headers, or in Python
+# functions, types, constants and settings that the pages name are in the headers, in Python, or in the
+# scripts of the tests
 names_exist() {
   local page name lost=0
   for page in README.md docs/*.md; do
     while read -r name; do
-      grep -rqE "\b$name\b" --include='*.h' --include='*.py' include src || { echo "$page: no $name"; lost=1; }
+      grep -rqE "\b$name\b" --include='*.h' --include='*.py' --include='*.sh' include src tests || { echo "$page: no $name"; lost=1; }
     done < <(grep -oE '\b(ambulo_[a-z_]*[a-z]|AMBULO_[A-Z_]*[A-Z])\b' "$page" | sort -u)
   done
   return $lost
