@@ -43,16 +43,14 @@ static int has_forces(const ambulo_model *model, const ambulo__motion *table) {
 
 /* --------------------------------------------------------------------- the points */
 
-/* rows without a point take that of the nearest row with one */
-static void fill_points(ambulo__source *s, int foot) {
-  size_t stride = 3 * (size_t)s->feet;
-  double *point = s->point + 3 * foot;
-  for (int k = 0, from = 0; k <= s->rows; k++) {
-    if (k < s->rows && !isfinite(point[(size_t)k * stride])) continue;
+void ambulo__fill_points(const double *time, int rows, int loads, int load, double *points) {
+  size_t stride = 3 * (size_t)loads;
+  double *point = points + 3 * (size_t)load;
+  for (int k = 0, from = 0; k <= rows; k++) {
+    if (k < rows && !isfinite(point[(size_t)k * stride])) continue;
     for (int i = from; i < k; i++) {
       int back = from - 1, ahead = k;
-      int near = ahead >= s->rows ||
-                         (back >= 0 && s->time[i] - s->time[back] <= s->time[ahead] - s->time[i])
+      int near = ahead >= rows || (back >= 0 && time[i] - time[back] <= time[ahead] - time[i])
                      ? back
                      : ahead;
       for (int a = 0; a < 3; a++)
@@ -103,9 +101,16 @@ static ambulo_status fill(const ambulo_model *model, const ambulo__motion *table
     take_vector(&c, "grf.", name, s->force + 3 * foot, 3 * feet);
     take_vector(&c, "cop.", name, s->point + 3 * foot, 3 * feet);
     take(&c, "free_moment.", name, "", s->free_moment + foot, feet);
-    fill_points(s, (int)foot);
   }
   return c.missing ? AMBULO_E_INTERNAL : AMBULO_OK;
+}
+
+/* the file's own columns */
+static ambulo_status read_table(const char *path, ambulo_diagnostics *diagnostics,
+                                ambulo__source *s) {
+  ambulo_status status = ambulo__motion_read_gaps(path, &s->allocator, diagnostics, &s->table);
+  if (!status && s->table->rows != s->rows) status = AMBULO_E_INTERNAL;
+  return status;
 }
 
 static ambulo_status read_text(const ambulo_model *model, const char *motion, const char *text,
@@ -141,6 +146,7 @@ ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
     status = ambulo_inverse_dynamics_motion(model, path, NULL, options, allocator, diagnostics,
                                             NULL, &text);
   if (!status) status = read_text(model, path, text, allocator, diagnostics, &s);
+  if (!status) status = read_table(path, diagnostics, &s);
   ambulo__free(&s.allocator, text);
   ambulo__free(&s.allocator, inner);
   if (status)
@@ -155,5 +161,6 @@ void ambulo__source_free(ambulo__source *s) {
                             s->wrench, s->force, s->point, s->free_moment};
   for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
     ambulo__free(&s->allocator, fields[i]);
+  ambulo__motion_free(s->table);
   *s = (ambulo__source){.rows = 0};
 }

@@ -8,6 +8,7 @@
 #include "ambulo/inverse.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
+#include "format/motion_file.h"
 
 typedef struct ambulo__source {
   ambulo_allocator allocator;
@@ -17,10 +18,9 @@ typedef struct ambulo__source {
   double *time;
   double *q, *qd, *qdd, *tau; /* [rows][coordinates], SI, rad */
   double *wrench;             /* [rows][6]: moment about the world's origin, force */
-  /* [rows][feet][3], world axes. Points are those of the nearest row with one while the foot is in
-   * the air, where forces are zero; a foot that never has one: the origin */
-  double *force, *point;
-  double *free_moment; /* [rows][feet], about up */
+  double *force, *point;      /* [rows][feet][3], world axes; no point (NaN) in the air */
+  double *free_moment;        /* [rows][feet], about up */
+  ambulo__motion *table;      /* the file itself, row by row, with what else it says */
 } ambulo__source;
 
 /* `motion`: a table, or a folder with a motion.csv. Errors: those of inverse dynamics. Fills
@@ -29,6 +29,9 @@ ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
                                   const ambulo_inverse_options *options,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo__source *source);
+/* Rows of points[rows][loads][3] without one (NaN) of that load take that of the nearest time with
+ * one; a load that never has one: the origin. */
+void ambulo__fill_points(const double *time, int rows, int loads, int load, double *points);
 void ambulo__source_free(ambulo__source *source); /* accepts a zero-filled one */
 
 #endif
