@@ -189,7 +189,8 @@ static ambulo_status run(job *j) {
   if (!status && !folder)
     status = ambulo__output_check(j->output, &j->motion, 1, j->options->overwrite, j->diagnostics);
   if (!status && j->motion)
-    status = ambulo__source_read(j->model, j->motion, j->options->inverse, j->allocator,
+    status = ambulo__source_read(j->model, j->motion, j->options->inverse,
+                                 ambulo__has_loads(j->options->problem), j->allocator,
                                  j->diagnostics, &j->source);
   return status ? status : write_format(j);
 }

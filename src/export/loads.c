@@ -38,6 +38,11 @@ const char *ambulo__load_prefix(const ambulo__export_load *load) {
   return load->kind == AMBULO__LOAD_FOOT || load->kind == AMBULO__LOAD_PATCH ? "ground_" : "";
 }
 
+int ambulo__has_loads(const ambulo_problem *problem) {
+  const ambulo_problem_definition *d = problem ? &problem->definition : NULL;
+  return d && (d->hold_count > 0 || ambulo__holds_patches(d));
+}
+
 /* ------------------------------------------------------------------------- listing */
 
 /* column "kind.name.part" and the like; -1 */
@@ -282,6 +287,32 @@ static ambulo_status fill(builder *b) {
   return AMBULO_OK;
 }
 
+/* what of the root wrench all loads leave over, about the origin: the largest of all rows */
+static void tell_rest(const builder *b) {
+  const ambulo__loads *l = b->loads;
+  double weight = ambulo__model_weight(b->model), worst[2] = {0.0, 0.0};
+  if (!ambulo__has_loads(b->problem) || b->source->feet == 0) return;
+  for (int k = 0; k < l->rows; k++) {
+    double rest[6];
+    memcpy(rest, b->source->wrench + 6 * (size_t)k, sizeof rest);
+    for (int i = 0; i < l->count; i++) {
+      size_t at = 3 * ((size_t)k * (size_t)l->count + (size_t)i);
+      if (l->list[i].kind == AMBULO__LOAD_DEVICE) continue;
+      for (int a = 0; a < 3; a++) {
+        rest[a] -= l->torque[at + (size_t)a];
+        rest[3 + a] -= l->force[at + (size_t)a];
+      }
+      ambulo__add_cross(l->point + at, l->force + at, -1.0, rest);
+    }
+    worst[0] = fmax(worst[0], sqrt(ambulo__dot(rest + 3, rest + 3)) / weight);
+    worst[1] = fmax(worst[1], sqrt(ambulo__dot(rest, rest)) / weight);
+  }
+  ambulo__note(b->diagnostics, ambulo__nowhere,
+               "with forces on hands and patches at most %.1e body weights and %.1e body weights m "
+               "are left over at the root",
+               worst[0], worst[1]);
+}
+
 ambulo_status ambulo__loads_create(const ambulo__bodies *bodies, const ambulo_problem *problem,
                                    ambulo__source *source, ambulo_diagnostics *diagnostics,
                                    ambulo__loads *loads) {
@@ -294,6 +325,7 @@ ambulo_status ambulo__loads_create(const ambulo__bodies *bodies, const ambulo_pr
                .diagnostics = diagnostics};
   ambulo_status status = list_loads(&b);
   if (!status) status = fill(&b);
+  if (!status) tell_rest(&b);
   if (status)
     ambulo__loads_free(&made);
   else

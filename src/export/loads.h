@@ -37,6 +37,9 @@ typedef struct ambulo__loads {
   double *torque;            /* [rows][count][3], about the point, N m */
 } ambulo__loads;
 
+/* 1 if something of a problem (NULL: nothing) pushes at more of the body than its feet. */
+int ambulo__has_loads(const ambulo_problem *problem);
+
 /* Fills *loads, which ambulo__loads_free releases, and takes off source->tau what those do that
  * inverse dynamics knew nothing of. `problem`: NULL, or one whose body the bodies are. What the
  * motion has and cannot be carried over is told. Errors: E_MEMORY. */

@@ -135,16 +135,18 @@ static char *table_of_folder(const ambulo_allocator *allocator, const char *moti
 }
 
 ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
-                                  const ambulo_inverse_options *options,
+                                  const ambulo_inverse_options *options, int other_forces,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo__source *source) {
   ambulo__source s = {.allocator = ambulo__allocator_or_default(allocator), .name = "motion"};
+  ambulo_inverse_options how = options ? *options : ambulo_inverse_options_default();
   ambulo_status status = AMBULO_OK;
+  how.other_forces |= other_forces;
   char *text = NULL, *inner = table_of_folder(&s.allocator, motion, &status);
   const char *path = inner ? inner : motion;
   if (!status)
-    status = ambulo_inverse_dynamics_motion(model, path, NULL, options, allocator, diagnostics,
-                                            NULL, &text);
+    status = ambulo_inverse_dynamics_motion(model, path, NULL, &how, allocator, diagnostics, NULL,
+                                            &text);
   if (!status) status = read_text(model, path, text, allocator, diagnostics, &s);
   if (!status) status = read_table(path, diagnostics, &s);
   ambulo__free(&s.allocator, text);
