@@ -104,8 +104,9 @@ void ambulo__tree_check(ambulo__tree *tree);
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */
 int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
-/* Placement of a link in the world at q = 0. */
+/* Placement of a link in the world at q = 0; and in the start pose. */
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
+ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback);
 

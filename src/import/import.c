@@ -95,6 +95,7 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   expect_motion(tree, root);
   if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__find_start(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
