@@ -12,6 +12,7 @@
 #include "ambulo/import.h"
 #include "base/numtext.h"
 #include "import/arena.h"
+#include "import/mesh.h"
 #include "import/rigid.h"
 #include "import/xml_tree.h"
 #include "model/composite.h"
@@ -35,7 +36,7 @@ typedef enum ambulo__shape {
   AMBULO__CYLINDER,  /* radius, half of the length along z */
   AMBULO__ELLIPSOID, /* half axes */
   AMBULO__BOX,       /* half edges */
-  AMBULO__MESH       /* of a file: not read */
+  AMBULO__MESH       /* of a file */
 } ambulo__shape;
 
 /* What touches other things. */
@@ -44,6 +45,7 @@ typedef struct ambulo__tree_solid {
   ambulo__shape shape;
   ambulo__rigid at; /* in the link's frame */
   double size[3];
+  ambulo__mesh *mesh; /* of a mesh; NULL: no file is named */
 } ambulo__tree_solid;
 
 typedef struct ambulo__tree_point {
@@ -63,6 +65,7 @@ typedef struct ambulo__tree {
   ambulo__xml *xml;
   const ambulo_import_options *options;
   const char *name, *format;
+  const char *path; /* of the file */
   double gravity[3], forward[3];
   char up; /* axis of the format that is: 'y', 'z' */
   ambulo__tree_link *links;

@@ -185,14 +185,18 @@ void ambulo__osim_contacts(ambulo__osim *o) {
     if (!sphere && !mesh) continue;
     ambulo__rigid place;
     int body = ambulo__osim_frame(o, NULL, n, frame, &place);
-    double at[3] = {0, 0, 0};
+    double at[3] = {0, 0, 0}, turn[3] = {0, 0, 0};
     (void)ambulo__xml_child_vector(o->xml, n, "location", 3, 0, at);
+    (void)ambulo__xml_child_vector(o->xml, n, "orientation", 3, 0, turn);
     if (body <= 0 || o->bodies[body].link < 0) continue;
-    ambulo__rigid shift = ambulo__rigid_shift(at);
+    ambulo__rigid shift = ambulo__rigid_of_xyz(at, turn);
     ambulo__tree_solid solid = {.link = o->bodies[body].link,
                                 .shape = sphere ? AMBULO__SPHERE : AMBULO__MESH,
                                 .at = ambulo__rigid_times(&place, &shift)};
     (void)ambulo__xml_child_vector(o->xml, n, "radius", 1, 0, solid.size);
+    if (mesh)
+      solid.mesh = ambulo__mesh_named(o->tree->arena, o->tree->path,
+                                      ambulo__osim_text(n, "filename", NULL));
     ambulo__tree_add_solid(o->tree, &solid);
   }
 }
