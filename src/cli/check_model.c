@@ -188,12 +188,11 @@ ambulo_status ambulo__cli_check_standing(const ambulo_model *model, double groun
     status = ambulo_mechanics_inverse_dynamics(mechanics, 1, q, zero, zero, NULL, NULL, places);
   int lowest = status ? -1 : lowest_point(model, places, &height);
   if (lowest >= 0 && fabs(height - ground) > level)
-    printf(
-        "  at %s the feet are off the ground: %s is %.3f m %s it, which a solve from %s has to make "
-        "up\n",
-        other ? "the start pose" : "q = 0", ambulo_model_point(model, lowest)->name, fabs(height - ground),
-        height > ground ? "above" : "below",
-        other ? "there" : "zero");
+    printf("  at %s the feet are off the ground: %s is %.3f m %s it, which a solve from %s has to "
+           "make "
+           "up\n",
+           other ? "the start pose" : "q = 0", ambulo_model_point(model, lowest)->name,
+           fabs(height - ground), height > ground ? "above" : "below", other ? "there" : "zero");
   ambulo_mechanics_free(mechanics);
   free(q);
   free(zero);

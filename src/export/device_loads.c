@@ -7,8 +7,8 @@
  *
  * on the body and -t on its parent have the generalized forces t . z_j: E at i and nothing at the
  * others of that joint; above it they cancel. With b, c the other axes (c = z_i x b where there are
- * two), w_i = b x c / (z_i . (b x c)). A force goes through the point that the joint's hinges share,
- * behind its sliders.
+ * two), w_i = b x c / (z_i . (b x c)). A force goes through the point that the joint's hinges
+ * share, behind its sliders.
  */
 #include <math.h>
 #include <string.h>

@@ -55,8 +55,8 @@ static int column(const builder *b, const char *before, const char *name, const 
 static ambulo__export_load *add(builder *b, ambulo__load_kind kind, int index, int part, int link,
                                 int body) {
   ambulo__export_load *load = &b->loads->list[b->loads->count++];
-  *load = (ambulo__export_load){
-      .kind = kind, .index = index, .part = part, .link = link, .body = body};
+  *load =
+      (ambulo__export_load){.kind = kind, .index = index, .part = part, .link = link, .body = body};
   return load;
 }
 
@@ -87,8 +87,7 @@ static void list_patches(builder *b) {
       continue;
     }
     int link = b->model->points[patch->point].link;
-    ambulo__export_load *load =
-        add(b, AMBULO__LOAD_PATCH, i, 0, link, b->bodies->body_of[link]);
+    ambulo__export_load *load = add(b, AMBULO__LOAD_PATCH, i, 0, link, b->bodies->body_of[link]);
     name_load(load, patch->name, NULL);
     for (int k = 0; k < 3; k++) {
       load->column[k] = column(b, "grf.", patch->name, axes[k]);

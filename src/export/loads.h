@@ -21,10 +21,10 @@ enum { AMBULO__LOAD_COLUMNS = 7, AMBULO__LOAD_NAME = 136 };
 
 typedef struct ambulo__export_load {
   ambulo__load_kind kind;
-  char name[AMBULO__LOAD_NAME]; /* foot, patch, LOAD_POINT of a hand, DEVICE_BODY */
-  int index, part;              /* of its kind; hand or end, 0 or 1 */
-  int link;                     /* that it acts on; -1: a device at a joint */
-  int body;                     /* of bodies.h; -1: the ground, which nothing moves */
+  char name[AMBULO__LOAD_NAME];     /* foot, patch, LOAD_POINT of a hand, DEVICE_BODY */
+  int index, part;                  /* of its kind; hand or end, 0 or 1 */
+  int link;                         /* that it acts on; -1: a device at a joint */
+  int body;                         /* of bodies.h; -1: the ground, which nothing moves */
   int column[AMBULO__LOAD_COLUMNS]; /* of the table: force, point, free moment; force, moment;
                                        effort */
 } ambulo__export_load;

@@ -23,8 +23,8 @@ typedef struct ambulo__source {
   ambulo__motion *table;      /* the file itself, row by row, with what else it says */
 } ambulo__source;
 
-/* other_forces: that option, on top of `options`. `motion`: a table, or a folder with a motion.csv. Errors: those of inverse dynamics. Fills
- * *source, which ambulo__source_free releases. */
+/* other_forces: that option, on top of `options`. `motion`: a table, or a folder with a motion.csv.
+ * Errors: those of inverse dynamics. Fills *source, which ambulo__source_free releases. */
 ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
                                   const ambulo_inverse_options *options, int other_forces,
                                   const ambulo_allocator *allocator,

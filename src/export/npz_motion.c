@@ -1,7 +1,7 @@
 /* export/npz_motion.c - see npz_motion.h.
  *
- * n rows, m coordinates that do not carry the root, c loads (loads.h). With a free root (p, R its frame in the
- * ground's axes, v its velocity, w its angular velocity):
+ * n rows, m coordinates that do not carry the root, c loads (loads.h). With a free root (p, R its
+ * frame in the ground's axes, v its velocity, w its angular velocity):
  *
  *   q     [n][7 + m]  p, quaternion x y z w, coordinates            Pinocchio, JointModelFreeFlyer
  *   v     [n][6 + m]  R' v, R' w, rates
@@ -132,8 +132,7 @@ static void write_names(const arrays *s, ambulo__npz *npz, const char **names) {
     if (acts(&loads->list[i])) names[to++] = loads->list[i].name;
   ambulo__npz_texts(npz, "contact_names", names, (size_t)s->acting);
   for (int i = 0, to = 0; i < loads->count; i++)
-    if (acts(&loads->list[i]))
-      names[to++] = ambulo__export_name(s->bodies, loads->list[i].body);
+    if (acts(&loads->list[i])) names[to++] = ambulo__export_name(s->bodies, loads->list[i].body);
   ambulo__npz_texts(npz, "contact_links", names, (size_t)s->acting);
   const char *root = s->bodies->root >= 0 ? model->links[s->bodies->root].name : "world";
   ambulo__npz_texts(npz, "root_link", &root, 1);

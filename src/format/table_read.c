@@ -185,15 +185,16 @@ static int read_number(table_reader *reader, const ambulo__table_cell *cell, int
   return 0;
 }
 
-/* Whether the time may stand in the next row: it increases, or an STO says it twice (OpenSim's tools
- * repeat the last row of a run), and then the rest of the row has to be the same. */
+/* Whether the time may stand in the next row: it increases, or an STO says it twice (OpenSim's
+ * tools repeat the last row of a run), and then the rest of the row has to be the same. */
 static void check_time(table_reader *reader, const ambulo__table_cell *cell, double time,
                        int same_row) {
   if (!reader->has_previous_time || time > reader->previous_time || same_row) return;
-  fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
-                              "time does not increase (got '%.*s'); expected more than in "
-                              "the row before",
-                              quoted_length(cell), cell->start));
+  fault(reader,
+        ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
+                      "time does not increase (got '%.*s'); expected more than in "
+                      "the row before",
+                      quoted_length(cell), cell->start));
 }
 
 /* row `row` says what the one before says, but for the last digits of ten that are printed */

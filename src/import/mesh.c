@@ -105,7 +105,8 @@ static char *beside(const ambulo_allocator *allocator, const char *model, const 
   char name[1024];
   for (int up = 0; up <= above; up++) {
     int length = 0;
-    for (int k = 0; k < up; k++) length += snprintf(name + length, sizeof name - (size_t)length, "../");
+    for (int k = 0; k < up; k++)
+      length += snprintf(name + length, sizeof name - (size_t)length, "../");
     int all = snprintf(name + length, sizeof name - (size_t)length, "%s", file);
     if (all < 0 || (size_t)(length + all) >= sizeof name) return NULL;
     char *path = ambulo__sibling_path(allocator, model, name);

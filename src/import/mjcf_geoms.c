@@ -91,8 +91,8 @@ static ambulo__mesh *mesh_of(ambulo__mjcf *m, const char *name) {
       const char *slash = strrchr(file, '/'), *base = slash ? slash + 1 : file;
       const char *dot = strrchr(base, '.');
       size_t length = dot ? (size_t)(dot - base) : strlen(base);
-      int same = own ? strcmp(own, name) == 0
-                     : strncmp(base, name, length) == 0 && name[length] == '\0';
+      int same =
+          own ? strcmp(own, name) == 0 : strncmp(base, name, length) == 0 && name[length] == '\0';
       if (!same) continue;
       ambulo__mesh *mesh = ambulo__mesh_named(
           m->tree->arena, m->tree->path,

@@ -59,11 +59,12 @@ static double follow(ambulo__osim *o, const ambulo__xml_node *node, const char *
     if (!isfinite(at)) continue;
     most = fmax(most, fabs(scale * ambulo__osim_value(o, function, at) - value));
   }
-  ambulo__tree_note(o->tree, node,
-                    "%s follows %s (%s): it is held at %s; by its %s it would move by up to %s (rad "
-                    "or m) over the range of that",
-                    name, leader, name_of(coupler), ambulo__number_text(value).text,
-                    function ? function->name : "function", ambulo__three_digits(most).text);
+  ambulo__tree_note(
+      o->tree, node,
+      "%s follows %s (%s): it is held at %s; by its %s it would move by up to %s (rad "
+      "or m) over the range of that",
+      name, leader, name_of(coupler), ambulo__number_text(value).text,
+      function ? function->name : "function", ambulo__three_digits(most).text);
   return value;
 }
 
@@ -195,8 +196,8 @@ void ambulo__osim_contacts(ambulo__osim *o) {
                                 .at = ambulo__rigid_times(&place, &shift)};
     (void)ambulo__xml_child_vector(o->xml, n, "radius", 1, 0, solid.size);
     if (mesh)
-      solid.mesh = ambulo__mesh_named(o->tree->arena, o->tree->path,
-                                      ambulo__osim_text(n, "filename", NULL));
+      solid.mesh =
+          ambulo__mesh_named(o->tree->arena, o->tree->path, ambulo__osim_text(n, "filename", NULL));
     ambulo__tree_add_solid(o->tree, &solid);
   }
 }

@@ -217,8 +217,8 @@ static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node 
     solid.size[1] = 0.5 * length;
   } else {
     solid.shape = AMBULO__MESH;
-    solid.mesh = ambulo__mesh_named(tree->arena, tree->path,
-                                    ambulo__xml_attribute(shape, "filename"));
+    solid.mesh =
+        ambulo__mesh_named(tree->arena, tree->path, ambulo__xml_attribute(shape, "filename"));
     if (solid.mesh) (void)ambulo__xml_vector(tree->xml, shape, "scale", 3, solid.mesh->scale);
   }
   ambulo__tree_add_solid(tree, &solid);

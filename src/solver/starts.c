@@ -1,7 +1,7 @@
 /* solver/starts.c - see starts.h.
  *
- * Start 0 is the start pose, at rest. Start k > 0 has, for each coordinate that is not a translation of the root, the
- * curve over s = t/T
+ * Start 0 is the start pose, at rest. Start k > 0 has, for each coordinate that is not a
+ * translation of the root, the curve over s = t/T
  *
  *     q(s) = q_0 + A (r_0 + r_1 cos 2 pi s + r_2 sin 2 pi s),   r uniform in [-1, 1],
  *     A = .15 of the coordinate's range, at most .3 rad or m

@@ -40,8 +40,8 @@ static void open_case(load_case *c, void **state, const char *problem, const cha
   c->bare = malloc(bytes);
   memcpy(c->bare, c->source.tau, bytes);
   assert_int_equal(ambulo__bodies_merged(model, NULL, &c->bodies), AMBULO_OK);
-  assert_int_equal(
-      ambulo__loads_create(&c->bodies, c->problem, &c->source, c->list, &c->loads), AMBULO_OK);
+  assert_int_equal(ambulo__loads_create(&c->bodies, c->problem, &c->source, c->list, &c->loads),
+                   AMBULO_OK);
 }
 
 static void close_case(load_case *c) {

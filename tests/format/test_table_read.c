@@ -140,7 +140,8 @@ static void faults_are_named_with_line_and_column(void **state) {
 /* OpenSim's tools repeat rows where their runs end */
 static void repeated_rows_are_left_out(void **state) {
   (void)state;
-  static const char text[] = "t\nnRows=5\nendheader\ntime\tq\n0\t1\n0\t1\n1\t2\n1\t2.00000001\n1\t2\n";
+  static const char text[] =
+      "t\nnRows=5\nendheader\ntime\tq\n0\t1\n0\t1\n1\t2\n1\t2.00000001\n1\t2\n";
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo__motion *motion = NULL;
   assert_int_equal(
@@ -270,7 +271,8 @@ int main(void) {
       cmocka_unit_test(tables_are_read_in_every_dress),
       cmocka_unit_test(degrees_are_noticed),
       cmocka_unit_test(faults_are_named_with_line_and_column),
-      cmocka_unit_test(repeated_rows_are_left_out), cmocka_unit_test(one_run_reports_all_faults),
+      cmocka_unit_test(repeated_rows_are_left_out),
+      cmocka_unit_test(one_run_reports_all_faults),
       cmocka_unit_test(sizes_are_limited_and_nul_bytes_refused),
       cmocka_unit_test(texts_cut_anywhere_never_crash),
       cmocka_unit_test(every_failed_allocation_is_survived),

@@ -1,4 +1,5 @@
-/* Feet whose geometry is a mesh: STL, both kinds, and OBJ, found beside the model and in packages. */
+/* Feet whose geometry is a mesh: STL, both kinds, and OBJ, found beside the model and in packages.
+ */
 #include "support/import_case.h"
 
 #include <sys/stat.h>

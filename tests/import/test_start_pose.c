@@ -98,8 +98,7 @@ static void pose_of_a_robot(void **state) {
       "</inertial></link><joint name='knee' type='revolute'><parent link='base'/>"
       "<child link='foot'/><axis xyz='0 1 0'/><limit lower='-1' upper='1' effort='1' "
       "velocity='1'/></joint></robot>";
-  import_case c =
-      with_pose(state, xml, "knee=0.5", "right=foot:0,0,-0.4", "right=foot:0.1,0,-0.4");
+  import_case c = with_pose(state, xml, "knee=0.5", "right=foot:0,0,-0.4", "right=foot:0.1,0,-0.4");
   double height[2];
   assert_close(start_of(&c, "knee"), 0.5, 1e-8);
   heights(&c, height);
@@ -145,9 +144,11 @@ static void reference(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults_of_opensim), cmocka_unit_test(without_feet),
-      cmocka_unit_test(asked_for),           cmocka_unit_test(pose_of_a_robot),
-      cmocka_unit_test(keyframe),            cmocka_unit_test(reference)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(defaults_of_opensim),
+                                     cmocka_unit_test(without_feet),
+                                     cmocka_unit_test(asked_for),
+                                     cmocka_unit_test(pose_of_a_robot),
+                                     cmocka_unit_test(keyframe),
+                                     cmocka_unit_test(reference)};
   return cmocka_run_group_tests(tests, scratch_open, scratch_close);
 }
