@@ -42,9 +42,9 @@ static void write_binary(const char *path) {
   unsigned char bytes[84 + 50 * 3] = "solid";
   bytes[80] = 3;
   for (int t = 0; t < 3; t++)
-    for (int v = 0; v < 3; v++)
+    for (int v = -1; v < 3; v++) /* the normal, which is no vertex, first */
       for (int i = 0; i < 3; i++) {
-        float x = (float)corners[triangles[t][v]][i];
+        float x = v < 0 ? -9.0F : (float)corners[triangles[t][v]][i];
         uint32_t bits;
         memcpy(&bits, &x, sizeof bits);
         for (int b = 0; b < 4; b++)
@@ -77,22 +77,27 @@ static void each_kind(void **state) {
   }
 }
 
+static const char *inside(void **state, const char *name) {
+  static char path[700];
+  (void)snprintf(path, sizeof path, "%s/%s", scratch_path(state, "robot"), name);
+  return path;
+}
+
+/* a package beside the model's, and the model's own under another name than its folder's */
 static void packages(void **state) {
-  char folder[600];
-  (void)snprintf(folder, sizeof folder, "%s", scratch_path(state, "robot"));
-  assert_int_equal(mkdir(folder, 0777), 0);
-  (void)snprintf(folder, sizeof folder, "%s/meshes", scratch_path(state, "robot"));
-  assert_int_equal(mkdir(folder, 0777), 0);
-  (void)snprintf(folder, sizeof folder, "%s/meshes/foot.obj", scratch_path(state, "robot"));
-  write_obj(folder);
-  (void)snprintf(folder, sizeof folder, "%s/urdf", scratch_path(state, "robot"));
-  assert_int_equal(mkdir(folder, 0777), 0);
-  (void)snprintf(folder, sizeof folder, "%s/urdf/r.urdf", scratch_path(state, "robot"));
-  scratch_write(folder, ROBOT("package://robot/meshes/foot.obj", "scale='1 2 1'"));
-  import_case c = import_file(folder, NULL);
-  assert_int_equal(c.status, AMBULO_OK);
-  has_sole(&c, 0.2, 0.2);
-  import_shut(&c);
+  static const char *const folders[] = {"", "urdf", "meshes", "../skin", "../skin/meshes"};
+  static const char *const files[] = {"meshes/own.obj", "../skin/meshes/foot.obj"};
+  static const char *const texts[] = {ROBOT("package://r_description/meshes/own.obj", ""),
+                                      ROBOT("package://skin/meshes/foot.obj", "scale='1 2 1'")};
+  for (int i = 0; i < 5; i++) assert_int_equal(mkdir(inside(state, folders[i]), 0777), 0);
+  for (int i = 0; i < 2; i++) {
+    write_obj(inside(state, files[i]));
+    scratch_write(inside(state, "urdf/r.urdf"), texts[i]);
+    import_case c = import_file(inside(state, "urdf/r.urdf"), NULL);
+    assert_int_equal(c.status, AMBULO_OK);
+    has_sole(&c, 0.2, i ? 0.2 : 0.1);
+    import_shut(&c);
+  }
 }
 
 static void mujoco(void **state) {

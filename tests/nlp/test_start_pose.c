@@ -28,7 +28,7 @@ static void at_rest(void **state) {
     d.model = model;
     d.discretization = bases[b];
     d.duration = 1.0;
-    d.intervals = 12;
+    d.intervals = 48; /* coarser grids come first */
     d.terms = &term;
     d.term_count = 1;
     assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &problem), AMBULO_OK);
