@@ -1,9 +1,9 @@
 /* format/deflate.c - see deflate.h.
  *
- * What has stood in the last 32768 bytes is told by its length and distance (Ziv & Lempel 1977): the
- * places of three bytes are found by a hash, the newest first, and a match waits for the next byte's,
- * which may be longer. Each block of tokens gets codes of its own (huffman.h), told before it by
- * their lengths.
+ * What has stood in the last 32768 bytes is told by its length and distance (Ziv & Lempel 1977):
+ * the places of three bytes are found by a hash, the newest first, and a match waits for the next
+ * byte's, which may be longer. Each block of tokens gets codes of its own (huffman.h), told before
+ * it by their lengths.
  */
 #include "format/deflate.h"
 
@@ -16,8 +16,10 @@ enum {
   HASHES = 32768,
   SHORTEST = 3,
   LONGEST = 258,
-  CHAIN = 256,     /* places that are tried */
-  GOOD = 64,       /* a match so long does not wait */
+  CHAIN = 256, /* places that are tried */
+  GOOD = 64,   /* a match so long does not wait */
+  NEAR_THREE = 256,
+  NEAR_FOUR = 2048,
   TOKENS = 16384,  /* of a block */
   BLOCK_END = 256, /* a literal, RFC 1951 */
   LITERALS = 286,
@@ -96,7 +98,8 @@ static int run_of(const unsigned char *length, int left, int *symbol, int *extra
 }
 
 /* the two codes themselves */
-static void put_codes(deflater *d, const ambulo__huffman *literal, const ambulo__huffman *distance) {
+static void put_codes(deflater *d, const ambulo__huffman *literal,
+                      const ambulo__huffman *distance) {
   static const unsigned char order[] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                         11, 4,  12, 3, 13, 2, 14, 1, 15};
   unsigned char length[LITERALS + DISTANCES];
@@ -168,6 +171,11 @@ static void remember(deflater *d, size_t at) {
   d->newest[hash] = at + 1;
 }
 
+/* a short match far away takes more bits than its bytes do, which are mostly digits */
+static int pays(int length, size_t distance) {
+  return length > 4 || distance <= (length == 3 ? NEAR_THREE : NEAR_FOUR);
+}
+
 /* the longest match at that place among those before it; length 0: none */
 static token match_at(const deflater *d, size_t at) {
   token best = {.length = 0};
@@ -180,7 +188,7 @@ static token match_at(const deflater *d, size_t at) {
     const unsigned char *there = d->bytes + (next - 1);
     int length = 0;
     while (length < most && there[length] == here[length]) length++;
-    if (length > longest) {
+    if (length > longest && pays(length, (size_t)(here - there))) {
       longest = length;
       best.length = (unsigned short)length;
       best.distance = (unsigned short)(here - there);
@@ -209,8 +217,8 @@ void ambulo__deflate(ambulo__text_buffer *out, const char *bytes, size_t length)
   for (size_t at = 0; at < length;) {
     token match = match_at(d, at), literal = {.distance = d->bytes[at]};
     remember(d, at);
-    int waits = match.length > 0 && match.length < GOOD &&
-                match_at(d, at + 1).length > match.length;
+    int waits =
+        match.length > 0 && match.length < GOOD && match_at(d, at + 1).length > match.length;
     size_t end = at + (match.length && !waits ? match.length : 1u);
     take(d, end - at > 1 ? match : literal);
     while (++at < end) remember(d, at);

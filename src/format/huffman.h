@@ -13,6 +13,7 @@ typedef struct ambulo__huffman {
 
 /* Of `symbols` >= 2 symbols, each counted; no code is longer than `longest` bits. At least two
  * symbols get one, so that the code is a whole one. */
-void ambulo__huffman_make(const unsigned *count, int symbols, int longest, ambulo__huffman *huffman);
+void ambulo__huffman_make(const unsigned *count, int symbols, int longest,
+                          ambulo__huffman *huffman);
 
 #endif

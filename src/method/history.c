@@ -9,6 +9,8 @@
 
 #include "base/alloc.h"
 
+enum { LARGEST = 1 << 20 };
+
 ambulo__history *ambulo__history_create(const ambulo_allocator *allocator) {
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
   ambulo__history *history = ambulo__alloc(&a, 1, sizeof *history);
@@ -38,9 +40,9 @@ void ambulo__history_add(ambulo__history *history, const ambulo_iteration *itera
   history->number = goes_on ? history->number + 1 : 0;
   if (goes_on && history->passing) count--;
   if (count == AMBULO__HISTORY_MOST) {
-    count = thin(history->item, count, goes_on);
-    shown->every *= 2;
-    if (count == AMBULO__HISTORY_MOST) count--; /* of more grids than there are */
+    int kept = thin(history->item, count, goes_on);
+    if (kept < count && shown->every < LARGEST) shown->every *= 2;
+    count = kept < count ? kept : count - 1; /* of more grids than a solve has */
   }
   history->item[count] = *iteration;
   history->passing = history->number % shown->every != 0;

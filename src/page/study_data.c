@@ -88,9 +88,9 @@ static void node(ambulo__text_buffer *out, const ambulo__yaml_node *value) {
 
 /* *stands: its motion is in the page */
 static ambulo_status add_motion(study *s, const char *folder, int *stands) {
-  static const char *const left[] = {"families",   "between_nodes",    "sensitivities",
-                                     "approaches", "no_sensitivities", "versions",
-                                     "convergence", NULL};
+  static const char *const left[] = {
+      "families",         "between_nodes", "sensitivities", "approaches",
+      "no_sensitivities", "versions",      "convergence",   NULL};
   const ambulo_allocator *a = &s->out->allocator;
   ambulo__page_result result;
   ambulo__text_buffer thin, data, packed;

@@ -14,8 +14,8 @@ typedef struct ambulo__outline {
 /* The smallest upright rectangle around it. */
 ambulo__outline ambulo__obstacle_outline(const ambulo_problem *problem, int obstacle);
 
-/* Widens left..right, m from `origin` along forward, by obstacles as far as `half` to either side; 1
- * if one stands out of it. */
+/* Widens left..right, m from `origin` along forward, by obstacles as far as `half` to either side;
+ * 1 if one stands out of it. */
 int ambulo__obstacles_widen(const ambulo_problem *problem, double origin, double half, double *left,
                             double *right);
 

@@ -26,9 +26,10 @@ enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, FEWEST_SCENES = 7, EXTENT_SAMPLES 
 static const double head_room = 14.0;                  /* px above the figures */
 static const double soil_depth = 15.0, slot_gap = 3.0; /* px */
 static const double around = 0.3; /* m: ground before and behind a figure that is always shown */
-static const double side_room = 78.0;    /* px beside the first and the last figure, within the margins */
+static const double side_room =
+    78.0; /* px beside the first and the last figure, within the margins */
 static const double figure_room = 108.0; /* of a foot that reaches into them */
-static const double most_stretch = 5.0; /* beyond, figures are just one beside the other */
+static const double most_stretch = 5.0;  /* beyond, figures are just one beside the other */
 
 typedef struct strip {
   const ambulo__panel *panel;
@@ -363,7 +364,8 @@ static ambulo_status measure(const ambulo_problem *problem, const double *x,
   double overlap = s->soil.count ? 1.0 : s->model->foot_count ? 0.56 : 1.08;
   choose_scale(s, overlap, s->model->foot_count ? figure_room : side_room, FEWEST_FIGURES);
   if (!walks(s) && ambulo__obstacles_widen(problem, s->start, s->reach, &s->left, &s->right))
-    choose_scale(s, 1.0, side_room, FEWEST_SCENES); /* what stands beside a figure is beside no other */
+    choose_scale(s, 1.0, side_room,
+                 FEWEST_SCENES); /* what stands beside a figure is beside no other */
   ambulo__stride_free(&dense);
   return AMBULO_OK;
 }
