@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Four ways of four kinds of users, from what they have to what they want to see:
+# Ways of four kinds of users, from what they have to what they want to see:
 #
 #   opensim  a model of OpenSim to a walk, beside a measured motion, and back into OpenSim
+#   measured a walk that was measured, beside that of its model; its torques, beside OpenSim's
 #   study    subjects times a device: a batch, its table in pandas, its page, its notebook
 #   urdf     a humanoid robot to a trajectory, replayed in Pinocchio
 #   tasks    lift, stairs, run: each solved, and its page used in a browser
@@ -72,8 +73,13 @@ imports() {
 
 # --------------------------------------------------------------- OpenSim
 
-# a measured motion, made up: three strides of another body at another speed, pelvis above the ground
-measured() { # FILE
+import_walker() { # OSIM FILE
+  "$AMBULO" import "$1" -o "$2" \
+    --heel right=calcn_r:0,0,-0.03:0,0,0.03 --toe right=calcn_r:0.18,0,-0.04:0.18,0,0.04 \
+    --heel left=calcn_l:0,0,-0.03:0,0,0.03 --toe left=calcn_l:0.18,0,-0.04:0.18,0,0.04
+}
+# a stand-in for a measured motion (measured.sh has a real one): three strides of another body at another speed, pelvis above the ground
+as_measured() { # FILE
   "$AMBULO" solve "$models/walk_normal.yaml" -o other --samples 65 -q || return 1
   awk -F '\t' -f "$here/measured.awk" other/motion.sto >"$1"
 }
@@ -85,15 +91,13 @@ opensim() {
   imports 'a model of OpenSim to a walk' || return
   local deviation=0.0001 # m: scene.json has places to 0.1 mm
   [ "$osim" = "$here/walker.osim" ] || deviation=0.003 # knees whose splines are frozen
-  check 'import' "$AMBULO" import "$osim" -o walker.yaml \
-    --heel right=calcn_r:0,0,-0.03:0,0,0.03 --toe right=calcn_r:0.18,0,-0.04:0.18,0,0.04 \
-    --heel left=calcn_l:0,0,-0.03:0,0,0.03 --toe left=calcn_l:0.18,0,-0.04:0.18,0,0.04
+  check 'import' import_walker "$osim" walker.yaml
   problem_of tutorial-opensim-model walk.yaml
   check 'check' "$AMBULO" check walk.yaml
   "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
   check 'an imported model walks, from zero' optimal walk
   check 'and between the nodes too' between_too said
-  if [ -n "$motion" ]; then cp "$motion" measured.sto; else check 'a motion' measured measured.sto; fi
+  if [ -n "$motion" ]; then cp "$motion" measured.sto; else check 'a motion' as_measured measured.sto; fi
   check 'the motion as curves' "$AMBULO" compare measured.sto --cycles cycles.csv
   check 'the walk beside it' sh -c "'$AMBULO' compare walk cycles.csv --json >compared.json"
   check 'hips go alike' alike hip_flexion 0.9
@@ -202,7 +206,9 @@ tasks() {
 
 # shellcheck source=tests/users/browser.sh
 . "$here/browser.sh"
-[ $# -gt 0 ] || set -- opensim study urdf tasks
+# shellcheck source=tests/users/measured.sh
+. "$here/measured.sh"
+[ $# -gt 0 ] || set -- opensim measured study urdf tasks
 for way; do
   mkdir "$work/$way" && cd "$work/$way" || exit 1
   "$way"
