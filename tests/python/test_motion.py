@@ -122,6 +122,9 @@ class Motions(Case):
         figure = ambulo.plots.sensitivities(items, most=3)
         widths = [bar.get_width() for bar in figure.axes[0].patches]
         self.close(widths[::-1], [100 * item.share for item in items[:3]])
+        figure = ambulo.plots.convergence(result)
+        self.close(figure.axes[0].get_lines()[0].get_ydata(), result.history["objective"])
+        self.assertEqual(figure.axes[1].get_yscale(), "log")
         figure.savefig(self.folder / "x.svg")
         pyplot.close("all")
 
