@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/paths.h"
+#include "base/vector.h"
 #include "format/motion_file.h"
 
 /* ------------------------------------------------------------------------ columns */
@@ -63,6 +64,12 @@ static void fill_points(ambulo__source *s, int foot) {
   }
 }
 
+/* what the moments about the origin, in `torque`, are at the points */
+static void move_moments(ambulo__source *s) {
+  for (size_t i = 0; i < 3 * (size_t)s->rows * (size_t)s->feet; i += 3)
+    ambulo__add_cross(s->point + i, s->force + i, -1.0, s->torque + i);
+}
+
 /* ------------------------------------------------------------------------- reading */
 
 static ambulo_status allocate(const ambulo_model *model, const ambulo__motion *table,
@@ -72,9 +79,9 @@ static ambulo_status allocate(const ambulo_model *model, const ambulo__motion *t
   s->coordinates = (int)d;
   s->feet = has_forces(model, table) ? ambulo_model_foot_count(model) : 0;
   size_t feet = (size_t)s->feet;
-  double **const fields[] = {&s->time,   &s->q,     &s->qd,    &s->qdd,        &s->tau,
-                             &s->wrench, &s->force, &s->point, &s->free_moment};
-  const size_t sizes[] = {1, d, d, d, d, 6, 3 * feet, 3 * feet, feet};
+  double **const fields[] = {&s->time,   &s->q,     &s->qd,    &s->qdd,   &s->tau,
+                             &s->wrench, &s->force, &s->point, &s->torque};
+  const size_t sizes[] = {1, d, d, d, d, 6, 3 * feet, 3 * feet, 3 * feet};
   for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
     *fields[i] = ambulo__alloc(&s->allocator, rows * sizes[i], sizeof(double));
     if (!*fields[i]) return AMBULO_E_MEMORY;
@@ -102,9 +109,10 @@ static ambulo_status fill(const ambulo_model *model, const ambulo__motion *table
     const char *name = ambulo_model_foot(model, (int)foot)->name;
     take_vector(&c, "grf.", name, s->force + 3 * foot, 3 * feet);
     take_vector(&c, "cop.", name, s->point + 3 * foot, 3 * feet);
-    take(&c, "free_moment.", name, "", s->free_moment + foot, feet);
+    take_vector(&c, "moment.", name, s->torque + 3 * foot, 3 * feet);
     fill_points(s, (int)foot);
   }
+  move_moments(s);
   return c.missing ? AMBULO_E_INTERNAL : AMBULO_OK;
 }
 
@@ -151,8 +159,8 @@ ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
 }
 
 void ambulo__source_free(ambulo__source *s) {
-  double *const fields[] = {s->time,   s->q,     s->qd,    s->qdd,        s->tau,
-                            s->wrench, s->force, s->point, s->free_moment};
+  double *const fields[] = {s->time,   s->q,     s->qd,    s->qdd,   s->tau,
+                            s->wrench, s->force, s->point, s->torque};
   for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
     ambulo__free(&s->allocator, fields[i]);
   *s = (ambulo__source){.rows = 0};

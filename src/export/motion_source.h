@@ -17,10 +17,11 @@ typedef struct ambulo__source {
   double *time;
   double *q, *qd, *qdd, *tau; /* [rows][coordinates], SI, rad */
   double *wrench;             /* [rows][6]: moment about the world's origin, force */
-  /* [rows][feet][3], world axes. Points are those of the nearest row with one while the foot is in
-   * the air, where forces are zero; a foot that never has one: the origin */
+  /* [rows][feet][3], world axes. Points are those of the nearest row with one where the ground does
+   * not push, as in the air; a foot that never has one: the origin */
   double *force, *point;
-  double *free_moment; /* [rows][feet], about up */
+  double *torque; /* [rows][feet][3], at the point: about up, but where a force has no point of its
+                     own */
 } ambulo__source;
 
 /* `motion`: a table, or a folder with a motion.csv. Errors: those of inverse dynamics. Fills

@@ -70,13 +70,12 @@ static void fill_contacts(arrays *s, int k, double f[3], double m[3]) {
   ambulo__rigid_vector(world, in->wrench + WRENCH * (size_t)k + 3, f);
   for (int foot = 0; foot < in->feet; foot++) {
     size_t at = (size_t)k * (size_t)in->feet + (size_t)foot;
-    double *wrench = s->wrench + WRENCH * at, *point = s->point + 3 * at, moment[3], up[3];
+    double *wrench = s->wrench + WRENCH * at, *point = s->point + 3 * at, moment[3];
     ambulo__rigid_vector(world, in->force + 3 * at, wrench);
     ambulo__rigid_vector(world, in->point + 3 * at, point);
-    ambulo__rigid_vector(world, s->bodies->model->up, up);
+    ambulo__rigid_vector(world, in->torque + 3 * at, wrench + 3);
     ambulo__cross(point, wrench, moment);
     for (int i = 0; i < 3; i++) {
-      wrench[3 + i] = in->free_moment[at] * up[i];
       f[i] -= wrench[i];
       m[i] -= moment[i] + wrench[3 + i];
     }

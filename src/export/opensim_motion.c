@@ -4,8 +4,7 @@
  *   grf.mot              of each foot: force, its point and its torque there, in the ground's axes
  *   external_loads.xml   which columns act on which body
  *
- * World and ground differ by a turn W about the origin: vectors are W v. A foot's torque at its
- * point is the free moment along up.
+ * World and ground differ by a turn W about the origin: vectors are W v.
  */
 #include <math.h>
 
@@ -64,11 +63,10 @@ void ambulo__grf_text(const ambulo__bodies *bodies, const ambulo__source *source
     ambulo__text_append_number(text, source->time[k]);
     for (int foot = 0; foot < source->feet; foot++) {
       size_t at = (size_t)k * (size_t)source->feet + (size_t)foot;
-      double torque[3], out[9];
-      for (int i = 0; i < 3; i++) torque[i] = source->free_moment[at] * model->up[i];
+      double out[9];
       ambulo__rigid_vector(&bodies->world, source->force + 3 * at, out);
       ambulo__rigid_vector(&bodies->world, source->point + 3 * at, out + 3);
-      ambulo__rigid_vector(&bodies->world, torque, out + 6);
+      ambulo__rigid_vector(&bodies->world, source->torque + 3 * at, out + 6);
       for (int i = 0; i < 9; i++) cell(text, out[i]);
     }
     ambulo__text_append_char(text, '\n');

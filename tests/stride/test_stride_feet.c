@@ -119,21 +119,24 @@ static void the_table_has_their_columns(void **state) {
                                 .feet = s->feet,
                                 .grf = s->grf,
                                 .cop = s->cop,
-                                .free_moment = s->free_moment};
+                                .free_moment = s->free_moment,
+                                .grf_moment = s->grf_moment};
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
   ambulo__motion_csv(&table, &text);
   const char *csv = ambulo__text_data(&text);
   const char *expected = ",zmp.x,zmp.y,zmp.z,grf.right.x,grf.right.y,grf.right.z,cop.right.x,"
-                         "cop.right.y,cop.right.z,free_moment.right,grf.left.x,grf.left.y,"
-                         "grf.left.z,cop.left.x,cop.left.y,cop.left.z,free_moment.left\n";
+                         "cop.right.y,cop.right.z,free_moment.right,moment.right.x,"
+                         "moment.right.y,moment.right.z,grf.left.x,grf.left.y,"
+                         "grf.left.z,cop.left.x,cop.left.y,cop.left.z,free_moment.left,"
+                         "moment.left.x,moment.left.y,moment.left.z\n";
   assert_non_null(strstr(csv, expected));
   /* as many numbers as names */
   const char *header = strstr(csv, "\ntime") + 1, *row = strchr(header, '\n') + 1;
   int names = 0, numbers = 0;
   for (const char *c = header; *c != '\n'; c++) names += *c == ',';
   for (const char *c = row; *c != '\n'; c++) numbers += *c == ',';
-  assert_int_equal(names, 4 * 18 + 3 + 14);
+  assert_int_equal(names, 4 * 18 + 3 + 20);
   assert_int_equal(numbers, names);
   ambulo__text_free(&text);
   fixture_close(&f);
