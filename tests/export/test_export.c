@@ -222,6 +222,25 @@ static void a_folder_for_opensim(void **state) {
   ambulo_model_free(model);
 }
 
+/* what a force without a place turns, 5 N m about z, stands beside a place that it borrows */
+static void a_moment_without_a_place(void **state) {
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
+  scratch_write(motion,
+                "time,q.pelvis_ty,grf.right.x,grf.right.y,grf.right.z,cop.right.x,cop.right.y,"
+                "cop.right.z,free_moment.right,moment.right.x,moment.right.y,moment.right.z,"
+                "grf.left.y\n"
+                "0,0.1,8,-0.1,0,nan,nan,nan,0,0,0,5,0\n0.1,0.1,10,700,0,0.1,0,0,0,0,0,70,0\n"
+                "0.2,0.1,10,700,0,0.2,0,0,0,0,0,140,0\n0.3,0.1,10,700,0,0.2,0,0,0,0,0,140,0\n");
+  assert_int_equal(ambulo_export(model, motion, folder, NULL, NULL, NULL), AMBULO_OK);
+  char *grf = folder_text(folder, "grf.mot");
+  assert_close(cell(grf, "ground_force_right_px", 0), 0.1, 1e-12);
+  assert_close(cell(grf, "ground_torque_right_z", 0), 5.0 + 0.1 * 0.1, 1e-12);
+  assert_close(cell(grf, "ground_torque_right_z", 2), 0.0, 1e-12);
+  free(grf);
+  ambulo_model_free(model);
+}
+
 /* element `index` of an array of an archive, whose bytes are not machine's but little-endian */
 static double element(const char *archive, size_t length, const char *name, const char *shape,
                       size_t index) {
@@ -388,6 +407,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(limits_come_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(markers, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(a_moment_without_a_place, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),

@@ -30,6 +30,17 @@ static void fixture_close(fixture *f) {
   ambulo_problem_free(f->problem);
 }
 
+/* about the origin: of the force at its centre of pressure, with what turns about the normal */
+static void expect_moment(const ambulo__stride *s, int at) {
+  const double *f = s->grf + 3 * at, *p = s->cop + 3 * at;
+  if (!isfinite(p[0])) return;
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    double twist = i == 1 ? s->free_moment[at] : 0.0;
+    assert_close(s->grf_moment[3 * at + i], p[j] * f[k] - p[k] * f[j] + twist, 1e-9);
+  }
+}
+
 /* node 25 + k is node k with the feet exchanged; z is to the right, x forward */
 static void feet_change_sides(void **state) {
   (void)state;
@@ -47,6 +58,8 @@ static void feet_change_sides(void **state) {
           assert_close(s->cop[3 * here + i], sign * s->cop[3 * there + i] + shift, 1e-12);
       }
       assert_close(s->free_moment[here], -s->free_moment[there], 1e-9);
+      expect_moment(s, here);
+      expect_moment(s, there);
     }
   }
   fixture_close(&f);
