@@ -50,7 +50,8 @@ typedef struct ambulo__problem_keys {
   int step_time;                        /* gait.step_time is there, one number */
   int times;                            /* as a list */
   int duration;                         /* time.duration is there */
-  int loads;                            /* `load` is a list */
+  int loads;                            /* `load` is a list, and which items of it are on links */
+  int load_item[AMBULO__MOST_LOADS], hold_item[AMBULO__MOST_LOADS]; /* and in hands */
   ambulo_gait walk;                     /* what the keys of the gait come to */
   ambulo__phase_kind by_speed[AMBULO__PHASES];
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
