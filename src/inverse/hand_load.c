@@ -63,6 +63,13 @@ static reading read_label(const ambulo_model *model, const char *name, label *l)
   return COMPONENT;
 }
 
+int ambulo__hand_of_column(const ambulo_model *model, const char *column, size_t *length) {
+  label l;
+  if (read_label(model, column, &l) != COMPONENT || l.part != 0) return -1;
+  *length = strlen(l.load) - strlen(".force.x");
+  return l.point;
+}
+
 int ambulo__has_hand_loads(const ambulo__motion *table) {
   for (int c = 0; c < table->columns; c++)
     if (strncmp(table->names[c], prefix, sizeof prefix - 1) == 0) return 1;

@@ -30,6 +30,10 @@ typedef struct ambulo__hand_load {
 /* 1: the table has such columns. */
 int ambulo__has_hand_loads(const ambulo__motion *table);
 
+/* The hand of a column "held.LOAD.POINT.force.x", a point of the model, and how long "LOAD.POINT"
+ * is, which begins behind "held."; -1: it is no such column. */
+int ambulo__hand_of_column(const ambulo_model *model, const char *column, size_t *length);
+
 /* Loads at times[rows]; what is doubted: columns of no point of the model, or of nothing that is
  * known, which are left out; components without a column, which are zero. Errors: E_SCHEMA (three
  * hands, nan, times that are not covered), E_MEMORY, those of a filter. Fills *load, which

@@ -241,6 +241,26 @@ static void a_moment_without_a_place(void **state) {
   ambulo_model_free(model);
 }
 
+/* a bag pulls the pelvis down: the opposite of what it exerts, where it is */
+static void what_hands_hold(void **state) {
+  ambulo_model *model = walker();
+  const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
+  scratch_write(motion, "time,q.pelvis_tx,q.pelvis_ty,held.bag.pelvis.force.x,held.bag.pelvis.force.y,"
+                        "held.bag.pelvis.moment.z\n0,0,0.1,8,90,4\n0.1,0.2,0.1,8,90,4\n"
+                        "0.2,0.5,0.1,8,90,4\n0.3,0.6,0.1,8,90,4\n");
+  assert_int_equal(ambulo_export(model, motion, folder, NULL, NULL, NULL), AMBULO_OK);
+  char *grf = folder_text(folder, "grf.mot"), *loads = folder_text(folder, "external_loads.xml");
+  assert_close(cell(grf, "ground_force_bag_pelvis_vx", 1), -8, 1e-12);
+  assert_close(cell(grf, "ground_force_bag_pelvis_vy", 1), -90, 1e-12);
+  assert_close(cell(grf, "ground_torque_bag_pelvis_z", 1), -4, 1e-12);
+  assert_close(cell(grf, "ground_force_bag_pelvis_px", 1), 0.2, 1e-12);
+  assert_close(cell(grf, "ground_force_bag_pelvis_py", 1), 0.1 + 0.534643 * 1.75, 1e-12);
+  assert_non_null(strstr(loads, "<applied_to_body>pelvis</applied_to_body>"));
+  free(grf);
+  free(loads);
+  ambulo_model_free(model);
+}
+
 /* element `index` of an array of an archive, whose bytes are not machine's but little-endian */
 static double element(const char *archive, size_t length, const char *name, const char *shape,
                       size_t index) {
@@ -408,6 +428,7 @@ int main(void) {
       cmocka_unit_test_setup_teardown(markers, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(a_moment_without_a_place, scratch_open, scratch_close),
+      cmocka_unit_test_setup_teardown(what_hands_hold, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),
