@@ -77,10 +77,9 @@ typedef struct ambulo_ground_residual {
  *   time
  *   q.*, qd.*, qdd.*, tau.*          per coordinate; N m or N
  *   zmp.x|y|z                        nan where the body does not press down
- *   grf.F.x|y|z, cop.F.x|y|z, free_moment.F, moment.F.x|y|z    per foot F, as applied, moments about
- *                                              the world origin; only with forces
- *   held.L.P.force.x|y|z, held.L.P.moment.x|y|z, held.L.power   per hand P of a load L, as applied;
- *                                              only where hands hold something
+ *   grf.F.x|y|z, cop.F.x|y|z, free_moment.F, moment.F.x|y|z    per foot F, as applied, moments
+ * about the world origin; only with forces held.L.P.force.x|y|z, held.L.P.moment.x|y|z,
+ * held.L.power   per hand P of a load L, as applied; only where hands hold something
  *   wrench.force.x|y|z, wrench.moment.x|y|z    root wrench: what all the surroundings apply; moment
  *                                              about the world origin, N m
  *   residual.force.x|y|z, residual.moment.x|y|z   root wrench less the forces on the feet; moment

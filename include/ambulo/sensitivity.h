@@ -40,8 +40,8 @@
  *     those that act through a file (stature, a reference) or a curve (exponents,
  *     smoothings, passive torques, shapes of strength), and a duration beside which other times
  *     stay in seconds (listed contacts, breakpoints, node times, steps of two times, references,
- *     reaches that begin or end within the motion, on grids on events also what hands hold, functions
- *     of the caller).
+ *     reaches that begin or end within the motion, on grids on events also what hands hold,
+ * functions of the caller).
  *   - Functions of the caller are taken to depend on p only through their node's state.
  */
 #ifndef AMBULO_SENSITIVITY_H

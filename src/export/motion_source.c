@@ -94,8 +94,8 @@ static ambulo_status find_loads(const ambulo_model *model, const ambulo__motion 
     size_t length = 0;
     int point = ambulo__hand_of_column(model, table->names[c], &length);
     if (point >= 0)
-      status = add_load(s, table->names[c] + strlen("held."), length, model->points[point].link,
-                        point);
+      status =
+          add_load(s, table->names[c] + strlen("held."), length, model->points[point].link, point);
   }
   return status;
 }
@@ -114,8 +114,8 @@ static void take_foot(columns *c, ambulo__source *s, int i) {
 }
 
 /* what a hand holds does to it the opposite of what the table says; where the hand is */
-static void take_hand(columns *c, const ambulo_model *model, ambulo__pose *pose,
-                      ambulo__source *s, int i) {
+static void take_hand(columns *c, const ambulo_model *model, ambulo__pose *pose, ambulo__source *s,
+                      int i) {
   const ambulo_point *hand = &model->points[s->load[i].point];
   size_t stride = 3 * (size_t)s->loads, first = 3 * (size_t)i;
   take_vector(c, "held.", s->load[i].name, ".force", s->force + first, stride);

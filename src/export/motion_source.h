@@ -25,8 +25,8 @@ typedef struct ambulo__source {
   double *time;
   double *q, *qd, *qdd, *tau; /* [rows][coordinates], SI, rad */
   double *wrench;             /* [rows][6]: moment about the world's origin, force */
-  /* [rows][loads][3], world axes. Points are those of the nearest row with one where the ground does
-   * not push, as in the air; a foot that never has one: the origin */
+  /* [rows][loads][3], world axes. Points are those of the nearest row with one where the ground
+   * does not push, as in the air; a foot that never has one: the origin */
   double *force, *point;
   double *torque; /* [rows][loads][3], at the point: about up, but where a force has no point of its
                      own */

@@ -150,7 +150,8 @@ ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__sou
                                  ambulo__text_buffer *text) {
   const ambulo_allocator *allocator = &bodies->allocator;
   arrays s = {.bodies = bodies, .source = source};
-  size_t rows = (size_t)source->rows, loads = (size_t)source->loads, d = (size_t)source->coordinates;
+  size_t rows = (size_t)source->rows, loads = (size_t)source->loads,
+         d = (size_t)source->coordinates;
   int base = bodies->root >= 0, complete = 1;
   const char **names = ambulo__alloc(allocator, loads, sizeof *names);
   s.joints = ambulo__alloc(allocator, d, sizeof *s.joints);

@@ -1,9 +1,8 @@
 /* export/opensim_motion.c - a motion for OpenSim's tools, beside the model of osim_text.c.
  *
  *   motion.mot           coordinates, in degrees and metres
- *   grf.mot              of each foot, and of each hand that holds something: force, its point and its
- *                        torque there, in the ground's axes
- *   external_loads.xml   which columns act on which body
+ *   grf.mot              of each foot, and of each hand that holds something: force, its point and
+ * its torque there, in the ground's axes external_loads.xml   which columns act on which body
  *
  * World and ground differ by a turn W about the origin: vectors are W v.
  */

@@ -22,7 +22,8 @@ int ambulo__hold_falls(const ambulo_hold *hold, double duration) {
 double ambulo__hold_window(const ambulo_hold *hold, double duration, double time) {
   double window = 1.0;
   if (ambulo__hold_rises(hold)) window *= ambulo__smooth_step((time - hold->from) / hold->ramp);
-  if (ambulo__hold_falls(hold, duration)) window *= ambulo__smooth_step((hold->to - time) / hold->ramp);
+  if (ambulo__hold_falls(hold, duration))
+    window *= ambulo__smooth_step((hold->to - time) / hold->ramp);
   return window;
 }
 

@@ -171,7 +171,8 @@ static void doubt_moment(const group_load *g, int row, const double load[6], int
   for (int i = 0; i < 3; i++) off = fmax(off, fabs(torque[i] - load[3 + i]));
   if (off <= rounded * g->weight) return;
   *doubtful = 1;
-  ambulo__doubt(g->source->doubts, g->source->file, "without the columns 'moment.' points are taken",
+  ambulo__doubt(g->source->doubts, g->source->file,
+                "without the columns 'moment.' points are taken",
                 "the moment of '%s' is %.3g N m from that of its force at its point at t = %g s; "
                 "the moment is taken",
                 g->group->name, off, g->source->options->force_time_unit * g->table->time[row]);

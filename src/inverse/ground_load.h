@@ -2,9 +2,9 @@
  *
  * The load of a foot is a force f and its moment m about the world's origin: p x f + t of a point p
  * and a free torque t, or what the file says of it ("moment.FOOT.x", as ambulo writes it: a force
- * without a normal part has no point, and may have a moment). Both are linear between the rows of the file; points are not, for a foot
- * in the air has none. A load changes the generalized force of each coordinate between the foot
- * and the world by
+ * without a normal part has no point, and may have a moment). Both are linear between the rows of
+ * the file; points are not, for a foot in the air has none. A load changes the generalized force of
+ * each coordinate between the foot and the world by
  *
  *     revolute   - z . (m - o x f)        prismatic   - z . f
  *

@@ -179,7 +179,8 @@ static ambulo_status doubt_gaps(const reader *r) {
       int matters = idle < 0 || (moment ? k == idle : k != idle);
       if (!matters || r->columns[at / 4].column[hand][3 * moment + k] >= 0) continue;
       size_t used = strlen(letters);
-      (void)snprintf(letters + used, sizeof letters - used, "%s%c", lacking++ ? ", " : "", "xyz"[k]);
+      (void)snprintf(letters + used, sizeof letters - used, "%s%c", lacking++ ? ", " : "",
+                     "xyz"[k]);
     }
     if (lacking)
       ambulo__doubt(r->source->doubts, r->source->file, "a column of zeros says that it is zero",

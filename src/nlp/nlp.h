@@ -52,7 +52,7 @@ typedef struct ambulo__problem_keys {
   int duration;                         /* time.duration is there */
   int loads;                            /* `load` is a list, and which items of it are on links */
   int load_item[AMBULO__MOST_LOADS], hold_item[AMBULO__MOST_LOADS]; /* and in hands */
-  ambulo_gait walk;                     /* what the keys of the gait come to */
+  ambulo_gait walk; /* what the keys of the gait come to */
   ambulo__phase_kind by_speed[AMBULO__PHASES];
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
   double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */

@@ -52,7 +52,8 @@ static void add_vector(const hold_keys *k, int first, ambulo__quantity quantity,
 
 static void add_times(const hold_keys *k) {
   const ambulo_hold *h = k->hold;
-  int rises = ambulo__hold_rises(h), falls = ambulo__hold_falls(h, ambulo_problem_duration(k->p->problem));
+  int rises = ambulo__hold_rises(h),
+      falls = ambulo__hold_falls(h, ambulo_problem_duration(k->p->problem));
   if (rises) add(k, AMBULO__HOLD_FROM, AMBULO__EVENT_TIME, h->from, "start of the hold", "from");
   if (falls) add(k, AMBULO__HOLD_TO, AMBULO__EVENT_TIME, h->to, "end of the hold", "to");
   if (rises || falls) add(k, AMBULO__HOLD_RAMP, AMBULO__TIME, h->ramp, "ramp", "ramp");
@@ -66,8 +67,7 @@ void ambulo__parameters_of_holds(ambulo__parameters *p) {
     hold_keys k = {.p = p, .hold = &d->holds[i]};
     k.by = p->partials->hold + (size_t)i * AMBULO__HOLD_NUMBERS;
     name_path(&k, i);
-    if (k.hold->mass > 0.0)
-      add(&k, AMBULO__HOLD_MASS, AMBULO__MASS, k.hold->mass, "mass", "mass");
+    if (k.hold->mass > 0.0) add(&k, AMBULO__HOLD_MASS, AMBULO__MASS, k.hold->mass, "mass", "mass");
     if (k.hold->inertia > 0.0)
       add(&k, AMBULO__HOLD_INERTIA, AMBULO__RATIO, k.hold->inertia, "inertia", "inertia");
     add_vector(&k, AMBULO__HOLD_CENTER, AMBULO__STEP_LENGTH, k.hold->center, centers, "center");

@@ -1,8 +1,8 @@
 /* sensitivity/holds.c - the numbers of what hands hold, through its forces.
  *
  * Forces and moments of the hands (ambulo/hold.h) are linear in the mass m, the inertia I and the
- * push P, and all of them in the window w; with the middle's c = (a_1 + a_2) / 2 - g, d = p_2 - p_1,
- * e = a_2 - a_1, s = d . d, for F the sum and mu the moment about the middle:
+ * push P, and all of them in the window w; with the middle's c = (a_1 + a_2) / 2 - g, d = p_2 -
+ * p_1, e = a_2 - a_1, s = d . d, for F the sum and mu the moment about the middle:
  *
  *     f = F / 2 -+ ((w I (e - d (d . e) / s) + mu x d) / s),   moments d (d . mu) / (2 s)
  *
@@ -69,8 +69,7 @@ static double pull_of(const held *h, const double force[3], const double twist[3
       own[k] = force[k] / h->hands;
       if (h->hands < 2) continue;
       double stretch = ambulo__dot(h->line, h->apart) / h->square;
-      own[k] +=
-          side * (inertia * (h->apart[k] - stretch * h->line[k]) + couple[k]) / h->square;
+      own[k] += side * (inertia * (h->apart[k] - stretch * h->line[k]) + couple[k]) / h->square;
       moment[k] = h->line[k] * ambulo__dot(h->line, twist) / (2.0 * h->square);
     }
     ambulo__node_forces_add(h->f, link, h->place[i], own);

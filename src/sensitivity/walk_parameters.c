@@ -17,8 +17,8 @@
  * v = x_steps / T: dv/dp = (dx_steps/dp - v dT/dp) / T; without those dL/dv it is left out.
  *
  * T has no partial where other times stay in seconds: contacts that are listed, breakpoints, steps
- * of two times, references, functions of the caller, times of reaches, and on a grid on events those
- * of what hands hold.
+ * of two times, references, functions of the caller, times of reaches, and on a grid on events
+ * those of what hands hold.
  */
 #include "sensitivity/parameters.h"
 

@@ -212,8 +212,9 @@ static void moments_of_the_file_are_whole(void **state) {
   assert_int_equal(f.load.is_loose[f.right], 0);
   ambulo__ground_load_free(&f.load);
   GOOD(WHOLE "0,0,800,0.5,0,0,0,0,400\n0.5,0,400,0.5,0,0,0,0,400\n1,0,400,0.5,0,0,nan,nan,nan\n",
-       NOTHING_LEFT, "the moment of 'grf.right' is 200 N m from that of its force at its point at "
-                     "t = 0.5 s; the moment is taken",
+       NOTHING_LEFT,
+       "the moment of 'grf.right' is 200 N m from that of its force at its point at "
+       "t = 0.5 s; the moment is taken",
        NULL);
   expect(&f, 1, 0.0, 400.0, 400.0);
   expect(&f, 2, 0.0, 400.0, 200.0);
@@ -336,11 +337,11 @@ static void milliseconds_are_recognized(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(rows_are_joined_by_lines),       SCRATCH_TEST(no_point_is_taken_from_the_air),
-      SCRATCH_TEST(light_rows_lend_a_point),        SCRATCH_TEST(what_is_missing_is_said),
-      SCRATCH_TEST(forces_without_points),          SCRATCH_TEST(moments_of_the_file_are_whole),
-      SCRATCH_TEST(units_and_several_plates),
-      SCRATCH_TEST(times_must_be_covered),          SCRATCH_TEST(milliseconds_are_recognized),
-      SCRATCH_TEST(forces_are_filtered_as_moments), SCRATCH_TEST(every_allocation_may_fail)};
+      SCRATCH_TEST(rows_are_joined_by_lines),    SCRATCH_TEST(no_point_is_taken_from_the_air),
+      SCRATCH_TEST(light_rows_lend_a_point),     SCRATCH_TEST(what_is_missing_is_said),
+      SCRATCH_TEST(forces_without_points),       SCRATCH_TEST(moments_of_the_file_are_whole),
+      SCRATCH_TEST(units_and_several_plates),    SCRATCH_TEST(times_must_be_covered),
+      SCRATCH_TEST(milliseconds_are_recognized), SCRATCH_TEST(forces_are_filtered_as_moments),
+      SCRATCH_TEST(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("inverse/ground_load", tests, NULL, NULL);
 }

@@ -21,7 +21,8 @@ static ambulo__motion *of(void **state, const ambulo_model *model, const char *t
 static const char *rows(char text[2000], const char *head, const char *held) {
   int used = snprintf(text, 2000, "%s\n", head);
   for (int k = 0; k < 3; k++)
-    used += snprintf(text + used, 2000 - (size_t)used, "%g,0.3,0.4,0.5,-0.2,0,0%s\n", 0.1 * k, held);
+    used +=
+        snprintf(text + used, 2000 - (size_t)used, "%g,0.3,0.4,0.5,-0.2,0,0%s\n", 0.1 * k, held);
   return text;
 }
 
@@ -60,16 +61,18 @@ static void loads_add_up(void **state) {
   char text[2000];
   ambulo_model *model = arm_create();
   ambulo__motion *one = of(state, model,
-                           rows(text, REST ",held.a.hand.force.y,held.a.hand.force.x,"
-                                           "held.a.hand.moment.z",
+                           rows(text,
+                                REST ",held.a.hand.force.y,held.a.hand.force.x,"
+                                     "held.a.hand.moment.z",
                                 ",-4,2,1"),
                            NULL, NULL, AMBULO_OK);
   ambulo__motion *two = of(state, model,
-                           rows(text, REST ",held.a.b.hand.force.y,held.a.b.hand.force.x,"
-                                           "held.a.b.hand.moment.z,held.a.b.forearm.force.x,"
-                                           "held.a.b.forearm.force.y,held.a.b.forearm.moment.z,"
-                                           "held.c.hand.force.x,held.c.hand.force.y,"
-                                           "held.c.hand.moment.z",
+                           rows(text,
+                                REST ",held.a.b.hand.force.y,held.a.b.hand.force.x,"
+                                     "held.a.b.hand.moment.z,held.a.b.forearm.force.x,"
+                                     "held.a.b.forearm.force.y,held.a.b.forearm.moment.z,"
+                                     "held.c.hand.force.x,held.c.hand.force.y,"
+                                     "held.c.hand.moment.z",
                                 ",-3,3,1,0,0,0,-1,-1,0"),
                            NULL, NULL, AMBULO_OK);
   assert_close(table_cell(one, 1, "tau.shoulder"), table_cell(two, 1, "tau.shoulder"), 1e-13);
@@ -95,8 +98,8 @@ static void check(void **state, const char *head, const char *held, ambulo_statu
 static void what_is_missing_or_strange_is_said(void **state) {
   check(state, REST "," FORCE "," MOMENT ",held.box.power", ",1,2,3,4,5,6,7", AMBULO_OK,
         (const char *[]){NOTE, NULL});
-  check(state, REST ",held.box.hand.force.x,held.box.hand.moment.x,held.box.hand.moment.y", ",1,2,3",
-        AMBULO_OK,
+  check(state, REST ",held.box.hand.force.x,held.box.hand.moment.x,held.box.hand.moment.y",
+        ",1,2,3", AMBULO_OK,
         (const char *[]){"warning: 'held.box.hand' lacks the y of its force; it is taken as 0",
                          "warning: 'held.box.hand' lacks the z of its moment; it is taken as 0",
                          NOTE, NULL});
@@ -105,10 +108,11 @@ static void what_is_missing_or_strange_is_said(void **state) {
         (const char *[]){"warning: 'held.box.palm.force.x' names no point of model 'arm'; 2 such "
                          "columns are left out",
                          NOTE, NULL});
-  check(state, REST "," FORCE "," MOMENT ",held.box.mass", ",1,2,3,4,5,6,7", AMBULO_OK,
-        (const char *[]){"warning: 'held.box.mass' says nothing that hands of model 'arm' do; 1 such "
-                         "column is left out",
-                         NOTE, NULL});
+  check(
+      state, REST "," FORCE "," MOMENT ",held.box.mass", ",1,2,3,4,5,6,7", AMBULO_OK,
+      (const char *[]){"warning: 'held.box.mass' says nothing that hands of model 'arm' do; 1 such "
+                       "column is left out",
+                       NOTE, NULL});
   check(state, REST ",held.hand.force.x", ",1", AMBULO_OK,
         (const char *[]){"warning: 'held.hand.force.x' names no point of model 'arm'", NULL});
   check(state, REST "," FORCE "," MOMENT, ",nan,2,3,4,5,6", AMBULO_E_SCHEMA,
@@ -184,9 +188,11 @@ static void every_allocation_may_fail(void **state) {
 #define SCRATCH_TEST(f) cmocka_unit_test_setup_teardown(f, scratch_open, scratch_close)
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(a_hand_has_leverage),                SCRATCH_TEST(loads_add_up),
-      SCRATCH_TEST(what_is_missing_or_strange_is_said), SCRATCH_TEST(two_hands_at_most),
-      SCRATCH_TEST(loads_of_another_file),              SCRATCH_TEST(every_allocation_may_fail)};
+  const struct CMUnitTest tests[] = {SCRATCH_TEST(a_hand_has_leverage),
+                                     SCRATCH_TEST(loads_add_up),
+                                     SCRATCH_TEST(what_is_missing_or_strange_is_said),
+                                     SCRATCH_TEST(two_hands_at_most),
+                                     SCRATCH_TEST(loads_of_another_file),
+                                     SCRATCH_TEST(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("inverse/hand_load", tests, NULL, NULL);
 }

@@ -41,8 +41,7 @@ static double difference(const ambulo__motion *a, const ambulo__motion *b, const
 
 static int columns_of(const ambulo__motion *m, const char *prefix) {
   int count = 0;
-  for (int c = 0; c < m->columns; c++)
-    count += strncmp(m->names[c], prefix, strlen(prefix)) == 0;
+  for (int c = 0; c < m->columns; c++) count += strncmp(m->names[c], prefix, strlen(prefix)) == 0;
   return count;
 }
 

@@ -318,7 +318,8 @@ static void arguments_are_checked(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_cadence_at_a_speed),
                                      cmocka_unit_test(a_step_at_a_speed),
-                                     cmocka_unit_test(a_duration), cmocka_unit_test(a_push),
+                                     cmocka_unit_test(a_duration),
+                                     cmocka_unit_test(a_push),
                                      cmocka_unit_test(several_at_once),
                                      cmocka_unit_test(a_phase_of_shared_contacts),
                                      cmocka_unit_test(a_kink_is_given_up),

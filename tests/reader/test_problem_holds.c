@@ -87,10 +87,11 @@ static void refusals(void **state) {
 static void they_may_be_free(void **state) {
   (void)state;
   ambulo_problem *p = problem_of(
-      WALKER "time: {duration: 1, intervals: 4}\nobjective: [{term: torque_squared}]\nload: [{name: "
-             "box, hands: [heel_r], mass: 2}, {link: pelvis, mass: 4, position: [0, 0.1, 0]}, "
-             "{hands: [heel_l], mass: 3, force: [0, 1, 0]}]\nfree: {\"load[box].mass\": [1, 3], "
-             "\"load[1].mass\": [1, 5], \"load[2].force[0]\": [-1, 1]}\n");
+      WALKER
+      "time: {duration: 1, intervals: 4}\nobjective: [{term: torque_squared}]\nload: [{name: "
+      "box, hands: [heel_r], mass: 2}, {link: pelvis, mass: 4, position: [0, 0.1, 0]}, "
+      "{hands: [heel_l], mass: 3, force: [0, 1, 0]}]\nfree: {\"load[box].mass\": [1, 3], "
+      "\"load[1].mass\": [1, 5], \"load[2].force[0]\": [-1, 1]}\n");
   assert_int_equal(ambulo_problem_parameters(p).count, 3);
   ambulo_problem_free(p);
 }

@@ -4,24 +4,23 @@
 /* held all along in a step that is its own mirror image: the body's numbers are not the box's */
 static void a_box_in_both_hands(void **state) {
   (void)state;
-  static const setting c = {
-      "models/walk_carrying.yaml",
-      {"written_for=null", "time.intervals=40"},
-      {"load[box].mass", "load[box].inertia", "load[box].center[0]", "load[box].center[2]",
-       "subject.mass", "ground.slope", "gait.step_width", "gait.speed", "gait.phases.toe_off.comfortable",
-       "ground_reaction.moment_arm", "ground_reaction.loading_rate"}};
+  static const setting c = {"models/walk_carrying.yaml",
+                            {"written_for=null", "time.intervals=40"},
+                            {"load[box].mass", "load[box].inertia", "load[box].center[0]",
+                             "load[box].center[2]", "subject.mass", "ground.slope",
+                             "gait.step_width", "gait.speed", "gait.phases.toe_off.comfortable",
+                             "ground_reaction.moment_arm", "ground_reaction.loading_rate"}};
   check(&c, "load[box].center[1]");
 }
 
 /* times of its own on a grid on events: nodes go along */
 static void from_the_floor_to_a_table(void **state) {
   (void)state;
-  static const setting c = {
-      "models/lift.yaml",
-      {"load[box].from=0.85", "load[box].to=2.87", "time.intervals=50"},
-      {"load[box].mass", "load[box].inertia", "load[box].center[0]", "load[box].center[1]",
-       "load[box].center[2]", "load[box].from", "load[box].to", "load[box].ramp", "subject.mass",
-       "ground.slope"}};
+  static const setting c = {"models/lift.yaml",
+                            {"load[box].from=0.85", "load[box].to=2.87", "time.intervals=50"},
+                            {"load[box].mass", "load[box].inertia", "load[box].center[0]",
+                             "load[box].center[1]", "load[box].center[2]", "load[box].from",
+                             "load[box].to", "load[box].ramp", "subject.mass", "ground.slope"}};
   check(&c, "time.duration");
 }
 

@@ -187,18 +187,16 @@ static void what_results_say_of_moments_is_all_there_is(void **state) {
     double *cop = calloc(n, sizeof *cop), *force = calloc(n, sizeof *force);
     for (int k = 0; k < TIMES; k++)
       times[k] = f.problem->definition.duration * (k + 0.5) / (TIMES + 1);
-    ambulo_motion motion = {.wrench = wrench,
-                            .grf_moment = feet,
-                            .patch_moment = patches,
-                            .grf = force,
-                            .cop = cop};
+    ambulo_motion motion = {
+        .wrench = wrench, .grf_moment = feet, .patch_moment = patches, .grf = force, .cop = cop};
     assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, TIMES, times, &motion),
                      AMBULO_OK);
     int of[2] = {f.model->foot_count, f.model->patch_count};
     for (int k = 0; k < TIMES; k++) {
       double sum[3] = {0.0};
       for (int i = 0; i < 3 * (of[0] + of[1]); i++)
-        sum[i % 3] += i < 3 * of[0] ? feet[3 * of[0] * k + i] : patches[3 * of[1] * k + i - 3 * of[0]];
+        sum[i % 3] +=
+            i < 3 * of[0] ? feet[3 * of[0] * k + i] : patches[3 * of[1] * k + i - 3 * of[0]];
       for (int i = 0; i < 3; i++)
         assert_close(sum[i] / f.weight, wrench[6 * k + i] / f.weight, 1e-11);
       for (int foot = 0; foot < of[0]; foot++) {
