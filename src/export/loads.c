@@ -1,9 +1,8 @@
 /* export/loads.c - see loads.h.
  *
- * What a hand exerts on what it holds acts on the hand the other way round. The free moment of a
- * patch is about the normal of the contact that it has at the time; in the mirrored half of a
- * stride that is the image of its partner's. Inverse dynamics knows the feet alone: with load j of
- * force f_j, point p_j and torque t_j on a link, torques lose (ground_load.h)
+ * The torque of a patch at its centre of pressure p is what its force f leaves of its moment about
+ * the origin. Inverse dynamics knows feet and hands: with load j of force f_j, point p_j and torque
+ * t_j on a link, torques lose (ground_load.h)
  *
  *     z . (t_j + (p_j - o) x f_j)   of hinges,   z . f_j   of sliders between it and the world
  *
@@ -16,9 +15,7 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "gait/contact_frame.h"
 #include "gait/effector.h"
-#include "gait/loading.h"
 #include "inverse/ground_load.h"
 #include "mechanics/pose.h"
 
@@ -35,12 +32,11 @@ typedef struct builder {
 static const char *const axes[] = {".x", ".y", ".z"};
 
 const char *ambulo__load_prefix(const ambulo__export_load *load) {
-  return load->kind == AMBULO__LOAD_FOOT || load->kind == AMBULO__LOAD_PATCH ? "ground_" : "";
+  return load->kind == AMBULO__LOAD_DEVICE ? "" : "ground_";
 }
 
 int ambulo__has_loads(const ambulo_problem *problem) {
-  const ambulo_problem_definition *d = problem ? &problem->definition : NULL;
-  return d && (d->hold_count > 0 || ambulo__holds_patches(d));
+  return problem && ambulo__holds_patches(&problem->definition);
 }
 
 /* ------------------------------------------------------------------------- listing */
@@ -70,11 +66,11 @@ static void name_load(ambulo__export_load *load, const char *name, const char *b
                  behind ? behind : "");
 }
 
-static void list_feet(builder *b) {
-  for (int foot = 0; foot < b->source->feet; foot++) {
-    const ambulo_foot *f = &b->model->feet[foot];
-    int link = b->model->points[f->heel[0]].link;
-    name_load(add(b, AMBULO__LOAD_FOOT, foot, 0, link, b->bodies->body_of[link]), f->name, NULL);
+static void list_source(builder *b) {
+  for (int i = 0; i < b->source->loads; i++) {
+    const ambulo__source_load *own = &b->source->load[i];
+    ambulo__load_kind kind = own->point < 0 ? AMBULO__LOAD_FOOT : AMBULO__LOAD_HAND;
+    name_load(add(b, kind, i, 0, own->link, b->bodies->body_of[own->link]), own->name, NULL);
   }
 }
 
@@ -82,7 +78,7 @@ static void list_patches(builder *b) {
   for (int i = 0; i < b->model->patch_count; i++) {
     const ambulo_patch *patch = &b->model->patches[i];
     if (!ambulo__patch_is_used(&b->problem->definition, i)) continue;
-    if (column(b, "free_moment.", patch->name, "") < 0) {
+    if (column(b, "moment.", patch->name, ".x") < 0) {
       tell_missing(b, "the patch", patch->name);
       continue;
     }
@@ -92,26 +88,8 @@ static void list_patches(builder *b) {
     for (int k = 0; k < 3; k++) {
       load->column[k] = column(b, "grf.", patch->name, axes[k]);
       load->column[3 + k] = column(b, "cop.", patch->name, axes[k]);
+      load->column[6 + k] = column(b, "moment.", patch->name, axes[k]);
     }
-    load->column[6] = column(b, "free_moment.", patch->name, "");
-  }
-}
-
-static void list_hand(builder *b, int index, int hand) {
-  const ambulo_hold *hold = &b->problem->definition.holds[index];
-  const ambulo_point *point = &b->model->points[hold->hand[hand]];
-  char name[2 * AMBULO__LOAD_NAME], part[16];
-  (void)snprintf(name, sizeof name, "%s.%s", hold->name, point->name);
-  if (column(b, "held.", name, ".force.x") < 0) {
-    tell_missing(b, "what hands hold,", hold->name);
-    return;
-  }
-  ambulo__export_load *load =
-      add(b, AMBULO__LOAD_HAND, index, hand, point->link, b->bodies->body_of[point->link]);
-  name_load(load, hold->name, point->name);
-  for (int k = 0; k < 6; k++) {
-    (void)snprintf(part, sizeof part, ".%s%s", k < 3 ? "force" : "moment", axes[k % 3]);
-    load->column[k] = column(b, "held.", name, part);
   }
 }
 
@@ -143,10 +121,10 @@ static void tell_unknown(const builder *b) {
       pressed |= strncmp(name, "grf.", 4) == 0 && strncmp(name + 4, patch, strlen(patch)) == 0 &&
                  strcmp(name + 4 + strlen(patch), ".x") == 0;
     }
-    if (!pressed && strncmp(name, "held.", 5) != 0 && strncmp(name, "device.", 7) != 0) continue;
+    if (!pressed && strncmp(name, "device.", 7) != 0) continue;
     ambulo__warning(b->diagnostics, ambulo__nowhere,
-                    "name the problem in place of its model, and its devices, patches and what "
-                    "hands hold are exported, too",
+                    "name the problem in place of its model, and its devices and patches are "
+                    "exported, too",
                     "the motion has '%s': without its problem that is left out", name);
     return;
   }
@@ -154,18 +132,16 @@ static void tell_unknown(const builder *b) {
 
 static ambulo_status list_loads(builder *b) {
   const ambulo_problem_definition *d = b->problem ? &b->problem->definition : NULL;
-  size_t most = (size_t)b->source->feet;
-  if (d) most += (size_t)b->model->patch_count + 2 * (size_t)(d->hold_count + d->device_count);
+  size_t most = (size_t)b->source->loads;
+  if (d) most += (size_t)b->model->patch_count + 2 * (size_t)d->device_count;
   b->loads->list = ambulo__alloc(&b->loads->allocator, most, sizeof *b->loads->list);
   if (!b->loads->list) return AMBULO_E_MEMORY;
-  list_feet(b);
+  list_source(b);
   if (!d) {
     tell_unknown(b);
     return AMBULO_OK;
   }
   list_patches(b);
-  for (int i = 0; i < d->hold_count; i++)
-    for (int hand = 0; hand < 2 && d->holds[i].hand[hand] >= 0; hand++) list_hand(b, i, hand);
   for (int i = 0; i < d->device_count; i++) list_device(b, i);
   return AMBULO_OK;
 }
@@ -177,50 +153,22 @@ static double cell(const builder *b, const ambulo__export_load *load, int k, int
   return t->values[(size_t)k * (size_t)t->columns + (size_t)load->column[part]];
 }
 
-/* normal of the contact that a patch has */
-static void patch_normal(const builder *b, int patch, double time, double normal[3]) {
-  const ambulo_problem_definition *d = &b->problem->definition;
-  int effector = b->model->foot_count + patch;
-  int image = d->ends == AMBULO_ENDS_MIRRORED && time > d->duration;
-  if (image) effector = ambulo__effector_mirror(b->model, effector);
-  const ambulo_contact *contact =
-      ambulo__contact_of(d, effector, image ? time - d->duration : time);
-  memcpy(normal, b->model->up, 3 * sizeof *normal);
-  if (!contact) return;
-  ambulo__contact_frame frame = ambulo__contact_frame_of(d, contact);
-  double aside = image ? ambulo__dot(frame.up, b->model->left) : 0.0;
-  for (int i = 0; i < 3; i++) normal[i] = frame.up[i] - 2.0 * aside * b->model->left[i];
-}
-
-static void fill_foot(const builder *b, const ambulo__export_load *load, int k, double *force,
-                      double *point, double *torque) {
+static void copy_source(const builder *b, const ambulo__export_load *load, int k, double *force,
+                        double *point, double *torque) {
   const ambulo__source *s = b->source;
-  size_t at = (size_t)k * (size_t)s->feet + (size_t)load->index;
-  memcpy(force, s->force + 3 * at, 3 * sizeof *force);
-  memcpy(point, s->point + 3 * at, 3 * sizeof *point);
-  for (int i = 0; i < 3; i++) torque[i] = s->free_moment[at] * b->model->up[i];
+  size_t at = 3 * ((size_t)k * (size_t)s->loads + (size_t)load->index);
+  memcpy(force, s->force + at, 3 * sizeof *force);
+  memcpy(point, s->point + at, 3 * sizeof *point);
+  memcpy(torque, s->torque + at, 3 * sizeof *torque);
 }
 
+/* torque: the moment about the origin, until each row has a point */
 static void fill_patch(const builder *b, const ambulo__export_load *load, int k, double *force,
                        double *point, double *torque) {
-  double normal[3];
-  patch_normal(b, load->index, b->source->time[k], normal);
   for (int i = 0; i < 3; i++) {
     force[i] = cell(b, load, k, i);
     point[i] = cell(b, load, k, 3 + i);
-    torque[i] = cell(b, load, k, 6) * normal[i];
-  }
-}
-
-static void fill_hand(const builder *b, const ambulo__export_load *load, int k, double *force,
-                      double *point, double *torque) {
-  const ambulo_hold *hold = &b->problem->definition.holds[load->index];
-  const ambulo_point *hand = &b->model->points[hold->hand[load->part]];
-  const double *f = b->frames + 12 * (size_t)hand->link;
-  for (int i = 0; i < 3; i++) {
-    force[i] = -cell(b, load, k, i);
-    torque[i] = -cell(b, load, k, 3 + i);
-    point[i] = ambulo__dot(f + 4 * i, hand->position) + f[4 * i + 3];
+    torque[i] = cell(b, load, k, 6 + i);
   }
 }
 
@@ -228,13 +176,11 @@ static void fill_load(const builder *b, const ambulo__export_load *load, int k, 
                       double *point, double *torque) {
   switch (load->kind) {
   case AMBULO__LOAD_FOOT:
-    fill_foot(b, load, k, force, point, torque);
+  case AMBULO__LOAD_HAND:
+    copy_source(b, load, k, force, point, torque);
     break;
   case AMBULO__LOAD_PATCH:
     fill_patch(b, load, k, force, point, torque);
-    break;
-  case AMBULO__LOAD_HAND:
-    fill_hand(b, load, k, force, point, torque);
     break;
   case AMBULO__LOAD_DEVICE:
     ambulo__device_load(b->bodies, &b->problem->definition.devices[load->index], load->part,
@@ -246,18 +192,24 @@ static void fill_load(const builder *b, const ambulo__export_load *load, int k, 
 static void take_off(const builder *b, const ambulo__export_load *load, int k, const double *force,
                      const double *point, const double *torque) {
   double *tau = b->source->tau + (size_t)k * (size_t)b->source->coordinates, moment[3];
-  if (load->kind == AMBULO__LOAD_FOOT) return;
+  if (load->kind == AMBULO__LOAD_FOOT || load->kind == AMBULO__LOAD_HAND) return;
   if (load->link < 0) { /* a device at a joint, or at a point of the world */
-    int c = load->kind == AMBULO__LOAD_DEVICE && load->part == 0
-                ? b->problem->definition.devices[load->index].coordinate
-                : -1;
+    int c = load->part == 0 ? b->problem->definition.devices[load->index].coordinate : -1;
     if (c >= 0) tau[c] -= cell(b, load, k, 0);
     return;
   }
-  if (!isfinite(point[0])) return; /* a patch in the air */
-  ambulo__cross(point, force, moment);
-  for (int i = 0; i < 3; i++) moment[i] += torque[i];
+  memcpy(moment, torque, sizeof moment);
+  if (load->kind == AMBULO__LOAD_DEVICE) ambulo__add_cross(point, force, 1.0, moment);
   ambulo__load_take(b->model, b->frames, load->link, force, moment, tau);
+}
+
+/* the torque of a patch at its points, once all rows have one */
+static void place_patch(ambulo__loads *l, const double *time, int load) {
+  ambulo__fill_points(time, l->rows, l->count, load, l->point);
+  for (int k = 0; k < l->rows; k++) {
+    size_t at = 3 * ((size_t)k * (size_t)l->count + (size_t)load);
+    ambulo__add_cross(l->point + at, l->force + at, -1.0, l->torque + at);
+  }
 }
 
 static ambulo_status fill(builder *b) {
@@ -282,7 +234,7 @@ static ambulo_status fill(builder *b) {
   }
   ambulo__pose_free(&pose);
   for (int i = 0; i < l->count; i++)
-    ambulo__fill_points(b->source->time, l->rows, l->count, i, l->point);
+    if (l->list[i].kind == AMBULO__LOAD_PATCH) place_patch(l, b->source->time, i);
   return AMBULO_OK;
 }
 
@@ -290,13 +242,13 @@ static ambulo_status fill(builder *b) {
 static void tell_rest(const builder *b) {
   const ambulo__loads *l = b->loads;
   double weight = ambulo__model_weight(b->model), worst[2] = {0.0, 0.0};
-  if (!ambulo__has_loads(b->problem) || b->source->feet == 0) return;
+  if (!ambulo__has_loads(b->problem) || b->source->loads == 0) return;
   for (int k = 0; k < l->rows; k++) {
     double rest[6];
     memcpy(rest, b->source->wrench + 6 * (size_t)k, sizeof rest);
     for (int i = 0; i < l->count; i++) {
       size_t at = 3 * ((size_t)k * (size_t)l->count + (size_t)i);
-      if (l->list[i].kind == AMBULO__LOAD_DEVICE) continue;
+      if (l->list[i].kind == AMBULO__LOAD_DEVICE || l->list[i].kind == AMBULO__LOAD_HAND) continue;
       for (int a = 0; a < 3; a++) {
         rest[a] -= l->torque[at + (size_t)a];
         rest[3 + a] -= l->force[at + (size_t)a];
@@ -307,7 +259,7 @@ static void tell_rest(const builder *b) {
     worst[1] = fmax(worst[1], sqrt(ambulo__dot(rest, rest)) / weight);
   }
   ambulo__note(b->diagnostics, ambulo__nowhere,
-               "with forces on hands and patches at most %.1e body weights and %.1e body weights m "
+               "with the forces on patches at most %.1e body weights and %.1e body weights m "
                "are left over at the root",
                worst[0], worst[1]);
 }

@@ -1,8 +1,8 @@
 /* export/loads.h - all that pushes or pulls at the bodies of a motion.
  *
- * Feet as inverse dynamics has them (motion_source.h); of a problem also patches that press on
- * something, hands that hold something and devices, from the columns of its motion.csv. A device
- * is a pair of loads that add up to nothing. */
+ * Feet and hands as inverse dynamics has them (motion_source.h); of a problem also patches that
+ * press on something and devices, from the columns of its motion.csv. A device is a pair of loads
+ * that add up to nothing. */
 #ifndef AMBULO_EXPORT_LOADS_H
 #define AMBULO_EXPORT_LOADS_H
 
@@ -12,21 +12,20 @@
 
 typedef enum ambulo__load_kind {
   AMBULO__LOAD_FOOT,
+  AMBULO__LOAD_HAND, /* the root wrench of the source has it */
   AMBULO__LOAD_PATCH,
-  AMBULO__LOAD_HAND,
   AMBULO__LOAD_DEVICE
 } ambulo__load_kind;
 
-enum { AMBULO__LOAD_COLUMNS = 7, AMBULO__LOAD_NAME = 136 };
+enum { AMBULO__LOAD_COLUMNS = 9, AMBULO__LOAD_NAME = 136 };
 
 typedef struct ambulo__export_load {
   ambulo__load_kind kind;
-  char name[AMBULO__LOAD_NAME];     /* foot, patch, LOAD_POINT of a hand, DEVICE_BODY */
-  int index, part;                  /* of its kind; hand or end, 0 or 1 */
+  char name[AMBULO__LOAD_NAME];     /* foot, LOAD_POINT of a hand, patch, DEVICE_BODY */
+  int index, part;                  /* of the source's loads, or of its kind; end, 0 or 1 */
   int link;                         /* that it acts on; -1: a device at a joint */
   int body;                         /* of bodies.h; -1: the ground, which nothing moves */
-  int column[AMBULO__LOAD_COLUMNS]; /* of the table: force, point, free moment; force, moment;
-                                       effort */
+  int column[AMBULO__LOAD_COLUMNS]; /* of the table: force, point, moment; effort */
 } ambulo__export_load;
 
 typedef struct ambulo__loads {
@@ -37,7 +36,8 @@ typedef struct ambulo__loads {
   double *torque;            /* [rows][count][3], about the point, N m */
 } ambulo__loads;
 
-/* 1 if something of a problem (NULL: nothing) pushes at more of the body than its feet. */
+/* 1 if something of a problem (NULL: nothing) pushes at more of the body than its feet and hands.
+ */
 int ambulo__has_loads(const ambulo_problem *problem);
 
 /* Fills *loads, which ambulo__loads_free releases, and takes off source->tau what those do that

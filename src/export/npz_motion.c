@@ -85,7 +85,8 @@ static void fill_loads(arrays *s, int k, double f[3], double m[3]) {
     ambulo__rigid_vector(world, loads->point + at, point);
     ambulo__rigid_vector(world, loads->torque + at, wrench + 3);
     ambulo__cross(point, wrench, moment);
-    for (int i = 0; i < 3; i++) {
+    int has = loads->list[l].kind == AMBULO__LOAD_HAND; /* the root wrench has it in it */
+    for (int i = 0; !has && i < 3; i++) {
       f[i] -= wrench[i];
       m[i] -= moment[i] + wrench[3 + i];
     }

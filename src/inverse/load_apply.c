@@ -55,9 +55,9 @@ void ambulo__ground_load_place(ambulo__ground_load *load, const ambulo__load_pos
   }
 }
 
-/* (I.3): z . (m - o x f) or z . f of the joint of `link`; frames [links][12] */
-static double share(const ambulo_model *model, const double *frames, int link, const double *force,
-                    const double *moment) {
+/* (I.3): z . (m - o x f) or z . f */
+double ambulo__load_share(const ambulo_model *model, const double *frames, int link,
+                          const double *force, const double *moment) {
   static const double world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   const ambulo_link *l = &model->links[link];
   const double *frame = l->parent < 0 ? world : frames + 12 * (size_t)l->parent;
@@ -76,7 +76,7 @@ void ambulo__load_take(const ambulo_model *model, const double *frames, int link
                        const double force[3], const double moment[3], double *tau) {
   for (; link >= 0; link = model->links[link].parent) {
     int i = model->links[link].coordinate;
-    if (i >= 0) tau[i] -= share(model, frames, link, force, moment);
+    if (i >= 0) tau[i] -= ambulo__load_share(model, frames, link, force, moment);
   }
 }
 
