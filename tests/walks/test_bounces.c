@@ -81,19 +81,23 @@ static double airborne(const bounce *b) {
   return sum;
 }
 
-/* both legs alike, half of it in the air; people who hop so push by 2.5 to 3.5 body weights */
+/* both legs alike, half of it in the air; people who hop so push by 2.5 to 3.5 body weights, land on
+ * feet that point down and bend their knees by 30 to 50 degrees */
 static void a_hop_goes_up_and_down_on_two_legs(void **state) {
   (void)state;
   static bounce b;
   open_bounce(&b, "hop", NULL, 0);
-  double peak = 0.0, low = INFINITY, high = -INFINITY;
+  double peak = 0.0, low = INFINITY, high = -INFINITY, knee = 0.0, landing = 0.0;
   for (int k = 0; k < SAMPLES; k++) {
     peak = fmax(peak, both(&b, k));
+    knee = fmax(knee, degree * value(&b, b.q, k, "knee_angle_l"));
+    if (b.t[k] <= 0.12) landing = degree * value(&b, b.q, k, "ankle_angle_l");
     low = fmin(low, value(&b, b.q, k, "pelvis_ty"));
     high = fmax(high, value(&b, b.q, k, "pelvis_ty"));
     assert_close(up(&b, k, "left"), up(&b, k, "right"), 0.1);
   }
   assert_true(peak > 2.3 && peak < 3.5);
+  assert_true(knee > 30.0 && knee < 50.0 && landing < -15.0);
   assert_close(airborne(&b), 0.24, 0.005);
   assert_true(high - low > 0.12 && high - low < 0.3);
   assert_close(mean_force(&b), 1.0, 5e-3);
