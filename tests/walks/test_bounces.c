@@ -81,8 +81,8 @@ static double airborne(const bounce *b) {
   return sum;
 }
 
-/* both legs alike, half of it in the air; people who hop so push by 2.5 to 3.5 body weights, land on
- * feet that point down and bend their knees by 30 to 50 degrees */
+/* both legs alike, half of it in the air; people who hop so push by 2.5 to 3.5 body weights, land
+ * on feet that point down and bend their knees by 30 to 50 degrees */
 static void a_hop_goes_up_and_down_on_two_legs(void **state) {
   (void)state;
   static bounce b;
@@ -141,8 +141,8 @@ static void a_jump_lands_on_soft_knees(void **state) {
   close_bounce(&b);
 }
 
-/* Objective by the metre; of the left leg the largest angles of the knee, degrees, and torques, N m,
- * in stance and in swing. */
+/* Objective by the metre; of the left leg the largest angles of the knee, degrees, and torques, N
+ * m, in stance and in swing. */
 typedef struct stride_loads {
   double cost, bent[2], hip[2], knee_extends[2], knee_flexes[2];
 } stride_loads;
@@ -170,8 +170,8 @@ static stride_loads run_with(const char *devices, const char *step_time) {
 }
 
 /* Simpson et al. (2019): quicker steps, at less cost; knees bend less, hips and knees have less to
- * hold. Between steps of 0.378 and of 0.392 s the longer are cheaper without the tendon, the shorter
- * with it; each body runs with its own. */
+ * hold. Between steps of 0.378 and of 0.392 s the longer are cheaper without the tendon, the
+ * shorter with it; each body runs with its own. */
 static void a_tendon_between_the_feet_asks_for_quicker_steps(void **state) {
   (void)state;
   static const char *const quick = "gait.step_time=0.378", *const slow = "gait.step_time=0.392";
