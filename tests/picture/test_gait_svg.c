@@ -117,12 +117,17 @@ static void test_stairs(void **state) {
 static void walls_stay_on_the_page(void **state) {
   (void)state;
   static const char mark[] = "<rect class=\"obstacle\" x=\"";
-  static const char *const nearer[] = {"obstacles[wall].center=[0.4, 0, 0.9]"};
+  static const char *const nearer[] = {"obstacles[wall].center=[0.8, 0, 0.9]"};
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   assert_int_equal(ambulo_problem_load("models/push_wall.yaml", nearer, 1, NULL, NULL, &problem),
                    AMBULO_OK);
   assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
+  const ambulo_model *model = ambulo_problem_model(problem); /* an arm stretched out to it */
+  int count = ambulo_model_coordinate_count(model);
+  int shoulder = ambulo_model_find_coordinate(model, "arm_flex_r");
+  assert_true(shoulder >= 0);
+  for (int i = shoulder; i < result->variables; i += count) result->x[i] = 1.57;
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
   assert_int_equal(ambulo__gait_svg(problem, result, NULL, &text), AMBULO_OK);
