@@ -56,8 +56,9 @@ static void run_jacobian(rig *r, int block) {
 /* Through the public interface, all blocks in one call; the states are read node by node. */
 static void run_batch(rig *r, int block) {
   if (block != 0) return;
-  if (ambulo_mechanics_inverse_dynamics(r->mechanics, blocks * AMBULO__LANES, r->q, r->qd, r->qdd,
-                                        r->out, NULL, NULL) != AMBULO_OK) {
+  if (ambulo_mechanics_inverse_dynamics(
+          r->mechanics, blocks * AMBULO__LANES, r->q, r->qd, r->qdd,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = r->out}) != AMBULO_OK) {
     exit(1);
   }
 }
@@ -176,7 +177,10 @@ static double measure_reference(const rig *r) {
     double start = bench_seconds();
     for (int i = 0; i < 50; i++) {
       if (ambulo_lagrangian_inverse_dynamics(r->model, state, state + d, state + 2 * d,
-                                             state + 3 * d, wrench, NULL, scratch) != AMBULO_OK) {
+                                             &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                               .tau = state + 3 * d,
+                                                               .wrench = wrench},
+                                             scratch) != AMBULO_OK) {
         exit(1);
       }
     }

@@ -163,10 +163,14 @@ static void write_states(const ambulo_model *model, const char *folder, const do
       qdd[i] = 30 * spread(&seed);
       w[i] = spread(&seed);
     }
-    if (ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, NULL, NULL) ||
+    if (ambulo_mechanics_inverse_dynamics(
+            mechanics, 1, q, qd, qdd,
+            &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}) ||
         ambulo_mechanics_gradient(
-            mechanics, 1, q, qd, qdd, &(ambulo_output_weights){.tau = w},
-            &(ambulo_motion_gradient){gradient, gradient + d, gradient + 2 * d}) ||
+            mechanics, 1, q, qd, qdd,
+            &(ambulo_output_weights){.size = sizeof(ambulo_output_weights), .tau = w},
+            &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), gradient, gradient + d,
+                                      gradient + 2 * d}) ||
         ambulo_mechanics_jacobians(mechanics, 1, q, qd, qdd, &all))
       exit(1);
     for (int i = 0; i < 8 * d; i++) record[i] *= sign[i % d];

@@ -53,7 +53,8 @@ static ambulo_status exact(const ambulo_model *model, double *tau) {
   }
   ambulo_status status = ambulo_mechanics_create(model, NULL, &mechanics);
   if (!status)
-    status = ambulo_mechanics_inverse_dynamics(mechanics, ROWS, q, qd, qdd, tau, NULL, NULL);
+    status = ambulo_mechanics_inverse_dynamics(
+        mechanics, ROWS, q, qd, qdd, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau});
   ambulo_mechanics_free(mechanics);
   return status;
 }
@@ -88,8 +89,9 @@ int main(void) {
     ambulo_inverse_options options = ambulo_inverse_options_default();
     options.angles = AMBULO_ANGLES_DEGREES;
     options.cutoff = cutoffs[i];
-    status = ambulo_inverse_dynamics_motion(model, "swing.csv", NULL, &options, NULL, messages,
-                                            NULL, &text);
+    status = ambulo_inverse_dynamics_motion(
+        model, "swing.csv", NULL, &options, NULL, messages,
+        &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text});
     if (status) break;
     printf("cut-off %g Hz: torque off by %.2f N m (root mean square)\n", cutoffs[i],
            difference(text, tau));

@@ -123,8 +123,9 @@ ambulo_status ambulo__mirror_check(const ambulo_problem_definition *d,
   if (status == AMBULO_E_MEMORY) return status;
   for (int i = 0; i < d->model->coordinate_count; i++) {
     if (d->model->coordinates[i].mirror < i) continue;
-    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
-      if (asked[what] && check_limits(d, i, (ambulo_limited)what, list)) status = AMBULO_E_PROBLEM;
+    for (int k = 0; k < 3; k++) {
+      ambulo_limited what = (ambulo_limited)(AMBULO_LIMITED_POSITION + k);
+      if (asked[k] && check_limits(d, i, what, list)) status = AMBULO_E_PROBLEM;
     }
     if (check_tubes(d, i, list)) status = AMBULO_E_PROBLEM;
   }

@@ -98,7 +98,9 @@ static void every_number_is_looked_at(void **state) {
   HOLDS("out of range", FENCED, f.fence.heading = INFINITY);
   HOLDS("out of range", FENCED, f.fence.shape = AMBULO_OBSTACLE_CAPSULE); /* of no radius */
   HOLDS("margin is nan m", FENCED, f.fence.margin = NAN);
-  HOLDS("unknown shape 5", FENCED, f.fence.shape = (ambulo_obstacle_shape)5);
+  HOLDS("its shape is unknown (got 5)", FENCED, f.fence.shape = (ambulo_obstacle_shape)5);
+  HOLDS("its shape is not set (got 0); expected box or capsule", FENCED,
+        f.fence.shape = AMBULO_OBSTACLE_SHAPE_NOT_SET);
   HOLDS("has no name", FENCED, f.fence.name = "");
 }
 

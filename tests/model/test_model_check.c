@@ -8,7 +8,7 @@ static void arguments(void **state) {
   assert_int_equal(ambulo_model_create(NULL, NULL, NULL, &model), AMBULO_E_ARGUMENT);
   chain_make(&c);
   assert_int_equal(ambulo_model_create(&c.definition, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
-  c.definition.cookie = 0;
+  c.definition.size = 0;
   chain_bad(&c, AMBULO_E_ARGUMENT, NULL);
   chain_make(&c);
   c.definition.links = NULL;

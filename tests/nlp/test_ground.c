@@ -133,7 +133,8 @@ static void other_problems_have_no_forces_on_feet(void **state) {
   fixture f;
   fixture_open(&f, "models/walk_without_reaction.yaml");
   double grf[6], cop[6], twist[2], time = 0.1;
-  ambulo_motion motion = {.grf = grf, .cop = cop, .free_moment = twist};
+  ambulo_motion motion = {
+      .size = sizeof(ambulo_motion), .grf = grf, .cop = cop, .free_moment = twist};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 1, &time, &motion),
                    AMBULO_OK);
   for (int i = 0; i < 6; i++) assert_true(isnan(grf[i]) && isnan(cop[i]));

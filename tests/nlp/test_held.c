@@ -175,8 +175,11 @@ static void test_momentum(void **state) {
   double times[TIMES], wrench[TIMES][6], bare[TIMES][6], force[TIMES][COUNT][2][3];
   double grf[TIMES][2][3];
   for (int k = 0; k < TIMES; k++) times[k] = f.p->definition.duration * k / (TIMES - 1);
-  ambulo_motion a = {.wrench = wrench[0], .hold_force = force[0][0][0], .grf = grf[0][0]};
-  ambulo_motion b = {.wrench = bare[0]};
+  ambulo_motion a = {.size = sizeof(ambulo_motion),
+                     .wrench = wrench[0],
+                     .hold_force = force[0][0][0],
+                     .grf = grf[0][0]};
+  ambulo_motion b = {.size = sizeof(ambulo_motion), .wrench = bare[0]};
   assert_int_equal(ambulo_problem_motion(f.p, f.w, f.x, TIMES, times, &a), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(g.p, g.w, f.x, TIMES, times, &b), AMBULO_OK);
   for (int k = 0; k < TIMES; k++) {
@@ -220,9 +223,8 @@ static void test_no_sensitivities_yet(void **state) {
   free_ones.count = 1;
   free_ones.problem_at = no_problem;
   ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
-  assert_int_equal(
-      ambulo_solve_parameters(f.p, &free_ones, NULL, NULL, NULL, messages, &best, &result),
-      AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_solve_parameters(f.p, &free_ones, NULL, NULL, messages, &best, &result),
+                   AMBULO_E_ARGUMENT);
   assert_message(messages, 0, "which what hands hold does not have yet");
   ambulo_diagnostics_free(messages);
   close_held(&f);

@@ -71,7 +71,7 @@ static void four_legs_carry_a_quarter_each(void **state) {
     ambulo_problem_definition d = definition_of(model, contacts, LEGS);
     posed p = pose(&d, 0.0, 0.0);
     double force[3 * LEGS], cop[3 * LEGS], tau[8], time = 0.4;
-    ambulo_motion motion = {.tau = tau};
+    ambulo_motion motion = {.size = sizeof(ambulo_motion), .tau = tau};
     *(on_feet ? &motion.grf : &motion.patch_force) = force;
     *(on_feet ? &motion.cop : &motion.patch_cop) = cop;
     read_motion(&p, 1, &time, &motion);
@@ -148,7 +148,7 @@ static double smooth(double u) {
 static void center_of_mass(const posed *p, double time, double center[3]) {
   const ambulo_model *model = ambulo_problem_model(p->problem);
   double q[7], place[3];
-  ambulo_motion motion = {.q = q};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q};
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   ambulo__pose links;
   read_motion(p, 1, &time, &motion);
@@ -289,7 +289,7 @@ static void there_are_no_sensitivities_yet(void **state) {
   free_ones.problem_at = no_problem;
   ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
   assert_int_equal(
-      ambulo_solve_parameters(problem, &free_ones, NULL, NULL, NULL, messages, &best, &result),
+      ambulo_solve_parameters(problem, &free_ones, NULL, NULL, messages, &best, &result),
       AMBULO_E_ARGUMENT);
   assert_message(messages, 0, "which contacts of patches do not have yet");
   ambulo_diagnostics_free(messages);

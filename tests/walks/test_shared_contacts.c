@@ -109,7 +109,11 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
         qdd[i] = channel(&f, node, ambulo__channel_qdd(c, i));
       }
       assert_int_equal(
-          ambulo_lagrangian_inverse_dynamics(f.model, q, qd, qdd, tau, wrench, points, scratch),
+          ambulo_lagrangian_inverse_dynamics(
+              f.model, q, qd, qdd,
+              &(ambulo_outputs){
+                  .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
+              scratch),
           AMBULO_OK);
       for (int slot = 0; slot < c->slots; slot++) {
         contact of = contact_at(&f, node, slot);
@@ -213,7 +217,7 @@ static void forces_are_continuous(void **state) {
       double force[6 * EFFECTORS], cop[6 * EFFECTORS], twist[2 * EFFECTORS];
       double tau[2 * TOED_COORDINATES], times[2] = {c->from - 1e-8, c->from + 1e-8};
       if (times[0] < 0.0 || times[1] > f.problem->definition.duration) continue;
-      ambulo_motion motion = {.tau = tau};
+      ambulo_motion motion = {.size = sizeof(ambulo_motion), .tau = tau};
       effectors_at(&f, times, 2, force, cop, twist, NULL);
       assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 2, times, &motion),
                        AMBULO_OK);
