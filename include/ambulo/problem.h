@@ -91,7 +91,7 @@ typedef struct ambulo_contact {
  * relative to the foot's own strike; heel_strike may be negative: the heel is down before the
  * nominal strike. */
 typedef struct ambulo_gait {
-  size_t size; /* set by ambulo_gait_default() */
+  size_t size, contact_size; /* set by ambulo_gait_default() */
   int steps;
   int first_foot;                                   /* foot that strikes at t = 0 */
   double step_length, step_time, step_width, start; /* m, s, m, m */
@@ -104,7 +104,16 @@ typedef struct ambulo_gait {
 
 /* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people. */
 AMBULO_DEFAULT(ambulo_contact);
-AMBULO_DEFAULT(ambulo_gait);
+AMBULO_API void ambulo_gait_fill(ambulo_gait *filled);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_gait ambulo_gait_default(void) {
+  ambulo_gait usual;
+  usual.size = sizeof usual;
+  usual.contact_size = sizeof(ambulo_contact);
+  ambulo_gait_fill(&usual);
+  return usual;
+}
+#endif
 
 /* Writes at most `capacity` contacts that meet [0, steps * step_time] and sets
  * *count to their number. Errors: E_ARGUMENT (phases out of order, no such foot,

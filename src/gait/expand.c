@@ -20,6 +20,7 @@
 #include "model/neutral_pose.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MOST_STEPS = 1000 };
 
@@ -67,7 +68,8 @@ static int left_foot(const ambulo_model *model) {
 }
 
 typedef struct writer {
-  ambulo_contact *contacts;
+  char *contacts;
+  size_t size; /* of one, as the caller's header has it */
   int capacity, count;
   double duration;
 } writer;
@@ -82,7 +84,7 @@ static void write_span(writer *w, ambulo_contact contact) {
   } else if (contact.to - contact.from <= AMBULO__INSTANT) {
     return;
   }
-  if (w->count < w->capacity) w->contacts[w->count] = contact;
+  if (w->count < w->capacity) memcpy(w->contacts + (size_t)w->count * w->size, &contact, w->size);
   w->count++;
 }
 
@@ -90,10 +92,13 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
                                  ambulo_contact *contacts, int capacity, int *count) {
   ambulo_gait own;
   if (!model || !gait || !count || (!contacts && capacity > 0)) return AMBULO_E_ARGUMENT;
-  if (!AMBULO__OWN(ambulo_gait, &own, gait)) return AMBULO_E_ARGUMENT;
+  if (!AMBULO__OWN(ambulo_gait, &own, gait) ||
+      !ambulo__sized_item(own.contact_size, sizeof *contacts))
+    return AMBULO_E_ARGUMENT;
   gait = &own;
   if (!gait_is_legal(model, gait)) return AMBULO_E_ARGUMENT;
-  writer w = {contacts, capacity, 0, ambulo__gait_strike(gait, gait->steps)};
+  writer w = {(char *)contacts, own.contact_size, capacity, 0,
+              ambulo__gait_strike(gait, gait->steps)};
   double stride = ambulo__gait_strike(gait, 2);
   const double fraction[] = {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off};
   int left = left_foot(model);

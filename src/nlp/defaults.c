@@ -10,13 +10,17 @@ enum { NOT_GIVEN = -1, NONE = -1 };
 AMBULO__FILL(ambulo_contact, {.foot = NONE, .mode = AMBULO_CONTACT_FLAT, .patch = NONE})
 
 /* phases of people at a comfortable speed, as docs/guide-gait.md has them */
-AMBULO__FILL(ambulo_gait, {.size = size,
-                           .steps = 1,
-                           .foot_flat = 0.08,
-                           .heel_off = 0.38,
-                           .toe_off = 0.62,
-                           .other_step_length = AMBULO_OFF,
-                           .other_step_time = AMBULO_OFF})
+void ambulo_gait_fill(ambulo_gait *filled) {
+  const ambulo_gait usual = {.size = filled->size,
+                             .contact_size = filled->contact_size,
+                             .steps = 1,
+                             .foot_flat = 0.08,
+                             .heel_off = 0.38,
+                             .toe_off = 0.62,
+                             .other_step_length = AMBULO_OFF,
+                             .other_step_time = AMBULO_OFF};
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
+}
 
 AMBULO__FILL(ambulo_end_value, {.coordinate = NOT_GIVEN})
 

@@ -16,6 +16,7 @@ typedef struct fixture {
 static void open_with(fixture *f, ambulo_model *model, int steps) {
   f->model = model;
   ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
                       .steps = steps,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,

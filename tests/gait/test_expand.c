@@ -4,6 +4,7 @@
 
 static ambulo_gait two_steps(void) {
   ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
                       .steps = 2,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,

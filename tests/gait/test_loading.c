@@ -13,6 +13,7 @@ typedef struct fixture {
 static void open_with(fixture *f, double heel_strike) {
   f->model = walker_create(0);
   ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
                       .steps = 1,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,

@@ -42,6 +42,7 @@ static void expect(fixture *f, const char *phrase) {
 
 static ambulo_gait walk(int steps) {
   ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
                       .steps = steps,
                       .first_foot = 1,
                       .step_length = 0.6,

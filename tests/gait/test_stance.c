@@ -12,6 +12,7 @@ typedef struct fixture {
 static void open_walk(fixture *f, int steps, ambulo_ends ends) {
   f->model = walker_create(0);
   ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
                       .steps = steps,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,

@@ -270,6 +270,7 @@ static void a_step_between_toes_and_a_heel_is_shortened(void **state) {
   ambulo_model *model = toed_body();
   ambulo_problem *p = NULL;
   const ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                            .contact_size = sizeof(ambulo_contact),
                             .steps = 1,
                             .step_length = 0.68,
                             .step_time = 0.54,

@@ -84,6 +84,7 @@ static inline ambulo_model *walker_create(void) {
 static inline ambulo_problem *walker_problem_on(const ambulo_model *model, int intervals,
                                                 ambulo_grid grid) {
   const ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                            .contact_size = sizeof(ambulo_contact),
                             .steps = 1,
                             .step_length = walker_step_length,
                             .step_time = walker_step_time,

@@ -23,6 +23,7 @@ typedef struct fixture {
 static inline int regular(const ambulo_model *model, ambulo_problem_definition *d,
                           ambulo_contact *contacts) {
   const ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                            .contact_size = sizeof(ambulo_contact),
                             .steps = 1,
                             .step_length = 0.68,
                             .step_time = 0.54,
