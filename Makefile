@@ -252,7 +252,7 @@ check-slurm: build/.ready-build
 # Python, from PyPI, in build/python-venv; `make check` uses what there is
 PYTHON_PATH = PATH='$(CURDIR)/build/python-venv/bin':"$$PATH"
 wheel: build/.ready-build build/.ready-python
-	$(submake) $(OUT)/libambulo.so
+	$(submake) $(OUT)/libambulo.so $(OUT)/ambulo
 	@$(PYTHON_PATH) python src/python/package.py wheel $(OUT)/libambulo.so $(OUT)/wheel
 
 check-python: build/.ready-build build/.ready-python

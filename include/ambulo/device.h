@@ -17,7 +17,8 @@
  * below -smoothing / 2, x above smoothing / 2, and r' the smooth step u^2 (3 - 2 u) between them.
  * w = 1; of a clutch the smooth window of its engagement: 0 outside [from, to] of the stride of
  * `foot`, which begins with the foot's strike, and 1 but for a smooth step of length `ramp` at
- * both of its ends. A spring has no force where its clutch is open, and the value it rests at is
+ * both of its ends. At stiffness 0 E is what it tends to: 0, or with a pretension a constant force
+ * (of one side: where that pulls to this side). A spring has no force where its clutch is open, and the value it rests at is
  * the given one, wherever it is engaged.
  *
  * Devices have no mass (a load is `load` of the file), and need nothing from outside the body: the
@@ -59,7 +60,7 @@ typedef struct ambulo_device {
   int coordinate;        /* at this coordinate of a joint; -1: between two points */
   int link[2];           /* of them */
   double position[2][3]; /* in the frames of their links, m */
-  double stiffness;      /* of a spring, N m/rad or N/m, > 0 */
+  double stiffness;      /* of a spring, N m/rad or N/m, >= 0; 0: none, but for its pretension */
   double rest,
       pretension; /* rad or m; N m or N, force at rest in the sense of a stretched spring */
   ambulo_device_side side;   /* of a spring */

@@ -293,6 +293,28 @@ typedef struct ambulo_memory {
 } ambulo_memory;
 AMBULO_API ambulo_memory ambulo_problem_memory(const ambulo_problem *problem);
 
+/* A point that a solve passed through. */
+typedef struct ambulo_iteration {
+  int iteration, evaluations; /* as ambulo_result_iterations and _evaluations counted them then */
+  int intervals;              /* of the time grid that it was on */
+  double objective;
+  double violation; /* worst over all rows, relative to their sizes */
+  double gradient;  /* norm of the reduced gradient in whitened coordinates, relative to the
+                       objective: what the solver's own test looks at; NAN: not known */
+  double seconds;   /* since the solve began */
+} ambulo_iteration;
+
+/* The way of a solve: of AUGLAG a point for each iteration, of SLSQP one for each call of NLopt,
+ * without presolve one for each evaluation that improves, grid by grid from the coarsest on; the
+ * last is the point that is returned, as the audit finds it. Bounded: of a long solve one in so
+ * many of each grid, and the last of each grid. But for `seconds` the same in every run. */
+typedef struct ambulo_history {
+  const ambulo_iteration *items;
+  int count;        /* 0: no solver ran */
+  int every;        /* 1: none is left out */
+  double tolerance; /* the largest violation that counts as none: feasibility_tolerance */
+} ambulo_history;
+
 typedef struct ambulo_result ambulo_result;
 
 /* Solves from `start` [variable_count] (NULL: zero) with `options` (NULL: those of the problem's
@@ -328,6 +350,8 @@ AMBULO_API int ambulo_result_iterations(const ambulo_result *result);
 AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
 AMBULO_API const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *result);
+/* Of several starts that of the last solve, of free parameters that of the best one. */
+AMBULO_API const ambulo_history *ambulo_result_history(const ambulo_result *result);
 /* Valleys of the objective that several starts (ambulo_options.starts) ended in. */
 typedef struct ambulo_basin {
   double objective; /* on the coarse grid */

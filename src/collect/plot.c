@@ -19,7 +19,7 @@ static ambulo_status no_such(const ambulo__plot *p, const char *what, const char
   for (int i = AMBULO__LISTING_AXES; axis && i < l->columns && count < AMBULO__LISTING_NAMES; i++)
     known[count++] = ambulo__listing_title(l, i);
   for (int i = 0; !axis && i < l->outputs && count < AMBULO__LISTING_NAMES; i++)
-    known[count++] = l->output[i];
+    known[count++] = l->output_label[i];
   const char *near = ambulo__nearest(name, known, (size_t)count);
   char hint[WORD + 40] = "the first line of results.csv names axes and outputs";
   if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.200s'?", near);
@@ -48,9 +48,8 @@ static ambulo_status parse(ambulo__plot *p, const char *text) {
   p->axis[1].column = second ? find_axis(l, second) : -1;
   if (p->axis[0].column < 0) return no_such(p, "axis", axes);
   if (second && p->axis[1].column < 0) return no_such(p, "axis", second);
-  for (p->output = 0; p->output < l->outputs; p->output++)
-    if (strcmp(l->output[p->output], colon + 1) == 0) return AMBULO_OK;
-  return no_such(p, "output", colon + 1);
+  p->output = ambulo__listing_output(l, colon + 1);
+  return p->output >= 0 ? AMBULO_OK : no_such(p, "output", colon + 1);
 }
 
 static ambulo_status add_point(void *user, const ambulo__gathered *one) {

@@ -35,7 +35,7 @@ static ambulo_status check_numbers(int i, const ambulo_device *device, const num
 }
 
 static ambulo_status check_law(int i, const ambulo_device *v, ambulo_diagnostics *list) {
-  const number spring[] = {{"stiffness", "", v->stiffness, 1e-9, largest},
+  const number spring[] = {{"stiffness", "", v->stiffness, 0.0, largest},
                            {"rest", "", v->rest, -largest, largest},
                            {"pretension", "", v->pretension, -largest, largest},
                            {"smoothing", "", v->smoothing, 1e-9, largest}};

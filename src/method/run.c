@@ -51,6 +51,19 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
   return run->stopped;
 }
 
+int ambulo__run_iteration(ambulo__run *run, int intervals, double objective, double violation,
+                          double gradient) {
+  ambulo_iteration iteration = {.iteration = run->iterations,
+                                .evaluations = run->evaluations,
+                                .intervals = intervals,
+                                .objective = objective,
+                                .violation = violation,
+                                .gradient = gradient,
+                                .seconds = ambulo__seconds_now() - run->started};
+  ambulo__history_add(run->history, &iteration);
+  return ambulo__run_progress(run, objective, violation);
+}
+
 void ambulo__run_nlopt(ambulo__run *run, int result, const char *name, double seconds) {
   run->nlopt.calls++;
   run->nlopt.result = result;

@@ -115,7 +115,7 @@ static void read_spring(ambulo__problem_reader *reader, const ambulo__yaml_node 
                         ambulo_device *device) {
   static const char *const sides[] = {"both", "above", "below"};
   device->stiffness =
-      ambulo__yaml_number_in(ambulo__yaml_require(node, "stiffness"), 1e-9, most, 1.0);
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "stiffness"), 0.0, most, 1.0);
   device->rest = read_along(reader, ambulo__yaml_require(node, "rest"), device, 0.0);
   device->pretension = ambulo__yaml_number(ambulo__yaml_get(node, "pretension"), 0.0);
   int side = ambulo__yaml_choice(ambulo__yaml_get(node, "side"), sides, 3, 0);

@@ -23,6 +23,8 @@ typedef enum ambulo__quantity {
   AMBULO__LOADING_RATE,  /* body weights/s: 1 */
   AMBULO__STRIDE_SHARE,  /* 1 % of the stride, of an event */
   AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
+  AMBULO__TURNING_STIFF, /* N m/rad: 1, of a spring that has none yet */
+  AMBULO__STIFF,         /* N/m: 10 */
   AMBULO__RATIO          /* any: 1 % of the value */
 } ambulo__quantity;
 

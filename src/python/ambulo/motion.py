@@ -10,7 +10,7 @@ from .records import usual_struct
 
 
 class Motion:
-    """A motion at n times, of d coordinates, p points, f feet, s patches and v devices.
+    """A motion at n times, of d coordinates, p points, f feet, s patches, v devices and h holds.
 
     ========================  =========  ======================================================
     attribute                 shape      meaning
@@ -29,10 +29,14 @@ class Motion:
     device_effort             [n][v]     N m or N
     device_along              [n][v]     coordinate or length, rad or m
     device_power              [n][v]     W, on the body
+    hold_force, hold_moment   [n][h]     of what hands hold: N that each hand exerts, and N m about
+                              [2][3]     its point; zeros of a hand that is not there
+    hold_power                [n][h]     W, of the forces of both hands
     ========================  =========  ======================================================
 
     Without ground reaction forces on feet are NaN; centres of pressure are NaN in the air. Columns
-    are ``coordinates``, ``point_names``, ``feet``, ``patches``, ``devices``.
+    are ``coordinates``, ``point_names``, ``feet``, ``patches``, ``devices``, ``holds``; the hands of a
+    hold are named in ``hold_hands``.
     """
 
     time: numpy.ndarray
@@ -52,11 +56,16 @@ class Motion:
     device_effort: numpy.ndarray
     device_along: numpy.ndarray
     device_power: numpy.ndarray
+    hold_force: numpy.ndarray
+    hold_moment: numpy.ndarray
+    hold_power: numpy.ndarray
     coordinates: List[str]
     point_names: List[str]
     feet: List[str]
     patches: List[str]
     devices: List[str]
+    holds: List[str]
+    hold_hands: List[List[str]]
     _device_columns: List[Tuple[str, str, str]]
 
     def __getitem__(self, name: str) -> numpy.ndarray:
@@ -83,6 +92,12 @@ class Motion:
             table[f"device.{name}.{effort}"] = self.device_effort[:, i]
             table[f"device.{name}.{along}"] = self.device_along[:, i]
             table[f"device.{name}.power"] = self.device_power[:, i]
+        for i, name in enumerate(self.holds):
+            for k, hand in enumerate(self.hold_hands[i]):
+                for what, array in (("force", self.hold_force), ("moment", self.hold_moment)):
+                    table.update((f"held.{name}.{hand}.{what}.{axis}", array[:, i, k, j])
+                                 for j, axis in enumerate("xyz"))
+            table[f"held.{name}.power"] = self.hold_power[:, i]
         return table
 
     @staticmethod
@@ -111,11 +126,12 @@ class Motion:
                 f"{len(self.coordinates)} coordinates>")
 
 
-def _shapes(d, p, f, s, v):
+def _shapes(d, p, f, s, v, h):
     state = {name: (d,) for name in ("q", "qd", "qdd", "tau")}
     return dict(state, wrench=(6,), points=(p, 3), zmp=(3,), grf=(f, 3), cop=(f, 3),
                 free_moment=(f,), patch_force=(s, 3), patch_cop=(s, 3), patch_free_moment=(s,),
-                device_effort=(v,), device_along=(v,), device_power=(v,))
+                device_effort=(v,), device_along=(v,), device_power=(v,),
+                hold_force=(h, 2, 3), hold_moment=(h, 2, 3), hold_power=(h,))
 
 
 def motion_of(problem, x, times) -> Motion:
@@ -123,11 +139,13 @@ def motion_of(problem, x, times) -> Motion:
     times = numpy.ascontiguousarray(numpy.atleast_1d(times), dtype=float)
     if times.ndim != 1 or len(times) < 1:
         raise ValueError(f"times are an array {list(times.shape)}; expected [n]")
-    model, devices = problem.model, problem.devices
+    model, devices, holds = problem.model, problem.devices, problem.holds
     made = Motion()
     made.time, made.coordinates = times, model.coordinate_names
     made.point_names, made.devices = model.point_names, [device.name for device in devices]
     made.feet = [foot.name for foot in model.feet]
+    made.holds = [hold.name for hold in holds]
+    made.hold_hands = [[made.point_names[hand] for hand in hold.hand if hand >= 0] for hold in holds]
     made.patches = [patch.name for patch in model.patches]
     made._device_columns = [
         (device.name, "torque", "angle") if device.coordinate >= 0 and
@@ -135,7 +153,7 @@ def motion_of(problem, x, times) -> Motion:
         (device.name, "force", "length") for device in devices]
     struct, memory = usual_struct("ambulo_motion"), []
     shapes = _shapes(len(made.coordinates), len(made.point_names), len(made.feet),
-                     len(made.patches), len(devices))
+                     len(made.patches), len(devices), len(holds))
     for name, shape in shapes.items():
         array = numpy.empty((len(times),) + shape)
         setattr(made, name, array)

@@ -190,6 +190,13 @@ class Problem(Owner):
         return [from_c(records.Device, lib.ambulo_problem_device(pointer, i))
                 for i in range(lib.ambulo_problem_device_count(pointer))]
 
+    @property
+    def holds(self) -> List[records.Hold]:
+        """What hands hold or push."""
+        pointer = self._pointer
+        return [from_c(records.Hold, lib.ambulo_problem_hold(pointer, i))
+                for i in range(lib.ambulo_problem_hold_count(pointer))]
+
     def rows(self) -> List[records.Row]:
         """What each row is: family, subject, unit, time; in the order of their values."""
         struct, found = ffi.new("ambulo_row *"), []
