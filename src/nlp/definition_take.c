@@ -89,7 +89,9 @@ static void usual_reach(void *item, const void *given) {
 }
 
 static void usual_device(void *item, const void *given) {
-  *(ambulo_device *)item = ambulo_device_default(((const ambulo_device *)given)->kind);
+  ambulo_device_kind kind; /* the first member */
+  memcpy(&kind, given, sizeof kind);
+  *(ambulo_device *)item = ambulo_device_default(kind);
 }
 
 static void usual_hold(void *item, const void *given) {
@@ -98,7 +100,9 @@ static void usual_hold(void *item, const void *given) {
 }
 
 static void usual_term(void *item, const void *given) {
-  *(ambulo_term *)item = ambulo_term_default(((const ambulo_term *)given)->kind);
+  ambulo_term_kind kind; /* the first member */
+  memcpy(&kind, given, sizeof kind);
+  *(ambulo_term *)item = ambulo_term_default(kind);
 }
 
 static void usual_user_row(void *item, const void *given) {
