@@ -154,8 +154,10 @@ static void write_states(const ambulo_model *model, const char *folder, const do
   if (!file || !record || ambulo_mechanics_create(model, NULL, &mechanics)) exit(1);
   double *q = record, *qd = q + d, *qdd = qd + d, *w = qdd + d, *tau = w + d, *gradient = tau + d;
   double *jacobian = gradient + 3 * d;
-  ambulo_jacobians all = {
-      .tau_q = jacobian, .tau_qd = jacobian + d * d, .tau_qdd = jacobian + 2 * d * d};
+  ambulo_jacobians all = {.size = sizeof(ambulo_jacobians),
+                          .tau_q = jacobian,
+                          .tau_qd = jacobian + d * d,
+                          .tau_qdd = jacobian + 2 * d * d};
   for (int s = 0; s < peer_states; s++) {
     for (int i = 0; i < d; i++) {
       q[i] = 0.8 * spread(&seed);

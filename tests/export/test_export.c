@@ -288,11 +288,8 @@ static void arguments(void **state) {
   assert_int_equal(ambulo_export(model, NULL, "", &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_export(model, "", file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_export(model, NULL, file, &none, NULL, NULL), AMBULO_E_ARGUMENT);
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   o.format = AMBULO_EXPORT_FORMAT_NOT_SET;
-  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, list), AMBULO_E_ARGUMENT);
-  assert_message(list, 0, "the format of an export is not set (got 0)");
-  ambulo_diagnostics_free(list);
+  assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(entries_in(*state), 0);
   ambulo_model_free(model);
 }

@@ -227,8 +227,10 @@ static void large_angles_use_libm(void **state) {
   batch_open_without_link_angles(&b, 22);
   int d = b.c.d;
   double *tau = lane_array((size_t)(nodes * d)), *all = lane_array((size_t)(3 * nodes * d * d));
-  ambulo_jacobians j = {
-      .tau_q = all, .tau_qd = all + nodes * d * d, .tau_qdd = all + 2 * nodes * d * d};
+  ambulo_jacobians j = {.size = sizeof(ambulo_jacobians),
+                        .tau_q = all,
+                        .tau_qd = all + nodes * d * d,
+                        .tau_qdd = all + 2 * nodes * d * d};
   for (int i = 0; i < d; i++) {
     double *angle = &b.q[large * d + i], was = *angle;
     if (ambulo_model_coordinate(b.c.model, i)->type != AMBULO_REVOLUTE) continue;

@@ -147,7 +147,8 @@ static void absurd_numbers(void **state) {
                              &coordinate->torque[1]};
   const size_t limits = 12;
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-    for (size_t k = 0; k < (i < limits ? 5 : 3); k++) {
+    size_t first = numbers[i] == &c.definition.stature; /* of which NaN is unknown */
+    for (size_t k = first; k < (i < limits ? 5 : 3); k++) {
       double kept = *numbers[i];
       ambulo_model *model = NULL;
       *numbers[i] = absurd[k];

@@ -38,6 +38,8 @@ static void build(built *b) {
   b->row = (ambulo_user_row){"row", "m", AMBULO_NOT_NEGATIVE, 0.0, 1.0, zero, NULL};
   b->tube = (ambulo_tube){3, b->samples, b->width};
   b->end = (ambulo_end_value){0, 0, 0, 0.1};
+  b->d.strike_pitch[0] = 0.1;
+  b->d.strike_pitch[1] = 0.3;
   b->d.terms = b->terms;
   b->d.term_count = 3;
   b->d.user_rows = &b->row;

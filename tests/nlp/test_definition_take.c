@@ -4,6 +4,7 @@
 #include "support/fail_alloc.h"
 #include "support/older.h"
 #include "support/planar_walker.h"
+#include "support/messages.h"
 #include "support/test.h"
 
 enum { MOST_CONTACTS = 12, MOST_BLOCKS = 12 };

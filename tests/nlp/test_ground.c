@@ -35,8 +35,12 @@ static void feet_supply_the_root_wrench(void **state) {
   double *tau = calloc(n * (size_t)f.d, sizeof(double)), *wrench = calloc(6 * n, sizeof(double));
   double *grf = calloc(6 * n, sizeof(double)), *cop = calloc(6 * n, sizeof(double));
   double *twist = calloc(2 * n, sizeof(double));
-  ambulo_motion motion = {
-      .tau = tau, .wrench = wrench, .grf = grf, .cop = cop, .free_moment = twist};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .tau = tau,
+                          .wrench = wrench,
+                          .grf = grf,
+                          .cop = cop,
+                          .free_moment = twist};
   assert_int_equal(
       ambulo_problem_motion(f.problem, f.workspace, f.x, f.nodes, f.problem->times, &motion),
       AMBULO_OK);

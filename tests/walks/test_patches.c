@@ -170,8 +170,12 @@ static void a_hand_on_a_rail_takes_what_the_law_says(void **state) {
   posed at_rail = pose(&d, 0.03, 0.4);
   static const double times[] = {0.25, 0.35, 0.5, 0.7};
   double feet[4 * 6], hands[4 * PATCHES * 3], cop[4 * PATCHES * 3], wrench[4 * 6], tau[4 * 7];
-  ambulo_motion motion = {
-      .tau = tau, .wrench = wrench, .grf = feet, .patch_force = hands, .patch_cop = cop};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .tau = tau,
+                          .wrench = wrench,
+                          .grf = feet,
+                          .patch_force = hands,
+                          .patch_cop = cop};
   read_motion(&at_rail, 4, times, &motion);
   for (int k = 0; k < 4; k++) {
     double t = times[k], out[HELD][6], center[3];
