@@ -22,8 +22,9 @@
 #define REFUSE(list, ...)                                                                          \
   ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
 
-static const char *const keys[3] = {"joint_limits", "speed_limits", "torque_limits"};
-static const char *const words[3] = {"range", "speed limits", "torque limits"};
+/* by ambulo_limited */
+static const char *const keys[] = {"", "joint_limits", "speed_limits", "torque_limits"};
+static const char *const words[] = {"", "range", "speed limits", "torque limits"};
 
 static const char *unit_of(const ambulo_coordinate *c, ambulo_limited what) {
   return ambulo__measure_text(ambulo__row_measure(ambulo__row_kind_of_limit(what), c->type, 0));
