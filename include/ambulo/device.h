@@ -18,8 +18,8 @@
  * w = 1; of a clutch the smooth window of its engagement: 0 outside [from, to] of the stride of
  * `foot`, which begins with the foot's strike, and 1 but for a smooth step of length `ramp` at
  * both of its ends. At stiffness 0 E is what it tends to: 0, or with a pretension a constant force
- * (of one side: where that pulls to this side). A spring has no force where its clutch is open, and the value it rests at is
- * the given one, wherever it is engaged.
+ * (of one side: where that pulls to this side). A spring has no force where its clutch is open, and
+ * the value it rests at is the given one, wherever it is engaged.
  *
  * Devices have no mass (a load is `load` of the file), and need nothing from outside the body: the
  * root wrench and the forces of the ground are those of the motion.
