@@ -14,7 +14,7 @@ extern "C" {
 
 /* A value or a derivative that is not finite. Strings belong to the problem and the model. */
 typedef enum ambulo_fault_kind {
-  AMBULO_FAULT_NONE,      /* everything was finite */
+  AMBULO_FAULT_NONE = 0,  /* everything was finite */
   AMBULO_FAULT_UNKNOWN,   /* an unknown of the point itself */
   AMBULO_FAULT_TERM,      /* an objective term */
   AMBULO_FAULT_ROW,       /* a row */
@@ -80,12 +80,14 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambu
  * [count][holds] (W). E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not finite; the
  * outputs are filled all the same. */
 typedef struct ambulo_motion {
+  size_t size; /* set by ambulo_motion_default() */
   double *q, *qd, *qdd, *tau, *wrench, *points, *zmp;
   double *grf, *cop, *free_moment, *grf_moment;
   double *patch_force, *patch_cop, *patch_free_moment, *patch_moment;
   double *device_effort, *device_along, *device_power;
   double *hold_force, *hold_moment, *hold_power;
 } ambulo_motion;
+AMBULO_DEFAULT(ambulo_motion); /* NULL */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_problem *problem,
                                                                 ambulo_workspace *workspace,
                                                                 const double *x, int count,

@@ -15,6 +15,7 @@ extern "C" {
 #endif
 
 typedef enum ambulo_export_format {
+  AMBULO_EXPORT_FORMAT_NOT_SET = 0, /* refused */
   AMBULO_EXPORT_OPENSIM, /* without a motion the file .osim; with one a folder: model.osim,
                             motion.mot and, where there are forces, grf.mot and
                             external_loads.xml */
@@ -24,7 +25,7 @@ typedef enum ambulo_export_format {
 } ambulo_export_format;
 
 typedef struct ambulo_export_options {
-  int cookie; /* set by ambulo_export_options_default() */
+  size_t size; /* set by ambulo_export_options_default() */
   ambulo_export_format format;
   int free_root; /* URDF: 1: without the coordinates that carry the root, for programs that give it
                     a free joint of their own (as the motion of an .npz has it) */
@@ -36,7 +37,7 @@ typedef struct ambulo_export_options {
    * where the motion has others */
   const ambulo_problem *problem;
 } ambulo_export_options;
-AMBULO_API ambulo_export_options ambulo_export_options_default(void); /* OpenSim */
+AMBULO_DEFAULT(ambulo_export_options); /* OpenSim */
 
 /* Writes `output`, whole or not at all. `motion`: a table as of ambulo_inverse_dynamics_motion, or
  * a result folder, whose motion.csv is taken; NULL: the model alone (not with NPZ). `options`,

@@ -24,7 +24,7 @@ static int read_options(const ambulo__cli_input *input, ambulo_export_options *o
                             angles);
     return 0;
   }
-  o->format = (ambulo_export_format)chosen;
+  o->format = (ambulo_export_format)(AMBULO_EXPORT_OPENSIM + chosen);
   o->free_root = ambulo__cli_flag(input, "free-root");
   o->overwrite = ambulo__cli_flag(input, "force");
   o->inverse = inverse;

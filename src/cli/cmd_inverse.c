@@ -88,8 +88,10 @@ static int run(const ambulo__cli_input *input) {
     if (!status)
       status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &options);
     if (!status)
-      status = ambulo_inverse_dynamics_motion(body.model, motion, output, &options, NULL,
-                                              diagnostics, NULL, output ? NULL : &text);
+      status = ambulo_inverse_dynamics_motion(
+          body.model, motion, output, &options, NULL, diagnostics,
+          &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs),
+                                    .text = output ? NULL : &text});
     code = ambulo__cli_diagnostics(diagnostics, status, subject);
   }
   if (text) fputs(text, stdout);

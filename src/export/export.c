@@ -8,12 +8,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/output_check.h"
 #include "export/npz_motion.h"
 #include "export/texts.h"
-
-enum { OPTIONS_COOKIE = 0x61657870 };
 
 static const char *const file_names[] = {"model.osim", "motion.mot", "grf.mot",
                                          "external_loads.xml"};
@@ -33,9 +32,7 @@ typedef struct job {
   ambulo__text_buffer text;
 } job;
 
-ambulo_export_options ambulo_export_options_default(void) {
-  return (ambulo_export_options){.cookie = OPTIONS_COOKIE};
-}
+AMBULO__FILL(ambulo_export_options, {.size = size, .format = AMBULO_EXPORT_OPENSIM})
 
 /* ------------------------------------------------------------------------ refusals */
 
@@ -175,6 +172,7 @@ static ambulo_status write_format(job *j) {
     ambulo__export_urdf(&j->bodies, &j->text);
     return write_single(j);
   case AMBULO_EXPORT_NPZ:
+  case AMBULO_EXPORT_FORMAT_NOT_SET:
     break;
   }
   status = ambulo__bodies_single(j->model, 1, j->allocator, &j->bodies);
@@ -198,16 +196,19 @@ static ambulo_status run(job *j) {
 ambulo_status ambulo_export(const ambulo_model *model, const char *motion, const char *output,
                             const ambulo_export_options *options, const ambulo_allocator *allocator,
                             ambulo_diagnostics *diagnostics) {
-  const ambulo_export_options defaults = ambulo_export_options_default();
-  if (!options) options = &defaults;
+  ambulo_export_options own;
   if (!model || !output || !output[0] || (motion && !motion[0]) ||
-      options->cookie != OPTIONS_COOKIE || (unsigned)options->format > AMBULO_EXPORT_NPZ)
+      !AMBULO__OWN(ambulo_export_options, &own, options))
     return AMBULO_E_ARGUMENT;
+  if (own.format < AMBULO_EXPORT_OPENSIM || own.format > AMBULO_EXPORT_NPZ)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "the format of an export is %s (got %d); expected an ambulo_export_format",
+                         own.format ? "unknown" : "not set", (int)own.format);
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   job j = {.model = model,
            .motion = motion,
            .output = output,
-           .options = options,
+           .options = &own,
            .allocator = allocator,
            .diagnostics = diagnostics};
   ambulo__text_init(&j.text, allocator);

@@ -226,8 +226,9 @@ ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
   char *text = NULL, *inner = table_of_folder(&s.allocator, motion, &status);
   const char *path = inner ? inner : motion;
   if (!status)
-    status = ambulo_inverse_dynamics_motion(model, path, NULL, &how, allocator, diagnostics, NULL,
-                                            &text);
+    status = ambulo_inverse_dynamics_motion(
+        model, path, NULL, &how, allocator, diagnostics,
+        &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text});
   if (!status) status = read_text(model, path, text, allocator, diagnostics, &s);
   if (!status) status = read_table(path, NULL, &s);
   ambulo__free(&s.allocator, text);

@@ -101,7 +101,7 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
 
 static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
                        ambulo__text_buffer *text) {
-  static const char *const types[] = {"fixed", "revolute", "prismatic"};
+  static const char *const types[] = {"", "fixed", "revolute", "prismatic"};
   double rpy[3];
   ambulo__rpy_of_rotation((const double(*)[3])link->origin.r, rpy);
   for (int i = 0; i < 3; i++) rpy[i] = fabs(rpy[i]) < 1e-15 ? 0.0 : rpy[i] / degree;

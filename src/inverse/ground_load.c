@@ -254,7 +254,7 @@ static ambulo_status smooth(const group_load *g) {
                                  .file = g->source->file,
                                  .diagnostics = g->source->doubts->diagnostics};
   const ambulo_allocator *a = &g->table->allocator;
-  if (o->force_cutoff <= 0.0) return AMBULO_OK;
+  if (isnan(o->force_cutoff)) return AMBULO_OK;
   ambulo_status status = ambulo__filter(&filtering, g->wrench, 6, a);
   return status ? status : ambulo__filter(&filtering, g->loose, 3, a);
 }

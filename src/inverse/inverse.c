@@ -16,33 +16,35 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
 #include "base/output_check.h"
 #include "format/motion_csv.h"
 #include "model/model.h"
 
-enum { OPTIONS_COOKIE = 0x616d6269 };
-
-ambulo_inverse_options ambulo_inverse_options_default(void) {
-  ambulo_inverse_options options = {.cookie = OPTIONS_COOKIE,
-                                    .length_unit = 1.0,
-                                    .time_unit = 1.0,
-                                    .force_length_unit = 1.0,
-                                    .force_time_unit = 1.0,
-                                    .filter_order = 4};
-  return options;
-}
+AMBULO__FILL(ambulo_inverse_options, {.size = size,
+                                      .length_unit = 1.0,
+                                      .time_unit = 1.0,
+                                      .force_length_unit = 1.0,
+                                      .force_time_unit = 1.0,
+                                      .cutoff = AMBULO_OFF,
+                                      .force_cutoff = AMBULO_OFF,
+                                      .filter_order = 4})
+AMBULO__FILL(ambulo_inverse_outputs, {.size = size})
 
 static int is_unit(double unit) {
   return unit > 0.0 && isfinite(unit);
 }
 
+static int is_cutoff(double cutoff) {
+  return isnan(cutoff) || (cutoff > 0.0 && isfinite(cutoff));
+}
+
 static int options_valid(const ambulo_inverse_options *o) {
   int order = o->filter_order;
-  return o->cookie == OPTIONS_COOKIE && is_unit(o->length_unit) && is_unit(o->time_unit) &&
-         is_unit(o->force_length_unit) && is_unit(o->force_time_unit) && o->cutoff >= 0.0 &&
-         isfinite(o->cutoff) && o->force_cutoff >= 0.0 && isfinite(o->force_cutoff) &&
+  return is_unit(o->length_unit) && is_unit(o->time_unit) && is_unit(o->force_length_unit) &&
+         is_unit(o->force_time_unit) && is_cutoff(o->cutoff) && is_cutoff(o->force_cutoff) &&
          (order == 2 || order == 4 || order == 6 || order == 8) && isfinite(o->ground_height) &&
          o->angles >= AMBULO_ANGLES_OF_FILE && o->angles <= AMBULO_ANGLES_RADIANS;
 }
@@ -86,8 +88,9 @@ static ambulo_status compute(ambulo__inverse *v) {
   if (!v->tau || !v->power || !v->wrench || !v->zmp) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo_mechanics_create(v->model, a, &mechanics);
   if (!status)
-    status = ambulo_mechanics_inverse_dynamics(mechanics, v->rows, v->q, v->qd, v->qdd, v->tau,
-                                               v->wrench, NULL);
+    status = ambulo_mechanics_inverse_dynamics(
+        mechanics, v->rows, v->q, v->qd, v->qdd,
+        &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = v->tau, .wrench = v->wrench});
   ambulo_mechanics_free(mechanics);
   if (status == AMBULO_E_NUMERIC) {
     ambulo__place place = {.file = v->file};
@@ -288,9 +291,13 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
                                              const ambulo_inverse_options *options,
                                              const ambulo_allocator *allocator,
                                              ambulo_diagnostics *diagnostics,
-                                             ambulo_ground_residual *residual, char **text) {
-  ambulo_inverse_options own = options ? *options : ambulo_inverse_options_default();
-  if (!model || !motion || (!output && !text) || !options_valid(&own)) return AMBULO_E_ARGUMENT;
+                                             const ambulo_inverse_outputs *outputs) {
+  ambulo_inverse_options own;
+  ambulo_inverse_outputs out;
+  if (!AMBULO__OWN(ambulo_inverse_options, &own, options) ||
+      !AMBULO__OWN(ambulo_inverse_outputs, &out, outputs))
+    return AMBULO_E_ARGUMENT;
+  if (!model || !motion || (!output && !out.text) || !options_valid(&own)) return AMBULO_E_ARGUMENT;
   ambulo__inverse v = {.allocator = ambulo__allocator_or_default(allocator),
                        .model = model,
                        .options = own,
@@ -298,7 +305,7 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
                        .doubts = {diagnostics, own.strict, 0, own.other_forces}};
   v.load.allocator = v.hands.allocator = v.allocator;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = run(&v, output, residual, text);
+  ambulo_status status = run(&v, output, out.residual, out.text);
   clear(&v);
   return ambulo__conclude(diagnostics, errors, status, motion);
 }
@@ -308,18 +315,8 @@ ambulo_status ambulo_inverse_dynamics_file(const ambulo_model *model, const char
                                            ambulo_diagnostics *diagnostics, char **text) {
   ambulo_inverse_options options = ambulo_inverse_options_default();
   options.without_forces = 1;
+  ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
+  outputs.text = text;
   return ambulo_inverse_dynamics_motion(model, motion, output, &options, allocator, diagnostics,
-                                        NULL, text);
-}
-
-ambulo_status ambulo_inverse_dynamics_loaded(const ambulo_model *model, const char *motion,
-                                             const char *forces, const char *output,
-                                             const ambulo_allocator *allocator,
-                                             ambulo_diagnostics *diagnostics,
-                                             ambulo_ground_residual *residual, char **text) {
-  ambulo_inverse_options options = ambulo_inverse_options_default();
-  options.forces = forces;
-  if (!forces) return AMBULO_E_ARGUMENT;
-  return ambulo_inverse_dynamics_motion(model, motion, output, &options, allocator, diagnostics,
-                                        residual, text);
+                                        &outputs);
 }

@@ -6,6 +6,7 @@
  *     p = (n x M + h F) / (n . F)
  */
 #include "nlp/nlp.h"
+#include "base/sized.h"
 
 #include "base/vector.h"
 #include "device/told.h"
@@ -235,8 +236,11 @@ static int times_valid(const ambulo_problem *p, const double *times, int count) 
 ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *workspace,
                                     const double *x, int count, const double *times,
                                     const ambulo_motion *motion) {
-  if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
+  ambulo_motion own;
+  if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion ||
+      !AMBULO__OWN(ambulo_motion, &own, motion))
     return AMBULO_E_ARGUMENT;
+  motion = &own;
   if (!times_valid(p, times, count)) return AMBULO_E_ARGUMENT;
   dense d = {NULL, NULL, NULL, NULL, NULL, NULL};
   const ambulo_allocator *a = &workspace->allocator;

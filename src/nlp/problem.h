@@ -17,7 +17,6 @@ ambulo_status ambulo__obstacles_copy(const ambulo_problem_definition *definition
                                      char **names);
 
 /* What ambulo_problem_definition_default() sets. */
-enum { AMBULO__DEFINITION_COOKIE = 0x616d6270 };
 
 /* definition_check.c: every check that needs no grid; all faults are reported. E_ARGUMENT for a
  * definition that did not come from ambulo_problem_definition_default(). */

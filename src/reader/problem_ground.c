@@ -95,7 +95,7 @@ static double read_bound(const ambulo__yaml_node *node, double most, double fall
   if (!text[0]) return fallback;
   if (text[0] != 'o') return ambulo__yaml_number_in(node, 0.0, most, fallback);
   (void)ambulo__yaml_choice(node, words, 1, 0);
-  return -1.0;
+  return AMBULO_OFF;
 }
 
 static void read_interval(const ambulo__yaml_node *node, double interval[2]) {
@@ -153,7 +153,7 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (kind >= 0) warn_of_others(section, kind);
   if (kind < 0) kind = AMBULO_REACTION_TWO_STEP; /* that was said */
   r->kind = (ambulo_reaction_kind)kind;
-  r->transfer = (ambulo_transfer)transfer;
+  r->transfer = (ambulo_transfer)(AMBULO_TRANSFER_EARLY + transfer);
   r->exponent =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "exponent"), 1.0, 10.0, r->exponent);
   r->shear = ambulo__yaml_number_in(ambulo__yaml_get(section, "shear"), 0.0, 2.0, r->shear);

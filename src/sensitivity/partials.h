@@ -60,12 +60,12 @@ enum {
 /* dL/dp of the members of a definition of the same names, per their SI units (those of J and of a
  * row's multiplier in it). Members that are no numbers are unused. */
 typedef struct ambulo__partials {
-  double *place;           /* [contacts][2]: footholds, along forward and left */
-  double *rise, *heading;  /* [contacts]: of the place along up, m; rad */
-  double *normal;          /* [contacts][3]: of a normal that is given */
-  double *limit;           /* [3][d][2]: by ambulo_limited, of a coordinate that is not fixed */
-  double *end_value;       /* [end_value_count] */
-  double *half_width;      /* [tubes][d] */
+  double *place;          /* [contacts][2]: footholds, along forward and left */
+  double *rise, *heading; /* [contacts]: of the place along up, m; rad */
+  double *normal;         /* [contacts][3]: of a normal that is given */
+  double *limit;      /* [3][d][2]: by ambulo__limited_place, of a coordinate that is not fixed */
+  double *end_value;  /* [end_value_count] */
+  double *half_width; /* [tubes][d] */
   double *weight, *height; /* [terms] */
   double *scale, *offset;  /* [terms][d] */
   double *strength;        /* [terms][d][2]: of the peaks */
@@ -98,6 +98,10 @@ typedef struct ambulo__partials {
   double *reach_place, *reach_tolerance; /* [reaches][3], [reaches] */
   double load[AMBULO__MOST_LOADS];       /* kg: of ambulo_model.loads */
 } ambulo__partials;
+
+static inline int ambulo__limited_place(ambulo_limited what) {
+  return (int)what - (int)AMBULO_LIMITED_POSITION;
+}
 
 /* A solution: x* is the point that the workspace holds. */
 typedef struct ambulo__stationary {

@@ -119,9 +119,9 @@ static void sort(search *s) {
 
 /* ------------------------------------------------------------------- the search */
 
-/* seconds left of the limit, at least one poll; 0: there is no limit */
+/* seconds left of the limit, at least one poll; off: there is no limit */
 static double time_left(const search *s) {
-  if (!(s->options.time_limit > 0.0)) return 0.0;
+  if (isnan(s->options.time_limit)) return AMBULO_OFF;
   return fmax(1e-3, s->options.time_limit - (ambulo__seconds_now() - s->begin));
 }
 

@@ -107,7 +107,8 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   if (!status) status = ambulo__workspace_create_for_values(problem, allocator, &workspace);
   if (!status) {
     choose_times(&s, samples, &sample);
-    ambulo_motion motion = {.q = s.q,
+    ambulo_motion motion = {.size = sizeof motion,
+                            .q = s.q,
                             .qd = s.qd,
                             .qdd = s.qdd,
                             .tau = s.tau,

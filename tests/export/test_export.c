@@ -31,9 +31,10 @@ static void torques(const ambulo_model *model, const ambulo_model *order, const 
     for (int k = 0; k < 3; k++) q[k][at] = state[k * d + i];
   }
   void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
-  assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(model, q[0], q[1], q[2], own, NULL, NULL, scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo_lagrangian_inverse_dynamics(
+                       model, q[0], q[1], q[2],
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = own}, scratch),
+                   AMBULO_OK);
   free(scratch);
   for (int i = 0; i < d; i++)
     tau[i] = own[ambulo_model_find_coordinate(model, ambulo_model_coordinate(order, i)->name)];
@@ -214,7 +215,7 @@ static void arguments(void **state) {
   assert_int_equal(ambulo_export(model, NULL, "", &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_export(model, "", file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_export(model, NULL, file, &none, NULL, NULL), AMBULO_E_ARGUMENT);
-  o.format = (ambulo_export_format)3;
+  o.format = AMBULO_EXPORT_FORMAT_NOT_SET;
   assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(entries_in(*state), 0);
   ambulo_model_free(model);

@@ -174,8 +174,9 @@ static void every_allocation_may_fail(void **state) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator hook = fail_alloc_hook(&memory);
     char *out = NULL;
-    ambulo_status status =
-        ambulo_inverse_dynamics_motion(model, path, NULL, NULL, &hook, NULL, NULL, &out);
+    ambulo_status status = ambulo_inverse_dynamics_motion(
+        model, path, NULL, NULL, &hook, NULL,
+        &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &out});
     ambulo_text_free(out, &hook);
     assert_int_equal(status, memory.failed ? AMBULO_E_MEMORY : AMBULO_OK);
     assert_int_equal(memory.live, 0);

@@ -80,8 +80,10 @@ static void comes_back(void **state, const char *file) {
   assert_int_equal(ambulo__motion_read(path, NULL, NULL, &solved), AMBULO_OK);
   int loaded = ambulo__motion_column(solved, "grf.left.x") >= 0;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_status status =
-      ambulo_inverse_dynamics_motion(model, path, NULL, &options, NULL, list, &residual, &text);
+  ambulo_status status = ambulo_inverse_dynamics_motion(
+      model, path, NULL, &options, NULL, list,
+      &(ambulo_inverse_outputs){
+          .size = sizeof(ambulo_inverse_outputs), .residual = &residual, .text = &text});
   if (status) assert_message(list, 0, "(no message)");
   assert_int_equal(status, AMBULO_OK);
   ambulo__motion *m = table_of_text(text);
@@ -135,10 +137,8 @@ static void table_comes_back(void **state, const char *file, int d) {
   const ambulo_model *model = ambulo_problem_model(problem);
   const char *first = scratch_path(state, "first.csv"), *second = scratch_path(state, "second.csv");
   ambulo__motion *a = NULL, *b = NULL;
-  assert_int_equal(
-      ambulo_inverse_dynamics_motion(model, motion, first, NULL, NULL, NULL, NULL, NULL), 0);
-  assert_int_equal(
-      ambulo_inverse_dynamics_motion(model, first, second, NULL, NULL, NULL, NULL, NULL), 0);
+  assert_int_equal(ambulo_inverse_dynamics_motion(model, motion, first, NULL, NULL, NULL, NULL), 0);
+  assert_int_equal(ambulo_inverse_dynamics_motion(model, first, second, NULL, NULL, NULL, NULL), 0);
   assert_int_equal(ambulo__motion_read(first, NULL, NULL, &a), AMBULO_OK);
   assert_int_equal(ambulo__motion_read(second, NULL, NULL, &b), AMBULO_OK);
   assert_true(difference(a, b, "tau.", d) < 1e-9);
@@ -212,7 +212,7 @@ static ambulo_status write_to(const ambulo_model *model, const char *motion, con
                               int overwrite, ambulo_diagnostics *list) {
   ambulo_inverse_options options = ambulo_inverse_options_default();
   options.overwrite = overwrite;
-  return ambulo_inverse_dynamics_motion(model, motion, output, &options, NULL, list, NULL, NULL);
+  return ambulo_inverse_dynamics_motion(model, motion, output, &options, NULL, list, NULL);
 }
 
 static void files_and_texts_agree(void **state) {
@@ -256,9 +256,8 @@ static void inputs_and_files_of_others_are_kept(void **state) {
   /* forces are inputs as well */
   ambulo_inverse_options options = ambulo_inverse_options_default();
   options.forces = own;
-  assert_int_equal(
-      ambulo_inverse_dynamics_motion(model, motion, own, &options, NULL, list, NULL, NULL),
-      AMBULO_E_IO);
+  assert_int_equal(ambulo_inverse_dynamics_motion(model, motion, own, &options, NULL, list, NULL),
+                   AMBULO_E_IO);
   assert_message(list, 4, "the output is the input");
   assert_int_equal(write_to(model, motion, other, 1, NULL), AMBULO_OK);
   assert_int_equal(write_to(model, motion, motion, 1, NULL), AMBULO_OK);
@@ -297,7 +296,7 @@ static void nothing_is_written_after_a_doubt_of_the_strict(void **state) {
   scratch_write(motion, "time,shoulder\n0,0\n0.1,0\n0.2,0\n0.3,0\n");
   options.strict = 1;
   assert_int_equal(
-      ambulo_inverse_dynamics_motion(model, motion, output, &options, NULL, NULL, NULL, NULL),
+      ambulo_inverse_dynamics_motion(model, motion, output, &options, NULL, NULL, NULL),
       AMBULO_E_SCHEMA);
   assert_int_equal(entries_in(*state), 1);
   ambulo_model_free(model);
@@ -309,7 +308,7 @@ static void bad_arguments(void **state) {
   char *text = NULL;
   ambulo_inverse_options good = ambulo_inverse_options_default(), bad[12];
   for (int i = 0; i < 12; i++) bad[i] = good;
-  bad[0].cookie = 0;
+  bad[0].size = 0;
   bad[1].length_unit = 0.0;
   bad[2].time_unit = -1.0;
   bad[3].force_length_unit = (double)NAN;
@@ -323,24 +322,29 @@ static void bad_arguments(void **state) {
   bad[11].filter_order = 10;
   for (int i = 0; i < 12; i++)
     assert_int_equal(
-        ambulo_inverse_dynamics_motion(model, motion, NULL, &bad[i], NULL, NULL, NULL, &text),
+        ambulo_inverse_dynamics_motion(
+            model, motion, NULL, &bad[i], NULL, NULL,
+            &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text}),
         AMBULO_E_ARGUMENT);
   assert_int_equal(
-      ambulo_inverse_dynamics_motion(NULL, motion, NULL, NULL, NULL, NULL, NULL, &text),
+      ambulo_inverse_dynamics_motion(
+          NULL, motion, NULL, NULL, NULL, NULL,
+          &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text}),
       AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_inverse_dynamics_motion(model, NULL, NULL, NULL, NULL, NULL, NULL, &text),
+  assert_int_equal(
+      ambulo_inverse_dynamics_motion(
+          model, NULL, NULL, NULL, NULL, NULL,
+          &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text}),
+      AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_inverse_dynamics_motion(model, motion, NULL, NULL, NULL, NULL, NULL),
                    AMBULO_E_ARGUMENT);
-  assert_int_equal(
-      ambulo_inverse_dynamics_motion(model, motion, NULL, NULL, NULL, NULL, NULL, NULL),
-      AMBULO_E_ARGUMENT);
-  assert_int_equal(
-      ambulo_inverse_dynamics_loaded(model, motion, NULL, NULL, NULL, NULL, NULL, &text),
-      AMBULO_E_ARGUMENT);
   assert_null(text);
   good.forces = motion;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   assert_int_equal(
-      ambulo_inverse_dynamics_motion(model, motion, NULL, &good, NULL, list, NULL, &text),
+      ambulo_inverse_dynamics_motion(
+          model, motion, NULL, &good, NULL, list,
+          &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text}),
       AMBULO_E_SCHEMA);
   assert_message(list, 0, "the model 'arm' has no feet that forces could act on");
   ambulo_diagnostics_free(list);

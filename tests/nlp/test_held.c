@@ -175,8 +175,11 @@ static void test_momentum(void **state) {
   double times[TIMES], wrench[TIMES][6], bare[TIMES][6], force[TIMES][COUNT][2][3];
   double grf[TIMES][2][3];
   for (int k = 0; k < TIMES; k++) times[k] = f.p->definition.duration * k / (TIMES - 1);
-  ambulo_motion a = {.wrench = wrench[0], .hold_force = force[0][0][0], .grf = grf[0][0]};
-  ambulo_motion b = {.wrench = bare[0]};
+  ambulo_motion a = {.size = sizeof(ambulo_motion),
+                     .wrench = wrench[0],
+                     .hold_force = force[0][0][0],
+                     .grf = grf[0][0]};
+  ambulo_motion b = {.size = sizeof(ambulo_motion), .wrench = bare[0]};
   assert_int_equal(ambulo_problem_motion(f.p, f.w, f.x, TIMES, times, &a), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(g.p, g.w, f.x, TIMES, times, &b), AMBULO_OK);
   for (int k = 0; k < TIMES; k++) {

@@ -253,7 +253,7 @@ static void a_function_says_what_the_problem_is(void **state) {
     parameters.problem_at = reach_at;
     parameters.user = &r;
     assert_int_equal(
-        ambulo_solve_parameters(s.problem, &parameters, NULL, NULL, NULL, NULL, &s.best, &s.result),
+        ambulo_solve_parameters(s.problem, &parameters, NULL, NULL, NULL, &s.best, &s.result),
         AMBULO_OK);
     s.outcome = ambulo_result_parameters(s.result);
     assert_int_equal(r.asked, s.outcome->solves);
@@ -269,9 +269,8 @@ static void expect_refused(const char *file, const ambulo_parameters *parameters
   ambulo_problem *problem = load(file, NULL, 0), *best = NULL;
   ambulo_result *result = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  assert_int_equal(
-      ambulo_solve_parameters(problem, parameters, NULL, NULL, NULL, list, &best, &result),
-      AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_solve_parameters(problem, parameters, NULL, NULL, list, &best, &result),
+                   AMBULO_E_ARGUMENT);
   assert_message(list, 0, message);
   assert_null(best);
   assert_null(result);
@@ -308,7 +307,7 @@ static void arguments_are_checked(void **state) {
   p.per = AMBULO_PER_NONE;
   p.maximum_solves = 0;
   expect_refused(PLANAR, &p, "at most 0 solves");
-  p.cookie = 0;
+  p.size = 0;
   expect_refused(PLANAR, &p, "ambulo_parameters_default()");
   assert_int_equal(r.asked, 0);
 }

@@ -200,7 +200,7 @@ static void what_stands_there(void **state) {
   options.motion = "x.csv"; /* without a body */
   assert_int_equal(ambulo_page_write(&folder, 1, page, &options, NULL, NULL), AMBULO_E_ARGUMENT);
   options = ambulo_page_options_default();
-  options.cookie = 0;
+  options.size = 0;
   assert_int_equal(ambulo_page_write(&folder, 1, page, &options, NULL, NULL), AMBULO_E_ARGUMENT);
 }
 

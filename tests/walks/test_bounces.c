@@ -39,7 +39,8 @@ static void open_bounce(bounce *b, const char *name, const char *const *settings
   for (int k = 0; k < SAMPLES; k++) b->t[k] = duration * k / (SAMPLES - 1.0);
   ambulo_workspace *workspace = NULL;
   assert_int_equal(ambulo_workspace_create(b->problem, NULL, &workspace), AMBULO_OK);
-  ambulo_motion motion = {.q = b->q, .qd = b->qd, .tau = b->tau, .grf = b->grf};
+  ambulo_motion motion = {
+      .size = sizeof(ambulo_motion), .q = b->q, .qd = b->qd, .tau = b->tau, .grf = b->grf};
   assert_int_equal(ambulo_problem_motion(b->problem, workspace, ambulo_result_x(b->result), SAMPLES,
                                          b->t, &motion),
                    AMBULO_OK);

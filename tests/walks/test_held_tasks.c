@@ -53,7 +53,8 @@ static void open_task(task *k, const char *name) {
   for (int i = 0; i < TIMES; i++) k->t[i] = k->duration * i / (TIMES - 1);
   ambulo_workspace *workspace = NULL;
   assert_int_equal(ambulo_workspace_create(k->problem, NULL, &workspace), AMBULO_OK);
-  const ambulo_motion motion = {.q = k->q,
+  const ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                                .q = k->q,
                                 .qd = k->qd,
                                 .tau = k->tau,
                                 .wrench = k->wrench,

@@ -139,7 +139,7 @@ static void sample_hand(const posed *p, int count, sampled *out) {
   double *place = calloc((size_t)(3 * points * count), sizeof *place);
   double *force = calloc((size_t)(3 * PATCHES * count), sizeof *force);
   for (int k = 0; k < count; k++) times[k] = (double)k / (count - 1);
-  ambulo_motion motion = {.points = place, .patch_force = force};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .points = place, .patch_force = force};
   read_motion(p, count, times, &motion);
   for (int k = 0; k < count; k++)
     for (int i = 0; i < 3; i++) {

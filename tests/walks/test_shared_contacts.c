@@ -109,7 +109,11 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
         qdd[i] = channel(&f, node, ambulo__channel_qdd(c, i));
       }
       assert_int_equal(
-          ambulo_lagrangian_inverse_dynamics(f.model, q, qd, qdd, tau, wrench, points, scratch),
+          ambulo_lagrangian_inverse_dynamics(
+              f.model, q, qd, qdd,
+              &(ambulo_outputs){
+                  .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
+              scratch),
           AMBULO_OK);
       for (int slot = 0; slot < c->slots; slot++) {
         contact of = contact_at(&f, node, slot);
@@ -187,8 +191,12 @@ static void what_results_say_of_moments_is_all_there_is(void **state) {
     double *cop = calloc(n, sizeof *cop), *force = calloc(n, sizeof *force);
     for (int k = 0; k < TIMES; k++)
       times[k] = f.problem->definition.duration * (k + 0.5) / (TIMES + 1);
-    ambulo_motion motion = {
-        .wrench = wrench, .grf_moment = feet, .patch_moment = patches, .grf = force, .cop = cop};
+    ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                            .wrench = wrench,
+                            .grf_moment = feet,
+                            .patch_moment = patches,
+                            .grf = force,
+                            .cop = cop};
     assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, TIMES, times, &motion),
                      AMBULO_OK);
     int of[2] = {f.model->foot_count, f.model->patch_count};
@@ -253,7 +261,7 @@ static void forces_are_continuous(void **state) {
       double force[6 * EFFECTORS], cop[6 * EFFECTORS], twist[2 * EFFECTORS];
       double tau[2 * TOED_COORDINATES], times[2] = {c->from - 1e-8, c->from + 1e-8};
       if (times[0] < 0.0 || times[1] > f.problem->definition.duration) continue;
-      ambulo_motion motion = {.tau = tau};
+      ambulo_motion motion = {.size = sizeof(ambulo_motion), .tau = tau};
       effectors_at(&f, times, 2, force, cop, twist, NULL);
       assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 2, times, &motion),
                        AMBULO_OK);

@@ -59,7 +59,12 @@ static void open_task(task *k, const char *name) {
   }
   ambulo_workspace *workspace = NULL;
   assert_int_equal(ambulo_workspace_create(k->problem, NULL, &workspace), AMBULO_OK);
-  ambulo_motion motion = {.q = k->q, .qd = k->qd, .points = k->point, .grf = k->grf, .zmp = k->zmp};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .q = k->q,
+                          .qd = k->qd,
+                          .points = k->point,
+                          .grf = k->grf,
+                          .zmp = k->zmp};
   assert_int_equal(ambulo_problem_motion(k->problem, workspace, ambulo_result_x(k->result),
                                          k->count, k->t, &motion),
                    AMBULO_OK);
@@ -172,7 +177,8 @@ static void a_body_rises_from_its_seat(void **state) {
   int n = ambulo_model_coordinate_count(model), tilt, knee, back, hip;
   assert_int_equal(ambulo_model_patch_count(model), PATCHES);
   for (int i = 0; i < TIMES; i++) times[i] = 1.75 * i / (TIMES - 1);
-  ambulo_motion motion = {.q = q, .tau = tau, .grf = grf, .patch_force = seat};
+  ambulo_motion motion = {
+      .size = sizeof(ambulo_motion), .q = q, .tau = tau, .grf = grf, .patch_force = seat};
   assert_int_equal(
       ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
       AMBULO_OK);

@@ -4,8 +4,9 @@ from typing import List, Tuple
 
 import numpy
 
-from ._native import Call, ffi, lib
+from ._native import Call, lib
 from .mechanics import doubles
+from .records import usual_struct
 
 
 class Motion:
@@ -158,7 +159,7 @@ def motion_of(problem, x, times) -> Motion:
         (device.name, "torque", "angle") if device.coordinate >= 0 and
         model.coordinates[device.coordinate].type.name == "REVOLUTE" else
         (device.name, "force", "length") for device in devices]
-    struct, memory = ffi.new("ambulo_motion *"), []
+    struct, memory = usual_struct("ambulo_motion"), []
     shapes = _shapes(len(made.coordinates), len(made.point_names), len(made.feet),
                      len(made.patches), len(devices), len(holds))
     for name, shape in shapes.items():
