@@ -125,6 +125,9 @@ static void a_jump_lands_on_soft_knees(void **state) {
   (void)state;
   static bounce b;
   open_bounce(&b, "jump_landing", NULL, 0);
+  const ambulo_dense_audit *dense = ambulo_result_dense_audit(b.result);
+  assert_true(dense->samples > 0);
+  assert_int_equal(dense->failing, 0);
   double least = 1.0, peak[2] = {0.0, 0.0}, knee[2] = {INFINITY, 0.0};
   for (int k = 0; k < SAMPLES; k++) {
     double f = both(&b, k), bent = degree * value(&b, b.q, k, "knee_angle_l");
