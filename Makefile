@@ -84,6 +84,10 @@ LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(
 EXPAT := $(if $(call links,-include expat.h -lexpat),$(call libs_of,expat,-lexpat))
 DEPENDENCY_CFLAGS += $(if $(EXPAT),-DAMBULO_HAS_EXPAT $(call probe,expat,--cflags))
 LIBS += $(EXPAT)
+# zlib too: without it the page of `ambulo report` is larger
+ZLIB := $(if $(call links,-include zlib.h -lz),$(call libs_of,zlib,-lz))
+DEPENDENCY_CFLAGS += $(if $(ZLIB),-DAMBULO_HAS_ZLIB $(call probe,zlib,--cflags))
+LIBS += $(ZLIB)
 CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 

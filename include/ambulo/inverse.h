@@ -25,7 +25,7 @@ typedef struct ambulo_inverse_options {
 
   const char *forces; /* file of forces on the feet; NULL: the columns grf.FOOT.* of the motion
                          itself, where it has some */
-  int without_forces; /* 1: none at all, whatever the files have */
+  int without_forces; /* 1: none at all, whatever the files have; those of hands neither */
   /* Which columns belong to which foot, "left=ground_force_1,right=ground_force_2+ground_force_3",
    * "right=none", or, as an OpenSim file of external loads says it, the beginnings of the columns
    * of force, point and torque: "left=ground_force_1_v:ground_force_1_p:ground_torque_1_". Feet
@@ -67,14 +67,19 @@ typedef struct ambulo_ground_residual {
  * spline of degree 5 (3 with fewer than 6 rows; at least 4 rows) through the rates or the values.
  * Coordinates it lacks are zero, with a warning. Forces on the feet, if any, are taken off the
  * torques, so that tau of the root is what they leave over; they are interpolated linearly as
- * force and moment about the origin, never as centres of pressure.
+ * force and moment about the origin, never as centres of pressure; moment.FOOT.x|y|z, where a file
+ * has all three, are those moments. Forces and moments of hands on what they hold or push
+ * (held.LOAD.POINT.force.x|y|z, held.LOAD.POINT.moment.x|y|z; ambulo/hold.h), of the motion or else
+ * of the file of forces, are added to the torques and to the root wrench.
  *
  * Writes a CSV to `output` (whole or not at all), or returns its text in *text, to be freed with
  * ambulo_text_free, when output is NULL. Columns, in this order:
  *   time
  *   q.*, qd.*, qdd.*, tau.*          per coordinate; N m or N
  *   zmp.x|y|z                        nan where the body does not press down
- *   grf.F.x|y|z, cop.F.x|y|z, free_moment.F    per foot F, as applied; only with forces
+ *   grf.F.x|y|z, cop.F.x|y|z, free_moment.F, moment.F.x|y|z    per foot F, as applied, moments
+ * about the world origin; only with forces held.L.P.force.x|y|z, held.L.P.moment.x|y|z,
+ * held.L.power   per hand P of a load L, as applied; only where hands hold something
  *   wrench.force.x|y|z, wrench.moment.x|y|z    root wrench: what all the surroundings apply; moment
  *                                              about the world origin, N m
  *   residual.force.x|y|z, residual.moment.x|y|z   root wrench less the forces on the feet; moment

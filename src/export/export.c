@@ -119,7 +119,7 @@ static ambulo_status write_folder(job *j) {
   ambulo_status status = ambulo__folder_begin(j->output, j->options->overwrite ? &mark : NULL,
                                               j->allocator, j->diagnostics, &folder);
   if (status) return status;
-  for (int i = 0; !status && i < (j->source.feet ? 4 : 2); i++) {
+  for (int i = 0; !status && i < (j->source.loads ? 4 : 2); i++) {
     ambulo__text_clear(&j->text);
     prints[i](&j->bodies, &j->source, &j->text);
     status = ambulo__text_status(&j->text);

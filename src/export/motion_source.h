@@ -9,18 +9,27 @@
 #include "base/alloc.h"
 #include "base/diagnostics.h"
 
+/* What acts on a link from outside: the ground on a foot, or on a hand what it holds. */
+typedef struct ambulo__source_load {
+  char *name; /* of the foot; "LOAD_POINT" */
+  int link;
+  int point; /* of the hand; -1: a foot */
+} ambulo__source_load;
+
 typedef struct ambulo__source {
   ambulo_allocator allocator;
   const char *name;
   int rows, coordinates;
-  int feet; /* of the model; 0: the motion has no forces */
+  int loads; /* all feet of the model, if the motion has their forces; then hands */
+  ambulo__source_load *load;
   double *time;
   double *q, *qd, *qdd, *tau; /* [rows][coordinates], SI, rad */
   double *wrench;             /* [rows][6]: moment about the world's origin, force */
-  /* [rows][feet][3], world axes. Points are those of the nearest row with one while the foot is in
-   * the air, where forces are zero; a foot that never has one: the origin */
+  /* [rows][loads][3], world axes. Points are those of the nearest row with one where the ground
+   * does not push, as in the air; a foot that never has one: the origin */
   double *force, *point;
-  double *free_moment; /* [rows][feet], about up */
+  double *torque; /* [rows][loads][3], at the point: about up, but where a force has no point of its
+                     own */
 } ambulo__source;
 
 /* `motion`: a table, or a folder with a motion.csv. Errors: those of inverse dynamics. Fills

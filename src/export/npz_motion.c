@@ -1,7 +1,7 @@
 /* export/npz_motion.c - see npz_motion.h.
  *
- * n rows, m coordinates that do not carry the root, c feet. With a free root (p, R its frame in the
- * ground's axes, v its velocity, w its angular velocity):
+ * n rows, m coordinates that do not carry the root, c feet and hands. With a free root (p, R its
+ * frame in the ground's axes, v its velocity, w its angular velocity):
  *
  *   q     [n][7 + m]  p, quaternion x y z w, coordinates            Pinocchio, JointModelFreeFlyer
  *   v     [n][6 + m]  R' v, R' w, rates
@@ -68,15 +68,15 @@ static void fill_contacts(arrays *s, int k, double f[3], double m[3]) {
   const ambulo__rigid *world = &s->bodies->world;
   ambulo__rigid_vector(world, in->wrench + WRENCH * (size_t)k, m);
   ambulo__rigid_vector(world, in->wrench + WRENCH * (size_t)k + 3, f);
-  for (int foot = 0; foot < in->feet; foot++) {
-    size_t at = (size_t)k * (size_t)in->feet + (size_t)foot;
-    double *wrench = s->wrench + WRENCH * at, *point = s->point + 3 * at, moment[3], up[3];
+  for (int load = 0; load < in->loads; load++) {
+    size_t at = (size_t)k * (size_t)in->loads + (size_t)load;
+    double *wrench = s->wrench + WRENCH * at, *point = s->point + 3 * at, moment[3];
     ambulo__rigid_vector(world, in->force + 3 * at, wrench);
     ambulo__rigid_vector(world, in->point + 3 * at, point);
-    ambulo__rigid_vector(world, s->bodies->model->up, up);
+    ambulo__rigid_vector(world, in->torque + 3 * at, wrench + 3);
     ambulo__cross(point, wrench, moment);
-    for (int i = 0; i < 3; i++) {
-      wrench[3 + i] = in->free_moment[at] * up[i];
+    int is_foot = in->load[load].point < 0; /* the root wrench has what hands hold in it */
+    for (int i = 0; is_foot && i < 3; i++) {
       f[i] -= wrench[i];
       m[i] -= moment[i] + wrench[3 + i];
     }
@@ -117,30 +117,30 @@ static void fill_base(arrays *s, int k, const double f[3], const double m[3]) {
 
 static void write_names(const arrays *s, ambulo__npz *npz, const char **names) {
   const ambulo_model *model = s->bodies->model;
-  int feet = s->source->feet;
+  int loads = s->source->loads;
   ambulo__npz_texts(npz, "joint_names", s->joints, (size_t)s->rest_count);
-  for (int foot = 0; foot < feet; foot++) names[foot] = model->feet[foot].name;
-  ambulo__npz_texts(npz, "contact_names", names, (size_t)feet);
-  for (int foot = 0; foot < feet; foot++) {
-    int link = model->points[model->feet[foot].heel[0]].link;
-    names[foot] = ambulo__export_name(s->bodies, s->bodies->body_of[link]);
+  for (int i = 0; i < loads; i++) names[i] = s->source->load[i].name;
+  ambulo__npz_texts(npz, "contact_names", names, (size_t)loads);
+  for (int i = 0; i < loads; i++) {
+    int link = s->source->load[i].link;
+    names[i] = ambulo__export_name(s->bodies, s->bodies->body_of[link]);
   }
-  ambulo__npz_texts(npz, "contact_links", names, (size_t)feet);
+  ambulo__npz_texts(npz, "contact_links", names, (size_t)loads);
   const char *root = s->bodies->root >= 0 ? model->links[s->bodies->root].name : "world";
   ambulo__npz_texts(npz, "root_link", &root, 1);
 }
 
 static ambulo_status write_archive(const arrays *s, const char **names, ambulo__text_buffer *text) {
   ambulo__npz npz;
-  size_t rows = (size_t)s->source->rows, feet = (size_t)s->source->feet;
+  size_t rows = (size_t)s->source->rows, loads = (size_t)s->source->loads;
   double gravity[3];
   ambulo__rigid_vector(&s->bodies->world, s->bodies->model->gravity, gravity);
   ambulo__npz_begin(&npz, text);
   ambulo__npz_numbers(&npz, "times", s->source->time, 1, &rows);
   for (int f = 0; f < ARRAYS; f++)
     ambulo__npz_numbers(&npz, array_names[f], s->field[f], 2, (size_t[]){rows, s->width[f]});
-  ambulo__npz_numbers(&npz, "contact_wrench", s->wrench, 3, (size_t[]){rows, feet, WRENCH});
-  ambulo__npz_numbers(&npz, "contact_point", s->point, 3, (size_t[]){rows, feet, 3});
+  ambulo__npz_numbers(&npz, "contact_wrench", s->wrench, 3, (size_t[]){rows, loads, WRENCH});
+  ambulo__npz_numbers(&npz, "contact_point", s->point, 3, (size_t[]){rows, loads, 3});
   ambulo__npz_numbers(&npz, "gravity", gravity, 1, &(size_t){3});
   write_names(s, &npz, names);
   return ambulo__npz_end(&npz);
@@ -150,13 +150,14 @@ ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__sou
                                  ambulo__text_buffer *text) {
   const ambulo_allocator *allocator = &bodies->allocator;
   arrays s = {.bodies = bodies, .source = source};
-  size_t rows = (size_t)source->rows, feet = (size_t)source->feet, d = (size_t)source->coordinates;
+  size_t rows = (size_t)source->rows, loads = (size_t)source->loads,
+         d = (size_t)source->coordinates;
   int base = bodies->root >= 0, complete = 1;
-  const char **names = ambulo__alloc(allocator, feet, sizeof *names);
+  const char **names = ambulo__alloc(allocator, loads, sizeof *names);
   s.joints = ambulo__alloc(allocator, d, sizeof *s.joints);
   s.rest = ambulo__alloc(allocator, d, sizeof *s.rest);
-  s.wrench = ambulo__alloc(allocator, rows * feet * WRENCH, sizeof *s.wrench);
-  s.point = ambulo__alloc(allocator, rows * feet * 3, sizeof *s.point);
+  s.wrench = ambulo__alloc(allocator, rows * loads * WRENCH, sizeof *s.wrench);
+  s.point = ambulo__alloc(allocator, rows * loads * 3, sizeof *s.point);
   if (s.joints && s.rest) find_rest(&s);
   for (int f = 0; f < ARRAYS; f++) {
     s.width[f] = (size_t)s.rest_count + (!base ? 0 : f == Q || f == QPOS ? BASE_Q : BASE_V);

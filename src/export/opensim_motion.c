@@ -1,11 +1,10 @@
 /* export/opensim_motion.c - a motion for OpenSim's tools, beside the model of osim_text.c.
  *
  *   motion.mot           coordinates, in degrees and metres
- *   grf.mot              of each foot: force, its point and its torque there, in the ground's axes
- *   external_loads.xml   which columns act on which body
+ *   grf.mot              of each foot, and of each hand that holds something: force, its point and
+ * its torque there, in the ground's axes external_loads.xml   which columns act on which body
  *
- * World and ground differ by a turn W about the origin: vectors are W v. A foot's torque at its
- * point is the free moment along up.
+ * World and ground differ by a turn W about the origin: vectors are W v.
  */
 #include <math.h>
 
@@ -48,10 +47,9 @@ void ambulo__mot_text(const ambulo__bodies *bodies, const ambulo__source *source
 
 void ambulo__grf_text(const ambulo__bodies *bodies, const ambulo__source *source,
                       ambulo__text_buffer *text) {
-  const ambulo_model *model = bodies->model;
-  header(text, "grf", source->rows, 9 * source->feet + 1, 0);
-  for (int foot = 0; foot < source->feet; foot++) {
-    const char *name = model->feet[foot].name;
+  header(text, "grf", source->rows, 9 * source->loads + 1, 0);
+  for (int load = 0; load < source->loads; load++) {
+    const char *name = source->load[load].name;
     for (int column = 0; column < 9; column++)
       ambulo__text_append_format(text, "\tground_%s_%s_%s%c", column < 6 ? "force" : "torque", name,
                                  column < 3   ? "v"
@@ -62,13 +60,12 @@ void ambulo__grf_text(const ambulo__bodies *bodies, const ambulo__source *source
   ambulo__text_append_char(text, '\n');
   for (int k = 0; k < source->rows; k++) {
     ambulo__text_append_number(text, source->time[k]);
-    for (int foot = 0; foot < source->feet; foot++) {
-      size_t at = (size_t)k * (size_t)source->feet + (size_t)foot;
-      double torque[3], out[9];
-      for (int i = 0; i < 3; i++) torque[i] = source->free_moment[at] * model->up[i];
+    for (int load = 0; load < source->loads; load++) {
+      size_t at = (size_t)k * (size_t)source->loads + (size_t)load;
+      double out[9];
       ambulo__rigid_vector(&bodies->world, source->force + 3 * at, out);
       ambulo__rigid_vector(&bodies->world, source->point + 3 * at, out + 3);
-      ambulo__rigid_vector(&bodies->world, torque, out + 6);
+      ambulo__rigid_vector(&bodies->world, source->torque + 3 * at, out + 6);
       for (int i = 0; i < 9; i++) cell(text, out[i]);
     }
     ambulo__text_append_char(text, '\n');
@@ -84,14 +81,13 @@ static void element(ambulo__text_buffer *text, const char *tag, const char *befo
 
 void ambulo__external_loads_text(const ambulo__bodies *bodies, const ambulo__source *source,
                                  ambulo__text_buffer *text) {
-  const ambulo_model *model = bodies->model;
   ambulo__text_append(text, "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n" AMBULO__XML_MARK
                             "export: external loads of OpenSim -->\n"
                             "<OpenSimDocument Version=\"40000\">\n"
                             "\t<ExternalLoads name=\"external_loads\">\n\t\t<objects>\n");
-  for (int foot = 0; foot < source->feet; foot++) {
-    const char *name = model->feet[foot].name;
-    int link = model->points[model->feet[foot].heel[0]].link;
+  for (int load = 0; load < source->loads; load++) {
+    const char *name = source->load[load].name;
+    int link = source->load[load].link;
     ambulo__text_append(text, "\t\t\t<ExternalForce name=\"");
     ambulo__markup_text(text, name);
     ambulo__text_append(text, "\">\n");

@@ -5,10 +5,11 @@
  *
  *     p = (n x M + h F) / (n . F)                                                 (16')
  *
- * Forces on the feet are then taken off the torques (ground_load.h).
+ * What hands hold is added to torques and root wrench (hand_load.h), and forces on the feet are
+ * then taken off the torques (ground_load.h).
  *
  * Reading order: inverse.h, inverse.c, inverse_motion.c, filtering.h, force_columns.h,
- * force_match.c, ground_load.h, load_apply.c, doubt.h, plausibility.c.
+ * force_match.c, ground_load.h, load_apply.c, hand_load.h, doubt.h, plausibility.c.
  */
 #include "inverse/inverse.h"
 
@@ -56,6 +57,7 @@ static void clear(ambulo__inverse *v) {
   ambulo__free(a, v->has_acceleration);
   ambulo__motion_free(v->given);
   ambulo__ground_load_free(&v->load);
+  ambulo__hand_load_free(&v->hands);
 }
 
 /* ----------------------------------------------------------------- dynamics */
@@ -92,8 +94,31 @@ static ambulo_status compute(ambulo__inverse *v) {
     (void)ambulo__error(v->doubts.diagnostics, status, place, NULL,
                         "the motion is too large or too fast for numbers: a torque is not finite");
   }
-  if (!status) zero_moment_points(v);
   return status;
+}
+
+/* ------------------------------------------------------------ what hands hold */
+
+/* the columns held.* of the motion, else of the file of forces */
+static ambulo_status apply_hands(ambulo__inverse *v) {
+  int own = ambulo__has_hand_loads(v->given);
+  ambulo__load_source source = {.model = v->model,
+                                .file = own ? v->file : v->options.forces,
+                                .table = own ? v->given : NULL,
+                                .options = &v->options,
+                                .times = v->given->time,
+                                .rows = v->rows,
+                                .doubts = &v->doubts};
+  ambulo_inverse_options options = v->options;
+  ambulo__place place = {.file = source.file};
+  if (v->options.without_forces || !source.file) return AMBULO_OK;
+  if (own) options.force_time_unit = 1.0; /* its times are in seconds already */
+  source.options = &options;
+  ambulo_status status = ambulo__hand_load_read(&source, &v->allocator, &v->hands);
+  if (status || v->hands.loads == 0) return status;
+  ambulo__note(v->doubts.diagnostics, place,
+               "what its hands hold (held.*) is added to the torques; --grf none leaves it out");
+  return ambulo__hand_load_apply(&v->hands, v->model, v->q, v->qd, v->tau, v->wrench);
 }
 
 /* -------------------------------------------------------- forces on the feet */
@@ -202,6 +227,12 @@ static ambulo_status deliver(ambulo__inverse *v, const char *output, char **text
       .grf = v->load.force,
       .cop = v->cop,
       .free_moment = v->free_moment,
+      .grf_moment = v->load.moment,
+      .holds = v->hands.loads,
+      .hold = v->hands.hold,
+      .hold_force = v->hands.force,
+      .hold_moment = v->hands.moment,
+      .hold_power = v->hands.power,
       .wrench = v->wrench,
       .residual = v->residual,
       .power = v->power,
@@ -238,6 +269,8 @@ static ambulo_status run(ambulo__inverse *v, const char *output, ambulo_ground_r
   if (!status) status = check_output(v, output);
   if (!status) status = ambulo__inverse_read(v);
   if (!status) status = compute(v);
+  if (!status) status = apply_hands(v);
+  if (!status) zero_moment_points(v);
   const char *forces = status ? NULL : forces_of(v);
   if (forces) status = apply_forces(v, forces, &left_over);
   if (!status && !forces) tell_unloaded(v);
@@ -262,7 +295,7 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
                        .options = own,
                        .file = motion,
                        .doubts = {diagnostics, own.strict, 0}};
-  v.load.allocator = v.allocator;
+  v.load.allocator = v.hands.allocator = v.allocator;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = run(&v, output, residual, text);
   clear(&v);

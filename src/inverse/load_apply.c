@@ -55,9 +55,9 @@ void ambulo__ground_load_place(ambulo__ground_load *load, const ambulo__load_pos
   }
 }
 
-/* (I.3): z . (m - o x f) or z . f of the joint of `link`; frames [links][12] */
-static double share(const ambulo_model *model, const double *frames, int link, const double *force,
-                    const double *moment) {
+/* (I.3): z . (m - o x f) or z . f */
+double ambulo__load_share(const ambulo_model *model, const double *frames, int link,
+                          const double *force, const double *moment) {
   static const double world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   const ambulo_link *l = &model->links[link];
   const double *frame = l->parent < 0 ? world : frames + 12 * (size_t)l->parent;
@@ -87,7 +87,7 @@ ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const a
         int i = model->links[link].coordinate;
         if (i < 0) continue;
         tau[(size_t)k * d + (size_t)i] -=
-            share(model, pose.frames, link, load->force + at, load->moment + at);
+            ambulo__load_share(model, pose.frames, link, load->force + at, load->moment + at);
       }
     }
   }

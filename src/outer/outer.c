@@ -72,10 +72,6 @@ static ambulo_status check_counts(const ambulo__outer *run) {
         run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
         "free parameters are chosen by sensitivities, which contacts of patches do "
         "not have yet; expected contacts of feet alone");
-  if (run->problem->definition.hold_count > 0)
-    return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "free parameters are chosen by sensitivities, which what hands hold does "
-                         "not have yet; expected a load on a link, or none");
   if (!p->problem_at && !ambulo__problem_root(run->problem)->free)
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "free parameters without problem_at; expected it, or a problem from a "

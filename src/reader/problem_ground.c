@@ -78,7 +78,12 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *n
                              AMBULO__MOST_LOADS);
     return;
   }
-  for (int i = 0; i < count; i++) read_one_load(reader, ambulo__yaml_item(node, i));
+  for (int i = 0; i < count; i++) {
+    int on_links = reader->model->load_count, in_hands = reader->definition.hold_count;
+    read_one_load(reader, ambulo__yaml_item(node, i));
+    if (reader->definition.hold_count > in_hands) reader->keys.hold_item[in_hands] = i;
+    if (reader->model->load_count > on_links) reader->keys.load_item[on_links] = i;
+  }
 }
 
 /* ------------------------------------------------------------ ground reaction */

@@ -219,8 +219,12 @@ static void add_loads(ambulo__parameters *p) {
     (void)snprintf(label, sizeof label, "load on %s%s", model->links[model->loads[i].link].name,
                    partner != i ? AMBULO__BOTH_OF_A_PAIR : "");
     double by = p->partials->load[i] + (partner != i ? p->partials->load[partner] : 0.0);
-    ambulo__parameter_add(p, AMBULO__MASS, mass, by, label, "load[%d].mass", i);
-    if (partner != i) ambulo__parameter_with(p, 1.0, "load[%d].mass", partner);
+    const int *item = p->problem->keys.load_item; /* hands hold others */
+    ambulo__parameter_add(p, AMBULO__MASS, mass, by, label, "load[%d].mass",
+                          p->problem->keys.loads ? item[i] : i);
+    if (partner != i)
+      ambulo__parameter_with(p, 1.0, "load[%d].mass",
+                             p->problem->keys.loads ? item[partner] : partner);
   }
 }
 
@@ -314,6 +318,7 @@ ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   ambulo__parameters_of_events(p);
   add_body(p);
   ambulo__parameters_of_devices(p);
+  ambulo__parameters_of_holds(p);
   ambulo__parameters_of_terms(p);
   add_contact_rows(p);
   add_tubes(p);

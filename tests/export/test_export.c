@@ -9,6 +9,7 @@
 #include "support/messages.h"
 #include "support/random_model.h"
 #include "support/scratch.h"
+#include "support/still_walker.h"
 
 static ambulo_export_options options_of(ambulo_export_format format) {
   ambulo_export_options o = ambulo_export_options_default();
@@ -160,67 +161,6 @@ static void markers(void **state) {
 }
 
 /* -------------------------------------------------------------------------- motions */
-
-/* a walker that hangs still, its right foot pressed from 0.2 s on */
-static const char motion_text[] =
-    "time,q.pelvis_ty,q.knee_angle_r,grf.right.x,grf.right.y,grf.right.z,cop.right.x,cop.right.y,"
-    "cop.right.z,free_moment.right,grf.left.x,grf.left.y,grf.left.z,cop.left.x,cop.left.y,"
-    "cop.left.z,free_moment.left\n"
-    "0,0.1,0.5,0,0,0,nan,nan,nan,0,0,0,0,nan,nan,nan,0\n"
-    "0.1,0.1,0.5,0,0,0,nan,nan,nan,0,0,0,0,nan,nan,nan,0\n"
-    "0.2,0.1,0.5,10,700,20,0.1,0,0.05,3,0,0,0,nan,nan,nan,0\n"
-    "0.3,0.1,0.5,10,700,20,0.2,0,0.05,3,0,0,0,nan,nan,nan,0\n"
-    "0.4,0.1,0.5,10,700,20,0.2,0,0.05,3,0,0,0,nan,nan,nan,0\n";
-
-static ambulo_model *walker(void) {
-  ambulo_model *model = NULL;
-  assert_int_equal(ambulo_model_load("models/walker_2d.yaml", NULL, NULL, NULL, &model), AMBULO_OK);
-  return model;
-}
-
-/* cell of a table behind endheader */
-static double cell(const char *text, const char *column, int row) {
-  const char *head = strstr(text, "endheader\n") + 10, *at = head;
-  int index = 0;
-  for (; strncmp(at, column, strlen(column)) != 0 || !strchr("\t\n", at[strlen(column)]); index++) {
-    at = strpbrk(at, "\t\n");
-    assert_non_null(at);
-    assert_true(*at++ == '\t');
-  }
-  for (at = head; row >= 0; row--) at = strchr(at, '\n') + 1;
-  for (; index > 0; index--) at = strchr(at, '\t') + 1;
-  return strtod(at, NULL);
-}
-
-static char *folder_text(const char *folder, const char *name) {
-  char path[600];
-  (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-  return read_whole(path);
-}
-
-static void a_folder_for_opensim(void **state) {
-  ambulo_model *model = walker();
-  const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
-  scratch_write(motion, motion_text);
-  assert_int_equal(ambulo_export(model, motion, folder, NULL, NULL, NULL), AMBULO_OK);
-  assert_int_equal(entries_in(folder), 4);
-  char *mot = folder_text(folder, "motion.mot"), *grf = folder_text(folder, "grf.mot"),
-       *loads = folder_text(folder, "external_loads.xml");
-  assert_non_null(strstr(mot, "inDegrees=yes\n"));
-  assert_close(cell(mot, "knee_angle_r", 1), 0.5 * 180 / acos(-1), 1e-13);
-  assert_close(cell(mot, "pelvis_ty", 1), 0.1 + 0.534643 * 1.75, 1e-12);
-  assert_close(cell(grf, "ground_force_right_vy", 3), 700, 1e-12);
-  assert_close(cell(grf, "ground_force_right_px", 4), 0.2, 1e-12);
-  assert_close(cell(grf, "ground_force_right_px", 1), 0.1, 1e-12); /* in the air: the next one */
-  assert_close(cell(grf, "ground_torque_right_y", 3), 3, 1e-12);
-  assert_close(cell(grf, "ground_force_left_px", 3), 0, 0); /* never down */
-  assert_non_null(strstr(loads, "<applied_to_body>foot_r</applied_to_body>"));
-  assert_non_null(strstr(loads, "<torque_identifier>ground_torque_right_</torque_identifier>"));
-  free(mot);
-  free(grf);
-  free(loads);
-  ambulo_model_free(model);
-}
 
 /* element `index` of an array of an archive, whose bytes are not machine's but little-endian */
 static double element(const char *archive, size_t length, const char *name, const char *shape,
@@ -387,7 +327,6 @@ int main(void) {
       cmocka_unit_test_setup_teardown(opensim_comes_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(limits_come_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(markers, scratch_open, scratch_close),
-      cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),

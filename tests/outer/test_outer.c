@@ -91,6 +91,17 @@ static void a_duration(void **state) {
   compare(&c, "free={time.duration: [0.9, 1.35]}", 1.15, 1.3, 1.0);
 }
 
+/* what a hand holds on to, pushed down so that the arm is carried */
+static void a_push(void **state) {
+  (void)state;
+  static const search c = {
+      REACH,
+      "load.force[2]",
+      {"load={hands: [hand], mass: 1.5, force: [3, 0, -30], from: 0.21, to: 0.69, ramp: 0.12}"},
+      1};
+  compare(&c, "free={\"load.force[2]\": [-44, -24]}", -42.0, -28.0, 1.0);
+}
+
 /* several at once are no worse than one, and every number with a sensitivity can be among them */
 static void several_at_once(void **state) {
   (void)state;
@@ -308,6 +319,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_cadence_at_a_speed),
                                      cmocka_unit_test(a_step_at_a_speed),
                                      cmocka_unit_test(a_duration),
+                                     cmocka_unit_test(a_push),
                                      cmocka_unit_test(several_at_once),
                                      cmocka_unit_test(a_phase_of_shared_contacts),
                                      cmocka_unit_test(a_kink_is_given_up),

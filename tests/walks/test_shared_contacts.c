@@ -173,6 +173,46 @@ static void what_results_say_of_contacts_is_all_there_is(void **state) {
   }
 }
 
+/* moments about the origin add up to the root's, whether or not each force has a place, or pulls */
+static void what_results_say_of_moments_is_all_there_is(void **state) {
+  (void)state;
+  int placeless = 0;
+  for (int kind = 0; kind < KINDS; kind++) {
+    fixture f;
+    fixture_open(&f, kind);
+    enum { TIMES = 23 };
+    double times[TIMES], wrench[6 * TIMES];
+    size_t n = 3 * TIMES * EFFECTORS;
+    double *feet = calloc(n, sizeof *feet), *patches = calloc(n, sizeof *patches);
+    double *cop = calloc(n, sizeof *cop), *force = calloc(n, sizeof *force);
+    for (int k = 0; k < TIMES; k++)
+      times[k] = f.problem->definition.duration * (k + 0.5) / (TIMES + 1);
+    ambulo_motion motion = {
+        .wrench = wrench, .grf_moment = feet, .patch_moment = patches, .grf = force, .cop = cop};
+    assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, TIMES, times, &motion),
+                     AMBULO_OK);
+    int of[2] = {f.model->foot_count, f.model->patch_count};
+    for (int k = 0; k < TIMES; k++) {
+      double sum[3] = {0.0};
+      for (int i = 0; i < 3 * (of[0] + of[1]); i++)
+        sum[i % 3] +=
+            i < 3 * of[0] ? feet[3 * of[0] * k + i] : patches[3 * of[1] * k + i - 3 * of[0]];
+      for (int i = 0; i < 3; i++)
+        assert_close(sum[i] / f.weight, wrench[6 * k + i] / f.weight, 1e-11);
+      for (int foot = 0; foot < of[0]; foot++) {
+        int at = 3 * (of[0] * k + foot);
+        placeless += isnan(cop[at]) && force[at] != 0.0;
+      }
+    }
+    free(feet);
+    free(patches);
+    free(cop);
+    free(force);
+    fixture_close(&f);
+  }
+  assert_true(placeless > 0);
+}
+
 /* force on a foot or a patch at its contacts' first and last instants, beside another one */
 static void a_force_begins_and_ends_at_zero(void **state) {
   (void)state;
@@ -305,6 +345,7 @@ int main(void) {
       cmocka_unit_test(contacts_carry_the_body),
       cmocka_unit_test(torques_are_those_of_a_body_that_is_pushed_there),
       cmocka_unit_test(what_results_say_of_contacts_is_all_there_is),
+      cmocka_unit_test(what_results_say_of_moments_is_all_there_is),
       cmocka_unit_test(a_force_begins_and_ends_at_zero),
       cmocka_unit_test(forces_are_continuous),
       cmocka_unit_test(momentum_is_balanced),
