@@ -140,9 +140,11 @@ static void a_tendon(void **state) {
 static void feet_are_not_all(void **state) {
   const char *motion = scratch_path(state, "m.csv");
   ambulo_model *model = NULL;
-  assert_int_equal(ambulo_model_load("models/whole_body_29.yaml",
-                                     &(ambulo_subject){75, 1.75, AMBULO_MALE}, NULL, NULL, &model),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_model_load("models/whole_body_29.yaml",
+                        &(ambulo_subject){sizeof(ambulo_subject), 75, 1.75, AMBULO_MALE}, NULL,
+                        NULL, &model),
+      AMBULO_OK);
   write_motion(motion,
                "grf.right.x,grf.right.y,grf.right.z,cop.right.x,cop.right.y,cop.right.z,"
                "grf.left.x,grf.left.y,grf.left.z,cop.left.x,cop.left.y,cop.left.z,"

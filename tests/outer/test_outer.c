@@ -107,8 +107,8 @@ static void several_at_once(void **state) {
   (void)state;
   static const char *const one[] = {AT_A_SPEED, "free={gait.step_time: [0.3, 0.8]}"};
   static const char *const three[] = {
-      AT_A_SPEED, "free={gait.step_time: [0.3, 0.8], gait.step_width: [0.05, 0.2], ground.slope: "
-                  "[-8, 5]}"};
+      AT_A_SPEED, ("free={gait.step_time: [0.3, 0.8], gait.step_width: [0.05, 0.2], ground.slope: "
+                   "[-8, 5]}")};
   solved a = solve("tests/two_step/walk_normal.yaml", one, 5, NULL);
   solved b = solve("tests/two_step/walk_normal.yaml", three, 5, NULL);
   assert_true(b.outcome->objective < 0.99 * a.outcome->objective);
