@@ -30,6 +30,12 @@ static void times_that_are_shared_have_none(void **state) {
   static const setting c = {"models/lift.yaml", {"time.intervals=50"}, {NULL}};
   static const char *const absent[] = {"load[box].from", "load[box].to", "load[box].ramp", NULL};
   expect_absent(&c, absent);
+  /* a longer motion would have its end inside */
+  static const setting at_the_end = {"models/two_link_reach.yaml",
+                                     {"load={hands: [hand], mass: 1.5, from: 0.2, to: 0.8}"},
+                                     {NULL}};
+  static const char *const no_duration[] = {"time.duration", "load.to", NULL};
+  expect_absent(&at_the_end, no_duration);
 }
 
 /* one hand, and both; a load on a link between them in the list; nodes that stay */
