@@ -2,6 +2,7 @@
  * which body, with which sign; and that torques lose them. */
 #include "export/loads.h"
 
+#include "mechanics/pose.h"
 #include "support/messages.h"
 #include "support/scratch.h"
 
@@ -118,6 +119,21 @@ static void a_device(void **state) {
 }
 
 /* the mirrored half of a stride: the tendon between the feet is its own image */
+static double tendon_length(load_case *c, int coordinate, double by) {
+  const ambulo_device *tendon = &c->problem->definition.devices[0];
+  ambulo__pose pose = {.model = NULL};
+  double ends[2][3], sum = 0.0;
+  assert_int_equal(ambulo__pose_create(ambulo_problem_model(c->problem), NULL, &pose), AMBULO_OK);
+  c->source.q[coordinate] += by;
+  ambulo__pose_at(&pose, c->source.q);
+  c->source.q[coordinate] -= by;
+  for (int k = 0; k < 2; k++)
+    ambulo__pose_point(&pose, tendon->link[k], tendon->position[k], ends[k]);
+  for (int i = 0; i < 3; i++) sum += (ends[1][i] - ends[0][i]) * (ends[1][i] - ends[0][i]);
+  ambulo__pose_free(&pose);
+  return sqrt(sum);
+}
+
 static void a_tendon(void **state) {
   load_case c;
   open_case(&c, state, "models/walk_exotendon.yaml", "device.tendon.force,q.hip_flexion_r",
@@ -132,7 +148,11 @@ static void a_tendon(void **state) {
     along += f[i] * (p[3 + i] - p[i]);
   }
   assert_close(sqrt(size), 40.0, 1e-12);
-  assert_true(along > 0.0); /* it pulls */
+  assert_true(along > 0.0); /* it pulls, and does the virtual work of that */
+  int hip = ambulo_model_find_coordinate(ambulo_problem_model(c.problem), "hip_flexion_r");
+  double slope = (tendon_length(&c, hip, 1e-5) - tendon_length(&c, hip, -1e-5)) / 2e-5;
+  assert_true(fabs(slope) > 0.1);
+  assert_close(lost(&c, "hip_flexion_r"), -40.0 * slope, 1e-6);
   close_case(&c);
 }
 
