@@ -8,6 +8,7 @@
 #define AMBULO_EXPORT_H
 
 #include "ambulo/inverse.h"
+#include "ambulo/problem.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,7 +16,7 @@ extern "C" {
 
 typedef enum ambulo_export_format {
   AMBULO_EXPORT_OPENSIM, /* without a motion the file .osim; with one a folder: model.osim,
-                            motion.mot and, where there are forces on feet, grf.mot and
+                            motion.mot and, where there are forces, grf.mot and
                             external_loads.xml */
   AMBULO_EXPORT_URDF,    /* a file; no motion */
   AMBULO_EXPORT_NPZ      /* a file: the motion in the coordinates of Pinocchio and MuJoCo, whose
@@ -29,6 +30,11 @@ typedef struct ambulo_export_options {
                     a free joint of their own (as the motion of an .npz has it) */
   int overwrite; /* 1: `output` may be any file, or a folder that an export made */
   const ambulo_inverse_options *inverse; /* how the motion is read; NULL: the defaults */
+  /* What the motion is a solution of: forces of patches, of hands that hold something and of
+   * devices are read from the motion's columns, exported with those of the feet, and taken off the
+   * torques. Its body must have the model's links. NULL: those of the feet alone, with a warning
+   * where the motion has others */
+  const ambulo_problem *problem;
 } ambulo_export_options;
 AMBULO_API ambulo_export_options ambulo_export_options_default(void); /* OpenSim */
 

@@ -26,6 +26,8 @@ typedef struct ambulo_inverse_options {
   const char *forces; /* file of forces on the feet; NULL: the columns grf.FOOT.* of the motion
                          itself, where it has some */
   int without_forces; /* 1: none at all, whatever the files have; those of hands neither */
+  int other_forces;   /* 1: feet are not all that is pushed, and the caller knows: columns of forces
+                         on other bodies and what is left over at the root are not doubted */
   /* Which columns belong to which foot, "left=ground_force_1,right=ground_force_2+ground_force_3",
    * "right=none", or, as an OpenSim file of external loads says it, the beginnings of the columns
    * of force, point and torque: "left=ground_force_1_v:ground_force_1_p:ground_torque_1_". Feet

@@ -44,6 +44,8 @@ typedef struct ambulo_coordinate {
   int mirror;             /* coordinate that takes its place in the mirror image; itself if
                              unpaired (in a definition also -1) */
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
+  double default_value;   /* where it stands in the start pose, from which a solve without a start
+                             of the caller's begins: rad or m; 0 */
 } ambulo_coordinate;
 
 /* What a coordinate has limits of, and an interval that they leave. */

@@ -163,25 +163,38 @@ static int lowest_point(const ambulo_model *model, const double *places, double 
   return lowest;
 }
 
+/* q[coordinates] of the start pose; 1 if that is not q = 0 */
+static int start_pose(const ambulo_model *model, double *q) {
+  int other = 0;
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    q[i] = ambulo_model_coordinate(model, i)->default_value;
+    other |= q[i] != 0.0;
+  }
+  return other;
+}
+
 ambulo_status ambulo__cli_check_standing(const ambulo_model *model, double ground) {
   static const double level = 1e-3; /* m */
   size_t d = (size_t)ambulo_model_coordinate_count(model);
   size_t points = (size_t)ambulo_model_point_count(model);
-  double *zero = calloc(d + 1, sizeof *zero), *places = calloc(3 * points + 1, sizeof *places);
+  double *q = calloc(d + 1, sizeof *q), *zero = calloc(d + 1, sizeof *zero);
+  double *places = calloc(3 * points + 1, sizeof *places);
   double height = ground;
   ambulo_mechanics *mechanics = NULL;
   ambulo_status status =
-      zero && places ? ambulo_mechanics_create(model, NULL, &mechanics) : AMBULO_E_MEMORY;
+      q && zero && places ? ambulo_mechanics_create(model, NULL, &mechanics) : AMBULO_E_MEMORY;
+  int other = q && start_pose(model, q);
   if (!status)
-    status = ambulo_mechanics_inverse_dynamics(mechanics, 1, zero, zero, zero, NULL, NULL, places);
+    status = ambulo_mechanics_inverse_dynamics(mechanics, 1, q, zero, zero, NULL, NULL, places);
   int lowest = status ? -1 : lowest_point(model, places, &height);
   if (lowest >= 0 && fabs(height - ground) > level)
-    printf(
-        "  at q = 0 the feet are off the ground: %s is %.3f m %s it, which a solve from zero has "
-        "to make up\n",
-        ambulo_model_point(model, lowest)->name, fabs(height - ground),
-        height > ground ? "above" : "below");
+    printf("  at %s the feet are off the ground: %s is %.3f m %s it, which a solve from %s has to "
+           "make "
+           "up\n",
+           other ? "the start pose" : "q = 0", ambulo_model_point(model, lowest)->name,
+           fabs(height - ground), height > ground ? "above" : "below", other ? "there" : "zero");
   ambulo_mechanics_free(mechanics);
+  free(q);
   free(zero);
   free(places);
   return status;

@@ -47,6 +47,7 @@ static int run(const ambulo__cli_input *input) {
   int code = ambulo__cli_body_load(input, input->arguments[0], diagnostics, &body, &status);
   if (!code) {
     inverse.ground_height = body.ground_height;
+    options.problem = body.problem;
     if (!status)
       status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &inverse);
     if (!status)

@@ -50,16 +50,14 @@ static int has_forces(const ambulo_model *model, const ambulo__motion *table) {
 
 /* --------------------------------------------------------------------- the points */
 
-/* rows without a point take that of the nearest row with one */
-static void fill_points(ambulo__source *s, int foot) {
-  size_t stride = 3 * (size_t)s->loads;
-  double *point = s->point + 3 * foot;
-  for (int k = 0, from = 0; k <= s->rows; k++) {
-    if (k < s->rows && !isfinite(point[(size_t)k * stride])) continue;
+void ambulo__fill_points(const double *time, int rows, int loads, int load, double *points) {
+  size_t stride = 3 * (size_t)loads;
+  double *point = points + 3 * (size_t)load;
+  for (int k = 0, from = 0; k <= rows; k++) {
+    if (k < rows && !isfinite(point[(size_t)k * stride])) continue;
     for (int i = from; i < k; i++) {
       int back = from - 1, ahead = k;
-      int near = ahead >= s->rows ||
-                         (back >= 0 && s->time[i] - s->time[back] <= s->time[ahead] - s->time[i])
+      int near = ahead >= rows || (back >= 0 && time[i] - time[back] <= time[ahead] - time[i])
                      ? back
                      : ahead;
       for (int a = 0; a < 3; a++)
@@ -106,7 +104,7 @@ static void take_foot(columns *c, ambulo__source *s, int i) {
   take_vector(c, "grf.", s->load[i].name, "", s->force + first, stride);
   take_vector(c, "cop.", s->load[i].name, "", s->point + first, stride);
   take_vector(c, "moment.", s->load[i].name, "", s->torque + first, stride);
-  fill_points(s, i);
+  ambulo__fill_points(s->time, s->rows, s->loads, i, s->point);
   for (size_t k = 0; k < (size_t)s->rows; k++) {
     size_t at = k * stride + first;
     ambulo__add_cross(s->point + at, s->force + at, -1.0, s->torque + at);
@@ -188,6 +186,14 @@ static ambulo_status fill(const ambulo_model *model, const ambulo__motion *table
   return c.missing ? AMBULO_E_INTERNAL : AMBULO_OK;
 }
 
+/* the file's own columns */
+static ambulo_status read_table(const char *path, ambulo_diagnostics *diagnostics,
+                                ambulo__source *s) {
+  ambulo_status status = ambulo__motion_read_gaps(path, &s->allocator, diagnostics, &s->table);
+  if (!status && s->table->rows != s->rows) status = AMBULO_E_INTERNAL;
+  return status;
+}
+
 static ambulo_status read_text(const ambulo_model *model, const char *motion, const char *text,
                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                ambulo__source *source) {
@@ -210,17 +216,20 @@ static char *table_of_folder(const ambulo_allocator *allocator, const char *moti
 }
 
 ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
-                                  const ambulo_inverse_options *options,
+                                  const ambulo_inverse_options *options, int other_forces,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo__source *source) {
   ambulo__source s = {.allocator = ambulo__allocator_or_default(allocator), .name = "motion"};
+  ambulo_inverse_options how = options ? *options : ambulo_inverse_options_default();
   ambulo_status status = AMBULO_OK;
+  how.other_forces |= other_forces;
   char *text = NULL, *inner = table_of_folder(&s.allocator, motion, &status);
   const char *path = inner ? inner : motion;
   if (!status)
-    status = ambulo_inverse_dynamics_motion(model, path, NULL, options, allocator, diagnostics,
-                                            NULL, &text);
+    status = ambulo_inverse_dynamics_motion(model, path, NULL, &how, allocator, diagnostics, NULL,
+                                            &text);
   if (!status) status = read_text(model, path, text, allocator, diagnostics, &s);
+  if (!status) status = read_table(path, NULL, &s);
   ambulo__free(&s.allocator, text);
   ambulo__free(&s.allocator, inner);
   if (status)
@@ -237,5 +246,6 @@ void ambulo__source_free(ambulo__source *s) {
     ambulo__free(&s->allocator, fields[i]);
   for (int i = 0; i < s->loads; i++) ambulo__free(&s->allocator, s->load[i].name);
   ambulo__free(&s->allocator, s->load);
+  ambulo__motion_free(s->table);
   *s = (ambulo__source){.rows = 0};
 }

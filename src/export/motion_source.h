@@ -8,6 +8,7 @@
 #include "ambulo/inverse.h"
 #include "base/alloc.h"
 #include "base/diagnostics.h"
+#include "format/motion_file.h"
 
 /* What acts on a link from outside: the ground on a foot, or on a hand what it holds. */
 typedef struct ambulo__source_load {
@@ -30,14 +31,18 @@ typedef struct ambulo__source {
   double *force, *point;
   double *torque; /* [rows][loads][3], at the point: about up, but where a force has no point of its
                      own */
+  ambulo__motion *table; /* the file itself, row by row, with what else it says */
 } ambulo__source;
 
-/* `motion`: a table, or a folder with a motion.csv. Errors: those of inverse dynamics. Fills
- * *source, which ambulo__source_free releases. */
+/* other_forces: that option, on top of `options`. `motion`: a table, or a folder with a motion.csv.
+ * Errors: those of inverse dynamics. Fills *source, which ambulo__source_free releases. */
 ambulo_status ambulo__source_read(const ambulo_model *model, const char *motion,
-                                  const ambulo_inverse_options *options,
+                                  const ambulo_inverse_options *options, int other_forces,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo__source *source);
+/* Rows of points[rows][loads][3] without one (NaN) of that load take that of the nearest time with
+ * one; a load that never has one: the origin. */
+void ambulo__fill_points(const double *time, int rows, int loads, int load, double *points);
 void ambulo__source_free(ambulo__source *source); /* accepts a zero-filled one */
 
 #endif

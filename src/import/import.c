@@ -91,10 +91,12 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   ambulo__xml *xml = tree->xml;
   ambulo__xml_node *root = ambulo__xml_load(xml, path);
   if (!root) return xml->status;
+  tree->path = path;
   read_format(tree, root, path);
   expect_motion(tree, root);
   if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__find_start(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;

@@ -140,6 +140,7 @@ static void tell(const ambulo__inverse *v, const char *forces, const ambulo_grou
     ambulo__note(list, place,
                  "its forces on the feet (grf.*) are taken off the torques; --grf none leaves "
                  "them out");
+  if (v->options.other_forces) return;
   ambulo__note(list, place,
                "left over at the root: forward %.4f, up %.4f, left %.4f body weights (rms)",
                r->force_rms[0], r->force_rms[1], r->force_rms[2]);
@@ -294,7 +295,7 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
                        .model = model,
                        .options = own,
                        .file = motion,
-                       .doubts = {diagnostics, own.strict, 0}};
+                       .doubts = {diagnostics, own.strict, 0, own.other_forces}};
   v.load.allocator = v.hands.allocator = v.allocator;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_status status = run(&v, output, residual, text);

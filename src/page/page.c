@@ -1,7 +1,7 @@
 /* page/page.c - the page: the viewer with data in it (ambulo/page.h).
  *
- * Reading order: page.h, page.c, result_data.c, script_text.h, motion_data.c, study_data.c, thin.h,
- * viewer.h; the page's own program in viewer/, from main.js on.
+ * Reading order: page.h, page.c, result_data.c, script_text.h, packed_text.h, motion_data.c,
+ * study_data.c, thin.h, viewer.h; the page's own program in viewer/, from main.js on.
  */
 #include "page/page.h"
 

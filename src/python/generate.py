@@ -48,7 +48,7 @@ SHAPES = {
 OWN = {
     ("ambulo_options", "progress"), ("ambulo_parameters", "problem_at"),
     ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
-    ("ambulo_export_options", "inverse"),
+    ("ambulo_export_options", "inverse"), ("ambulo_export_options", "problem"),
 }
 
 # Numbers that stand for something of the model and may be given by its name.

@@ -1,8 +1,7 @@
 /* report/report.c - the result folder, all or nothing.
  *
- * Reading order: report.c, summary_json.h, summary_json.c, devices_json.h, holds_json.h,
- * solution_yaml.c,
- * versions.c.
+ * Reading order: report.c, summary_json.h, summary_json.c, history_json.h, devices_json.h,
+ * holds_json.h, solution_yaml.c, versions.c.
  */
 #include "ambulo/report.h"
 

@@ -4,9 +4,8 @@
 
 #include <sys/stat.h>
 
-#include "ambulo/import.h"
 #include "support/fail_alloc.h"
-#include "support/messages.h"
+#include "support/import_case.h"
 #include "support/random_model.h"
 #include "support/scratch.h"
 #include "support/still_walker.h"
@@ -16,12 +15,6 @@ static ambulo_export_options options_of(ambulo_export_format format) {
   o.format = format;
   o.overwrite = 1;
   return o;
-}
-
-static void skip_without_expat(void) {
-  if (ambulo_import_available()) return;
-  print_message("skipped: built without expat\n");
-  skip();
 }
 
 /* ---------------------------------------------------------------------- round trips */
@@ -48,7 +41,7 @@ static void torques(const ambulo_model *model, const ambulo_model *order, const 
 
 static void compare_models(const ambulo_model *a, const ambulo_model *b, random_source *source) {
   enum { MOST = 64 };
-  double state[3 * MOST], one[MOST], two[MOST], size = 1.0;
+  double state[3 * MOST] = {0}, one[MOST], two[MOST], size = 1.0;
   int d = ambulo_model_coordinate_count(a);
   assert_int_equal(ambulo_model_coordinate_count(b), d);
   for (int i = 0; i < 3 * d; i++) state[i] = random_between(source, -2, 2);
@@ -61,10 +54,9 @@ static void compare_models(const ambulo_model *a, const ambulo_model *b, random_
 static void there_and_back(void **state, uint64_t seed, ambulo_export_format format) {
   random_tree *tree = malloc(sizeof *tree);
   random_source source = {seed};
-  ambulo_model *model = NULL, *back = NULL;
+  ambulo_model *model = NULL;
   ambulo_export_options o = options_of(format);
-  ambulo_import_options in = ambulo_import_options_default();
-  const char *file = scratch_path(state, "m.xml"), *yaml = scratch_path(state, "m.yaml");
+  const char *file = scratch_path(state, "m.xml");
   random_tree_make(tree, seed, 1 + (int)(seed % 9));
   if (seed % 3 == 0) random_tree_put_on_root(tree, seed);
   /* a URDF's gravity is its reader's */
@@ -73,19 +65,14 @@ static void there_and_back(void **state, uint64_t seed, ambulo_export_format for
     tree->coordinates[i].actuated = (int)(seed + (uint64_t)i) % 2;
   assert_int_equal(ambulo_model_create(&tree->definition, NULL, NULL, &model), AMBULO_OK);
   assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
-  in.overwrite = 1;
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_status status = ambulo_import_model(file, yaml, &in, NULL, list, NULL);
-  for (size_t i = 0; status && i < ambulo_diagnostics_count(list); i++) {
-    char text[400];
-    ambulo_diagnostics_format(list, i, text, sizeof text);
-    print_error("seed %d: %s\n", (int)seed, text);
+  import_case back = import_file(file, NULL);
+  if (back.status) {
+    print_error("seed %d\n", (int)seed);
+    import_print(&back);
   }
-  assert_int_equal(status, AMBULO_OK);
-  assert_int_equal(ambulo_model_load(yaml, NULL, NULL, NULL, &back), AMBULO_OK);
-  for (int pose = 0; pose < 3; pose++) compare_models(model, back, &source);
-  ambulo_diagnostics_free(list);
-  ambulo_model_free(back);
+  assert_int_equal(back.status, AMBULO_OK);
+  for (int pose = 0; pose < 3; pose++) compare_models(model, back.model, &source);
+  import_shut(&back);
   ambulo_model_free(model);
   free(tree);
 }
@@ -103,18 +90,18 @@ static void opensim_comes_back(void **state) {
 /* ranges, limits of torques, names; sliders of the root with their offset */
 static void limits_come_back(void **state) {
   skip_without_expat();
-  ambulo_model *model = NULL, *back = NULL;
+  ambulo_model *model = NULL;
   ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
-  const char *file = scratch_path(state, "m.osim"), *yaml = scratch_path(state, "m.yaml");
+  const char *file = scratch_path(state, "m.osim");
   assert_int_equal(ambulo_model_load("models/lower_body_21.yaml", NULL, NULL, NULL, &model),
                    AMBULO_OK);
   assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
-  assert_int_equal(ambulo_import_model(file, yaml, NULL, NULL, NULL, NULL), AMBULO_OK);
-  assert_int_equal(ambulo_model_load(yaml, NULL, NULL, NULL, &back), AMBULO_OK);
+  import_case back = import_file(file, NULL);
+  assert_int_equal(back.status, AMBULO_OK);
   for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
     const ambulo_coordinate *a = ambulo_model_coordinate(model, i);
     const ambulo_coordinate *b =
-        ambulo_model_coordinate(back, ambulo_model_find_coordinate(back, a->name));
+        ambulo_model_coordinate(back.model, ambulo_model_find_coordinate(back.model, a->name));
     double offset = strcmp(a->name, "pelvis_ty") == 0 ? 0.534643 * 1.75 : 0.0;
     assert_non_null(b);
     for (int k = 0; k < 2; k++) {
@@ -122,7 +109,7 @@ static void limits_come_back(void **state) {
       if (a->actuated) assert_close(b->torque[k], a->torque[k], 1e-12 * fabs(a->torque[k]));
     }
   }
-  ambulo_model_free(back);
+  import_shut(&back);
   ambulo_model_free(model);
 }
 

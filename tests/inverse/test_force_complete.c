@@ -16,7 +16,7 @@ static ambulo_diagnostics *messages_of(const ambulo_model *model, const char *na
   snprintf(text + used, sizeof text - used, "\n");
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
-  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
+  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0, 0};
   assert_int_equal(
       motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
       AMBULO_OK);

@@ -44,7 +44,7 @@ static ambulo_status read_with(void **state, fixture *f, const char *text,
 /* reads; the messages must be `messages`, in order, separated by newlines (NULL: none) */
 static ambulo_status read_text_of(void **state, fixture *f, const char *text,
                                   const char *const *messages, int count) {
-  f->doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0};
+  f->doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0, 0};
   ambulo_status status = read_with(state, f, text, NULL);
   if ((int)ambulo_diagnostics_count(f->doubts.diagnostics) != count) {
     print_error("%s\n", text);
@@ -317,7 +317,7 @@ static void milliseconds_are_recognized(void **state) {
     const char *path = scratch_path(state, "forces.csv");
     snprintf(text, sizeof text, HEAD "%s", cases[i].rows);
     scratch_write(path, text);
-    f.doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0};
+    f.doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0, 0};
     ambulo__load_source source = {.model = f.model,
                                   .file = path,
                                   .options = &f.options,

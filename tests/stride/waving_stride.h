@@ -1,5 +1,5 @@
-/* tests/stride/waving_stride.h - the mirrored stride of models/walk.yaml whose joints wave: no gait, but
- * everything moves; with one more setting, of what is worn or held. */
+/* tests/stride/waving_stride.h - the mirrored stride of models/walk.yaml whose joints wave: no
+ * gait, but everything moves; with one more setting, of what is worn or held. */
 #ifndef TESTS_STRIDE_WAVING_STRIDE_H
 #define TESTS_STRIDE_WAVING_STRIDE_H
 
@@ -18,9 +18,9 @@ typedef struct waving_stride {
 static inline void open_waving_stride(waving_stride *w, const char *more, int samples) {
   const char *const settings[] = {"time.intervals=30", "trajectory.intervals=9", more};
   w->problem = NULL;
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", settings, more ? 3 : 2, NULL, NULL,
-                                       &w->problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load("models/walk.yaml", settings, more ? 3 : 2, NULL, NULL, &w->problem),
+      AMBULO_OK);
   const ambulo_problem *p = w->problem;
   w->x = calloc((size_t)p->variables, sizeof *w->x);
   assert_non_null(w->x);

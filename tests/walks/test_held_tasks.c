@@ -1,6 +1,7 @@
 /* The shipped tasks of hands, from zero: a box lifted from the floor to a table, a wall that is
- * pushed with a given force, a wall that bears who leans on it. All solve, hold between their nodes and do what their comments say; energy and forces
- * are those of mechanics. Looked at on 2001 times. */
+ * pushed with a given force, a wall that bears who leans on it. All solve, hold between their nodes
+ * and do what their comments say; energy and forces are those of mechanics. Looked at on 2001
+ * times. */
 #include "ambulo/ambulo.h"
 #include "base/vector.h"
 #include "support/test.h"
@@ -69,8 +70,8 @@ static void open_task(task *k, const char *name) {
 }
 
 static void close_task(task *k) {
-  double *const arrays[] = {k->t,     k->q,   k->qd,    k->tau,    k->wrench,
-                            k->point, k->grf, k->force, k->moment, k->power, k->patch};
+  double *const arrays[] = {k->t,   k->q,     k->qd,     k->tau,   k->wrench, k->point,
+                            k->grf, k->force, k->moment, k->power, k->patch};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
   ambulo_result_free(k->result);
   ambulo_problem_free(k->problem);
@@ -217,9 +218,9 @@ static void a_wall_is_pushed(void **state) {
 
 /* ------------------------------------------------------------------------ push-up */
 
-/* Nobody says how hard hands push: what balances the body about the middle of the feet, 0.09 m ahead of
- * the heels, where their pressure stays. Of the moment about it hands have what they push times 1.3 m, and
- * what rubs along the wall times 0.86 m. */
+/* Nobody says how hard hands push: what balances the body about the middle of the feet, 0.09 m
+ * ahead of the heels, where their pressure stays. Of the moment about it hands have what they push
+ * times 1.3 m, and what rubs along the wall times 0.86 m. */
 static void a_wall_bears_who_leans_on_it(void **state) {
   (void)state;
   task k;
