@@ -68,13 +68,14 @@ AMBULO_API const char *ambulo_ending_name(ambulo_ending ending);
 AMBULO_API const char *ambulo_ending_text(ambulo_ending ending);
 
 typedef enum ambulo_algorithm {
-  AMBULO_AUTO,  /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
-  AMBULO_SLSQP, /* NLopt's SLSQP */
-  AMBULO_AUGLAG /* NLopt's AUGLAG with inner L-BFGS */
+  AMBULO_AUTO = 0, /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
+  AMBULO_SLSQP,    /* NLopt's SLSQP */
+  AMBULO_AUGLAG    /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
 
 /* Whose the equality rows are, with presolve. */
 typedef enum ambulo_equalities {
+  AMBULO_EQUALITIES_NOT_SET = 0, /* refused */
   AMBULO_EQUALITIES_HELD, /* every point that NLopt sees satisfies them: Ambulo carries it there */
   AMBULO_EQUALITIES_NLOPT /* NLopt's AUGLAG gets them as constraints, beside the inequalities, each
                              with its dense gradient: to compare; much slower. Up to 4 GB */
@@ -82,7 +83,7 @@ typedef enum ambulo_equalities {
 
 /* What follows AUGLAG. */
 typedef enum ambulo_finisher {
-  AMBULO_FINISHER_NONE,
+  AMBULO_FINISHER_NONE = 0,
   AMBULO_FINISHER_SLSQP /* a short run of NLopt's SLSQP; its point is kept if the audit finds it
                            better. Dense: up to 750 unknowns */
 } ambulo_finisher;
@@ -93,8 +94,8 @@ typedef enum ambulo_finisher {
 typedef struct ambulo_progress {
   int iteration, evaluations;
   double objective, violation; /* violation: worst over all rows, relative to their size */
-  double seconds, time_limit;  /* since the start; 0 limit: none */
-  double seconds_left;         /* estimate; < 0: unknown */
+  double seconds, time_limit;  /* since the start; AMBULO_OFF: no limit */
+  double seconds_left;         /* estimate; AMBULO_OFF: unknown */
   const char *stage;           /* "set-up", "coarse grids", "solve", "audit", "explanation" */
   int solve;                   /* with free parameters (parameters.h): the inner solve that this is
                                   of, from 1 on; 0 without */
@@ -104,15 +105,16 @@ typedef struct ambulo_progress {
 #define AMBULO_MOST_STARTS 100
 
 typedef struct ambulo_options {
-  int cookie; /* set by ambulo_options_default() */
+  size_t size; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
   int presolve;            /* 1: drop dependent equalities, whiten, restore, retract, screen;
                               0: every row handed straight to NLopt */
   int maximum_evaluations; /* of the objective and the rows; 20000 */
   int maximum_iterations;  /* inner solves of AUGLAG a grid, calls of NLopt otherwise; 150 */
-  double time_limit;       /* s of wall time; 0: none. It holds from set-up to explanation; what
-                              it takes to judge the last point may add a tenth of it */
-  double maximum_memory;   /* bytes that a solve may be predicted to take; 0: what is free */
+  double time_limit; /* s of wall time; AMBULO_OFF: none. It holds from set-up to explanation; what
+                        it takes to judge the last point may add a tenth of it */
+  double maximum_memory;        /* bytes that a solve may be predicted to take; AMBULO_OFF: what is
+                                   free */
   double feasibility_tolerance; /* worst violation that counts as feasible, relative to the size of
                                    its row (ambulo_violation.size), 1e-14 to 1; 1e-6 */
   double optimality_tolerance;  /* relative KKT residual that counts as optimal, 1e-14 to 1; 1e-3 */
@@ -131,9 +133,17 @@ typedef struct ambulo_options {
   void *user;
 } ambulo_options;
 
-AMBULO_API ambulo_options ambulo_options_default(void);
+AMBULO_DEFAULT(ambulo_options);
 /* The defaults, changed by what the problem file says under `solver:`. */
-AMBULO_API ambulo_options ambulo_problem_options(const ambulo_problem *problem);
+AMBULO_API void ambulo_problem_options_fill(const ambulo_problem *problem, ambulo_options *filled,
+                                            size_t size);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_options ambulo_problem_options(const ambulo_problem *problem) {
+  ambulo_options usual;
+  ambulo_problem_options_fill(problem, &usual, sizeof usual);
+  return usual;
+}
+#endif
 
 /* Violation of one family of rows. It is judged relative to the size of the row, so that one
  * tolerance fits every unit:

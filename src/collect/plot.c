@@ -1,5 +1,6 @@
 /* collect/plot.c - choosing what a drawing shows: which axes, which output, which cases. */
 #include "collect/plot.h"
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/paths.h"
 #include "picture/svg.h"
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WORD = 200, COOKIE = 0x706c6f74 };
+enum { WORD = 200 };
 
 static ambulo_status no_such(const ambulo__plot *p, const char *what, const char *name) {
   const ambulo__listing *l = p->listing;
@@ -151,13 +152,10 @@ static ambulo_status draw(ambulo__plot *p, const char *plot, char **file) {
   return status;
 }
 
-ambulo_plot_options ambulo_plot_options_default(void) {
-  ambulo_plot_options options = {.cookie = COOKIE};
-  return options;
-}
+AMBULO__FILL(ambulo_plot_options, {.size = size})
 
 static int acceptable(const ambulo_plot_options *o) {
-  return o->cookie == COOKIE && o->where_count >= 0 && (o->where || o->where_count == 0);
+  return o->where_count >= 0 && (o->where || o->where_count == 0);
 }
 
 ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
@@ -165,7 +163,7 @@ ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 char **file) {
   ambulo__plot p = {.directory = directory, .diagnostics = diagnostics};
-  p.options = options ? *options : ambulo_plot_options_default();
+  if (!AMBULO__OWN(ambulo_plot_options, &p.options, options)) return AMBULO_E_ARGUMENT;
   if (!directory || !plot || !file || !acceptable(&p.options)) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__listing listing;

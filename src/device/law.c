@@ -75,6 +75,7 @@ ambulo__effort ambulo__effort_of(const ambulo_device *device, double along, doub
                             .by_rate = -g * factor * device->damping,
                             .by_factor = -g * device->damping * rate,
                             .by_damping = -g * factor * rate};
+  case AMBULO_DEVICE_KIND_NOT_SET:
   case AMBULO_DEVICE_ACTUATOR:
     break;
   }

@@ -134,9 +134,8 @@ static void update_multipliers(drive *s) {
 
 static void tell(ambulo__engine *e) {
   const ambulo__trial *point = &e->reached;
-  double gradient = point->gradient_norm < 0.0
-                        ? NAN
-                        : point->gradient_norm / fmax(1.0, fabs(point->objective));
+  double gradient =
+      point->gradient_norm < 0.0 ? NAN : point->gradient_norm / fmax(1.0, fabs(point->objective));
   (void)ambulo__run_iteration(e->run, e->setup->problem->definition.intervals,
                               point->objective / e->setup->objective_scale, point->violation,
                               gradient);

@@ -43,7 +43,7 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
       .violation = violation,
       .seconds = ambulo__seconds_now() - run->started,
       .time_limit = o->time_limit,
-      .seconds_left = -1.0,
+      .seconds_left = AMBULO_OFF,
       .stage = run->stage,
       .best = NAN,
   };

@@ -84,8 +84,9 @@ ambulo_status ambulo__page_add_motion(const ambulo_page_options *o, ambulo__text
   double span[2];
   ambulo__motion *table = NULL;
   const ambulo_allocator *a = &out->allocator;
-  ambulo_status status = ambulo_inverse_dynamics_motion(o->body, o->motion, NULL, &options, a,
-                                                        diagnostics, NULL, &text);
+  ambulo_status status = ambulo_inverse_dynamics_motion(
+      o->body, o->motion, NULL, &options, a, diagnostics,
+      &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text});
   if (!status)
     status = ambulo__table_read(text, strlen(text), o->motion, AMBULO__MOTION_CSV, 1, a,
                                 diagnostics, &table);

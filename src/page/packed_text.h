@@ -5,7 +5,7 @@
 #include "base/text_buffer.h"
 
 /* Appends a JSON string: text [length] compressed (format/deflate.h), in base64 (RFC 4648).
- * viewer/inflate.js reads it. */
+ * viewer/inflated.js reads it. */
 void ambulo__packed_text(ambulo__text_buffer *out, const char *text, size_t length);
 
 #endif

@@ -4,8 +4,8 @@
  *     {"study": {"name", "columns", "cases": [...]}}        of a batch folder, some with "packed"
  *
  * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
- * the files of the folder (docs/results.md), `strip` its gait.svg as a text. All of it is JSON for a
- * <script> element (script_text.h). */
+ * the files of the folder (docs/results.md), `strip` its gait.svg as a text. All of it is JSON for
+ * a <script> element (script_text.h). */
 #ifndef AMBULO_PAGE_PAGE_H
 #define AMBULO_PAGE_PAGE_H
 

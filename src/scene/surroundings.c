@@ -15,7 +15,7 @@
 
 enum { CONTACT_SAMPLES = 2400 }; /* of a stride of 1.2 s: .5 ms */
 
-static const char *const mode_words[] = {"heel", "flat", "toe", "patch"};
+static const char *const mode_words[] = {"", "heel", "flat", "toe", "patch"};
 
 /* -------------------------------------------------------------------- ground */
 

@@ -67,6 +67,8 @@ static void add_keys(const device_keys *k) {
                                            : AMBULO__FORCE,
         v->amount, 1, "amount", "amount");
     break;
+  case AMBULO_DEVICE_KIND_NOT_SET:
+    break;
   }
   if (!v->clutch) return;
   add(k, AMBULO__DEVICE_FROM, AMBULO__RATIO, v->from, 0, "engagement", "engaged.from");

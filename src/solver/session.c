@@ -11,6 +11,7 @@
 #include "judge/explain.h"
 #include "judge/verdict.h"
 #include "method/pipeline.h"
+#include "nlp/problem.h"
 #include "solver/memory.h"
 #include "solver/options.h"
 
@@ -166,6 +167,7 @@ ambulo_status ambulo__session_begin(ambulo__session *s, const ambulo_options *op
   if (status) return status;
   s->run.history = s->result->history;
   s->run.history->shown.tolerance = options->feasibility_tolerance;
+  ambulo__start_pose(s->problem, s->result->x);
   if (start) memcpy(s->result->x, start, (size_t)s->problem->variables * sizeof *start);
   status = check_start(s);
   if (status) return status;

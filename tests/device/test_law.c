@@ -94,7 +94,7 @@ static void test_no_stiffness(void **state) {
   for (int i = 0; i < 2 * 3 * 3 * 9; i++) {
     ambulo_device v = ambulo_device_default(AMBULO_DEVICE_SPRING);
     v.coordinate = i % 2 ? 3 : -1;
-    v.side = (ambulo_device_side)(i / 2 % 3);
+    v.side = (ambulo_device_side)(1 + i / 2 % 3);
     v.pretension = 8.0 * (i / 6 % 3 - 1);
     v.rest = 0.3;
     v.smoothing = 0.2;

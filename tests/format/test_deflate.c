@@ -4,6 +4,12 @@
 #include "support/fail_alloc.h"
 #include "support/inflate.h"
 
+#ifdef AMBULO_HAS_ZLIB
+enum { compresses = 1 };
+#else
+enum { compresses = 0 };
+#endif
+
 static unsigned long long seed = 88172645463325252ull;
 static unsigned any(unsigned below) {
   seed ^= seed << 13;
@@ -19,7 +25,7 @@ static size_t goes_round(const char *bytes, size_t length) {
   ambulo__text_init(&packed, NULL);
   ambulo__deflate(&packed, bytes, length);
   assert_int_equal(ambulo__text_status(&packed), AMBULO_OK);
-  unsigned char *out = inflate(ambulo__text_data(&packed), packed.length, &size);
+  unsigned char *out = unpacked(ambulo__text_data(&packed), packed.length, &size);
   assert_int_equal(size, length);
   assert_memory_equal(out, bytes, length);
   size_t bytes_packed = packed.length;
@@ -46,22 +52,26 @@ static void all_lengths_and_distances(void **state) {
     for (size_t i = 0; i < length && at < SIZE; i++, at++) bytes[at] = bytes[at - distance];
     if (at < SIZE) bytes[at++] = (char)any(256);
   }
-  assert_true(goes_round(bytes, SIZE) < 50000);
+  size_t packed = goes_round(bytes, SIZE);
+  assert_true(packed < (compresses ? 50000 : SIZE + 100));
   free(bytes);
 }
 
 static void repeats_are_small(void **state) {
   (void)state;
+  if (!compresses) skip();
   enum { SIZE = 100000 };
   char *bytes = calloc(SIZE, 1);
   assert_true(goes_round(bytes, SIZE) < 300);
   for (size_t i = 0; i < SIZE; i++) bytes[i] = (char)any(256);
-  assert_true(goes_round(bytes, SIZE) < 1.02 * SIZE); /* what has no pattern grows little */
+  assert_true((double)goes_round(bytes, SIZE) <
+              1.02 * (double)SIZE); /* what has no pattern grows little */
   for (size_t i = 0; i < SIZE; i++) bytes[i] = (char)('0' + any(10));
-  assert_true(goes_round(bytes, SIZE) < 0.49 * SIZE); /* as zlib; log2(10) / 8 is .415 */
+  assert_true((double)goes_round(bytes, SIZE) <
+              0.49 * (double)SIZE); /* as zlib; log2(10) / 8 is .415 */
   memcpy(bytes + SIZE / 2, bytes + SIZE / 2 - 30000, 30000);
   size_t again = goes_round(bytes, SIZE);
-  assert_true(again < 0.49 * (SIZE - 30000) + 600);
+  assert_true((double)again < 0.49 * (double)(SIZE - 30000) + 600);
   free(bytes);
 }
 

@@ -12,7 +12,7 @@ static void comes_out_again(const char *text, size_t length) {
   out.data[out.length - 1] = '\0';
   size_t bytes, size;
   char *packed = unbase64(out.data + 1, &bytes);
-  unsigned char *got = inflate(packed, bytes, &size);
+  unsigned char *got = unpacked(packed, bytes, &size);
   assert_int_equal(size, length);
   assert_memory_equal(got, text, length);
   free(got);

@@ -45,10 +45,10 @@ static char *data_of(const char *page) {
 }
 
 /* what is packed in an item of "results"; to be freed */
-static char *unpacked(const ambulo__yaml_node *item) {
+static char *text_packed_in(const ambulo__yaml_node *item) {
   size_t bytes, size;
   char *packed = unbase64(ambulo__yaml_text(ambulo__yaml_get(item, "packed")), &bytes);
-  char *text = (char *)inflate(packed, bytes, &size);
+  char *text = (char *)unpacked(packed, bytes, &size);
   free(packed);
   assert_int_equal(strlen(text), size);
   return text;
@@ -84,7 +84,7 @@ static void a_page_of_a_result(void **state) {
   const ambulo__yaml_node *one = ambulo__yaml_item(list, 0);
   assert_int_equal(ambulo__yaml_items(list), 1);
   assert_string_equal(ambulo__yaml_text(ambulo__yaml_get(one, "name")), "walk");
-  char *summary = read_whole(inside(folder, "summary.json")), *packed = unpacked(one);
+  char *summary = read_whole(inside(folder, "summary.json")), *packed = text_packed_in(one);
   yaml_case p = yaml_open(packed);
   assert_int_equal(p.status, AMBULO_OK);
   assert_non_null(strstr(summary, ambulo__yaml_text(ambulo__yaml_get(
@@ -127,7 +127,7 @@ static void two_results_and_a_measured_motion(void **state) {
   assert_int_equal(c.status, AMBULO_OK);
   const ambulo__yaml_node *list = ambulo__yaml_get(c.root, "results");
   assert_int_equal(ambulo__yaml_items(list), 3);
-  char *packed[2] = {unpacked(ambulo__yaml_item(list, 2)), unpacked(ambulo__yaml_item(list, 0))};
+  char *packed[2] = {text_packed_in(ambulo__yaml_item(list, 2)), text_packed_in(ambulo__yaml_item(list, 0))};
   yaml_case two[2] = {yaml_open(packed[0]), yaml_open(packed[1])};
   const ambulo__yaml_node *motion = ambulo__yaml_get(two[0].root, "scene");
   assert_close(ambulo__yaml_number(ambulo__yaml_get(motion, "duration"), 0), 0.25, 1e-12);
@@ -200,7 +200,7 @@ static void what_stands_there(void **state) {
   options.motion = "x.csv"; /* without a body */
   assert_int_equal(ambulo_page_write(&folder, 1, page, &options, NULL, NULL), AMBULO_E_ARGUMENT);
   options = ambulo_page_options_default();
-  options.cookie = 0;
+  options.size = 0;
   assert_int_equal(ambulo_page_write(&folder, 1, page, &options, NULL, NULL), AMBULO_E_ARGUMENT);
 }
 

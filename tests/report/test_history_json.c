@@ -36,7 +36,7 @@ static void a_list_for_each_column(void **state) {
   yaml_case c = yaml_open(text);
   const ambulo__yaml_node *all = ambulo__yaml_get(c.root, "convergence");
   static const char *const want[COLUMNS][2] = {
-      {"1", "2"},        {"8", "16"},       {"6", "12"},          {"2.5", "0.30000000000000004"},
+      {"1", "2"},         {"8", "16"},       {"6", "12"},        {"2.5", "0.30000000000000004"},
       {"0.125", "3e-07"}, {"null", "0.001"}, {"0.123457", "0.5"}};
   for (int k = 0; k < COLUMNS; k++) {
     const ambulo__yaml_node *list = ambulo__yaml_get(all, columns[k]);

@@ -5,7 +5,6 @@ import { createHash } from "node:crypto";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { deflateRawSync } from "node:zlib";
 import { build } from "esbuild";
-import { inflate } from "./inflate.js";
 
 const read = (name) => readFileSync(new URL(name, import.meta.url), "utf8");
 const bundle = async (entry) => (await build({
@@ -13,12 +12,7 @@ const bundle = async (entry) => (await build({
   bundle: true, minify: true, format: "iife", target: "es2021", legalComments: "none", write: false,
 })).outputFiles[0].text;
 
-// inflate.js reads blocks with codes of their own, which is what zlib makes of long texts
-function packed(text) {
-  const out = deflateRawSync(text, { level: 9, memLevel: 9 }).toString("base64");
-  if (inflate(out) !== text) throw new Error("inflate.js does not read what zlib packed");
-  return out;
-}
+const packed = (text) => deflateRawSync(text, { level: 9, memLevel: 9 }).toString("base64");
 
 // by this number tests/page/run.sh knows a page that is older than its sources
 const sources = readdirSync(new URL(".", import.meta.url))
@@ -38,6 +32,6 @@ const page = read("page.html")
   .replace("/*STYLE*/", () => style)
   .replace("/*PROGRAM*/", () => program)
   .replace("/*SCRIPT*/", () => licence(`three.js ${versions.three}`)
-    + licence(`uPlot ${versions.uplot}`) + script);
+    + licence(`uPlot ${versions.uplot}`) + licence(`fflate ${versions.fflate}`) + script);
 writeFileSync(process.argv[2], page);
 console.log(`viewer.html: ${Math.round(Buffer.byteLength(page) / 1000)} kB`);

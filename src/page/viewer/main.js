@@ -1,7 +1,7 @@
 // The page: reads the data that stand in it, sets up view, clock, curves and text.
 import { css, el, seconds } from "./dom.js";
 import { spoken, unpack } from "./decode.js";
-import { inflate } from "./inflate.js";
+import { inflated } from "./inflated.js";
 import { Charts } from "./charts.js";
 import { failure, panels } from "./panels.js";
 import { Stage, hasWebGL } from "./stage.js";
@@ -14,7 +14,7 @@ const hash = new URLSearchParams(location.hash.slice(1));
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
 // {name, summary, scene, strip} of {name, packed}
-const opened = (packed) => Object.assign(packed, JSON.parse(inflate(packed.packed)));
+const opened = (packed) => Object.assign(packed, JSON.parse(inflated(packed.packed)));
 
 const page = {
   results: (data.results ?? []).map(opened),

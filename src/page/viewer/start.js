@@ -1,6 +1,6 @@
 // Begins the page: its program stands in it packed, a third as long.
-import { inflate } from "./inflate.js";
+import { inflated } from "./inflated.js";
 
 const program = document.createElement("script");
-program.textContent = inflate(document.getElementById("program").textContent);
+program.textContent = inflated(document.getElementById("program").textContent);
 document.body.append(program);

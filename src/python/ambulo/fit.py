@@ -60,7 +60,7 @@ class Fit(Owner):
                       records.FitProgress, interrupt)
         with Call() as call:
             status = lib.ambulo_fit_run(self._pointer, path_of(folder), watch.options, NULL,
-                                        call.messages, NULL, NULL, text)
+                                        call.messages, NULL, text)
             told = _taken(text[0])
             watch.finish(call, status, "the same call goes on")
         return FitReport(folder, told)
