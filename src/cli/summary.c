@@ -19,14 +19,14 @@ static void print_objective(const ambulo_problem *problem, const ambulo_result *
 
 /* what was free, where it went, and what it brought */
 static void print_parameters(const ambulo_result *result) {
-  static const char *const bounds[] = {", at its lower bound", "", ", at its upper bound"};
+  static const char *const bounds[] = {"", ", at its lower bound", "", ", at its upper bound"};
   const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
   if (!o) return;
   printf("free parameters\n");
   for (int i = 0; i < o->count; i++) {
     const ambulo_parameter_value *p = &o->items[i];
     printf("  %-24s %.6g %s (%.6g to %.6g; before %.6g)%s\n", p->name, p->value, p->unit, p->lower,
-           p->upper, p->first, bounds[p->bound + 1]);
+           p->upper, p->first, bounds[p->bound]);
   }
   const char *per = o->per == AMBULO_PER_DISTANCE ? "per metre" : "objective";
   if (!isnan(o->objective)) printf("  %-24s %.6g (before %.6g)\n", per, o->objective, o->first);

@@ -213,7 +213,7 @@ static ambulo_status take_hand(const reader *r, int load, int hand, double *valu
                                  .option = "--grf-filter",
                                  .file = r->source->file,
                                  .diagnostics = r->source->doubts->diagnostics};
-  if (o->force_cutoff <= 0.0) return AMBULO_OK;
+  if (isnan(o->force_cutoff)) return AMBULO_OK;
   return ambulo__filter(&filtering, values, HAND, &r->load->allocator);
 }
 

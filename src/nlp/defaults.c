@@ -1,26 +1,14 @@
 /* nlp/defaults.c - what a problem definition and its parts are before a caller says otherwise. */
 #include "ambulo/evaluate.h"
+#include "ambulo/extend.h"
 #include "base/sized.h"
-#include "nlp/definition_take.h"
+#include "nlp/definition_parts.h"
 
 #include <math.h>
 
 enum { NOT_GIVEN = -1, NONE = -1 };
 
 AMBULO__FILL(ambulo_contact, {.foot = NONE, .mode = AMBULO_CONTACT_FLAT, .patch = NONE})
-
-/* phases of people at a comfortable speed, as docs/guide-gait.md has them */
-void ambulo_gait_fill(ambulo_gait *filled) {
-  const ambulo_gait usual = {.size = filled->size,
-                             .contact_size = filled->contact_size,
-                             .steps = 1,
-                             .foot_flat = 0.08,
-                             .heel_off = 0.38,
-                             .toe_off = 0.62,
-                             .other_step_length = AMBULO_OFF,
-                             .other_step_time = AMBULO_OFF};
-  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
-}
 
 AMBULO__FILL(ambulo_end_value, {.coordinate = NOT_GIVEN})
 
@@ -72,6 +60,12 @@ void ambulo_term_fill(ambulo_term *filled, ambulo_term_kind kind, size_t size) {
   }
   if (kind == AMBULO_MECHANICAL_POWER) usual.smoothing = 0.05;
   ambulo__sized_fill(filled, size, &usual, sizeof usual);
+}
+
+void ambulo_extension_fill(ambulo_extension *filled) {
+  const ambulo_extension usual = {
+      .size = filled->size, .term_size = filled->term_size, .user_row_size = filled->user_row_size};
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
 }
 
 void ambulo_problem_definition_fill(ambulo_problem_definition *filled) {

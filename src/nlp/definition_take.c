@@ -1,67 +1,17 @@
 /* nlp/definition_take.c - definitions of problems by programs of older headers.
  *
- * A definition holds three parts by value. In an older one they, and the whole, may be shorter:
- *
- *     ours    [ a ][ clearance .... ][ ground_reaction .. ][ b ][ collision ... ][ c ..... ]
- *     theirs  [ a ][ clearance ][ ground_reaction ][ b ][ collision ][ c .. ]
- *
- * with the same a and b, between parts, and a beginning of c. The sizes stand at the beginning of
- * a. Items of arrays follow the sizes of theirs (base/sized.h).
+ * The whole and the parts that it holds by value: definition_parts.h. Items of arrays follow the
+ * sizes of theirs (base/sized.h).
  */
 #include "nlp/definition_take.h"
 #include "base/alloc.h"
 #include "base/sized.h"
+#include "nlp/definition_parts.h"
 
 #include <stddef.h>
 #include <string.h>
 
 typedef ambulo_problem_definition definition;
-
-enum { PARTS = 3 };
-static const struct {
-  size_t at, full;
-} parts[PARTS] = {
-    {offsetof(definition, clearance), sizeof(ambulo_clearance)},
-    {offsetof(definition, ground_reaction), sizeof(ambulo_ground_reaction)},
-    {offsetof(definition, collision), sizeof(ambulo_collision)},
-};
-
-/* A run of bytes that both have. */
-typedef struct run {
-  size_t ours, theirs, length;
-} run;
-
-/* fills `runs`, in order; 0: no header of this library or of an older one had these sizes */
-static int runs_of(const definition *theirs, run runs[2 * PARTS + 1]) {
-  const size_t part_size[PARTS] = {theirs->clearance_size, theirs->ground_reaction_size,
-                                   theirs->collision_size};
-  size_t ours = 0, given = 0;
-  int known = 1;
-  for (int i = 0; i < PARTS; i++) {
-    size_t size = part_size[i], full = parts[i].full;
-    known &= ambulo__sized_item(size, full) && size % sizeof(double) == 0;
-    runs[2 * i] = (run){ours, given, parts[i].at - ours};
-    given += parts[i].at - ours;
-    runs[2 * i + 1] = (run){parts[i].at, given, size < full ? size : full};
-    given += size;
-    ours = parts[i].at + full;
-  }
-  size_t behind = sizeof(definition) - ours, left = theirs->size - given;
-  known &= theirs->size >= given && left <= behind;
-  runs[2 * PARTS] = (run){ours, given, left < behind ? left : behind};
-  return known;
-}
-
-void ambulo__definition_give(const ambulo_problem_definition *usual,
-                             ambulo_problem_definition *given) {
-  run runs[2 * PARTS + 1];
-  definition all = *usual;
-  memcpy(&all, given, offsetof(definition, name)); /* the sizes */
-  (void)runs_of(&all, runs);
-  memset(given, 0, all.size); /* what a newer header has besides */
-  for (int i = 0; i < 2 * PARTS + 1; i++)
-    memcpy((char *)given + runs[i].theirs, (const char *)&all + runs[i].ours, runs[i].length);
-}
 
 static void usual_contact(void *item, const void *given) {
   (void)given;
@@ -139,13 +89,13 @@ static ambulo_status take_items(ambulo__taken_definition *taken, const void **ar
 ambulo_status ambulo__definition_take(const ambulo_problem_definition *given,
                                       const ambulo_allocator *allocator,
                                       ambulo__taken_definition *taken) {
-  run runs[2 * PARTS + 1];
+  ambulo__definition_run runs[AMBULO__DEFINITION_RUNS];
   *taken = (ambulo__taken_definition){.definition = ambulo_problem_definition_default(),
                                       .allocator = ambulo__allocator_or_default(allocator)};
-  if (!given || given->size <= offsetof(definition, name) || !runs_of(given, runs))
+  if (!given || given->size <= offsetof(definition, name) || !ambulo__definition_runs(given, runs))
     return AMBULO_E_ARGUMENT;
   definition *d = &taken->definition;
-  for (int i = 0; i < 2 * PARTS + 1; i++)
+  for (int i = 0; i < AMBULO__DEFINITION_RUNS; i++)
     memcpy((char *)d + runs[i].ours, (const char *)given + runs[i].theirs, runs[i].length);
   d->size = sizeof *d;
   d->clearance_size = sizeof d->clearance;

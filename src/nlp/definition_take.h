@@ -24,8 +24,4 @@ ambulo_status ambulo__extension_take(const ambulo_extension *given,
                                      ambulo__taken_definition *taken);
 void ambulo__definition_drop(ambulo__taken_definition *taken);
 
-/* Sets the definition of a caller, whose sizes are set, to `usual`. */
-void ambulo__definition_give(const ambulo_problem_definition *usual,
-                             ambulo_problem_definition *given);
-
 #endif

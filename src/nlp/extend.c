@@ -3,17 +3,10 @@
  * The extended problem is built anew from the definition that the first one came to (its nodes,
  * its contacts, its pairs of capsules), with the additions behind, and shares its model. */
 #include "ambulo/extend.h"
-#include "base/sized.h"
 #include "nlp/definition_take.h"
 #include "nlp/problem.h"
 
 #include <string.h>
-
-void ambulo_extension_fill(ambulo_extension *filled) {
-  const ambulo_extension usual = {
-      .size = filled->size, .term_size = filled->term_size, .user_row_size = filled->user_row_size};
-  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
-}
 
 static int is_there(const void *array, int count) {
   return count == 0 || (count > 0 && array);

@@ -14,6 +14,8 @@ enum { MOST_SOLVES = 60, NUMBER = 40 };
 
 AMBULO__FILL(ambulo_parameter, {.lower = AMBULO_OFF, .upper = AMBULO_OFF})
 
+AMBULO__FILL(ambulo_problem_text, {.size = size})
+
 void ambulo_parameters_fill(ambulo_parameters *filled) {
   const ambulo_parameters usual = {.size = filled->size,
                                    .parameter_size = filled->parameter_size,

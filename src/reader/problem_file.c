@@ -306,8 +306,6 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   return ambulo__conclude(diagnostics, errors, status, path);
 }
 
-AMBULO__FILL(ambulo_problem_text, {.size = size})
-
 ambulo_status ambulo_problem_load_text(const ambulo_problem_text *text,
                                        const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo_problem **problem) {

@@ -125,7 +125,7 @@ static ambulo_status sensitivities(ambulo__json *json, const ambulo_problem *pro
 
 /* what became of the numbers that were free; nothing where none was */
 static void free_parameters(ambulo__json *json, const ambulo_result *result) {
-  static const char *const bounds[] = {"lower", NULL, "upper"};
+  static const char *const bounds[] = {NULL, "lower", NULL, "upper"};
   const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
   if (!o) return;
   ambulo__json_open(json, "free", '{');
@@ -144,7 +144,7 @@ static void free_parameters(ambulo__json *json, const ambulo_result *result) {
     ambulo__json_number(json, "upper", p->upper);
     ambulo__json_number(json, "first", p->first);
     ambulo__json_number(json, "derivative", p->derivative);
-    ambulo__json_text(json, "at_bound", bounds[p->bound + 1]);
+    ambulo__json_text(json, "at_bound", bounds[p->bound]);
     ambulo__json_close(json, '}');
   }
   ambulo__json_close(json, ']');

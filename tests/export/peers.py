@@ -31,7 +31,7 @@ def table(path):
     return {name: [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
-def said(label, worst, 1e-8, of):
+def said(label, worst, bound, of):
     good = worst <= bound  # NaN is no good
     print(f"{'ok' if good else 'FAILED':8} {label}: {worst:.1e} {of} (at most {bound:.0e})")
     return good

@@ -314,8 +314,8 @@ static void bad_arguments(void **state) {
   bad[3].force_length_unit = (double)NAN;
   bad[4].force_time_unit = INFINITY;
   bad[5].cutoff = -1.0;
-  bad[6].cutoff = (double)NAN;
-  bad[7].force_cutoff = (double)NAN;
+  bad[6].cutoff = 0.0;
+  bad[7].force_cutoff = 0.0;
   bad[8].filter_order = 3;
   bad[9].filter_order = 0;
   bad[10].ground_height = (double)NAN;
