@@ -53,19 +53,19 @@ static void what_is_foreseen_ends_it(void **state) {
   const struct {
     double drift, violation, gradient, refused, tolerance;
     ambulo_ending ending;
-  } cases[] = {{0, 5e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_CONVERGED},
-               {2e-5, 5e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_CONVERGED},
-               {5e-5, 5e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
-               {0, 2e-4, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
-               {0, 5e-5, 2e-4, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
-               {0, 5e-5, 9e-5, 6e-5, 1e-3, AMBULO_ENDING_NONE},
-               {0, 5e-5, 9e-5, HUGE_VAL, 1e-4, AMBULO_ENDING_NONE},
-               {2e-5, 5e-5, 1e-6, HUGE_VAL, 1e-4, AMBULO_ENDING_NONE}};
+  } cases[] = {{0, 2e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_CONVERGED},
+               {2e-5, 2e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_CONVERGED},
+               {5e-5, 2e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
+               {0, 4e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
+               {0, 2e-5, 2e-4, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
+               {0, 2e-5, 9e-5, 3e-5, 1e-3, AMBULO_ENDING_NONE},
+               {0, 2e-5, 9e-5, HUGE_VAL, 1e-4, AMBULO_ENDING_NONE},
+               {2e-5, 2e-5, 1e-6, HUGE_VAL, 1e-4, AMBULO_ENDING_NONE}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     ambulo__stopping s = ambulo__stopping_begin(0);
     f.options.optimality_tolerance = cases[i].tolerance;
     s.refused = cases[i].refused;
-    assert_int_equal(lacking(&s, &f, whole, big, 5e-5, 9e-5), AMBULO_ENDING_NONE);
+    assert_int_equal(lacking(&s, &f, whole, big, 2e-5, 9e-5), AMBULO_ENDING_NONE);
     assert_int_equal(lacking(&s, &f, whole * (1.0 + cases[i].drift), small, cases[i].violation,
                              cases[i].gradient),
                      cases[i].ending);
