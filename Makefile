@@ -84,6 +84,10 @@ LIBS := $(call libs_of,nlopt,-lnlopt) $(call libs_of,yaml-0.1,-lyaml) $(strip $(
 EXPAT := $(if $(call links,-include expat.h -lexpat),$(call libs_of,expat,-lexpat))
 DEPENDENCY_CFLAGS += $(if $(EXPAT),-DAMBULO_HAS_EXPAT $(call probe,expat,--cflags))
 LIBS += $(EXPAT)
+# zlib too: without it the page of `ambulo report` is larger
+ZLIB := $(if $(call links,-include zlib.h -lz),$(call libs_of,zlib,-lz))
+DEPENDENCY_CFLAGS += $(if $(ZLIB),-DAMBULO_HAS_ZLIB $(call probe,zlib,--cflags))
+LIBS += $(ZLIB)
 CMOCKA := $(call libs_of,cmocka,-lcmocka)
 ALL_CPPFLAGS += $(DEPENDENCY_CFLAGS)
 
@@ -111,7 +115,7 @@ HEADERS := $(sort $(wildcard include/ambulo/*.h))
 .PHONY: all help setup demo check tests run-tests bench bench-table1 bench-table4 bench-peers \
   sanitize valgrind check-kill check-slurm check-page check-python wheel viewer coverage \
   lint lint-format lint-static lint-order lint-size lint-symbols lint-callers lint-mirror \
-  lint-headers \
+  lint-headers lint-interface \
   lint-equations lint-reading lint-keys lint-leftovers format \
   install uninstall clean force
 
@@ -252,7 +256,7 @@ check-slurm: build/.ready-build
 # Python, from PyPI, in build/python-venv; `make check` uses what there is
 PYTHON_PATH = PATH='$(CURDIR)/build/python-venv/bin':"$$PATH"
 wheel: build/.ready-build build/.ready-python
-	$(submake) $(OUT)/libambulo.so
+	$(submake) $(OUT)/libambulo.so $(OUT)/ambulo
 	@$(PYTHON_PATH) python src/python/package.py wheel $(OUT)/libambulo.so $(OUT)/wheel
 
 check-python: build/.ready-build build/.ready-python
@@ -302,7 +306,7 @@ coverage: build/.ready-test
 
 # -------------------------------------------------------------------- lint
 
-LINT := format static order size symbols callers mirror headers equations reading keys leftovers
+LINT := format static order size symbols callers mirror headers interface equations reading keys leftovers
 FORMATTED = $(wildcard include/ambulo/*.h src/*/*.[ch] tests/*/*.[ch] bench/*.[ch] bench/peers/*.c \
   docs/examples/*.c)
 # the kernels are one text compiled per instruction set: the baseline stands for all
@@ -334,6 +338,8 @@ lint-mirror:
 	@.setup/lint_mirror.sh
 lint-headers:
 	@CC='$(CC)' .setup/lint_headers.sh
+lint-interface:
+	@.setup/lint_interface.sh
 lint-equations:
 	@.setup/lint_equations.sh
 lint-reading:

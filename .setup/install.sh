@@ -33,6 +33,9 @@ has_lapack() {
   local source='extern void dpbtrf_(void); int main(void) { dpbtrf_(); return 0; }'
   links "$source" -lopenblas || links "$source" -llapack -lblas
 }
+# without zlib the page of `ambulo report` is larger
+has_zlib() { links '#include <zlib.h>
+int main(void) { return zlibVersion() == 0; }' -lz; }
 # without them `ambulo import`, and `ambulo draw` for PDF and PNG, only say that they are missing
 has_expat() { links '#include <expat.h>
 int main(void) { return XML_ParserCreate(0) == 0; }' -lexpat; }
@@ -59,7 +62,7 @@ else manager=none; fi
 # Homebrew keeps libraries out of the compiler's sight
 search=
 if [ "$manager" = brew ]; then
-  for name in nlopt libyaml openblas expat cmocka; do
+  for name in nlopt libyaml openblas expat zlib cmocka; do
     folder=$(brew --prefix "$name" 2>/dev/null) && search="$search -I$folder/include -L$folder/lib"
   done
 fi
@@ -73,6 +76,7 @@ package() {
   apt-get:yaml) echo libyaml-dev ;;
   apt-get:lapack) echo libopenblas-dev ;;
   apt-get:expat) echo libexpat1-dev ;;
+  apt-get:zlib) echo zlib1g-dev ;;
   apt-get:rsvg-convert) echo librsvg2-bin ;;
   apt-get:cmocka) echo libcmocka-dev ;;
   apt-get:python) echo python3 python3-venv ;;
@@ -83,6 +87,7 @@ package() {
   dnf:yaml) echo libyaml-devel ;;
   dnf:lapack) echo openblas-devel ;;
   dnf:expat) echo expat-devel ;;
+  dnf:zlib) echo zlib-devel ;;
   dnf:rsvg-convert) echo librsvg2-tools ;;
   dnf:cmocka) echo libcmocka-devel ;;
   dnf:python) echo python3 ;;
@@ -132,6 +137,7 @@ missing() {
 # what is built, or drawn, without where it cannot be had
 optional() {
   has_expat || package expat
+  has_zlib || package zlib
   has_program rsvg-convert || package rsvg-convert
 }
 
@@ -181,6 +187,7 @@ wanted=$(missing | tr '\n' ' ')
 extra=$(optional | tr '\n' ' ')
 left_out=
 case $extra in *expat*) left_out='ambulo import is left out' ;; esac
+case $extra in *zlib*) left_out="${left_out:+$left_out, }pages of ambulo report are larger" ;; esac
 case $extra in *rsvg*) left_out="${left_out:+$left_out, }ambulo draw makes SVG only" ;; esac
 if [ -n "${extra// /}" ] && [ "${2:-}" = --list ]; then
   echo "without ${extra% }: $left_out; 'make setup' installs it" >&2

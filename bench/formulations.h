@@ -113,8 +113,11 @@ static inline int forward(formulation *f, const double *y, const double *tau, do
   int d = f->d, two = 2 * d;
   double zero[most_dofs] = {0.0}, h[most_dofs], M[most_dofs * most_dofs], N[most_dofs * most_dofs];
   double tq[most_dofs * most_dofs], tv[most_dofs * most_dofs], X[most_dofs * 3 * most_dofs];
-  ambulo_jacobians mass = {.tau_qdd = M}, rest = {.tau_q = tq, .tau_qd = tv};
-  if (ambulo_mechanics_inverse_dynamics(f->mechanics, 1, y, y + d, zero, h, NULL, NULL) ||
+  ambulo_jacobians mass = {.size = sizeof(ambulo_jacobians), .tau_qdd = M},
+                   rest = {.tau_q = tq, .tau_qd = tv};
+  if (ambulo_mechanics_inverse_dynamics(
+          f->mechanics, 1, y, y + d, zero,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = h}) ||
       ambulo_mechanics_jacobians(f->mechanics, 1, y, y + d, zero, &mass))
     return 0;
   memcpy(N, M, sizeof M);

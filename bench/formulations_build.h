@@ -46,7 +46,8 @@ static inline void find_basis(formulation *f) {
   int d = f->d, n = f->control_points;
   double *times = bench_array((size_t)f->nodes, sizeof *times);
   double *q = bench_array(3 * (size_t)(f->nodes * d), sizeof *q);
-  ambulo_motion motion = {.q = q, .qd = q + f->nodes * d, .qdd = q + 2 * f->nodes * d};
+  ambulo_motion motion = {
+      .size = sizeof(ambulo_motion), .q = q, .qd = q + f->nodes * d, .qdd = q + 2 * f->nodes * d};
   int *found = bench_array((size_t)f->nodes, sizeof *found);
   for (int k = 0; k < f->nodes; k++) times[k] = ambulo_problem_node_time(f->problem, k);
   for (int p = 0; p < n; p++) {
@@ -212,7 +213,7 @@ static inline void make_start(const char *name, double size, start *s) {
   s->tau = bench_array((size_t)(nodes * d), sizeof(double));
   for (int k = 0; k < nodes; k++) times[k] = ambulo_problem_node_time(problem, k);
   for (int j = 0; j < n; j++) s->x[j] = size * (2.0 * uniform() - 1.0);
-  ambulo_motion motion = {.q = s->q, .qd = s->qd, .tau = s->tau};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = s->q, .qd = s->qd, .tau = s->tau};
   must(ambulo_problem_motion(problem, workspace, s->x, nodes, times, &motion), "motion");
   ambulo_workspace_free(workspace);
   ambulo_problem_free(problem);

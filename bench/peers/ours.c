@@ -154,8 +154,10 @@ static void write_states(const ambulo_model *model, const char *folder, const do
   if (!file || !record || ambulo_mechanics_create(model, NULL, &mechanics)) exit(1);
   double *q = record, *qd = q + d, *qdd = qd + d, *w = qdd + d, *tau = w + d, *gradient = tau + d;
   double *jacobian = gradient + 3 * d;
-  ambulo_jacobians all = {
-      .tau_q = jacobian, .tau_qd = jacobian + d * d, .tau_qdd = jacobian + 2 * d * d};
+  ambulo_jacobians all = {.size = sizeof(ambulo_jacobians),
+                          .tau_q = jacobian,
+                          .tau_qd = jacobian + d * d,
+                          .tau_qdd = jacobian + 2 * d * d};
   for (int s = 0; s < peer_states; s++) {
     for (int i = 0; i < d; i++) {
       q[i] = 0.8 * spread(&seed);
@@ -163,10 +165,14 @@ static void write_states(const ambulo_model *model, const char *folder, const do
       qdd[i] = 30 * spread(&seed);
       w[i] = spread(&seed);
     }
-    if (ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, NULL, NULL) ||
+    if (ambulo_mechanics_inverse_dynamics(
+            mechanics, 1, q, qd, qdd,
+            &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}) ||
         ambulo_mechanics_gradient(
-            mechanics, 1, q, qd, qdd, &(ambulo_output_weights){.tau = w},
-            &(ambulo_motion_gradient){gradient, gradient + d, gradient + 2 * d}) ||
+            mechanics, 1, q, qd, qdd,
+            &(ambulo_output_weights){.size = sizeof(ambulo_output_weights), .tau = w},
+            &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), gradient, gradient + d,
+                                      gradient + 2 * d}) ||
         ambulo_mechanics_jacobians(mechanics, 1, q, qd, qdd, &all))
       exit(1);
     for (int i = 0; i < 8 * d; i++) record[i] *= sign[i % d];

@@ -51,9 +51,10 @@ static ambulo_status exact(const ambulo_model *model, double *tau) {
     qd[i] = state[1];
     qdd[i] = state[2];
   }
+  ambulo_outputs outputs = ambulo_outputs_default();
+  outputs.tau = tau;
   ambulo_status status = ambulo_mechanics_create(model, NULL, &mechanics);
-  if (!status)
-    status = ambulo_mechanics_inverse_dynamics(mechanics, ROWS, q, qd, qdd, tau, NULL, NULL);
+  if (!status) status = ambulo_mechanics_inverse_dynamics(mechanics, ROWS, q, qd, qdd, &outputs);
   ambulo_mechanics_free(mechanics);
   return status;
 }
@@ -83,16 +84,18 @@ int main(void) {
   if (!status && !write_motion("swing.csv")) status = AMBULO_E_IO;
   if (!status) status = exact(model, tau);
 
-  static const double cutoffs[2] = {0.0, 6.0}; /* Hz; 0: no filter */
+  const double cutoffs[2] = {AMBULO_OFF, 6.0}; /* Hz */
+  ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
+  outputs.text = &text;
   for (int i = 0; i < 2 && !status; i++) {
     ambulo_inverse_options options = ambulo_inverse_options_default();
     options.angles = AMBULO_ANGLES_DEGREES;
     options.cutoff = cutoffs[i];
     status = ambulo_inverse_dynamics_motion(model, "swing.csv", NULL, &options, NULL, messages,
-                                            NULL, &text);
+                                            &outputs);
     if (status) break;
-    printf("cut-off %g Hz: torque off by %.2f N m (root mean square)\n", cutoffs[i],
-           difference(text, tau));
+    printf("%s: torque off by %.2f N m (root mean square)\n",
+           isnan(cutoffs[i]) ? "no filter" : "cut-off 6 Hz", difference(text, tau));
     ambulo_text_free(text, NULL);
   }
   for (size_t i = 0; status && i < ambulo_diagnostics_count(messages); i++)

@@ -81,7 +81,11 @@ static ambulo_status show(const ambulo_problem *problem, const walker *w, const 
   ambulo_workspace *workspace = NULL;
   ambulo_result *result = NULL;
   double q[200], qd[200], tau[200], points[600], least = 1e9, most = 0.0;
-  const ambulo_motion motion = {.q = q, .qd = qd, .tau = tau, .points = points};
+  ambulo_motion motion = ambulo_motion_default();
+  motion.q = q;
+  motion.qd = qd;
+  motion.tau = tau;
+  motion.points = points;
   ambulo_status status = ambulo_workspace_create(problem, NULL, &workspace);
   if (!status) status = ambulo_solve(problem, NULL, NULL, NULL, messages, &result);
   for (int k = 0; !status && k < ambulo_problem_node_count(problem); k++) {

@@ -48,7 +48,7 @@ static ambulo_status find(const ambulo_problem *problem, source *s, double lower
   ambulo_problem *best = NULL;
   ambulo_result *result = NULL;
   ambulo_status status =
-      ambulo_solve_parameters(problem, &parameters, NULL, NULL, NULL, messages, &best, &result);
+      ambulo_solve_parameters(problem, &parameters, NULL, NULL, messages, &best, &result);
   if (!status) {
     const ambulo_parameters_outcome *outcome = ambulo_result_parameters(result);
     const ambulo_parameter_value *value = &outcome->items[0];

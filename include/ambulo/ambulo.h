@@ -8,6 +8,7 @@
  *     solve.h      the solver, the verdict and the audit
  *     sensitivity.h  what each number of a problem costs
  *     parameters.h   numbers of a problem that the solver chooses
+ *     objective.h  parts of a problem: terms, functions of the caller
  *     ground.h     parts of a problem: the ground's force, feet in the air
  *     hold.h       parts of a problem: what hands hold or push
  *     collision.h  parts of a problem: capsules, obstacles, places to reach
@@ -51,6 +52,7 @@
 #include "ambulo/inverse.h"
 #include "ambulo/mechanics.h"
 #include "ambulo/model.h"
+#include "ambulo/objective.h"
 #include "ambulo/page.h"
 #include "ambulo/parameters.h"
 #include "ambulo/picture.h"

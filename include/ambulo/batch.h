@@ -57,19 +57,19 @@ typedef struct ambulo_batch_progress {
   int running;
   int resumed;            /* of done: found finished at the start */
   double seconds;         /* since the start */
-  double seconds_left;    /* < 0: unknown */
-  double worst_violation; /* over the cases solved in this run; < 0: none yet */
+  double seconds_left;    /* AMBULO_OFF: unknown */
+  double worst_violation; /* over the cases solved in this run; AMBULO_OFF: none yet */
   const char *worst;      /* name of that case; NULL: none yet */
   const char *last;       /* name of the case that ended last; NULL: none yet */
   char last_state[24];    /* "optimal", "infeasible", "crashed", "timeout", ... */
 } ambulo_batch_progress;
 
 typedef struct ambulo_batch_options {
-  int cookie;          /* set by ambulo_batch_options_default() */
+  size_t size;         /* set by ambulo_batch_options_default() */
   const char *program; /* the ambulo program; NULL: /proc/self/exe */
   int workers;         /* processes at once; 0: usable processors, limited by memory */
   int shard, shards;   /* this is shard 1 .. shards */
-  double case_seconds; /* kill a case after this; 0: as the sweep file says, or no limit */
+  double case_seconds; /* kill a case after this; AMBULO_OFF: as the sweep file says, or no limit */
   int case_megabytes;  /* address space of a case; 0: as the sweep file says, or no limit */
   double grace;        /* s that running cases get after a first stop; 30 */
   int force;           /* 1: recompute cases whose inputs changed */
@@ -77,7 +77,7 @@ typedef struct ambulo_batch_options {
   int (*progress)(void *user, const ambulo_batch_progress *progress);
   void *user;
 } ambulo_batch_options;
-AMBULO_API ambulo_batch_options ambulo_batch_options_default(void);
+AMBULO_DEFAULT(ambulo_batch_options);
 
 /* Solves every case of the shard that is not finished in `directory` yet: that has no record, one
  * of other inputs, or files that are not what was written (computed again, with a warning).
@@ -150,12 +150,12 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_batch_collect(const char *direc
                                                                ambulo_batch_census *census);
 
 typedef struct ambulo_plot_options {
-  int cookie;               /* set by ambulo_plot_options_default() */
+  size_t size;              /* set by ambulo_plot_options_default() */
   const char *const *where; /* [where_count] conditions such as "speed < 1.5": cases are drawn for
                                which all hold. Names: axes, outputs, id, name, state */
   int where_count;
 } ambulo_plot_options;
-AMBULO_API ambulo_plot_options ambulo_plot_options_default(void);
+AMBULO_DEFAULT(ambulo_plot_options);
 
 /* Draws a collected output over one axis (curves) or two (a heat map) as SVG into `directory`;
  * plot is "X:OUTPUT" or "X,Y:OUTPUT"; options may be NULL. *file: path of the drawing, free with

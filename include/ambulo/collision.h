@@ -23,7 +23,7 @@ extern "C" {
 #endif
 
 typedef enum ambulo_collision_mode {
-  AMBULO_COLLISION_OFF,
+  AMBULO_COLLISION_OFF = 0,
   AMBULO_COLLISION_PAIRS, /* those that are listed */
   /* All pairs but those of links that hang on one another by joints alone, those that overlap in
    * the rest pose (all coordinates 0, or as near as their ranges let them), and those that come no
@@ -45,6 +45,7 @@ typedef struct ambulo_collision {
 } ambulo_collision;
 
 typedef enum ambulo_obstacle_shape {
+  AMBULO_OBSTACLE_SHAPE_NOT_SET = 0, /* refused */
   AMBULO_OBSTACLE_BOX,
   AMBULO_OBSTACLE_CAPSULE
 } ambulo_obstacle_shape;
@@ -78,9 +79,10 @@ typedef struct ambulo_reach {
 
 /* Off, without pairs; a box for all capsules, without size; a point that is to be named, at the
  * world's origin from 0 until the end. */
-AMBULO_API ambulo_collision ambulo_collision_default(void);
-AMBULO_API ambulo_obstacle ambulo_obstacle_default(void);
-AMBULO_API ambulo_reach ambulo_reach_default(void);
+AMBULO_DEFAULT(ambulo_collision);
+AMBULO_DEFAULT(ambulo_obstacle);
+AMBULO_DEFAULT(ambulo_reach);
+AMBULO_DEFAULT(ambulo_capsule_pair); /* -1, to be given */
 
 #ifdef __cplusplus
 }

@@ -17,8 +17,9 @@
  * below -smoothing / 2, x above smoothing / 2, and r' the smooth step u^2 (3 - 2 u) between them.
  * w = 1; of a clutch the smooth window of its engagement: 0 outside [from, to] of the stride of
  * `foot`, which begins with the foot's strike, and 1 but for a smooth step of length `ramp` at
- * both of its ends. A spring has no force where its clutch is open, and the value it rests at is
- * the given one, wherever it is engaged.
+ * both of its ends. At stiffness 0 E is what it tends to: 0, or with a pretension a constant force
+ * (of one side: where that pulls to this side). A spring has no force where its clutch is open, and
+ * the value it rests at is the given one, wherever it is engaged.
  *
  * Devices have no mass (a load is `load` of the file), and need nothing from outside the body: the
  * root wrench and the forces of the ground are those of the motion.
@@ -33,19 +34,22 @@ extern "C" {
 #endif
 
 typedef enum ambulo_device_kind {
+  AMBULO_DEVICE_KIND_NOT_SET = 0, /* refused */
   AMBULO_DEVICE_SPRING,
   AMBULO_DEVICE_DAMPER,
   AMBULO_DEVICE_ACTUATOR
 } ambulo_device_kind;
 
 typedef enum ambulo_device_side {
-  AMBULO_DEVICE_BOTH,  /* a spring that pulls and pushes */
-  AMBULO_DEVICE_ABOVE, /* acts where its coordinate or length is above the rest only */
+  AMBULO_DEVICE_SIDE_NOT_SET = 0, /* refused of a spring */
+  AMBULO_DEVICE_BOTH,             /* a spring that pulls and pushes */
+  AMBULO_DEVICE_ABOVE,            /* acts where its coordinate or length is above the rest only */
   AMBULO_DEVICE_BELOW
 } ambulo_device_side;
 
 typedef enum ambulo_device_clock {
-  AMBULO_DEVICE_CONSTANT,  /* the profile is 1 */
+  AMBULO_DEVICE_CLOCK_NOT_SET = 0, /* refused of an actuator */
+  AMBULO_DEVICE_CONSTANT,          /* the profile is 1 */
   AMBULO_DEVICE_BY_TIME,   /* points at times, s; before the first and after the last their value */
   AMBULO_DEVICE_BY_STRIDE, /* points at shares of the stride of `foot`, 0 to 1, that repeat */
 } ambulo_device_clock;
@@ -56,7 +60,7 @@ typedef struct ambulo_device {
   int coordinate;        /* at this coordinate of a joint; -1: between two points */
   int link[2];           /* of them */
   double position[2][3]; /* in the frames of their links, m */
-  double stiffness;      /* of a spring, N m/rad or N/m, > 0 */
+  double stiffness;      /* of a spring, N m/rad or N/m, >= 0; 0: none, but for its pretension */
   double rest,
       pretension; /* rad or m; N m or N, force at rest in the sense of a stretched spring */
   ambulo_device_side side;   /* of a spring */
@@ -74,7 +78,14 @@ typedef struct ambulo_device {
 } ambulo_device;
 
 /* Stiffness 0, damping 0, amount 1, both sides, a smoothing of 0.01, no clutch, no place. */
-AMBULO_API ambulo_device ambulo_device_default(ambulo_device_kind kind);
+AMBULO_API void ambulo_device_fill(ambulo_device *filled, ambulo_device_kind kind, size_t size);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_device ambulo_device_default(ambulo_device_kind kind) {
+  ambulo_device usual;
+  ambulo_device_fill(&usual, kind, sizeof usual);
+  return usual;
+}
+#endif
 
 #ifdef __cplusplus
 }

@@ -14,7 +14,7 @@ extern "C" {
 
 /* A value or a derivative that is not finite. Strings belong to the problem and the model. */
 typedef enum ambulo_fault_kind {
-  AMBULO_FAULT_NONE,      /* everything was finite */
+  AMBULO_FAULT_NONE = 0,  /* everything was finite */
   AMBULO_FAULT_UNKNOWN,   /* an unknown of the point itself */
   AMBULO_FAULT_TERM,      /* an objective term */
   AMBULO_FAULT_ROW,       /* a row */
@@ -68,23 +68,26 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_row_gradient(const ambu
 /* The motion at `count` >= 1 times in [0, T]. Outputs [count][...] as in mechanics.h
  * plus the ZMP [count][3] on the ground plane (NaN where n . F <= 0); each may be
  * NULL. With ground reaction also the force on each foot grf [count][feet][3] (N), its centre of
- * pressure cop [count][feet][3] (m; NaN in the air), its free moment about the normal
- * free_moment [count][feet] (N m), and the same of each patch of the model, patch_...
- * [count][patches]: zeros and a NaN centre where it is not in contact. Without ground reaction
- * these are filled with NaN. Of devices (ambulo/device.h) effort, coordinate or length, and power
- * on the body, [count][devices] (N m or N; rad or m; W); tau is what they leave to the person. Of
- * what hands hold (ambulo/hold.h) the force that each hand exerts and the moment about its point,
- * [count][holds][2][3], world axes (N, N m; zeros of a hand that is not there, and while nothing is
- * held), and the power of the forces, [count][holds] (W).
- * E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not
- * finite; the outputs are filled all the same. */
+ * pressure cop [count][feet][3] (m; NaN where the ground does not push), its free moment about the
+ * normal there free_moment [count][feet] (N m; 0 without a centre), its moment about the world's
+ * origin grf_moment [count][feet][3] (N m; all of it, wherever the centre of pressure may be), and
+ * the same of each patch of the model, patch_... [count][patches]: zeros and a NaN centre where it
+ * is not in contact. Without ground reaction these are filled with NaN. Of devices
+ * (ambulo/device.h) effort, coordinate or length, and power on the body, [count][devices] (N m or
+ * N; rad or m; W); tau is what they leave to the person. Of what hands hold (ambulo/hold.h) the
+ * force that each hand exerts and the moment about its point, [count][holds][2][3], world axes (N,
+ * N m; zeros of a hand that is not there, and while nothing is held), and the power of the forces,
+ * [count][holds] (W). E_ARGUMENT: a time outside [0, T]. E_NUMERIC: some value is not finite; the
+ * outputs are filled all the same. */
 typedef struct ambulo_motion {
+  size_t size; /* set by ambulo_motion_default() */
   double *q, *qd, *qdd, *tau, *wrench, *points, *zmp;
-  double *grf, *cop, *free_moment;
-  double *patch_force, *patch_cop, *patch_free_moment;
+  double *grf, *cop, *free_moment, *grf_moment;
+  double *patch_force, *patch_cop, *patch_free_moment, *patch_moment;
   double *device_effort, *device_along, *device_power;
   double *hold_force, *hold_moment, *hold_power;
 } ambulo_motion;
+AMBULO_DEFAULT(ambulo_motion); /* NULL */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_motion(const ambulo_problem *problem,
                                                                 ambulo_workspace *workspace,
                                                                 const double *x, int count,

@@ -8,14 +8,16 @@
 #define AMBULO_EXPORT_H
 
 #include "ambulo/inverse.h"
+#include "ambulo/problem.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef enum ambulo_export_format {
+  AMBULO_EXPORT_FORMAT_NOT_SET = 0, /* refused */
   AMBULO_EXPORT_OPENSIM, /* without a motion the file .osim; with one a folder: model.osim,
-                            motion.mot and, where there are forces on feet, grf.mot and
+                            motion.mot and, where there are forces, grf.mot and
                             external_loads.xml */
   AMBULO_EXPORT_URDF,    /* a file; no motion */
   AMBULO_EXPORT_NPZ      /* a file: the motion in the coordinates of Pinocchio and MuJoCo, whose
@@ -23,14 +25,19 @@ typedef enum ambulo_export_format {
 } ambulo_export_format;
 
 typedef struct ambulo_export_options {
-  int cookie; /* set by ambulo_export_options_default() */
+  size_t size; /* set by ambulo_export_options_default() */
   ambulo_export_format format;
   int free_root; /* URDF: 1: without the coordinates that carry the root, for programs that give it
                     a free joint of their own (as the motion of an .npz has it) */
   int overwrite; /* 1: `output` may be any file, or a folder that an export made */
   const ambulo_inverse_options *inverse; /* how the motion is read; NULL: the defaults */
+  /* What the motion is a solution of: forces of patches, of hands that hold something and of
+   * devices are read from the motion's columns, exported with those of the feet, and taken off the
+   * torques. Its body must have the model's links. NULL: those of the feet alone, with a warning
+   * where the motion has others */
+  const ambulo_problem *problem;
 } ambulo_export_options;
-AMBULO_API ambulo_export_options ambulo_export_options_default(void); /* OpenSim */
+AMBULO_DEFAULT(ambulo_export_options); /* OpenSim */
 
 /* Writes `output`, whole or not at all. `motion`: a table as of ambulo_inverse_dynamics_motion, or
  * a result folder, whose motion.csv is taken; NULL: the model alone (not with NPZ). `options`,

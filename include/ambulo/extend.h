@@ -12,13 +12,23 @@ extern "C" {
  * caller's own on a walk of a file. Borrowed during the call only, except the callbacks' user
  * pointers, which must outlive the problem. */
 typedef struct ambulo_extension {
-  int cookie;               /* set by ambulo_extension_default() */
-  const ambulo_term *terms; /* of any kind; they follow the problem's own */
+  size_t size, term_size, user_row_size; /* set by ambulo_extension_default() */
+  const ambulo_term *terms;              /* of any kind; they follow the problem's own */
   int term_count;
   const ambulo_user_row *user_rows; /* likewise */
   int user_row_count;
 } ambulo_extension;
-AMBULO_API ambulo_extension ambulo_extension_default(void); /* nothing */
+AMBULO_API void ambulo_extension_fill(ambulo_extension *filled);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_extension ambulo_extension_default(void) { /* nothing */
+  ambulo_extension usual;
+  usual.size = sizeof usual;
+  usual.term_size = sizeof(ambulo_term);
+  usual.user_row_size = sizeof(ambulo_user_row);
+  ambulo_extension_fill(&usual);
+  return usual;
+}
+#endif
 
 /* `problem` with the extension: the same unknowns, rows and terms before those that are added,
  * options, and free parameters (parameters.h), whose values are tried with the extension as well.

@@ -29,6 +29,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_fit_describe(const ambulo_fit *
                                                               const ambulo_allocator *allocator,
                                                               char **text);
 
+/* How a run ended. */
+typedef enum ambulo_fit_ending {
+  AMBULO_FIT_NOT_RUN = 0, /* of a state that nobody filled */
+  AMBULO_FIT_CONVERGED,   /* further iterations change little */
+  AMBULO_FIT_ITERATIONS,  /* as many as the fit file allows */
+  AMBULO_FIT_INTERRUPTED, /* the caller stopped it; what is best so far was written */
+  AMBULO_FIT_STUCK        /* all solves of a condition failed; what is best so far was written */
+} ambulo_fit_ending;
+
 /* State of a run, for progress. Distances: NaN while there is none. */
 typedef struct ambulo_fit_progress {
   int iteration, iterations; /* 0: where the parameters stand in the file */
@@ -38,14 +47,15 @@ typedef struct ambulo_fit_progress {
   int resumed;               /* of those done: found in the folder */
   double first, best;        /* distance at the file's own values, and at the best ones */
   double seconds;            /* since the start */
-  double seconds_left;       /* < 0: unknown */
+  double seconds_left;       /* AMBULO_OFF: unknown */
+  ambulo_fit_ending ending;  /* AMBULO_FIT_NOT_RUN until it has ended */
 } ambulo_fit_progress;
 
 typedef struct ambulo_fit_options {
-  int cookie;          /* set by ambulo_fit_options_default() */
+  size_t size;         /* set by ambulo_fit_options_default() */
   const char *program; /* the ambulo program; NULL: /proc/self/exe */
   int workers;         /* processes at once; 0: usable processors, limited by memory */
-  double case_seconds; /* kill a solve after this; 0: as the fit file says */
+  double case_seconds; /* kill a solve after this; AMBULO_OFF: as the fit file says */
   int case_megabytes;  /* address space of a solve; 0: as the fit file says, or no limit */
   double grace;        /* s that running solves get after a first stop; 30 */
   int force;           /* 1: go on in the folder of a fit with other inputs */
@@ -53,16 +63,7 @@ typedef struct ambulo_fit_options {
   int (*progress)(void *user, const ambulo_fit_progress *progress);
   void *user;
 } ambulo_fit_options;
-AMBULO_API ambulo_fit_options ambulo_fit_options_default(void);
-
-/* How a run ended. */
-typedef enum ambulo_fit_ending {
-  AMBULO_FIT_NOT_RUN,     /* of a state that nobody filled */
-  AMBULO_FIT_CONVERGED,   /* further iterations change little */
-  AMBULO_FIT_ITERATIONS,  /* as many as the fit file allows */
-  AMBULO_FIT_INTERRUPTED, /* the caller stopped it; what is best so far was written */
-  AMBULO_FIT_STUCK        /* all solves of a condition failed; what is best so far was written */
-} ambulo_fit_ending;
+AMBULO_DEFAULT(ambulo_fit_options);
 
 /* Runs the fit in `directory`, which is created, or continued where it holds the same fit: solves
  * that are finished there are not computed again. Writes fit.json and fitted.yaml into it, and
@@ -70,10 +71,12 @@ typedef enum ambulo_fit_ending {
  * final state. AMBULO_OK for every ending. Errors, which leave no fit.json of this run: E_IO (the
  * folder holds other things, is locked, or cannot be written), E_PROBLEM (it was filled from other
  * inputs and force is 0; the first solves all fail; a motion lacks a curve), E_LIMIT, E_MEMORY. */
-AMBULO_NODISCARD AMBULO_API ambulo_status
-ambulo_fit_run(const ambulo_fit *fit, const char *directory, const ambulo_fit_options *options,
-               const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
-               ambulo_fit_progress *end, ambulo_fit_ending *ending, char **report);
+AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_fit_run(const ambulo_fit *fit,
+                                                         const char *directory,
+                                                         const ambulo_fit_options *options,
+                                                         const ambulo_allocator *allocator,
+                                                         ambulo_diagnostics *diagnostics,
+                                                         ambulo_fit_progress *end, char **report);
 
 #ifdef __cplusplus
 }

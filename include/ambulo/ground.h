@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 typedef enum ambulo_reaction_kind {
-  AMBULO_REACTION_NONE,     /* torques as if the root were carried by its own six forces */
+  AMBULO_REACTION_NONE = 0, /* torques as if the root were carried by its own six forces */
   AMBULO_REACTION_TWO_STEP, /* the root wrench is shared between the two feet and subtracted along
                               the legs: real joint torques */
   AMBULO_REACTION_SHARED    /* the contacts that are down share the root wrench by themselves */
@@ -20,9 +20,10 @@ typedef enum ambulo_reaction_kind {
 /* Share a of the front foot in double support; u runs from its strike (0) to the toe-off of the
  * rear foot (1). In single support the foot on the ground carries everything. */
 typedef enum ambulo_transfer {
-  AMBULO_TRANSFER_EARLY,  /* 1 - (1 - u)^exponent */
-  AMBULO_TRANSFER_LINEAR, /* u */
-  AMBULO_TRANSFER_SMOOTH  /* u^2 (3 - 2 u) */
+  AMBULO_TRANSFER_NOT_SET = 0, /* refused with AMBULO_REACTION_TWO_STEP */
+  AMBULO_TRANSFER_EARLY,       /* 1 - (1 - u)^exponent */
+  AMBULO_TRANSFER_LINEAR,      /* u */
+  AMBULO_TRANSFER_SMOOTH       /* u^2 (3 - 2 u) */
 } ambulo_transfer;
 
 /* Two-step ground reaction, and the rows it makes possible. With D the nominal centre of pressure
@@ -38,8 +39,8 @@ typedef struct ambulo_ground_reaction {
   double exponent;         /* >= 1 */
   double shear;            /* 1: both feet push towards the centre of mass; 0: shares of F */
   double friction;         /* |F_forward|, |F_left| <= friction F_n, in total and of each foot;
-                              negative: no rows */
-  double free_moment;      /* |T| <= free_moment m g, m; negative: no rows */
+                              AMBULO_OFF: no rows */
+  double free_moment;      /* |T| <= free_moment m g, m; AMBULO_OFF: no rows */
   int pressure;            /* 1: rows on the centre of pressure of each loaded foot: */
   double heel_pressure[2]; /* on its heel: from the heel, along the foot, m; the front end moves
                               on by heel_roll until the foot is flat */
@@ -59,7 +60,7 @@ typedef struct ambulo_ground_reaction {
   double slant;        /* > 0; below 1, forces lean towards the centre of mass */
   double loading_rate; /* of a contact's normal force, body weights per s: at most this times the
                           time since it began and until it ends, setting in over 6.5 ms (of a body
-                          of 1.75 m; as the root of the stature); negative: no rows */
+                          of 1.75 m; as the root of the stature); AMBULO_OFF: no rows */
   double flight_tolerance; /* while nothing touches the body: force on it at most, body weights, and
                               moment about its centre of mass, body weights times 1 m (of a body of
                               1.75 m; as the stature); > 0 */
@@ -68,19 +69,19 @@ typedef struct ambulo_ground_reaction {
 /* Rows on a foot in the air. s runs from 0 at its toe-off to 1 at its strike;
  * c(s) = height min(1, 4 s, 6 (1 - s)). */
 typedef struct ambulo_clearance {
-  double height;          /* ball >= c, heel >= c / 2, tip >= c, m; negative: no rows at all */
+  double height;          /* ball >= c, heel >= c / 2, tip >= c, m; AMBULO_OFF: no rows at all */
   double tip_from;        /* the tip has to clear from this s on: toes bend at push-off */
   double ceiling;         /* none of them higher, m */
   double turn;            /* sine of yaw and roll of the foot, at most */
   double outward, inward; /* how far the heel may leave its track, m */
   double feet;            /* gap, seen from above, between it and every other foot, at least, m;
                              feet are the line from heel to toe centre and half their largest width
-                             around it. Negative: no such rows; planar feet have none */
+                             around it. AMBULO_OFF: no such rows; planar feet have none */
 } ambulo_clearance;
 
 /* Those of ambulo_problem_definition_default(): none, and no rows. */
-AMBULO_API ambulo_ground_reaction ambulo_ground_reaction_default(void);
-AMBULO_API ambulo_clearance ambulo_clearance_default(void);
+AMBULO_DEFAULT(ambulo_ground_reaction);
+AMBULO_DEFAULT(ambulo_clearance);
 
 #ifdef __cplusplus
 }

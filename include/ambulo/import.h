@@ -17,13 +17,13 @@ extern "C" {
 /* How the root of a body without a joint to the world hangs on it. OpenSim and MuJoCo models say
  * it themselves; a URDF does not. */
 typedef enum ambulo_import_root {
-  AMBULO_ROOT_AS_IS, /* as the source says; of a URDF: free, unless its root is named `world` */
-  AMBULO_ROOT_FREE,  /* on three sliders and three hinges */
+  AMBULO_ROOT_AS_IS = 0, /* as the source says; of a URDF: free, unless its root is named `world` */
+  AMBULO_ROOT_FREE,      /* on three sliders and three hinges */
   AMBULO_ROOT_FIXED
 } ambulo_import_root;
 
 typedef struct ambulo_import_options {
-  int cookie;       /* set by ambulo_import_options_default() */
+  size_t size;      /* set by ambulo_import_options_default() */
   const char *name; /* of the model; NULL: as the source */
   ambulo_import_root root;
   /* "COORDINATE=VALUE", rad or m: where coordinates that drive a spline, that others follow or that
@@ -43,7 +43,7 @@ typedef struct ambulo_import_options {
   int repair_inertia; /* 1: an inertia that no body can have is raised to the nearest possible */
   int overwrite;      /* 1: `output` may be a file that is there and not empty */
 } ambulo_import_options;
-AMBULO_API ambulo_import_options ambulo_import_options_default(void);
+AMBULO_DEFAULT(ambulo_import_options);
 
 /* 1 if the library reads XML. */
 AMBULO_API int ambulo_import_available(void);

@@ -31,22 +31,33 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_create(const ambulo_m
                                                                   ambulo_mechanics **mechanics);
 AMBULO_API void ambulo_mechanics_free(ambulo_mechanics *mechanics); /* accepts NULL */
 
-/* Inverse dynamics of `nodes` states. tau, wrench, points may each be NULL.
+/* Where results go, each of its shape above, or NULL: not asked for. */
+typedef struct ambulo_outputs {
+  size_t size; /* set by ambulo_outputs_default() */
+  double *tau, *wrench, *points;
+} ambulo_outputs;
+AMBULO_DEFAULT(ambulo_outputs); /* nothing is asked for */
+
+/* Inverse dynamics of `nodes` states.
  * Errors: E_ARGUMENT, E_NUMERIC (an input or a result is not finite). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_inverse_dynamics(
     ambulo_mechanics *mechanics, int nodes, const double *q, const double *qd, const double *qdd,
-    double *tau, double *wrench, double *points);
+    const ambulo_outputs *outputs);
 
 /* Weights on what inverse dynamics gives; NULL: 0 everywhere. */
 typedef struct ambulo_output_weights {
+  size_t size;          /* set by ambulo_output_weights_default() */
   const double *tau;    /* [n][d] */
   const double *wrench; /* [n][6] */
   const double *points; /* [n][p][3] */
 } ambulo_output_weights;
 /* Where a gradient with respect to a motion goes: each [n][d], none NULL. */
 typedef struct ambulo_motion_gradient {
+  size_t size; /* set by ambulo_motion_gradient_default() */
   double *q, *qd, *qdd;
 } ambulo_motion_gradient;
+AMBULO_DEFAULT(ambulo_output_weights);  /* NULL */
+AMBULO_DEFAULT(ambulo_motion_gradient); /* NULL, to be given */
 
 /* Vector-Jacobian product: the gradient of the weighted sum of all outputs, by one reverse sweep.
  * Errors: E_ARGUMENT, E_NUMERIC. */
@@ -58,10 +69,12 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_mechanics_gradient(
  * is the mass matrix), of the wrench [n][6][d] likewise, and of the points
  * [n][3 p][d] with respect to q. Each output may be NULL. */
 typedef struct ambulo_jacobians {
+  size_t size;                               /* set by ambulo_jacobians_default() */
   double *tau_q, *tau_qd, *tau_qdd;          /* [n][d][d] */
   double *wrench_q, *wrench_qd, *wrench_qdd; /* [n][6][d] */
   double *points_q;                          /* [n][3 p][d] */
 } ambulo_jacobians;
+AMBULO_DEFAULT(ambulo_jacobians); /* NULL */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_mechanics_jacobians(ambulo_mechanics *mechanics, int nodes, const double *q,
                            const double *qd, const double *qdd, const ambulo_jacobians *jacobians);
@@ -72,18 +85,18 @@ AMBULO_API const char *ambulo_instruction_set(void);
 
 /* ------------------------------------------------------- reference recursion */
 
-/* The seed's recursion for one state (any output may be NULL): A, B, C matrices
+/* The seed's recursion for one state: A, B, C matrices
  * forward (Eqs. 4-6), D and E backward (Eqs. 11-12), tau by Eq. (10). Allocates
  * nothing; `scratch` has ambulo_lagrangian_scratch_size(model) bytes, aligned for
  * double. The complex form takes interleaved (re, im) pairs everywhere, which is
  * the memory layout of C's double complex, and serves complex-step derivatives. */
 AMBULO_API size_t ambulo_lagrangian_scratch_size(const ambulo_model *model);
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_inverse_dynamics(
-    const ambulo_model *model, const double *q, const double *qd, const double *qdd, double *tau,
-    double *wrench, double *points, void *scratch);
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_lagrangian_inverse_dynamics(const ambulo_model *model, const double *q, const double *qd,
+                                   const double *qdd, const ambulo_outputs *outputs, void *scratch);
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_lagrangian_inverse_dynamics_complex(
-    const ambulo_model *model, const double *q, const double *qd, const double *qdd, double *tau,
-    double *wrench, double *points, void *scratch);
+    const ambulo_model *model, const double *q, const double *qd, const double *qdd,
+    const ambulo_outputs *outputs, void *scratch);
 
 /* Kinetic and potential energy of one state (J); potential is zero at the world
  * origin. Energy balance: dE/dt = qd . tau. */

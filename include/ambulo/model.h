@@ -28,6 +28,7 @@ extern "C" {
 typedef struct ambulo_model ambulo_model;
 
 typedef enum ambulo_joint_type {
+  AMBULO_JOINT_TYPE_NOT_SET = 0, /* refused */
   AMBULO_FIXED,
   AMBULO_REVOLUTE,
   AMBULO_PRISMATIC
@@ -44,11 +45,14 @@ typedef struct ambulo_coordinate {
   int mirror;             /* coordinate that takes its place in the mirror image; itself if
                              unpaired (in a definition also -1) */
   double mirror_sign;     /* +1 or -1: q_mirror = mirror_sign * q */
+  double default_value;   /* where it stands in the start pose, from which a solve without a start
+                             of the caller's begins: rad or m; 0 */
 } ambulo_coordinate;
 
 /* What a coordinate has limits of, and an interval that they leave. */
 typedef enum ambulo_limited {
-  AMBULO_LIMITED_POSITION, /* `range` */
+  AMBULO_LIMITED_NOT_SET = 0, /* refused */
+  AMBULO_LIMITED_POSITION,    /* `range` */
   AMBULO_LIMITED_SPEED,
   AMBULO_LIMITED_TORQUE
 } ambulo_limited;
@@ -121,7 +125,8 @@ typedef struct ambulo_capsule {
  * into these arrays; `links[i].coordinate` is ignored (numbered by order);
  * `coordinates[k]` describes the k-th link that has a coordinate. */
 typedef struct ambulo_model_definition {
-  int cookie; /* set by ambulo_model_definition_default() */
+  /* Set by ambulo_model_definition_default(): its own, and those of the items below. */
+  size_t size, link_size, coordinate_size, point_size, foot_size, patch_size, capsule_size;
   const char *name;
   double gravity[3]; /* m/s^2, world frame; up is -gravity/|gravity| */
   double forward[3]; /* walking direction, world frame; must not be vertical */
@@ -133,7 +138,7 @@ typedef struct ambulo_model_definition {
   int point_count;
   const ambulo_foot *feet;
   int foot_count;
-  double stature; /* m; 0 if unknown */
+  double stature; /* m; AMBULO_OFF: unknown */
   const ambulo_patch *patches;
   int patch_count;
   const ambulo_capsule *capsules;
@@ -141,15 +146,29 @@ typedef struct ambulo_model_definition {
 } ambulo_model_definition;
 
 /* Gravity -9.81 along y, forward x, no links. */
-AMBULO_API ambulo_model_definition ambulo_model_definition_default(void);
+AMBULO_API void ambulo_model_definition_fill(ambulo_model_definition *filled);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_model_definition ambulo_model_definition_default(void) {
+  ambulo_model_definition usual;
+  usual.size = sizeof usual;
+  usual.link_size = sizeof(ambulo_link);
+  usual.coordinate_size = sizeof(ambulo_coordinate);
+  usual.point_size = sizeof(ambulo_point);
+  usual.foot_size = sizeof(ambulo_foot);
+  usual.patch_size = sizeof(ambulo_patch);
+  usual.capsule_size = sizeof(ambulo_capsule);
+  ambulo_model_definition_fill(&usual);
+  return usual;
+}
+#endif
 /* Parts of it with neutral values (unlimited, actuated, own mirror); numbers of links and points
  * that have to be given are -1, which is refused. */
-AMBULO_API ambulo_link ambulo_link_default(void);
-AMBULO_API ambulo_coordinate ambulo_coordinate_default(void);
-AMBULO_API ambulo_point ambulo_point_default(void);
-AMBULO_API ambulo_foot ambulo_foot_default(void);
-AMBULO_API ambulo_patch ambulo_patch_default(void);
-AMBULO_API ambulo_capsule ambulo_capsule_default(void);
+AMBULO_DEFAULT(ambulo_link);
+AMBULO_DEFAULT(ambulo_coordinate);
+AMBULO_DEFAULT(ambulo_point);
+AMBULO_DEFAULT(ambulo_foot);
+AMBULO_DEFAULT(ambulo_patch);
+AMBULO_DEFAULT(ambulo_capsule);
 
 /* Checks the definition (acyclic, masses positive, inertias physical, limits
  * ordered, names unique) and builds the model. `diagnostics` may be NULL.
@@ -160,15 +179,19 @@ ambulo_model_create(const ambulo_model_definition *definition, const ambulo_allo
 
 /* ---------------------------------------------------------------- from YAML */
 
-/* The person a model is scaled to. A zero (or AMBULO_SEX_FILE) keeps what the
- * file says. */
-typedef enum ambulo_sex { AMBULO_SEX_FILE, AMBULO_FEMALE, AMBULO_MALE } ambulo_sex;
+/* The person a model is scaled to. */
+typedef enum ambulo_sex {
+  AMBULO_SEX_NOT_SET = 0, /* as in the file */
+  AMBULO_FEMALE,
+  AMBULO_MALE
+} ambulo_sex;
 typedef struct ambulo_subject {
-  double mass;    /* kg; 0: as in the file */
-  double stature; /* m; 0: as in the file */
+  size_t size;    /* set by ambulo_subject_default() */
+  double mass;    /* kg; AMBULO_OFF: as in the file */
+  double stature; /* m; AMBULO_OFF: as in the file */
   ambulo_sex sex;
 } ambulo_subject;
-AMBULO_API ambulo_subject ambulo_subject_default(void); /* all as in the file */
+AMBULO_DEFAULT(ambulo_subject); /* all as in the file */
 
 /* Loads a model file, or text that is already in memory (`name` then stands for
  * the file in messages). `subject`, `allocator`, `diagnostics` may be NULL.
@@ -196,14 +219,14 @@ AMBULO_API void ambulo_model_free(ambulo_model *model);
 
 /* What a body climbs and carries: `ground` and `load` of a problem file. */
 typedef struct ambulo_conditions {
-  int cookie;              /* set by ambulo_conditions_default() */
+  size_t size;             /* set by ambulo_conditions_default() */
   double slope;            /* rad, -0.6 to 0.6: the ground rises so much along forward. The world's
                               axes stay with the ground, gravity is turned instead; 0: as it was */
   int load_link;           /* link that a mass without extent is fixed on; -1: none */
   double load_mass;        /* kg, 1e-6 to 1000 */
   double load_position[3]; /* link frame, m */
 } ambulo_conditions;
-AMBULO_API ambulo_conditions ambulo_conditions_default(void); /* as it was, no load */
+AMBULO_DEFAULT(ambulo_conditions); /* as it was, no load */
 
 /* A copy of `model` under other conditions; free it too. Loads add up, a slope replaces the one
  * before. `diagnostics` may be NULL. Errors: E_ARGUMENT, E_MEMORY. */

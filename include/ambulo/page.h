@@ -13,7 +13,7 @@ extern "C" {
 #endif
 
 typedef struct ambulo_page_options {
-  int cookie;    /* set by ambulo_page_options_default() */
+  size_t size;   /* set by ambulo_page_options_default() */
   int overwrite; /* 1: write over a file that is no page by ambulo */
 
   /* A person's own motion (CSV, STO or MOT, as ambulo/inverse.h reads it), to stand beside the
@@ -24,11 +24,11 @@ typedef struct ambulo_page_options {
   double ground_height;
   double from, to;
 
-  /* Motions of a batch that the page of it holds at most, MB; 12. Further cases lead to their
-   * pictures. */
+  /* Motions of a batch that the page of it holds at most, MB as they stand in it; 12. Further cases
+   * lead to their pictures. */
   double megabytes;
 } ambulo_page_options;
-AMBULO_API ambulo_page_options ambulo_page_options_default(void);
+AMBULO_DEFAULT(ambulo_page_options);
 
 /* Writes the page of result folders (ambulo/report.h; the first is the one that is shown, others
  * may be laid beside it), or of one batch folder (ambulo/batch.h): its table, plots and motions.

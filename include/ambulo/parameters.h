@@ -33,19 +33,21 @@ typedef struct ambulo_parameter {
   const char *name;
   double lower, upper; /* lower < upper; the problem's own value is in between */
 } ambulo_parameter;
+AMBULO_DEFAULT(ambulo_parameter); /* without a name or bounds, which have to be given */
 
 typedef enum ambulo_per {
-  AMBULO_PER_DEFAULT,  /* distance where the body travels, else none */
-  AMBULO_PER_DISTANCE, /* of the definition's travel, m */
-  AMBULO_PER_NONE      /* the objective itself */
+  AMBULO_PER_DEFAULT = 0, /* distance where the body travels, else none */
+  AMBULO_PER_DISTANCE,    /* of the definition's travel, m */
+  AMBULO_PER_NONE         /* the objective itself */
 } ambulo_per;
 
 typedef struct ambulo_parameters {
-  int cookie;                    /* set by ambulo_parameters_default() */
+  size_t size, parameter_size;   /* set by ambulo_parameters_default() */
   const ambulo_parameter *items; /* [count] */
   int count;
   ambulo_per per;
-  int maximum_solves; /* inner solves; 60 */
+  int maximum_solves;  /* inner solves; 60 */
+  const double *start; /* [variable_count] where the first inner solve starts; NULL: zero */
   /* The problem at values [count], with unknowns as many as before; called from the thread of the
    * run. Its model must live as long as the problem; a failure other than E_MEMORY means that there
    * is no such problem, and the values are given up. NULL: the file of the problem says it
@@ -55,10 +57,25 @@ typedef struct ambulo_parameters {
   void *user;
 } ambulo_parameters;
 
-AMBULO_API ambulo_parameters ambulo_parameters_default(void); /* none */
-/* What the problem's file says under `free`; strings and items belong to the problem. count is 0
- * for files without, and for problems made from C. */
-AMBULO_API ambulo_parameters ambulo_problem_parameters(const ambulo_problem *problem);
+/* None. And what the problem's file says under `free`; strings and items belong to the problem,
+ * count is 0 for files without, and for problems made from C. */
+AMBULO_API void ambulo_parameters_fill(ambulo_parameters *filled);
+AMBULO_API void ambulo_problem_parameters_fill(const ambulo_problem *problem,
+                                               ambulo_parameters *filled);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_parameters ambulo_parameters_default(void) {
+  ambulo_parameters usual;
+  usual.size = sizeof usual;
+  usual.parameter_size = sizeof(ambulo_parameter);
+  ambulo_parameters_fill(&usual);
+  return usual;
+}
+static inline ambulo_parameters ambulo_problem_parameters(const ambulo_problem *problem) {
+  ambulo_parameters usual = ambulo_parameters_default();
+  ambulo_problem_parameters_fill(problem, &usual);
+  return usual;
+}
+#endif
 /* The problem of a file with a section `free`, read again as it was then with its free parameters
  * at values [count], SI and rad; nothing of the new problem is free. E_ARGUMENT: nothing is free in
  * this one. Other errors: as ambulo_problem_load. */
@@ -68,7 +85,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem
                                                             ambulo_diagnostics *diagnostics,
                                                             ambulo_problem **at);
 
-/* Finds the best values. `parameters` NULL: those of the file. `options`, `start`, `allocator`,
+/* Finds the best values. `parameters` NULL: those of the file. `options`, `allocator`,
  * `diagnostics` as for ambulo_solve; limits of evaluations and iterations are those of each inner
  * solve, options.time_limit and options.progress those of the whole run. The callback ends the run
  * by a non-zero return; the best solution so far is kept.
@@ -80,7 +97,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_at(const ambulo_problem
  * value, named in diagnostics). */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_parameters(
     const ambulo_problem *problem, const ambulo_parameters *parameters,
-    const ambulo_options *options, const double *start, const ambulo_allocator *allocator,
+    const ambulo_options *options, const ambulo_allocator *allocator,
     ambulo_diagnostics *diagnostics, ambulo_problem **best, ambulo_result **result);
 
 /* ambulo_solve, and again on finer grids, each started from the last motion, until it holds between
@@ -93,7 +110,12 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve_refined(
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **finer,
     ambulo_result **result);
 
-typedef enum ambulo_bound { AMBULO_AT_LOWER = -1, AMBULO_BETWEEN, AMBULO_AT_UPPER } ambulo_bound;
+typedef enum ambulo_bound {
+  AMBULO_BOUND_NOT_SET = 0,
+  AMBULO_AT_LOWER,
+  AMBULO_BETWEEN,
+  AMBULO_AT_UPPER
+} ambulo_bound;
 
 /* A free parameter after the run. */
 typedef struct ambulo_parameter_value {

@@ -16,13 +16,13 @@ extern "C" {
 
 /* What is drawn of a motion. */
 typedef enum ambulo_picture_parts {
-  AMBULO_PICTURE_ALL,   /* as gait.svg of a result folder */
-  AMBULO_PICTURE_STRIP, /* figures, contacts and the axis of time */
-  AMBULO_PICTURE_CURVES /* coordinates, torques, forces */
+  AMBULO_PICTURE_ALL = 0, /* as gait.svg of a result folder */
+  AMBULO_PICTURE_STRIP,   /* figures, contacts and the axis of time */
+  AMBULO_PICTURE_CURVES   /* coordinates, torques, forces */
 } ambulo_picture_parts;
 
 typedef struct ambulo_picture_options {
-  int cookie;    /* set by ambulo_picture_options_default() */
+  size_t size;   /* set by ambulo_picture_options_default() */
   int overwrite; /* 1: write over a file that is there */
   ambulo_picture_parts parts;
   int powers;  /* 1: a third row of curves, torque times speed, W */
@@ -34,10 +34,10 @@ typedef struct ambulo_picture_options {
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those
                         of a walk; NULL: none */
   const char *reference; /* a table of curves of people (docs/compare.md) in their place; NULL */
-  double millimetres;    /* width on paper, at most 2000; 0: 1200 px of 1/96 inch */
+  double millimetres;    /* width on paper, at most 2000; AMBULO_OFF: 1200 px of 1/96 inch */
   double dots_per_inch;  /* of PNG; 300; 10 to 2400 */
 } ambulo_picture_options;
-AMBULO_API ambulo_picture_options ambulo_picture_options_default(void);
+AMBULO_DEFAULT(ambulo_picture_options);
 
 /* Draws a result of a problem into `output`, whose name ends with .svg, .pdf or .png. `options`
  * (NULL: the defaults), `allocator` and `diagnostics` may be NULL. Curves of people that were asked

@@ -24,6 +24,7 @@
 #include "ambulo/ground.h"
 #include "ambulo/hold.h"
 #include "ambulo/model.h"
+#include "ambulo/objective.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -35,9 +36,10 @@ typedef struct ambulo_workspace ambulo_workspace; /* one per thread */
 /* ---------------------------------------------------------------- vocabulary */
 
 typedef enum ambulo_discretization {
-  AMBULO_BSPLINE,            /* clamped B-spline, Eq. 23 */
-  AMBULO_CENTRAL_DIFFERENCE, /* Eqs. 18-19 */
-  AMBULO_HERMITE             /* Eqs. 20-22 */
+  AMBULO_DISCRETIZATION_NOT_SET = 0, /* refused */
+  AMBULO_BSPLINE,                    /* clamped B-spline, Eq. 23 */
+  AMBULO_CENTRAL_DIFFERENCE,         /* Eqs. 18-19 */
+  AMBULO_HERMITE                     /* Eqs. 20-22 */
 } ambulo_discretization;
 
 /* Where nodes or knots are. An event is a time at which a contact begins or ends; for nodes also
@@ -49,13 +51,15 @@ typedef enum ambulo_discretization {
  * A node on an event belongs to both phases: rows of what ends there and of what begins there hold,
  * each in the sense of its limit. */
 typedef enum ambulo_grid {
-  AMBULO_GRID_UNIFORM, /* t_k = k T / N; a node on an event belongs to the phase that begins */
-  AMBULO_GRID_EVENTS   /* B-splines only */
+  AMBULO_GRID_NOT_SET = 0, /* refused */
+  AMBULO_GRID_UNIFORM,     /* t_k = k T / N; a node on an event belongs to the phase that begins */
+  AMBULO_GRID_EVENTS       /* B-splines only */
 } ambulo_grid;
 
 /* How a loaded foot touches the ground: which of its corners are at height zero. */
 typedef enum ambulo_contact_mode {
-  AMBULO_CONTACT_HEEL, /* heel corners down; heel centre on the foothold */
+  AMBULO_CONTACT_MODE_NOT_SET = 0, /* refused */
+  AMBULO_CONTACT_HEEL,             /* heel corners down; heel centre on the foothold */
   AMBULO_CONTACT_FLAT, /* all corners down; heel centre on the foothold, toe centre straight ahead
                         */
   AMBULO_CONTACT_TOE,  /* toe corners down; toe centre where the flat foot has it */
@@ -87,15 +91,29 @@ typedef struct ambulo_contact {
  * relative to the foot's own strike; heel_strike may be negative: the heel is down before the
  * nominal strike. */
 typedef struct ambulo_gait {
+  size_t size, contact_size; /* set by ambulo_gait_default() */
   int steps;
   int first_foot;                                   /* foot that strikes at t = 0 */
   double step_length, step_time, step_width, start; /* m, s, m, m */
   double heel_strike, foot_flat, heel_off, toe_off; /* e.g. 0, 0.08, 0.38, 0.62 */
   /* Steps that differ: the steps to odd strikes take step_length and step_time, those to even
-   * ones these. 0: the same as the first. A stride lasts their sum. */
+   * ones these. AMBULO_OFF: the same as the first. A stride lasts their sum. */
   double other_step_length, other_step_time; /* m, s */
   int forefoot; /* 1: down on the toes, not on the heel, from heel_strike to foot_flat */
 } ambulo_gait;
+
+/* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people. */
+AMBULO_DEFAULT(ambulo_contact);
+AMBULO_API void ambulo_gait_fill(ambulo_gait *filled);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_gait ambulo_gait_default(void) {
+  ambulo_gait usual;
+  usual.size = sizeof usual;
+  usual.contact_size = sizeof(ambulo_contact);
+  ambulo_gait_fill(&usual);
+  return usual;
+}
+#endif
 
 /* Writes at most `capacity` contacts that meet [0, steps * step_time] and sets
  * *count to their number. Errors: E_ARGUMENT (phases out of order, no such foot,
@@ -106,19 +124,19 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_gait_expand(const ambulo_model 
                                                              int *count);
 
 typedef enum ambulo_support {
-  AMBULO_SUPPORT_OFF, /* no ZMP rows */
-  AMBULO_SUPPORT_BOX, /* axis-aligned box around the loaded feet (the seed's four rows) */
-  AMBULO_SUPPORT_HULL /* convex hull of the points in contact */
+  AMBULO_SUPPORT_OFF = 0, /* no ZMP rows */
+  AMBULO_SUPPORT_BOX,     /* axis-aligned box around the loaded feet (the seed's four rows) */
+  AMBULO_SUPPORT_HULL     /* convex hull of the points in contact */
 } ambulo_support;
 
 typedef enum ambulo_limit_mode {
-  AMBULO_LIMIT_OFF,
+  AMBULO_LIMIT_OFF = 0,
   AMBULO_LIMIT_NODES,         /* rows at the time nodes */
   AMBULO_LIMIT_CONTROL_POINTS /* rows on control points: hold at all times, but tighter */
 } ambulo_limit_mode;
 
 typedef enum ambulo_ends {
-  AMBULO_ENDS_FREE,
+  AMBULO_ENDS_FREE = 0,
   AMBULO_ENDS_PERIODIC, /* state(T) = state(0), moved forward by `travel` */
   AMBULO_ENDS_MIRRORED  /* state(T) = mirror image of state(0), moved forward by `travel`: one step
                            stands for both. Body, terms, tubes and footholds have to be the same on
@@ -141,96 +159,18 @@ typedef struct ambulo_tube {
   const double *half_width; /* [d], rad or m, >= 0; INFINITY: the coordinate is free */
 } ambulo_tube;
 
-typedef enum ambulo_relation { AMBULO_EQUAL, AMBULO_NOT_NEGATIVE } ambulo_relation;
-
-/* ------------------------------------------------- what callbacks get to see */
-
-/* State of one node. Arrays: q, qd, qdd, tau [d]; wrench [6] (M about the world
- * origin, then F); points [p][3]. */
-typedef struct ambulo_node_state {
-  double time;
-  int node;
-  const double *q, *qd, *qdd, *tau, *wrench, *points;
-} ambulo_node_state;
-
-/* Gradient with respect to the members of ambulo_node_state; zero on entry. */
-typedef struct ambulo_node_gradient {
-  double *q, *qd, *qdd, *tau, *wrench, *points;
-} ambulo_node_gradient;
-
-/* Value at one node, gradient added where `gradient` is not NULL. Must be a pure
- * function of the state's members; called from the thread that evaluates, also with members that do
- * not belong to one motion: the solver learns the curvature of a term from gradients at states
- * nearby. Of AMBULO_USER_SQUARE it knows the curvature without, and solves faster. A value or a
- * gradient that is not finite gives a trial point up (a barrier may return NAN beyond its wall); at
- * the start, at every iterate and at the end it is a numeric failure. */
-typedef double (*ambulo_node_function)(void *user, const ambulo_node_state *state,
-                                       ambulo_node_gradient *gradient);
-
-/* ----------------------------------------------------------------- objective */
-
-typedef enum ambulo_term_kind {
-  AMBULO_TORQUE_SQUARED,   /* sum_i u_i^2,  u_i = scale_i (tau_i - offset_i) */
-  AMBULO_TORQUE_ABSOLUTE,  /* sum_i sqrt(u_i^2 + s^2) - s,  s = smoothing (the seed's Fig. 5b) */
-  AMBULO_ACCELERATION,     /* sum_i (scale_i qdd_i)^2 */
-  AMBULO_TRACKING,         /* sum_i (scale_i (q_i - reference_i))^2 */
-  AMBULO_USER_TERM,        /* function(user, state, gradient) */
-  AMBULO_TORQUE_POWER,     /* sum_i (u_i^2 + s^2)^(p/2) - s^p,  u_i the active torque as a share
-                              of strength: scale_i (tau_i - offset_i - passive_i(q)) / strength_i(q) */
-  AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
-  AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg */
-  AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
-  AMBULO_UPRIGHT,      /* squared horizontal parts of a line, point[0] to point[1], by its length */
-  AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
-  AMBULO_CLEARANCE,    /* max(0, 1 - height of heel, ball, tip / `height`)^2, feet in the air */
-  AMBULO_USER_SQUARE,  /* function(user, state, gradient)^2 */
-  AMBULO_FORCE_RATE,   /* |df/dt|^2 / (10 m g)^2 of each contact's force f, differences between
-                          nodes; needs ground reaction */
-  AMBULO_DEVICE_EFFORT /* sum_i (device_scale_i E_i)^2, E_i the efforts of the devices */
-} ambulo_term_kind;
-
-typedef struct ambulo_term {
-  ambulo_term_kind kind;
-  const char *name;              /* for reports; NULL: the kind's name */
-  double weight;                 /* >= 0 */
-  const double *scale;           /* [d]; NULL: 1 everywhere */
-  const double *offset;          /* [d]; NULL: 0 everywhere (torques: N m, N; posture: rad, m) */
-  double smoothing;              /* s > 0 where the kind has one, unit of u */
-  double power;                  /* p in [2, 8] of AMBULO_TORQUE_POWER */
-  const double *passive;         /* [d][4]: b1, k1, b2, k2 of b1 exp(k1 q) + b2 exp(k2 q), N m and
-                                    1/rad; NULL: none (AMBULO_TORQUE_POWER) */
-  const double *strength;        /* [d][2][3]: for positive, then negative torque: peak (N m), c2
-                                    (1/rad), c3 (rad) of peak cos(c2 (q - c3)); peak 0: strength 1;
-                                    NULL: 1 everywhere (AMBULO_TORQUE_POWER) */
-  int strength_is_limits;        /* 1: the strength of each coordinate is its torque limit in the
-                                    model, of positive and of negative torque, whatever `strength`
-                                    is; scale then is a price (AMBULO_TORQUE_POWER) */
-  const double *price;           /* [d][2]: with strength_is_limits what scale is multiplied by for
-                                    negative, for positive torque, > 0; NULL: 1 */
-  int point[2];                  /* model points of AMBULO_UPRIGHT; length: of q = 0 */
-  double height;                 /* of AMBULO_CLEARANCE, m > 0; 0.02 */
-  const double *device_scale;    /* [device_count] of AMBULO_DEVICE_EFFORT, >= 0; NULL: 1 */
-  const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
-  ambulo_node_function function; /* AMBULO_USER_TERM */
-  void *user;
-} ambulo_term;
-
-/* A constraint of the caller's own, one row at each node in [from, to]. */
-typedef struct ambulo_user_row {
-  const char *name; /* its family in reports, apart from one of the engine under the same name */
-  const char *unit;
-  ambulo_relation relation;
-  double from, to; /* s */
-  ambulo_node_function function;
-  void *user;
-} ambulo_user_row;
+AMBULO_DEFAULT(ambulo_end_value); /* a value of 0 at the start, of nothing yet */
+AMBULO_DEFAULT(ambulo_tube);      /* none */
 
 /* ---------------------------------------------------------------- definition */
 
 /* Borrowed during ambulo_problem_create() only, except `model` and the callbacks'
  * user pointers, which must outlive the problem. */
 typedef struct ambulo_problem_definition {
-  int cookie; /* set by ambulo_problem_definition_default() */
+  /* Set by ambulo_problem_definition_default(): its own, those of items, and those of parts. */
+  size_t size, contact_size, end_value_size, tube_size, obstacle_size, reach_size, device_size;
+  size_t hold_size, term_size, user_row_size, capsule_pair_size;
+  size_t clearance_size, ground_reaction_size, collision_size;
   const char *name;
   const ambulo_model *model;
 
@@ -253,7 +193,7 @@ typedef struct ambulo_problem_definition {
   int foot_strike;        /* rows on the contact points' places */
   ambulo_support support; /* ZMP rows */
   double support_margin;  /* m, >= 0: the polygon is shrunk by it */
-  double minimum_force;   /* n . F >= minimum_force * m g; negative: no row */
+  double minimum_force;   /* n . F >= minimum_force * m g; AMBULO_OFF: no row */
   /* > 0: contacts hold within a tolerance. Instead of the equalities of ground_penetration and
    * foot_strike, pairs of inequalities on a loaded foot: its contact point within contact_tolerance
    * (m) of its place in all three directions; sines of its yaw and roll within
@@ -261,7 +201,8 @@ typedef struct ambulo_problem_definition {
    * toes up to 30 degrees, on the toes heel up. */
   double contact_tolerance, orientation_tolerance;
   double strike_pitch[2]; /* with a tolerance: pitch at the first node of a contact on the heel, or
-                             of one on the toes where both are at most 0, rad; off unless rising */
+                             of one on the toes where both are at most 0, rad, rising;
+                             AMBULO_OFF: any */
   ambulo_clearance clearance;
   ambulo_ground_reaction ground_reaction;
 
@@ -295,7 +236,28 @@ typedef struct ambulo_problem_definition {
 } ambulo_problem_definition;
 
 /* One second, 12 equal intervals, cubic B-spline, everything else off or empty. */
-AMBULO_API ambulo_problem_definition ambulo_problem_definition_default(void);
+AMBULO_API void ambulo_problem_definition_fill(ambulo_problem_definition *filled);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_problem_definition ambulo_problem_definition_default(void) {
+  ambulo_problem_definition usual;
+  usual.size = sizeof usual;
+  usual.contact_size = sizeof(ambulo_contact);
+  usual.end_value_size = sizeof(ambulo_end_value);
+  usual.tube_size = sizeof(ambulo_tube);
+  usual.obstacle_size = sizeof(ambulo_obstacle);
+  usual.reach_size = sizeof(ambulo_reach);
+  usual.device_size = sizeof(ambulo_device);
+  usual.hold_size = sizeof(ambulo_hold);
+  usual.term_size = sizeof(ambulo_term);
+  usual.user_row_size = sizeof(ambulo_user_row);
+  usual.capsule_pair_size = sizeof(ambulo_capsule_pair);
+  usual.clearance_size = sizeof(ambulo_clearance);
+  usual.ground_reaction_size = sizeof(ambulo_ground_reaction);
+  usual.collision_size = sizeof(ambulo_collision);
+  ambulo_problem_definition_fill(&usual);
+  return usual;
+}
+#endif
 /* The time nodes that a problem of this definition has, times[N + 1], s: where references of
  * AMBULO_TRACKING are asked for. Of the definition it reads the model, the grid of time, the
  * contacts, the clearance and the ends. Errors: E_ARGUMENT (a definition that did not come from
@@ -303,14 +265,6 @@ AMBULO_API ambulo_problem_definition ambulo_problem_definition_default(void);
  * than there are intervals for), E_MEMORY. */
 AMBULO_NODISCARD AMBULO_API ambulo_status
 ambulo_node_times(const ambulo_problem_definition *definition, double *times);
-AMBULO_API ambulo_term ambulo_term_default(ambulo_term_kind kind);
-/* Level, straight, flat on the ground, of nothing yet; a walk of one step with phases of people; a
- * value of 0 at the start, of nothing yet; no tube; a row c >= 0 at every node. */
-AMBULO_API ambulo_contact ambulo_contact_default(void);
-AMBULO_API ambulo_gait ambulo_gait_default(void);
-AMBULO_API ambulo_end_value ambulo_end_value_default(void);
-AMBULO_API ambulo_tube ambulo_tube_default(void);
-AMBULO_API ambulo_user_row ambulo_user_row_default(void);
 
 /* Checks the definition and builds the problem. Contradictions that need no solve
  * are refused by name, time and unit: footholds out of reach, no support at some
@@ -329,11 +283,20 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_create(
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load(
     const char *path, const char *const *overrides, int override_count,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_problem **problem);
-/* `directory`: where relative file names in the text start; NULL: the current one. */
-AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_problem_load_text(
-    const char *text, size_t length, const char *name, const char *directory,
-    const char *const *overrides, int override_count, const ambulo_allocator *allocator,
-    ambulo_diagnostics *diagnostics, ambulo_problem **problem);
+/* The text of a problem file that is in memory already. */
+typedef struct ambulo_problem_text {
+  size_t size; /* set by ambulo_problem_text_default() */
+  const char *text;
+  size_t length;
+  const char *name;      /* stands for the file in messages */
+  const char *directory; /* where relative file names in the text start; NULL: the current one */
+  const char *const *overrides; /* [override_count] "path=value" */
+  int override_count;
+} ambulo_problem_text;
+AMBULO_DEFAULT(ambulo_problem_text); /* empty */
+AMBULO_NODISCARD AMBULO_API ambulo_status
+ambulo_problem_load_text(const ambulo_problem_text *text, const ambulo_allocator *allocator,
+                         ambulo_diagnostics *diagnostics, ambulo_problem **problem);
 
 AMBULO_API void ambulo_problem_free(ambulo_problem *problem); /* accepts NULL */
 

@@ -13,13 +13,13 @@ extern "C" {
 #endif
 
 typedef struct ambulo_report_options {
-  int cookie;        /* set by ambulo_report_options_default() */
+  size_t size;       /* set by ambulo_report_options_default() */
   int samples;       /* times in motion.csv; 0: the nodes */
   int overwrite;     /* 1: replace an existing result folder */
   const char *norms; /* folder of the shipped curves of people (models/norms), drawn behind those of
                         a walk in gait.svg; NULL: none */
 } ambulo_report_options;
-AMBULO_API ambulo_report_options ambulo_report_options_default(void);
+AMBULO_DEFAULT(ambulo_report_options);
 
 /* E_IO now if ambulo_report_write could not write `directory` later (it exists
  * and overwrite is 0; its parent is missing or not writable). `options` and `diagnostics`
@@ -72,15 +72,15 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solution_repeat(
 
 /* How a result folder is scored against normative curves (docs/compare.md). */
 typedef struct ambulo_compare_options {
-  int cookie;         /* set by ambulo_compare_options_default() */
+  size_t size;        /* set by ambulo_compare_options_default() */
   const char *map;    /* column map file; NULL: the built-in one of the layout */
   const char *curves; /* names separated by commas: only these; NULL: all */
   const char *foot;   /* "left" or "right": this one alone; NULL: the mean of both where
                          they are alike */
   double pelvic_tilt; /* rad, added to hip flexion and anterior tilt where the reference's
                          pelvis is tilted; 11.4 degrees */
-  double strike;      /* s, heel strike of `foot` (left when NULL); NaN: from the folder */
-  double mass;        /* kg; 0: from the folder */
+  double strike;      /* s, heel strike of `foot` (left when NULL); AMBULO_OFF: from the folder */
+  double mass;        /* kg; AMBULO_OFF: from the folder */
 
   /* Of a person's own motion, a file in place of the folder: its ground forces (NULL: none), whose
    * columns are on which foot ("left=NAME,right=NAME"; NULL: by their names), and when heels strike
@@ -92,7 +92,7 @@ typedef struct ambulo_compare_options {
   const char *cycles;
   int overwrite;
 } ambulo_compare_options;
-AMBULO_API ambulo_compare_options ambulo_compare_options_default(void);
+AMBULO_DEFAULT(ambulo_compare_options);
 
 /* One curve over the cycle. Strings belong to the comparison. */
 typedef struct ambulo_curve_score {
@@ -148,7 +148,7 @@ AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_comparison_json(
 
 /* What a YAML file is, by its key `kind`. */
 typedef enum ambulo_file_kind {
-  AMBULO_FILE_UNKNOWN,
+  AMBULO_FILE_UNKNOWN = 0,
   AMBULO_FILE_MODEL,
   AMBULO_FILE_PROBLEM
 } ambulo_file_kind;

@@ -24,6 +24,9 @@
  *     together. A time that coincides with 0, T, an event of another phase of a gait or, for nodes
  *     that move along fixed knots of a cubic, with a knot has no derivative and is left out; so are
  *     all beside references, tubes and functions of the caller.
+ *   - Of what hands hold mass, inertia, center and push; on uniform grids also when and over which
+ *     ramp, on grids on events where nothing else, such as a reach, begins or ends at its times:
+ *     nodes go along.
  *   - Where contacts share the load (AMBULO_REACTION_SHARED) their weights, centres, patches and
  *     greatest forces go along with places and times.
  *   - Of footholds off the level ground also height, heading, and a normal that is given. Contacts
@@ -37,7 +40,8 @@
  *     those that act through a file (stature, a reference) or a curve (exponents,
  *     smoothings, passive torques, shapes of strength), and a duration beside which other times
  *     stay in seconds (listed contacts, breakpoints, node times, steps of two times, references,
- *     functions of the caller).
+ *     reaches that begin or end within the motion, on grids on events also what hands hold,
+ * functions of the caller).
  *   - Functions of the caller are taken to depend on p only through their node's state.
  */
 #ifndef AMBULO_SENSITIVITY_H

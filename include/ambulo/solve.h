@@ -68,13 +68,14 @@ AMBULO_API const char *ambulo_ending_name(ambulo_ending ending);
 AMBULO_API const char *ambulo_ending_text(ambulo_ending ending);
 
 typedef enum ambulo_algorithm {
-  AMBULO_AUTO,  /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
-  AMBULO_SLSQP, /* NLopt's SLSQP */
-  AMBULO_AUGLAG /* NLopt's AUGLAG with inner L-BFGS */
+  AMBULO_AUTO = 0, /* NLopt's AUGLAG, or SLSQP for small problems, as in docs/equations.md */
+  AMBULO_SLSQP,    /* NLopt's SLSQP */
+  AMBULO_AUGLAG    /* NLopt's AUGLAG with inner L-BFGS */
 } ambulo_algorithm;
 
 /* Whose the equality rows are, with presolve. */
 typedef enum ambulo_equalities {
+  AMBULO_EQUALITIES_NOT_SET = 0, /* refused */
   AMBULO_EQUALITIES_HELD, /* every point that NLopt sees satisfies them: Ambulo carries it there */
   AMBULO_EQUALITIES_NLOPT /* NLopt's AUGLAG gets them as constraints, beside the inequalities, each
                              with its dense gradient: to compare; much slower. Up to 4 GB */
@@ -82,7 +83,7 @@ typedef enum ambulo_equalities {
 
 /* What follows AUGLAG. */
 typedef enum ambulo_finisher {
-  AMBULO_FINISHER_NONE,
+  AMBULO_FINISHER_NONE = 0,
   AMBULO_FINISHER_SLSQP /* a short run of NLopt's SLSQP; its point is kept if the audit finds it
                            better. Dense: up to 750 unknowns */
 } ambulo_finisher;
@@ -93,8 +94,8 @@ typedef enum ambulo_finisher {
 typedef struct ambulo_progress {
   int iteration, evaluations;
   double objective, violation; /* violation: worst over all rows, relative to their size */
-  double seconds, time_limit;  /* since the start; 0 limit: none */
-  double seconds_left;         /* estimate; < 0: unknown */
+  double seconds, time_limit;  /* since the start; AMBULO_OFF: no limit */
+  double seconds_left;         /* estimate; AMBULO_OFF: unknown */
   const char *stage;           /* "set-up", "coarse grids", "solve", "audit", "explanation" */
   int solve;                   /* with free parameters (parameters.h): the inner solve that this is
                                   of, from 1 on; 0 without */
@@ -104,15 +105,16 @@ typedef struct ambulo_progress {
 #define AMBULO_MOST_STARTS 100
 
 typedef struct ambulo_options {
-  int cookie; /* set by ambulo_options_default() */
+  size_t size; /* set by ambulo_options_default() */
   ambulo_algorithm algorithm;
   int presolve;            /* 1: drop dependent equalities, whiten, restore, retract, screen;
                               0: every row handed straight to NLopt */
   int maximum_evaluations; /* of the objective and the rows; 20000 */
   int maximum_iterations;  /* inner solves of AUGLAG a grid, calls of NLopt otherwise; 150 */
-  double time_limit;       /* s of wall time; 0: none. It holds from set-up to explanation; what
-                              it takes to judge the last point may add a tenth of it */
-  double maximum_memory;   /* bytes that a solve may be predicted to take; 0: what is free */
+  double time_limit; /* s of wall time; AMBULO_OFF: none. It holds from set-up to explanation; what
+                        it takes to judge the last point may add a tenth of it */
+  double maximum_memory;        /* bytes that a solve may be predicted to take; AMBULO_OFF: what is
+                                   free */
   double feasibility_tolerance; /* worst violation that counts as feasible, relative to the size of
                                    its row (ambulo_violation.size), 1e-14 to 1; 1e-6 */
   double optimality_tolerance;  /* relative KKT residual that counts as optimal, 1e-14 to 1; 1e-3 */
@@ -131,9 +133,17 @@ typedef struct ambulo_options {
   void *user;
 } ambulo_options;
 
-AMBULO_API ambulo_options ambulo_options_default(void);
+AMBULO_DEFAULT(ambulo_options);
 /* The defaults, changed by what the problem file says under `solver:`. */
-AMBULO_API ambulo_options ambulo_problem_options(const ambulo_problem *problem);
+AMBULO_API void ambulo_problem_options_fill(const ambulo_problem *problem, ambulo_options *filled,
+                                            size_t size);
+#ifndef AMBULO_DECLARATIONS_ONLY
+static inline ambulo_options ambulo_problem_options(const ambulo_problem *problem) {
+  ambulo_options usual;
+  ambulo_problem_options_fill(problem, &usual, sizeof usual);
+  return usual;
+}
+#endif
 
 /* Violation of one family of rows. It is judged relative to the size of the row, so that one
  * tolerance fits every unit:
@@ -283,6 +293,28 @@ typedef struct ambulo_memory {
 } ambulo_memory;
 AMBULO_API ambulo_memory ambulo_problem_memory(const ambulo_problem *problem);
 
+/* A point that a solve passed through. */
+typedef struct ambulo_iteration {
+  int iteration, evaluations; /* as ambulo_result_iterations and _evaluations counted them then */
+  int intervals;              /* of the time grid that it was on */
+  double objective;
+  double violation; /* worst over all rows, relative to their sizes */
+  double gradient;  /* norm of the reduced gradient in whitened coordinates, relative to the
+                       objective: what the solver's own test looks at; NAN: not known */
+  double seconds;   /* since the solve began */
+} ambulo_iteration;
+
+/* The way of a solve: of AUGLAG a point for each iteration, of SLSQP one for each call of NLopt,
+ * without presolve one for each evaluation that improves, grid by grid from the coarsest on; the
+ * last is the point that is returned, as the audit finds it. Bounded: of a long solve one in so
+ * many of each grid, and the last of each grid. But for `seconds` the same in every run. */
+typedef struct ambulo_history {
+  const ambulo_iteration *items;
+  int count;        /* 0: no solver ran */
+  int every;        /* 1: none is left out */
+  double tolerance; /* the largest violation that counts as none: feasibility_tolerance */
+} ambulo_history;
+
 typedef struct ambulo_result ambulo_result;
 
 /* Solves from `start` [variable_count] (NULL: zero) with `options` (NULL: those of the problem's
@@ -318,6 +350,8 @@ AMBULO_API int ambulo_result_iterations(const ambulo_result *result);
 AMBULO_API int ambulo_result_evaluations(const ambulo_result *result);
 AMBULO_API const ambulo_timing *ambulo_result_timing(const ambulo_result *result);
 AMBULO_API const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *result);
+/* Of several starts that of the last solve, of free parameters that of the best one. */
+AMBULO_API const ambulo_history *ambulo_result_history(const ambulo_result *result);
 /* Valleys of the objective that several starts (ambulo_options.starts) ended in. */
 typedef struct ambulo_basin {
   double objective; /* on the coarse grid */

@@ -13,6 +13,7 @@
 #ifndef AMBULO_STATUS_H
 #define AMBULO_STATUS_H
 
+#include <math.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -29,6 +30,47 @@ extern "C" {
 #define AMBULO_NODISCARD __attribute__((warn_unused_result))
 #else
 #define AMBULO_NODISCARD
+#endif
+
+/* ------------------------------------------------- structures that callers fill */
+
+/* Whatever a caller fills is taken from its `_default()` and changed:
+ *
+ *     ambulo_options options = ambulo_options_default();
+ *     options.time_limit = 60.0;
+ *
+ * A structure that a function takes has its `size` as its first member; the sizes of the items of
+ * its arrays, and of the parts that it holds, are members of it too (`contact_size`). All of them
+ * are set by `_default()`, which is compiled into the caller. So a library that is newer than the
+ * program reads the structures of the program's own headers: they grow at their ends alone, and
+ * what an older one lacks is what `_default()` of the library says. A size that no header had, as
+ * of a structure filled with zeros, and one beyond the library's own are refused (E_ARGUMENT).
+ *
+ * "Not set" and "off" are said in one way each:
+ *
+ *   a number that is left out or switched off       AMBULO_OFF, for which NaN is the test. No
+ *                                                   other number means it: a limit of 0 is 0
+ *   a bound that does not bind, an end of all time  INFINITY, -INFINITY
+ *   an enumeration                                  0, its first constant: off, or what its
+ *                                                   comment says; refused where one has to choose
+ *   an index (link, point, foot, coordinate)        -1
+ *   a pointer; a flag or a count                    NULL; 0 */
+#define AMBULO_OFF ((double)NAN)
+
+/* Declares name_fill(), which sets the first `size` bytes of a structure to what is usual, and
+ * name_default(), that of the structure as the caller's header has it. AMBULO_DECLARATIONS_ONLY is
+ * for programs that read these headers, and no C. */
+#ifdef AMBULO_DECLARATIONS_ONLY
+#define AMBULO_DEFAULT(name) AMBULO_API void name##_fill(name *filled, size_t size)
+#else
+#define AMBULO_DEFAULT(name)                                                                       \
+  AMBULO_API void name##_fill(name *filled, size_t size);                                          \
+  static inline name name##_default(void) {                                                        \
+    name usual;                                                                                    \
+    name##_fill(&usual, sizeof usual);                                                             \
+    return usual;                                                                                  \
+  }                                                                                                \
+  struct ambulo_allocator
 #endif
 
 /* One list for codes, names and texts: X(identifier, name, exit status, text).
@@ -66,7 +108,7 @@ AMBULO_API int ambulo_status_exit_code(ambulo_status status);
  * resize(user, NULL, n) allocates, resize(user, p, n) reallocates,
  * resize(user, p, 0) frees and returns NULL. Returned memory must be aligned
  * for any type. NULL instead of an allocator means realloc/free.
- * The allocator must outlive the object. */
+ * The allocator must outlive the object. It has no size: it stays one function and its user. */
 typedef struct ambulo_allocator {
   void *(*resize)(void *user, void *pointer, size_t size);
   void *user;
@@ -74,7 +116,12 @@ typedef struct ambulo_allocator {
 
 /* -------------------------------------------------------------- diagnostics */
 
-typedef enum ambulo_severity { AMBULO_NOTE, AMBULO_WARNING, AMBULO_ERROR } ambulo_severity;
+typedef enum ambulo_severity {
+  AMBULO_SEVERITY_NOT_SET = 0,
+  AMBULO_NOTE,
+  AMBULO_WARNING,
+  AMBULO_ERROR
+} ambulo_severity;
 
 /* One message about an input. Strings belong to the list. */
 typedef struct ambulo_diagnostic {

@@ -221,7 +221,7 @@ static void put_place(writer *w, const ambulo_diagnostic *item) {
 
 size_t ambulo_diagnostics_format(const ambulo_diagnostics *list, size_t index, char *buffer,
                                  size_t size) {
-  static const char *const severities[] = {"note", "warning", "error"};
+  static const char *const severities[] = {"", "note", "warning", "error"};
   writer w = {buffer, size, 0};
   const ambulo_diagnostic *item = ambulo_diagnostics_get(list, index);
   if (item) {

@@ -259,6 +259,12 @@ const char *ambulo__listing_title(const ambulo__listing *l, int column) {
   return l->cell[column];
 }
 
+int ambulo__listing_output(const ambulo__listing *l, const char *name) {
+  for (int i = 0; i < l->outputs; i++)
+    if (strcmp(l->output_label[i], name) == 0 || strcmp(l->output[i], name) == 0) return i;
+  return -1;
+}
+
 unsigned long long ambulo__listing_key(const ambulo__listing *l, int index) {
   return strtoull(ambulo__listing_cell(l, index, AMBULO__LISTING_KEY), NULL, 16);
 }

@@ -59,6 +59,8 @@ void ambulo__listing_free(ambulo__listing *listing);
 /* Cell of case `index` (0-based). */
 const char *ambulo__listing_cell(const ambulo__listing *listing, int index, int column);
 const char *ambulo__listing_title(const ambulo__listing *listing, int column);
+/* The output with this label or path; -1: none. */
+int ambulo__listing_output(const ambulo__listing *listing, const char *name);
 unsigned long long ambulo__listing_key(const ambulo__listing *listing, int index);
 
 /* Creates DIR and DIR/cases; a folder that holds other things is refused. Errors: E_IO. */

@@ -101,7 +101,7 @@ static ambulo_status keep(ambulo__supervisor *batch, int index, const ambulo__re
   p->failed += !record->valid;
   p->last = one->name;
   (void)snprintf(p->last_state, sizeof p->last_state, "%s", record->state);
-  if (record->violation > p->worst_violation) {
+  if (record->violation >= 0.0 && !(record->violation <= p->worst_violation)) {
     p->worst_violation = record->violation;
     p->worst = one->name;
   }

@@ -9,6 +9,7 @@
  * lock.h, clean.h, machine.h.
  */
 #include "batch/supervisor.h"
+#include "base/sized.h"
 #include "base/clock.h"
 #include "base/file_steps.h"
 #include "batch/case_path.h"
@@ -24,17 +25,11 @@
 #include <sys/wait.h>
 #include <time.h>
 
-enum { COOKIE = 0x62617463, MOST_WORKERS = 4096 };
+enum { MOST_WORKERS = 4096 };
 static const double report_seconds = 0.2;
 
-ambulo_batch_options ambulo_batch_options_default(void) {
-  ambulo_batch_options options;
-  memset(&options, 0, sizeof options);
-  options.cookie = COOKIE;
-  options.shard = options.shards = 1;
-  options.grace = 30.0;
-  return options;
-}
+AMBULO__FILL(ambulo_batch_options,
+             {.size = size, .shard = 1, .shards = 1, .case_seconds = AMBULO_OFF, .grace = 30.0})
 
 /* -------------------------------------------------------------------- slots */
 
@@ -125,7 +120,7 @@ static int ask(ambulo__supervisor *batch, int always) {
   if (!always && now - p->seconds < report_seconds) return 0;
   p->seconds = now;
   p->seconds_left =
-      batch->finished_now > 0 ? now / batch->finished_now * (p->cases - p->done) : -1.0;
+      batch->finished_now > 0 ? now / batch->finished_now * (p->cases - p->done) : AMBULO_OFF;
   return batch->options.progress ? batch->options.progress(batch->options.user, p) : 0;
 }
 
@@ -156,8 +151,8 @@ static void supervise(ambulo__supervisor *batch) {
 }
 
 static int acceptable(const ambulo_batch_options *o) {
-  return o->cookie == COOKIE && o->shards >= 1 && o->shard >= 1 && o->shard <= o->shards &&
-         o->workers >= 0 && o->workers <= MOST_WORKERS && o->case_seconds >= 0.0 &&
+  return o->shards >= 1 && o->shard >= 1 && o->shard <= o->shards && o->workers >= 0 &&
+         o->workers <= MOST_WORKERS && (isnan(o->case_seconds) || o->case_seconds > 0.0) &&
          o->case_megabytes >= 0 && o->grace >= 0.0;
 }
 
@@ -182,7 +177,7 @@ ambulo_status ambulo__batch_run(const ambulo_sweep *sweep, const char *directory
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   ambulo__supervisor batch;
   memset(&batch, 0, sizeof batch);
-  batch.options = options ? *options : ambulo_batch_options_default();
+  if (!AMBULO__OWN(ambulo_batch_options, &batch.options, options)) return AMBULO_E_ARGUMENT;
   if (!acceptable(&batch.options)) return AMBULO_E_ARGUMENT;
   batch.sweep = sweep;
   batch.directory = directory;
@@ -193,7 +188,7 @@ ambulo_status ambulo__batch_run(const ambulo_sweep *sweep, const char *directory
   batch.case_megabytes =
       batch.options.case_megabytes > 0 ? batch.options.case_megabytes : sweep->case_megabytes;
   batch.workers = ambulo__worker_count(batch.options.workers, batch.case_megabytes);
-  batch.progress.worst_violation = -1.0;
+  batch.progress.worst_violation = AMBULO_OFF;
   ambulo__lock lock = {-1, -1};
   ambulo_status status = ambulo__expect_path(directory, "batch folder", diagnostics);
   if (!status) status = ambulo__expect_path(batch.options.program, "program", diagnostics);

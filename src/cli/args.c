@@ -98,6 +98,12 @@ int ambulo__cli_number(const ambulo__cli_input *input, const char *name, double 
   return 1;
 }
 
+int ambulo__cli_limit(const ambulo__cli_input *input, const char *name, double *value) {
+  if (!ambulo__cli_number(input, name, 0.0, 1e9, value)) return 0;
+  if (*value == 0.0) *value = AMBULO_OFF;
+  return 1;
+}
+
 int ambulo__cli_integer(const ambulo__cli_input *input, const char *name, int min, int max,
                         int *value) {
   const char *text = ambulo__cli_value(input, name);

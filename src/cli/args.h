@@ -44,6 +44,8 @@ int ambulo__cli_values(const ambulo__cli_input *input, const char *name, const c
  * was not given: *value stays), 0 after a message. */
 int ambulo__cli_number(const ambulo__cli_input *input, const char *name, double min, double max,
                        double *value);
+/* A limit in seconds: 0 is none. */
+int ambulo__cli_limit(const ambulo__cli_input *input, const char *name, double *value);
 int ambulo__cli_integer(const ambulo__cli_input *input, const char *name, int min, int max,
                         int *value);
 

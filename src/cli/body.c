@@ -112,7 +112,7 @@ int ambulo__cli_body_load(const ambulo__cli_input *input, const char *file,
                           ambulo_diagnostics *diagnostics, ambulo__cli_body *body,
                           ambulo_status *status) {
   load_text carried = {.link = ""};
-  subject_text subject = {.count = 0};
+  subject_text subject = {.subject = ambulo_subject_default()};
   if (!read_load(input, &carried) || !read_subject(input, &subject)) return 2;
   *status = load(input, file, &subject, diagnostics, body);
   return *status ? 0 : adapt(input, &carried, diagnostics, body, status);

@@ -67,9 +67,9 @@ static void compare(tables *t, int o, int i, int column, double step) {
 
 static ambulo_status check_pose(tables *t) {
   const double step = 1e-3;
-  ambulo_jacobians all = {t->jacobian[0][0], t->jacobian[0][1], t->jacobian[0][2],
-                          t->jacobian[1][0], t->jacobian[1][1], t->jacobian[1][2],
-                          t->jacobian[2][0]};
+  ambulo_jacobians all = {sizeof all,        t->jacobian[0][0], t->jacobian[0][1],
+                          t->jacobian[0][2], t->jacobian[1][0], t->jacobian[1][1],
+                          t->jacobian[1][2], t->jacobian[2][0]};
   ambulo_status status =
       ambulo_mechanics_jacobians(t->mechanics, 1, t->state[0], t->state[1], t->state[2], &all);
   for (int i = 0; i < INPUTS && !status; i++) {
@@ -79,8 +79,11 @@ static ambulo_status check_pose(tables *t) {
       for (int k = 0; k < 4 && !status; k++) {
         t->state[i][c] = kept + moves[k] * step;
         status = ambulo_mechanics_inverse_dynamics(t->mechanics, 1, t->state[0], t->state[1],
-                                                   t->state[2], t->value[k][0], t->value[k][1],
-                                                   t->value[k][2]);
+                                                   t->state[2],
+                                                   &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                                     .tau = t->value[k][0],
+                                                                     .wrench = t->value[k][1],
+                                                                     .points = t->value[k][2]});
       }
       t->state[i][c] = kept;
       for (int o = 0; o < OUTPUTS && !status; o++) {
@@ -163,25 +166,39 @@ static int lowest_point(const ambulo_model *model, const double *places, double 
   return lowest;
 }
 
+/* q[coordinates] of the start pose; 1 if that is not q = 0 */
+static int start_pose(const ambulo_model *model, double *q) {
+  int other = 0;
+  for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
+    q[i] = ambulo_model_coordinate(model, i)->default_value;
+    other |= q[i] != 0.0;
+  }
+  return other;
+}
+
 ambulo_status ambulo__cli_check_standing(const ambulo_model *model, double ground) {
   static const double level = 1e-3; /* m */
   size_t d = (size_t)ambulo_model_coordinate_count(model);
   size_t points = (size_t)ambulo_model_point_count(model);
-  double *zero = calloc(d + 1, sizeof *zero), *places = calloc(3 * points + 1, sizeof *places);
+  double *q = calloc(d + 1, sizeof *q), *zero = calloc(d + 1, sizeof *zero);
+  double *places = calloc(3 * points + 1, sizeof *places);
   double height = ground;
   ambulo_mechanics *mechanics = NULL;
   ambulo_status status =
-      zero && places ? ambulo_mechanics_create(model, NULL, &mechanics) : AMBULO_E_MEMORY;
+      q && zero && places ? ambulo_mechanics_create(model, NULL, &mechanics) : AMBULO_E_MEMORY;
+  int other = q && start_pose(model, q);
   if (!status)
-    status = ambulo_mechanics_inverse_dynamics(mechanics, 1, zero, zero, zero, NULL, NULL, places);
+    status = ambulo_mechanics_inverse_dynamics(
+        mechanics, 1, q, zero, zero,
+        &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = places});
   int lowest = status ? -1 : lowest_point(model, places, &height);
   if (lowest >= 0 && fabs(height - ground) > level)
-    printf(
-        "  at q = 0 the feet are off the ground: %s is %.3f m %s it, which a solve from zero has "
-        "to make up\n",
-        ambulo_model_point(model, lowest)->name, fabs(height - ground),
-        height > ground ? "above" : "below");
+    printf("  at %s the feet are off the ground: %s is %.3f m %s it, which a solve from %s has to "
+           "make up\n",
+           other ? "the start pose" : "q = 0", ambulo_model_point(model, lowest)->name,
+           fabs(height - ground), height > ground ? "above" : "below", other ? "there" : "zero");
   ambulo_mechanics_free(mechanics);
+  free(q);
   free(zero);
   free(places);
   return status;

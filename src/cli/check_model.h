@@ -9,8 +9,9 @@
 ambulo_status ambulo__cli_check_model(const char *file, const ambulo_model *model, double tolerance,
                                       int *wrong);
 
-/* Says how far the feet are from the ground, at `ground` m along up, at q = 0, where a solve from
- * zero begins; nothing where they stand on it, and of a body without feet. */
+/* Says how far the feet are from the ground, at `ground` m along up, in the start pose, where a
+ * solve begins (q = 0 but for defaults of the model); nothing where they stand on it, and of a body
+ * without feet. */
 ambulo_status ambulo__cli_check_standing(const ambulo_model *model, double ground);
 
 #endif

@@ -77,7 +77,7 @@ static int read_options(const ambulo__cli_input *input, ambulo_batch_options *o)
   o->force = ambulo__cli_flag(input, "force");
   o->program = ambulo__cli_worker_program();
   return ambulo__cli_integer(input, "jobs", 1, MOST_WORKERS, &o->workers) &&
-         ambulo__cli_number(input, "case-time", 0.0, 1e9, &o->case_seconds) &&
+         ambulo__cli_limit(input, "case-time", &o->case_seconds) &&
          ambulo__cli_integer(input, "case-memory", 0, 100000000, &o->case_megabytes) &&
          ambulo__cli_number(input, "grace", 0.0, 1e9, &o->grace) && read_shard(input, o);
 }

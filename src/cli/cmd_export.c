@@ -24,7 +24,7 @@ static int read_options(const ambulo__cli_input *input, ambulo_export_options *o
                             angles);
     return 0;
   }
-  o->format = (ambulo_export_format)chosen;
+  o->format = (ambulo_export_format)(AMBULO_EXPORT_OPENSIM + chosen);
   o->free_root = ambulo__cli_flag(input, "free-root");
   o->overwrite = ambulo__cli_flag(input, "force");
   o->inverse = inverse;
@@ -47,6 +47,7 @@ static int run(const ambulo__cli_input *input) {
   int code = ambulo__cli_body_load(input, input->arguments[0], diagnostics, &body, &status);
   if (!code) {
     inverse.ground_height = body.ground_height;
+    options.problem = body.problem;
     if (!status)
       status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &inverse);
     if (!status)

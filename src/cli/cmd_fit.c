@@ -55,7 +55,7 @@ static int read_options(const ambulo__cli_input *input, ambulo_fit_options *o) {
   o->force = ambulo__cli_flag(input, "force");
   o->program = ambulo__cli_worker_program();
   return ambulo__cli_integer(input, "jobs", 1, MOST_WORKERS, &o->workers) &&
-         ambulo__cli_number(input, "case-time", 0.0, 1e9, &o->case_seconds) &&
+         ambulo__cli_limit(input, "case-time", &o->case_seconds) &&
          ambulo__cli_integer(input, "case-memory", 0, 100000000, &o->case_megabytes) &&
          ambulo__cli_number(input, "grace", 0.0, 1e9, &o->grace);
 }
@@ -77,22 +77,20 @@ static int run_fit(const ambulo__cli_input *input, const ambulo_fit *fit, ambulo
   const char *directory = ambulo__cli_value(input, "output");
   view v = {isatty(STDERR_FILENO), ambulo__cli_flag(input, "quiet"), 0};
   ambulo_fit_progress end;
-  ambulo_fit_ending ending = AMBULO_FIT_NOT_RUN;
   char *report = NULL;
   memset(&end, 0, sizeof end);
   o->progress = show;
   o->user = &v;
   ambulo__cli_catch_stops();
-  ambulo_status status =
-      ambulo_fit_run(fit, directory, o, NULL, diagnostics, &end, &ending, &report);
+  ambulo_status status = ambulo_fit_run(fit, directory, o, NULL, diagnostics, &end, &report);
   if (v.terminal && !v.quiet) fprintf(stderr, "\r\033[K");
   int code = ambulo__cli_diagnostics(diagnostics, status, directory);
-  if (!code && !v.quiet) print_end(directory, report, &end, ending);
+  if (!code && !v.quiet) print_end(directory, report, &end, end.ending);
   ambulo_text_free(report, NULL);
   if (code) return code;
-  if (ending == AMBULO_FIT_INTERRUPTED && ambulo__cli_stops() > 0)
+  if (end.ending == AMBULO_FIT_INTERRUPTED && ambulo__cli_stops() > 0)
     return 128 + ambulo__cli_stop_signal();
-  return ending == AMBULO_FIT_STUCK ? 1 : 0;
+  return end.ending == AMBULO_FIT_STUCK ? 1 : 0;
 }
 
 static int describe(const ambulo_fit *fit, ambulo_diagnostics *diagnostics) {

@@ -12,7 +12,7 @@ static const double degrees = 57.295779513082321;
 /* --------------------------------------------------------------------- model */
 
 static void print_links(const ambulo_model *model) {
-  static const char *const types[] = {"fixed", "revolute", "prismatic"};
+  static const char *const types[] = {"", "fixed", "revolute", "prismatic"};
   printf("\nlinks (m, degrees, kg)\n  %-3s %-22s %-22s %-9s %8s %8s %8s %8s %8s\n", "", "name",
          "parent", "joint", "theta", "d", "a", "alpha", "mass");
   for (int i = 0; i < ambulo_model_link_count(model); i++) {
@@ -131,7 +131,7 @@ static void print_model(const ambulo_model *model) {
 /* ------------------------------------------------------------------- problem */
 
 static void print_schedule(const ambulo_problem *problem) {
-  static const char *const modes[] = {"heel", "flat", "toe", "patch"};
+  static const char *const modes[] = {"", "heel", "flat", "toe", "patch"};
   int count = ambulo_problem_contact_count(problem);
   if (count == 0) return;
   printf("\ncontacts (s; place in m along forward, left and up)\n  %-3s %-10s %-5s %9s %9s %9s %9s "
@@ -179,16 +179,17 @@ static void print_limits(const ambulo_problem *problem) {
   for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
     const ambulo_coordinate *c = ambulo_model_coordinate(model, i);
     const double *given[] = {c->range, c->speed, c->torque};
-    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
+    for (int k = 0; k < 3; k++) {
+      ambulo_limited what = (ambulo_limited)(AMBULO_LIMITED_POSITION + k);
       ambulo_limits l;
-      if (ambulo_problem_limits(problem, i, (ambulo_limited)what, &l)) continue;
-      int lower = l.low > given[what][0], upper = l.high < given[what][1];
+      if (ambulo_problem_limits(problem, i, what, &l)) continue;
+      int lower = l.low > given[k][0], upper = l.high < given[k][1];
       if (!lower && !upper) continue;
       if (!printed++)
         printf("\nlimits, narrower than the model's because of the mirrored half of the stride\n");
       double interval[2] = {l.low, l.high};
       int angle = c->type == AMBULO_REVOLUTE && what != AMBULO_LIMITED_TORQUE;
-      printf("  %-22s %-6s", c->name, words[what]);
+      printf("  %-22s %-6s", c->name, words[k]);
       print_range(interval, angle ? degrees : 1.0);
       if (lower) printf("  lower end by %s", ambulo_model_coordinate(model, l.low_of)->name);
       if (upper) printf("  upper end by %s", ambulo_model_coordinate(model, l.high_of)->name);
@@ -239,7 +240,7 @@ static void print_bodies(const ambulo_problem *problem) {
 
 /* "180 N m/rad above 2 degrees", or what its kind has */
 static void print_law(const ambulo_device *v, int turns) {
-  static const char *const sides[] = {"from", "above", "below"};
+  static const char *const sides[] = {"", "from", "above", "below"};
   const char *force = turns ? "N m" : "N", *place = turns ? "degrees" : "m";
   const char *unit = turns ? "rad" : "m";
   double scale = turns ? degrees : 1.0;
@@ -252,6 +253,7 @@ static void print_law(const ambulo_device *v, int turns) {
   case AMBULO_DEVICE_DAMPER:
     printf("damper    %g %s s/%s", v->damping, force, unit);
     return;
+  case AMBULO_DEVICE_KIND_NOT_SET:
   case AMBULO_DEVICE_ACTUATOR:
     break;
   }

@@ -88,8 +88,10 @@ static int run(const ambulo__cli_input *input) {
     if (!status)
       status = ambulo__cli_forces_read(input, body.model, diagnostics, &forces, &options);
     if (!status)
-      status = ambulo_inverse_dynamics_motion(body.model, motion, output, &options, NULL,
-                                              diagnostics, NULL, output ? NULL : &text);
+      status = ambulo_inverse_dynamics_motion(
+          body.model, motion, output, &options, NULL, diagnostics,
+          &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs),
+                                    .text = output ? NULL : &text});
     code = ambulo__cli_diagnostics(diagnostics, status, subject);
   }
   if (text) fputs(text, stdout);
@@ -127,7 +129,8 @@ const ambulo__cli_command ambulo__cli_inverse = {
         "Columns are named after the model's coordinates; rates and accelerations are those of\n"
         "the file, or of an interpolating spline where it has none. Writes a CSV with time, q.*,\n"
         "qd.*, qdd.*, tau.*, zmp.*, the root wrench and the joint powers in SI units and radians.\n"
-        "Forces on the feet are taken off the torques: tau.* of the root is what they leave over.\n"
+        "Forces on the feet are taken off the torques: tau.* of the root is what they leave over;\n"
+        "what hands hold (held.* of a result of solve) is added to them.\n"
         "A problem in place of the model stands for its body, subject, slope and load. What is\n"
         "doubtful is said, with the option that mends it. See docs/guide-inverse.md.",
     .example = "ambulo inverse models/walk_normal.yaml walk/motion.csv -o torques.csv\n"

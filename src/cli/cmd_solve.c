@@ -165,7 +165,9 @@ static ambulo_status load_start(job *j) {
 
 static ambulo_status solve_parameters(job *j, const ambulo_options *options) {
   ambulo_problem *best = NULL;
-  ambulo_status status = ambulo_solve_parameters(j->problem, NULL, options, j->start, NULL,
+  ambulo_parameters parameters = ambulo_problem_parameters(j->problem);
+  parameters.start = j->start;
+  ambulo_status status = ambulo_solve_parameters(j->problem, &parameters, options, NULL,
                                                  j->diagnostics, &best, &j->result);
   if (status) return status;
   ambulo_problem_free(j->problem);
@@ -185,7 +187,7 @@ static ambulo_status solve_refined(job *j, const ambulo_options *options) {
 
 static ambulo_status solve(job *j) {
   ambulo_options options = ambulo_problem_options(j->problem);
-  if (j->time_limit >= 0.0) options.time_limit = j->time_limit;
+  if (j->time_limit >= 0.0) options.time_limit = j->time_limit > 0.0 ? j->time_limit : AMBULO_OFF;
   options.progress = show_progress;
   options.user = j;
   catch_signals();

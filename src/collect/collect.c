@@ -59,7 +59,7 @@ static void csv_titles(table *t) {
   if (t->front) ambulo__text_append(&t->csv, ",front,place,better");
   for (int i = 0; i < l->outputs; i++) {
     ambulo__text_append_char(&t->csv, ',');
-    csv_cell(&t->csv, l->output[i]);
+    csv_cell(&t->csv, l->output_label[i]);
   }
   ambulo__text_append_char(&t->csv, '\n');
 }
@@ -143,7 +143,7 @@ static ambulo_status add_row(void *user, const ambulo__gathered *one) {
     t->found[i] += one->value[i].kind != AMBULO__OUTPUT_NONE;
     ambulo__text_append_char(&t->csv, ',');
     csv_cell(&t->csv, one->value[i].text);
-    json_pair(&json, l->output[i], one->value[i].text);
+    json_pair(&json, l->output_label[i], one->value[i].text);
   }
   ambulo__text_append_char(&t->csv, '\n');
   ambulo__text_append(&t->lines, "}\n");

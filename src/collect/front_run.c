@@ -5,6 +5,7 @@
  * ask for follows from the points before it alone, so to resume is to repeat: rounds whose records
  * are intact are read, and only the first that is not is run. Neither the number of processes nor
  * an interruption changes what is asked for. */
+#include "base/sized.h"
 #include "base/clock.h"
 #include "batch/listing.h"
 #include "batch/record.h"
@@ -95,8 +96,8 @@ static int show(void *user, const ambulo_batch_progress *batch) {
   p.resumed = batch->done - made;
   if (p.cases < r->front.wanted) p.cases = r->front.wanted;
   p.seconds = ambulo__seconds_now() - r->begin;
-  p.seconds_left = made > 0 ? p.seconds / made * (p.cases - p.done) : -1.0;
-  if (r->progress.worst_violation > p.worst_violation) {
+  p.seconds_left = made > 0 ? p.seconds / made * (p.cases - p.done) : AMBULO_OFF;
+  if (isnan(p.worst_violation) || r->progress.worst_violation > p.worst_violation) {
     p.worst_violation = r->progress.worst_violation;
     p.worst = r->progress.worst;
   }
@@ -183,12 +184,12 @@ static ambulo_status run_front(const ambulo_sweep *sweep, const char *directory,
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
   runner r = {.directory = directory,
-              .options = options ? *options : ambulo_batch_options_default(),
+              .options = *options,
               .allocator = &own,
               .diagnostics = diagnostics,
               .begin = ambulo__seconds_now()};
   ambulo__place place = {sweep->path, 0, 0, "front"};
-  r.progress.worst_violation = -1.0;
+  r.progress.worst_violation = AMBULO_OFF;
   ambulo_status status = AMBULO_OK;
   if (r.options.shards != 1)
     status =
@@ -209,8 +210,10 @@ ambulo_status ambulo_batch_run(const ambulo_sweep *sweep, const char *directory,
                                const ambulo_batch_options *options,
                                const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                ambulo_batch_progress *progress) {
-  if (!sweep || !directory) return AMBULO_E_ARGUMENT;
+  ambulo_batch_options own;
+  if (!sweep || !directory || !AMBULO__OWN(ambulo_batch_options, &own, options))
+    return AMBULO_E_ARGUMENT;
   if (sweep->front.terms > 0)
-    return run_front(sweep, directory, options, allocator, diagnostics, progress);
+    return run_front(sweep, directory, &own, allocator, diagnostics, progress);
   return ambulo__batch_run(sweep, directory, options, allocator, diagnostics, progress);
 }

@@ -1,5 +1,6 @@
 /* collect/plot.c - choosing what a drawing shows: which axes, which output, which cases. */
 #include "collect/plot.h"
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/paths.h"
 #include "picture/svg.h"
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WORD = 200, COOKIE = 0x706c6f74 };
+enum { WORD = 200 };
 
 static ambulo_status no_such(const ambulo__plot *p, const char *what, const char *name) {
   const ambulo__listing *l = p->listing;
@@ -18,7 +19,7 @@ static ambulo_status no_such(const ambulo__plot *p, const char *what, const char
   for (int i = AMBULO__LISTING_AXES; axis && i < l->columns && count < AMBULO__LISTING_NAMES; i++)
     known[count++] = ambulo__listing_title(l, i);
   for (int i = 0; !axis && i < l->outputs && count < AMBULO__LISTING_NAMES; i++)
-    known[count++] = l->output[i];
+    known[count++] = l->output_label[i];
   const char *near = ambulo__nearest(name, known, (size_t)count);
   char hint[WORD + 40] = "the first line of results.csv names axes and outputs";
   if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.200s'?", near);
@@ -47,9 +48,8 @@ static ambulo_status parse(ambulo__plot *p, const char *text) {
   p->axis[1].column = second ? find_axis(l, second) : -1;
   if (p->axis[0].column < 0) return no_such(p, "axis", axes);
   if (second && p->axis[1].column < 0) return no_such(p, "axis", second);
-  for (p->output = 0; p->output < l->outputs; p->output++)
-    if (strcmp(l->output[p->output], colon + 1) == 0) return AMBULO_OK;
-  return no_such(p, "output", colon + 1);
+  p->output = ambulo__listing_output(l, colon + 1);
+  return p->output >= 0 ? AMBULO_OK : no_such(p, "output", colon + 1);
 }
 
 static ambulo_status add_point(void *user, const ambulo__gathered *one) {
@@ -152,13 +152,10 @@ static ambulo_status draw(ambulo__plot *p, const char *plot, char **file) {
   return status;
 }
 
-ambulo_plot_options ambulo_plot_options_default(void) {
-  ambulo_plot_options options = {.cookie = COOKIE};
-  return options;
-}
+AMBULO__FILL(ambulo_plot_options, {.size = size})
 
 static int acceptable(const ambulo_plot_options *o) {
-  return o->cookie == COOKIE && o->where_count >= 0 && (o->where || o->where_count == 0);
+  return o->where_count >= 0 && (o->where || o->where_count == 0);
 }
 
 ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
@@ -166,7 +163,7 @@ ambulo_status ambulo_batch_plot(const char *directory, const char *plot,
                                 const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                 char **file) {
   ambulo__plot p = {.directory = directory, .diagnostics = diagnostics};
-  p.options = options ? *options : ambulo_plot_options_default();
+  if (!AMBULO__OWN(ambulo_plot_options, &p.options, options)) return AMBULO_E_ARGUMENT;
   if (!directory || !plot || !file || !acceptable(&p.options)) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__listing listing;

@@ -9,12 +9,6 @@ enum { WORDS = 4 };
 
 static const char *const words[WORDS] = {"id", "name", "state", NULL};
 
-static int output_of(const ambulo__listing *l, const char *name) {
-  for (int i = 0; i < l->outputs; i++)
-    if (strcmp(l->output[i], name) == 0) return i;
-  return -1;
-}
-
 static int axis_of(const ambulo__listing *l, const char *name) {
   for (int i = AMBULO__LISTING_AXES; i < l->columns; i++)
     if (strcmp(ambulo__listing_title(l, i), name) == 0) return i;
@@ -24,7 +18,7 @@ static int axis_of(const ambulo__listing *l, const char *name) {
 static int is_column(const ambulo__listing *l, const char *name) {
   for (int i = 0; words[i]; i++)
     if (strcmp(words[i], name) == 0) return 1;
-  return axis_of(l, name) >= 0 || output_of(l, name) >= 0;
+  return axis_of(l, name) >= 0 || ambulo__listing_output(l, name) >= 0;
 }
 
 static ambulo_status no_column(const ambulo__plot *p, const char *condition, const char *left) {
@@ -35,7 +29,7 @@ static ambulo_status no_column(const ambulo__plot *p, const char *condition, con
   for (int i = AMBULO__LISTING_AXES; i < l->columns && count < AMBULO__LISTING_NAMES; i++)
     known[count++] = ambulo__listing_title(l, i);
   for (int i = 0; i < l->outputs && count < AMBULO__LISTING_NAMES; i++)
-    known[count++] = l->output[i];
+    known[count++] = l->output_label[i];
   const char *near = ambulo__nearest(left, known, (size_t)count);
   char hint[AMBULO__SWEEP_TEXT + 40] = "the first line of results.csv names the columns";
   if (near) (void)snprintf(hint, sizeof hint, "did you mean '%.200s'?", near);
@@ -69,7 +63,7 @@ static const char *text_of(void *user, const char *name) {
   row *r = user;
   const ambulo__listing *l = r->listing;
   const char *text = NULL;
-  int axis = axis_of(l, name), output = output_of(l, name);
+  int axis = axis_of(l, name), output = ambulo__listing_output(l, name);
   if (axis >= 0) {
     text = ambulo__listing_cell(l, r->one->index, axis);
   } else if (strcmp(name, "state") == 0) {

@@ -7,6 +7,7 @@
  * compare_cycles.h.
  */
 #include "compare/compare_curve.h"
+#include "base/sized.h"
 #include "compare/compare_cycles.h"
 #include "compare/compare_doubt.h"
 #include "compare/compare_people.h"
@@ -15,8 +16,6 @@
 
 #include <math.h>
 #include <string.h>
-
-enum { OPTIONS_COOKIE = 0x616d6263 };
 
 typedef char curve_name[AMBULO__CURVE_NAME];
 
@@ -41,15 +40,14 @@ typedef struct comparing {
   ambulo_comparison *result;
 } comparing;
 
-ambulo_compare_options ambulo_compare_options_default(void) {
-  ambulo_compare_options options = {
-      .cookie = OPTIONS_COOKIE, .pelvic_tilt = 0.19896753472735357, .strike = (double)NAN};
-  return options;
-}
+AMBULO__FILL(ambulo_compare_options, {.size = size,
+                                      .pelvic_tilt = 0.19896753472735357,
+                                      .strike = AMBULO_OFF,
+                                      .mass = AMBULO_OFF})
 
 static int options_valid(const ambulo_compare_options *o) {
-  if (o->cookie != OPTIONS_COOKIE || !isfinite(o->pelvic_tilt)) return 0;
-  if (!(o->mass >= 0.0) || !isfinite(o->mass)) return 0;
+  if (!isfinite(o->pelvic_tilt) || isinf(o->strike)) return 0;
+  if (!isnan(o->mass) && !(o->mass > 0.0 && isfinite(o->mass))) return 0;
   return !o->foot || strcmp(o->foot, "left") == 0 || strcmp(o->foot, "right") == 0;
 }
 
@@ -205,8 +203,9 @@ static ambulo_status compare(const char *directory, const char *people, int are_
                              const ambulo_compare_options *options,
                              const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                              ambulo_comparison **comparison) {
-  ambulo_compare_options defaults = ambulo_compare_options_default();
-  if (!options) options = &defaults;
+  ambulo_compare_options own;
+  if (!AMBULO__OWN(ambulo_compare_options, &own, options)) return AMBULO_E_ARGUMENT;
+  options = &own;
   if (!directory || !people || !comparison || !options_valid(options)) return AMBULO_E_ARGUMENT;
   if (are_norms && options->map) return AMBULO_E_ARGUMENT;
   comparing c = {.options = options, .diagnostics = diagnostics};

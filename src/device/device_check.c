@@ -35,7 +35,7 @@ static ambulo_status check_numbers(int i, const ambulo_device *device, const num
 }
 
 static ambulo_status check_law(int i, const ambulo_device *v, ambulo_diagnostics *list) {
-  const number spring[] = {{"stiffness", "", v->stiffness, 1e-9, largest},
+  const number spring[] = {{"stiffness", "", v->stiffness, 0.0, largest},
                            {"rest", "", v->rest, -largest, largest},
                            {"pretension", "", v->pretension, -largest, largest},
                            {"smoothing", "", v->smoothing, 1e-9, largest}};
@@ -44,15 +44,19 @@ static ambulo_status check_law(int i, const ambulo_device *v, ambulo_diagnostics
   switch (v->kind) {
   case AMBULO_DEVICE_SPRING:
     if (v->side < AMBULO_DEVICE_BOTH || v->side > AMBULO_DEVICE_BELOW)
-      return REFUSE(list, "devices[%d]: side %d of '%s'; expected one of its three", i,
-                    (int)v->side, v->name);
+      return REFUSE(list, "devices[%d]: the side of '%s' is %s (got %d); expected one of its three",
+                    i, v->name, v->side ? "unknown" : "not set", (int)v->side);
     return check_numbers(i, v, spring, v->side == AMBULO_DEVICE_BOTH ? 3 : 4, list);
   case AMBULO_DEVICE_DAMPER:
     return check_numbers(i, v, damper, 1, list);
   case AMBULO_DEVICE_ACTUATOR:
     return check_numbers(i, v, actuator, 1, list);
+  case AMBULO_DEVICE_KIND_NOT_SET:
+    break;
   }
-  return REFUSE(list, "devices[%d]: unknown kind %d of '%s'", i, (int)v->kind, v->name);
+  return REFUSE(list,
+                "devices[%d]: the kind of '%s' is %s (got %d); expected an ambulo_device_kind", i,
+                v->name, v->kind ? "unknown" : "not set", (int)v->kind);
 }
 
 static int is_by_stride(const ambulo_device *v) {
@@ -62,7 +66,8 @@ static int is_by_stride(const ambulo_device *v) {
 static ambulo_status check_points(int i, const ambulo_device *v, ambulo_diagnostics *list) {
   if (v->kind != AMBULO_DEVICE_ACTUATOR || v->clock == AMBULO_DEVICE_CONSTANT) return AMBULO_OK;
   if (v->clock != AMBULO_DEVICE_BY_TIME && v->clock != AMBULO_DEVICE_BY_STRIDE)
-    return REFUSE(list, "devices[%d]: unknown clock %d of '%s'", i, (int)v->clock, v->name);
+    return REFUSE(list, "devices[%d]: the clock of '%s' is %s (got %d); expected one of its three",
+                  i, v->name, v->clock ? "unknown" : "not set", (int)v->clock);
   if (v->point_count < 1 || !v->points)
     return REFUSE(list, "devices[%d]: '%s' has no points; expected at least one", i, v->name);
   for (int k = 0; k < v->point_count; k++) {

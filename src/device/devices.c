@@ -11,6 +11,7 @@
  */
 #include "device/devices.h"
 
+#include "base/sized.h"
 #include "base/vector.h"
 #include "device/path.h"
 
@@ -43,15 +44,18 @@ static size_t entries_of(int n) {
   return KEPT_HEADER + 2 * count + count * count + 6 * count;
 }
 
-ambulo_device ambulo_device_default(ambulo_device_kind kind) {
-  return (ambulo_device){.kind = kind,
-                         .coordinate = -1,
-                         .link = {-1, -1},
-                         .smoothing = 0.01,
-                         .amount = 1.0,
-                         .foot = -1,
-                         .image_of = -1,
-                         .ramp = 0.05};
+void ambulo_device_fill(ambulo_device *filled, ambulo_device_kind kind, size_t size) {
+  const ambulo_device usual = {.kind = kind,
+                               .coordinate = -1,
+                               .link = {-1, -1},
+                               .side = AMBULO_DEVICE_BOTH,
+                               .smoothing = 0.01,
+                               .amount = 1.0,
+                               .clock = AMBULO_DEVICE_CONSTANT,
+                               .foot = -1,
+                               .image_of = -1,
+                               .ramp = 0.05};
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
 }
 
 int ambulo__device_turns(const ambulo_model *model, const ambulo_device *device) {

@@ -5,6 +5,7 @@
  */
 #include "device/holds.h"
 
+#include "base/sized.h"
 #include "base/vector.h"
 #include "device/hand_motion.h"
 #include "model/model.h"
@@ -62,9 +63,7 @@ static ambulo__hand_motion motion_kept(const held *h, const double *kept, int ha
 
 /* ------------------------------------------------------------ compilation */
 
-ambulo_hold ambulo_hold_default(void) {
-  return (ambulo_hold){.hand = {-1, -1}, .to = INFINITY, .ramp = 0.1};
-}
+AMBULO__FILL(ambulo_hold, {.hand = {-1, -1}, .to = INFINITY, .ramp = 0.1})
 
 static void to_world(const ambulo_model *m, const double along[3], double world[3]) {
   for (int k = 0; k < 3; k++)

@@ -45,8 +45,8 @@ static void mirror_point(const ambulo_model *m, int *link, double position[3]) {
 }
 
 static ambulo_device turned(ambulo_device device) {
-  static const ambulo_device_side sides[] = {AMBULO_DEVICE_BOTH, AMBULO_DEVICE_BELOW,
-                                             AMBULO_DEVICE_ABOVE};
+  static const ambulo_device_side sides[] = {AMBULO_DEVICE_SIDE_NOT_SET, AMBULO_DEVICE_BOTH,
+                                             AMBULO_DEVICE_BELOW, AMBULO_DEVICE_ABOVE};
   device.rest = -device.rest;
   device.pretension = -device.pretension;
   device.amount = -device.amount;
@@ -111,6 +111,7 @@ static int same_law(const ambulo_device *a, const ambulo_device *b) {
            (a->side == AMBULO_DEVICE_BOTH || same(a->smoothing, b->smoothing));
   case AMBULO_DEVICE_DAMPER:
     return same(a->damping, b->damping);
+  case AMBULO_DEVICE_KIND_NOT_SET:
   case AMBULO_DEVICE_ACTUATOR:
     break;
   }

@@ -1,19 +1,18 @@
 /* export/export.c - ambulo_export: a model and a motion for another program.
  *
- * Reading order: bodies.h, osim_text.c, urdf_text.c, motion_source.h, opensim_motion.c,
- * free_base.h, npz_motion.c, npz.h.
+ * Reading order: bodies.h, osim_text.c, urdf_text.c, motion_source.h, loads.h, device_loads.c,
+ * opensim_motion.c, free_base.h, npz_motion.c, npz.h.
  */
 #include "ambulo/export.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/output_check.h"
 #include "export/npz_motion.h"
 #include "export/texts.h"
-
-enum { OPTIONS_COOKIE = 0x61657870 };
 
 static const char *const file_names[] = {"model.osim", "motion.mot", "grf.mot",
                                          "external_loads.xml"};
@@ -29,12 +28,11 @@ typedef struct job {
   ambulo_diagnostics *diagnostics;
   ambulo__bodies bodies;
   ambulo__source source;
+  ambulo__loads loads;
   ambulo__text_buffer text;
 } job;
 
-ambulo_export_options ambulo_export_options_default(void) {
-  return (ambulo_export_options){.cookie = OPTIONS_COOKIE};
-}
+AMBULO__FILL(ambulo_export_options, {.size = size, .format = AMBULO_EXPORT_OPENSIM})
 
 /* ------------------------------------------------------------------------ refusals */
 
@@ -48,6 +46,15 @@ static ambulo_status check_names(const job *j, const char *own) {
   return AMBULO_OK;
 }
 
+/* links and coordinates; masses may be others, and points more (a problem's may have some on its
+ * capsules) */
+static int same_body(const ambulo_model *a, const ambulo_model *b) {
+  if (a->link_count != b->link_count || a->coordinate_count != b->coordinate_count) return 0;
+  for (int i = 0; i < a->link_count; i++)
+    if (strcmp(a->links[i].name, b->links[i].name) != 0) return 0;
+  return a->foot_count == b->foot_count && a->patch_count == b->patch_count;
+}
+
 static ambulo_status check_asked(const job *j) {
   ambulo_export_format format = j->options->format;
   if (format == AMBULO_EXPORT_NPZ && !j->motion)
@@ -57,6 +64,10 @@ static ambulo_status check_asked(const job *j) {
   if (format == AMBULO_EXPORT_URDF && j->motion)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere,
                          "--format npz writes the motion", "a URDF holds no motion");
+  if (j->options->problem && !same_body(j->model, j->options->problem->model))
+    return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "the problem is one of another body, '%s'; expected the model's",
+                         j->options->problem->model->name);
   if (j->options->free_root && format != AMBULO_EXPORT_URDF)
     return ambulo__error(j->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "a free root is a choice of URDF alone");
@@ -103,25 +114,31 @@ static ambulo_status write_single(job *j) {
                             j->diagnostics);
 }
 
-typedef void print(const ambulo__bodies *, const ambulo__source *, ambulo__text_buffer *);
-
-static void print_model(const ambulo__bodies *bodies, const ambulo__source *source,
-                        ambulo__text_buffer *text) {
-  (void)source;
-  ambulo__export_osim(bodies, text);
+static void print_file(job *j, int file) {
+  switch (file) {
+  case 0:
+    ambulo__export_osim(&j->bodies, &j->text);
+    break;
+  case 1:
+    ambulo__mot_text(&j->bodies, &j->source, &j->text);
+    break;
+  case 2:
+    ambulo__grf_text(&j->bodies, j->source.time, &j->loads, &j->text);
+    break;
+  default:
+    ambulo__external_loads_text(&j->bodies, &j->loads, &j->text);
+  }
 }
 
 /* a folder, whole or not at all */
 static ambulo_status write_folder(job *j) {
-  static print *const prints[] = {print_model, ambulo__mot_text, ambulo__grf_text,
-                                  ambulo__external_loads_text};
   ambulo__folder *folder = NULL;
   ambulo_status status = ambulo__folder_begin(j->output, j->options->overwrite ? &mark : NULL,
                                               j->allocator, j->diagnostics, &folder);
   if (status) return status;
-  for (int i = 0; !status && i < (j->source.feet ? 4 : 2); i++) {
+  for (int i = 0; !status && i < (j->loads.count ? 4 : 2); i++) {
     ambulo__text_clear(&j->text);
-    prints[i](&j->bodies, &j->source, &j->text);
+    print_file(j, i);
     status = ambulo__text_status(&j->text);
     if (!status)
       status = ambulo__folder_write(folder, file_names[i], ambulo__text_data(&j->text),
@@ -132,11 +149,17 @@ static ambulo_status write_folder(job *j) {
   return status;
 }
 
+static ambulo_status add_loads(job *j) {
+  return ambulo__loads_create(&j->bodies, j->options->problem, &j->source, j->diagnostics,
+                              &j->loads);
+}
+
 static ambulo_status write_format(job *j) {
   ambulo_status status = AMBULO_OK;
   switch (j->options->format) {
   case AMBULO_EXPORT_OPENSIM:
     status = ambulo__bodies_merged(j->model, j->allocator, &j->bodies);
+    if (!status && j->motion) status = add_loads(j);
     if (status) return status;
     if (j->motion) return write_folder(j);
     ambulo__export_osim(&j->bodies, &j->text);
@@ -149,10 +172,12 @@ static ambulo_status write_format(job *j) {
     ambulo__export_urdf(&j->bodies, &j->text);
     return write_single(j);
   case AMBULO_EXPORT_NPZ:
+  case AMBULO_EXPORT_FORMAT_NOT_SET:
     break;
   }
   status = ambulo__bodies_single(j->model, 1, j->allocator, &j->bodies);
-  if (!status) status = ambulo__npz_motion(&j->bodies, &j->source, &j->text);
+  if (!status) status = add_loads(j);
+  if (!status) status = ambulo__npz_motion(&j->bodies, &j->source, &j->loads, &j->text);
   return status ? status : write_single(j);
 }
 
@@ -162,7 +187,8 @@ static ambulo_status run(job *j) {
   if (!status && !folder)
     status = ambulo__output_check(j->output, &j->motion, 1, j->options->overwrite, j->diagnostics);
   if (!status && j->motion)
-    status = ambulo__source_read(j->model, j->motion, j->options->inverse, j->allocator,
+    status = ambulo__source_read(j->model, j->motion, j->options->inverse,
+                                 ambulo__has_loads(j->options->problem), j->allocator,
                                  j->diagnostics, &j->source);
   return status ? status : write_format(j);
 }
@@ -170,21 +196,25 @@ static ambulo_status run(job *j) {
 ambulo_status ambulo_export(const ambulo_model *model, const char *motion, const char *output,
                             const ambulo_export_options *options, const ambulo_allocator *allocator,
                             ambulo_diagnostics *diagnostics) {
-  const ambulo_export_options defaults = ambulo_export_options_default();
-  if (!options) options = &defaults;
+  ambulo_export_options own;
   if (!model || !output || !output[0] || (motion && !motion[0]) ||
-      options->cookie != OPTIONS_COOKIE || (unsigned)options->format > AMBULO_EXPORT_NPZ)
+      !AMBULO__OWN(ambulo_export_options, &own, options))
     return AMBULO_E_ARGUMENT;
+  if (own.format < AMBULO_EXPORT_OPENSIM || own.format > AMBULO_EXPORT_NPZ)
+    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                         "the format of an export is %s (got %d); expected an ambulo_export_format",
+                         own.format ? "unknown" : "not set", (int)own.format);
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   job j = {.model = model,
            .motion = motion,
            .output = output,
-           .options = options,
+           .options = &own,
            .allocator = allocator,
            .diagnostics = diagnostics};
   ambulo__text_init(&j.text, allocator);
   ambulo_status status = run(&j);
   ambulo__text_free(&j.text);
+  ambulo__loads_free(&j.loads);
   ambulo__source_free(&j.source);
   ambulo__bodies_free(&j.bodies);
   return ambulo__conclude(diagnostics, errors, status, output);

@@ -1,7 +1,7 @@
 /* export/npz_motion.c - see npz_motion.h.
  *
- * n rows, m coordinates that do not carry the root, c feet. With a free root (p, R its frame in the
- * ground's axes, v its velocity, w its angular velocity):
+ * n rows, m coordinates that do not carry the root, c loads (loads.h). With a free root (p, R its
+ * frame in the ground's axes, v its velocity, w its angular velocity):
  *
  *   q     [n][7 + m]  p, quaternion x y z w, coordinates            Pinocchio, JointModelFreeFlyer
  *   v     [n][6 + m]  R' v, R' w, rates
@@ -10,7 +10,7 @@
  *   qpos  [n][7 + m]  p, quaternion w x y z, coordinates            MuJoCo
  *   qvel, qacc  [n][6 + m]  v, R' w, rates; a, R' w', second rates
  *
- * and without one the coordinates alone. Contacts: force and moment about contact_point, in the
+ * and without one the coordinates alone. Loads: force and moment about contact_point, in the
  * ground's axes, so that rnea(q, v, a) - sum J' wrench = tau.
  */
 #include "export/npz_motion.h"
@@ -30,9 +30,11 @@ static const char *const array_names[ARRAYS] = {"q", "v", "a", "tau", "qpos", "q
 typedef struct arrays {
   const ambulo__bodies *bodies;
   const ambulo__source *source;
+  const ambulo__loads *loads;
   double *field[ARRAYS]; /* [rows][width] */
   size_t width[ARRAYS];
-  double *wrench, *point; /* [rows][feet][6], [rows][feet][3] */
+  double *wrench, *point; /* [rows][acting][6], [rows][acting][3] */
+  int acting;             /* loads on bodies that move */
   const char **joints;    /* [rest count] */
   int *rest;              /* coordinates that do not carry the root */
   int rest_count;
@@ -62,21 +64,29 @@ static void fill_joints(arrays *s, int k, int base) {
   }
 }
 
-/* contacts of row k; what of the root wrench they leave over: f, m about the origin */
-static void fill_contacts(arrays *s, int k, double f[3], double m[3]) {
+static int acts(const ambulo__export_load *load) {
+  return load->body >= 0;
+}
+
+/* loads of row k; what of the root wrench they leave over: f, m about the origin */
+static void fill_loads(arrays *s, int k, double f[3], double m[3]) {
   const ambulo__source *in = s->source;
+  const ambulo__loads *loads = s->loads;
   const ambulo__rigid *world = &s->bodies->world;
+  size_t to = (size_t)k * (size_t)s->acting;
   ambulo__rigid_vector(world, in->wrench + WRENCH * (size_t)k, m);
   ambulo__rigid_vector(world, in->wrench + WRENCH * (size_t)k + 3, f);
-  for (int foot = 0; foot < in->feet; foot++) {
-    size_t at = (size_t)k * (size_t)in->feet + (size_t)foot;
-    double *wrench = s->wrench + WRENCH * at, *point = s->point + 3 * at, moment[3], up[3];
-    ambulo__rigid_vector(world, in->force + 3 * at, wrench);
-    ambulo__rigid_vector(world, in->point + 3 * at, point);
-    ambulo__rigid_vector(world, s->bodies->model->up, up);
+  for (int l = 0; l < loads->count; l++) {
+    size_t at = 3 * ((size_t)k * (size_t)loads->count + (size_t)l);
+    if (!acts(&loads->list[l])) continue;
+    double *wrench = s->wrench + WRENCH * to, *point = s->point + 3 * to, moment[3];
+    to++;
+    ambulo__rigid_vector(world, loads->force + at, wrench);
+    ambulo__rigid_vector(world, loads->point + at, point);
+    ambulo__rigid_vector(world, loads->torque + at, wrench + 3);
     ambulo__cross(point, wrench, moment);
-    for (int i = 0; i < 3; i++) {
-      wrench[3 + i] = in->free_moment[at] * up[i];
+    int has = loads->list[l].kind == AMBULO__LOAD_HAND; /* the root wrench has it in it */
+    for (int i = 0; !has && i < 3; i++) {
       f[i] -= wrench[i];
       m[i] -= moment[i] + wrench[3 + i];
     }
@@ -117,46 +127,47 @@ static void fill_base(arrays *s, int k, const double f[3], const double m[3]) {
 
 static void write_names(const arrays *s, ambulo__npz *npz, const char **names) {
   const ambulo_model *model = s->bodies->model;
-  int feet = s->source->feet;
+  const ambulo__loads *loads = s->loads;
   ambulo__npz_texts(npz, "joint_names", s->joints, (size_t)s->rest_count);
-  for (int foot = 0; foot < feet; foot++) names[foot] = model->feet[foot].name;
-  ambulo__npz_texts(npz, "contact_names", names, (size_t)feet);
-  for (int foot = 0; foot < feet; foot++) {
-    int link = model->points[model->feet[foot].heel[0]].link;
-    names[foot] = ambulo__export_name(s->bodies, s->bodies->body_of[link]);
-  }
-  ambulo__npz_texts(npz, "contact_links", names, (size_t)feet);
+  for (int i = 0, to = 0; i < loads->count; i++)
+    if (acts(&loads->list[i])) names[to++] = loads->list[i].name;
+  ambulo__npz_texts(npz, "contact_names", names, (size_t)s->acting);
+  for (int i = 0, to = 0; i < loads->count; i++)
+    if (acts(&loads->list[i])) names[to++] = ambulo__export_name(s->bodies, loads->list[i].body);
+  ambulo__npz_texts(npz, "contact_links", names, (size_t)s->acting);
   const char *root = s->bodies->root >= 0 ? model->links[s->bodies->root].name : "world";
   ambulo__npz_texts(npz, "root_link", &root, 1);
 }
 
 static ambulo_status write_archive(const arrays *s, const char **names, ambulo__text_buffer *text) {
   ambulo__npz npz;
-  size_t rows = (size_t)s->source->rows, feet = (size_t)s->source->feet;
+  size_t rows = (size_t)s->source->rows, acting = (size_t)s->acting;
   double gravity[3];
   ambulo__rigid_vector(&s->bodies->world, s->bodies->model->gravity, gravity);
   ambulo__npz_begin(&npz, text);
   ambulo__npz_numbers(&npz, "times", s->source->time, 1, &rows);
   for (int f = 0; f < ARRAYS; f++)
     ambulo__npz_numbers(&npz, array_names[f], s->field[f], 2, (size_t[]){rows, s->width[f]});
-  ambulo__npz_numbers(&npz, "contact_wrench", s->wrench, 3, (size_t[]){rows, feet, WRENCH});
-  ambulo__npz_numbers(&npz, "contact_point", s->point, 3, (size_t[]){rows, feet, 3});
+  ambulo__npz_numbers(&npz, "contact_wrench", s->wrench, 3, (size_t[]){rows, acting, WRENCH});
+  ambulo__npz_numbers(&npz, "contact_point", s->point, 3, (size_t[]){rows, acting, 3});
   ambulo__npz_numbers(&npz, "gravity", gravity, 1, &(size_t){3});
   write_names(s, &npz, names);
   return ambulo__npz_end(&npz);
 }
 
 ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__source *source,
-                                 ambulo__text_buffer *text) {
+                                 const ambulo__loads *loads, ambulo__text_buffer *text) {
   const ambulo_allocator *allocator = &bodies->allocator;
-  arrays s = {.bodies = bodies, .source = source};
-  size_t rows = (size_t)source->rows, feet = (size_t)source->feet, d = (size_t)source->coordinates;
+  arrays s = {.bodies = bodies, .source = source, .loads = loads};
+  size_t rows = (size_t)source->rows, d = (size_t)source->coordinates;
   int base = bodies->root >= 0, complete = 1;
-  const char **names = ambulo__alloc(allocator, feet, sizeof *names);
+  for (int i = 0; i < loads->count; i++) s.acting += acts(&loads->list[i]);
+  size_t acting = (size_t)s.acting;
+  const char **names = ambulo__alloc(allocator, acting, sizeof *names);
   s.joints = ambulo__alloc(allocator, d, sizeof *s.joints);
   s.rest = ambulo__alloc(allocator, d, sizeof *s.rest);
-  s.wrench = ambulo__alloc(allocator, rows * feet * WRENCH, sizeof *s.wrench);
-  s.point = ambulo__alloc(allocator, rows * feet * 3, sizeof *s.point);
+  s.wrench = ambulo__alloc(allocator, rows * acting * WRENCH, sizeof *s.wrench);
+  s.point = ambulo__alloc(allocator, rows * acting * 3, sizeof *s.point);
   if (s.joints && s.rest) find_rest(&s);
   for (int f = 0; f < ARRAYS; f++) {
     s.width[f] = (size_t)s.rest_count + (!base ? 0 : f == Q || f == QPOS ? BASE_Q : BASE_V);
@@ -167,7 +178,7 @@ ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__sou
   for (int k = 0; complete && k < source->rows; k++) {
     double f[3], m[3];
     fill_joints(&s, k, base);
-    fill_contacts(&s, k, f, m);
+    fill_loads(&s, k, f, m);
     if (base) fill_base(&s, k, f, m);
   }
   ambulo_status status = complete ? write_archive(&s, names, text) : AMBULO_E_MEMORY;

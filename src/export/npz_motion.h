@@ -4,11 +4,11 @@
 
 #include "base/text_buffer.h"
 #include "export/bodies.h"
-#include "export/motion_source.h"
+#include "export/loads.h"
 
 /* The archive. `bodies`: ambulo__bodies_single with a free root, where the model has one; names of
  * links are those of its URDF. Errors: E_LIMIT, E_MEMORY. */
 ambulo_status ambulo__npz_motion(const ambulo__bodies *bodies, const ambulo__source *source,
-                                 ambulo__text_buffer *text);
+                                 const ambulo__loads *loads, ambulo__text_buffer *text);
 
 #endif

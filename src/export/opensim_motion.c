@@ -1,13 +1,14 @@
 /* export/opensim_motion.c - a motion for OpenSim's tools, beside the model of osim_text.c.
  *
  *   motion.mot           coordinates, in degrees and metres
- *   grf.mot              of each foot: force, its point and its torque there, in the ground's axes
+ *   grf.mot              of each load (loads.h): force, its point and its torque there, in the
+ *                        ground's axes
  *   external_loads.xml   which columns act on which body
  *
- * World and ground differ by a turn W about the origin: vectors are W v. A foot's torque at its
- * point is the free moment along up.
+ * World and ground differ by a turn W about the origin: vectors are W v.
  */
 #include <math.h>
+#include <stdio.h>
 
 #include "export/markup.h"
 #include "export/texts.h"
@@ -46,30 +47,36 @@ void ambulo__mot_text(const ambulo__bodies *bodies, const ambulo__source *source
   }
 }
 
-void ambulo__grf_text(const ambulo__bodies *bodies, const ambulo__source *source,
+/* on a body that moves */
+static int acts(const ambulo__export_load *load) {
+  return load->body >= 0;
+}
+
+void ambulo__grf_text(const ambulo__bodies *bodies, const double *time, const ambulo__loads *loads,
                       ambulo__text_buffer *text) {
-  const ambulo_model *model = bodies->model;
-  header(text, "grf", source->rows, 9 * source->feet + 1, 0);
-  for (int foot = 0; foot < source->feet; foot++) {
-    const char *name = model->feet[foot].name;
-    for (int column = 0; column < 9; column++)
-      ambulo__text_append_format(text, "\tground_%s_%s_%s%c", column < 6 ? "force" : "torque", name,
+  int count = 0;
+  for (int i = 0; i < loads->count; i++) count += acts(&loads->list[i]);
+  header(text, "grf", loads->rows, 9 * count + 1, 0);
+  for (int i = 0; i < loads->count; i++) {
+    const ambulo__export_load *load = &loads->list[i];
+    for (int column = 0; column < 9 && acts(load); column++)
+      ambulo__text_append_format(text, "\t%s%s_%s_%s%c", ambulo__load_prefix(load),
+                                 column < 6 ? "force" : "torque", load->name,
                                  column < 3   ? "v"
                                  : column < 6 ? "p"
                                               : "",
                                  "xyz"[column % 3]);
   }
   ambulo__text_append_char(text, '\n');
-  for (int k = 0; k < source->rows; k++) {
-    ambulo__text_append_number(text, source->time[k]);
-    for (int foot = 0; foot < source->feet; foot++) {
-      size_t at = (size_t)k * (size_t)source->feet + (size_t)foot;
-      double torque[3], out[9];
-      for (int i = 0; i < 3; i++) torque[i] = source->free_moment[at] * model->up[i];
-      ambulo__rigid_vector(&bodies->world, source->force + 3 * at, out);
-      ambulo__rigid_vector(&bodies->world, source->point + 3 * at, out + 3);
-      ambulo__rigid_vector(&bodies->world, torque, out + 6);
-      for (int i = 0; i < 9; i++) cell(text, out[i]);
+  for (int k = 0; k < loads->rows; k++) {
+    ambulo__text_append_number(text, time[k]);
+    for (int i = 0; i < loads->count; i++) {
+      size_t at = 3 * ((size_t)k * (size_t)loads->count + (size_t)i);
+      double out[9];
+      ambulo__rigid_vector(&bodies->world, loads->force + at, out);
+      ambulo__rigid_vector(&bodies->world, loads->point + at, out + 3);
+      ambulo__rigid_vector(&bodies->world, loads->torque + at, out + 6);
+      for (int c = 0; c < 9 && acts(&loads->list[i]); c++) cell(text, out[c]);
     }
     ambulo__text_append_char(text, '\n');
   }
@@ -82,25 +89,31 @@ static void element(ambulo__text_buffer *text, const char *tag, const char *befo
   ambulo__text_append_format(text, "%s</%s>\n", after, tag);
 }
 
-void ambulo__external_loads_text(const ambulo__bodies *bodies, const ambulo__source *source,
+static void identifier(ambulo__text_buffer *text, const char *tag, const ambulo__export_load *load,
+                       const char *what, const char *after) {
+  char before[32];
+  (void)snprintf(before, sizeof before, "%s%s_", ambulo__load_prefix(load), what);
+  element(text, tag, before, load->name, after);
+}
+
+void ambulo__external_loads_text(const ambulo__bodies *bodies, const ambulo__loads *loads,
                                  ambulo__text_buffer *text) {
-  const ambulo_model *model = bodies->model;
   ambulo__text_append(text, "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n" AMBULO__XML_MARK
                             "export: external loads of OpenSim -->\n"
                             "<OpenSimDocument Version=\"40000\">\n"
                             "\t<ExternalLoads name=\"external_loads\">\n\t\t<objects>\n");
-  for (int foot = 0; foot < source->feet; foot++) {
-    const char *name = model->feet[foot].name;
-    int link = model->points[model->feet[foot].heel[0]].link;
+  for (int i = 0; i < loads->count; i++) {
+    const ambulo__export_load *load = &loads->list[i];
+    if (!acts(load)) continue;
     ambulo__text_append(text, "\t\t\t<ExternalForce name=\"");
-    ambulo__markup_text(text, name);
+    ambulo__markup_text(text, load->name);
     ambulo__text_append(text, "\">\n");
-    element(text, "applied_to_body", "", ambulo__export_name(bodies, bodies->body_of[link]), "");
+    element(text, "applied_to_body", "", ambulo__export_name(bodies, load->body), "");
     element(text, "force_expressed_in_body", "", "ground", "");
     element(text, "point_expressed_in_body", "", "ground", "");
-    element(text, "force_identifier", "ground_force_", name, "_v");
-    element(text, "point_identifier", "ground_force_", name, "_p");
-    element(text, "torque_identifier", "ground_torque_", name, "_");
+    identifier(text, "force_identifier", load, "force", "_v");
+    identifier(text, "point_identifier", load, "force", "_p");
+    identifier(text, "torque_identifier", load, "torque", "_");
     element(text, "data_source_name", "", "grf.mot", "");
     ambulo__text_append(text, "\t\t\t</ExternalForce>\n");
   }

@@ -33,11 +33,11 @@ static void frame_path(const ambulo__bodies *bodies, int body, ambulo__text_buff
 
 static void print_coordinate(const ambulo__bodies *bodies, int index, ambulo__text_buffer *text) {
   const ambulo_coordinate *c = &bodies->model->coordinates[index];
-  double offset = bodies->offset[index];
+  double offset = bodies->offset[index], start = c->default_value + offset;
   const double range[2] = {isfinite(c->range[0]) ? c->range[0] + offset : -unlimited,
                            isfinite(c->range[1]) ? c->range[1] + offset : unlimited};
   open_named(text, 6, "Coordinate", c->name);
-  ambulo__markup_element(text, 7, "default_value", &offset, 1);
+  ambulo__markup_element(text, 7, "default_value", &start, 1);
   ambulo__markup_element(text, 7, "range", range, 2);
   ambulo__text_append(text, "\t\t\t\t\t\t\t<clamped>false</clamped>\n\t\t\t\t\t\t</Coordinate>\n");
 }

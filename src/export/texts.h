@@ -4,6 +4,7 @@
 
 #include "base/text_buffer.h"
 #include "export/bodies.h"
+#include "export/loads.h"
 #include "export/motion_source.h"
 
 /* First characters of an OpenSim model and of a URDF that ambulo wrote, behind the declaration. */
@@ -19,9 +20,9 @@ const char *ambulo__export_name(const ambulo__bodies *bodies, int body);
 /* opensim_motion.c: motion.mot, grf.mot, external_loads.xml. */
 void ambulo__mot_text(const ambulo__bodies *bodies, const ambulo__source *source,
                       ambulo__text_buffer *text);
-void ambulo__grf_text(const ambulo__bodies *bodies, const ambulo__source *source,
+void ambulo__grf_text(const ambulo__bodies *bodies, const double *time, const ambulo__loads *loads,
                       ambulo__text_buffer *text);
-void ambulo__external_loads_text(const ambulo__bodies *bodies, const ambulo__source *source,
+void ambulo__external_loads_text(const ambulo__bodies *bodies, const ambulo__loads *loads,
                                  ambulo__text_buffer *text);
 
 #endif

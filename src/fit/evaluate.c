@@ -110,7 +110,7 @@ static int show(void *user, const ambulo_batch_progress *batch) {
   if (p->expected < batch->cases) p->expected = batch->cases;
   p->seconds = ambulo__seconds_now() - r->begin;
   double each = made > 0 ? (r->solving + batch->seconds) / made : -1.0;
-  p->seconds_left = each >= 0.0 ? each * (p->expected - p->solves) : -1.0;
+  p->seconds_left = each >= 0.0 ? each * (p->expected - p->solves) : AMBULO_OFF;
   int wish = r->options->progress ? r->options->progress(r->options->user, p) : 0;
   if (wish > r->wish) r->wish = wish;
   return r->wish;

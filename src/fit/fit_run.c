@@ -4,6 +4,7 @@
  * does: a fit follows its solutions from neighbour to neighbour, and may have led them into a
  * valley that zero does not find. */
 #include "ambulo/report.h"
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/clock.h"
 #include "base/paths.h"
@@ -17,15 +18,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COOKIE = 0x66697421, TRIALS = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
+enum { TRIALS = 4, MOST_WORKERS = 4096, MOST_LOG = 1 << 20 };
 
-ambulo_fit_options ambulo_fit_options_default(void) {
-  return (ambulo_fit_options){.cookie = COOKIE, .grace = 30.0};
-}
+AMBULO__FILL(ambulo_fit_options, {.size = size, .case_seconds = AMBULO_OFF, .grace = 30.0})
 
 static int acceptable(const ambulo_fit_options *o) {
-  return o->cookie == COOKIE && o->workers >= 0 && o->workers <= MOST_WORKERS &&
-         o->case_seconds >= 0.0 && o->case_megabytes >= 0 && o->grace >= 0.0;
+  return o->workers >= 0 && o->workers <= MOST_WORKERS &&
+         (isnan(o->case_seconds) || o->case_seconds > 0.0) && o->case_megabytes >= 0 &&
+         o->grace >= 0.0;
 }
 
 typedef struct run {
@@ -255,8 +255,9 @@ static ambulo_status run_locked(run *r, char **report) {
 ambulo_status ambulo_fit_run(const ambulo_fit *fit, const char *directory,
                              const ambulo_fit_options *options, const ambulo_allocator *allocator,
                              ambulo_diagnostics *diagnostics, ambulo_fit_progress *end,
-                             ambulo_fit_ending *ending, char **report) {
-  ambulo_fit_options o = options ? *options : ambulo_fit_options_default();
+                             char **report) {
+  ambulo_fit_options o;
+  if (!AMBULO__OWN(ambulo_fit_options, &o, options)) return AMBULO_E_ARGUMENT;
   if (!fit || !directory || !acceptable(&o)) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   run r = {.fit = fit,
@@ -271,8 +272,8 @@ ambulo_status ambulo_fit_run(const ambulo_fit *fit, const char *directory,
   if (!status) status = run_locked(&r, report);
   ambulo__lock_release(&lock);
   r.runner.progress.seconds = ambulo__seconds_now() - r.runner.begin;
+  if (!status) r.runner.progress.ending = r.outcome.ending;
   if (end) *end = r.runner.progress;
-  if (ending && !status) *ending = r.outcome.ending;
   ambulo__free(&r.allocator, r.outcome.trial);
   ambulo__free(&r.allocator, r.outcome.sensitivity);
   ambulo__free(&r.allocator, r.outcome.entry);

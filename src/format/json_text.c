@@ -73,6 +73,11 @@ void ambulo__json_integer(ambulo__json *json, const char *key, long long value) 
   ambulo__text_append_format(json->text, "%lld", value);
 }
 
+void ambulo__json_hash(ambulo__json *json, const char *key, unsigned long long value) {
+  begin_value(json, key);
+  ambulo__text_append_format(json->text, "\"%016llx\"", value);
+}
+
 void ambulo__json_raw(ambulo__json *json, const char *key, const char *value) {
   begin_value(json, key);
   ambulo__text_append(json->text, value);

@@ -5,14 +5,11 @@
 #include <math.h>
 
 static void force_header(const char *name, ambulo__text_buffer *text) {
-  static const char *const prefixes[] = {",grf.", ",cop."}, *const axes[] = {".x", ".y", ".z"};
-  for (int i = 0; i < 6; i++) {
-    ambulo__text_append(text, prefixes[i / 3]);
-    ambulo__text_append(text, name);
-    ambulo__text_append(text, axes[i % 3]);
+  static const char *const vectors[] = {"grf", "cop", "moment"};
+  for (int i = 0; i < 9; i++) {
+    if (i == 6) ambulo__text_append_format(text, ",free_moment.%s", name);
+    ambulo__text_append_format(text, ",%s.%s.%c", vectors[i / 3], name, "xyz"[i % 3]);
   }
-  ambulo__text_append(text, ",free_moment.");
-  ambulo__text_append(text, name);
 }
 
 /* without the dust that sums of many parts leave */
@@ -31,7 +28,8 @@ static void comment(const ambulo__motion_table *table, ambulo__text_buffer *text
   ambulo__text_append(text, " m/s^2; SI units and radians: time s; q rad or m, qd per s, qdd per "
                             "s^2; tau N m or N; zmp m, world axes");
   if (table->feet || table->patches)
-    ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal");
+    ambulo__text_append(text, "; grf N, cop m, world axes; free_moment N m about the normal; "
+                              "moment N m about the origin");
   if (table->devices) ambulo__text_append(text, "; device N m or N, rad or m, W");
   if (table->holds)
     ambulo__text_append(text, "; held N, N m about the hand's point, world axes, W");
@@ -109,6 +107,7 @@ static void patch_numbers(const ambulo__motion_table *table, int k, ambulo__text
     numbers(text, table->patch_force + 3 * at, 3);
     numbers(text, table->patch_cop + 3 * at, 3);
     numbers(text, table->patch_free_moment + at, 1);
+    numbers(text, table->patch_moment + 3 * at, 3);
   }
 }
 
@@ -139,6 +138,7 @@ void ambulo__motion_csv(const ambulo__motion_table *table, ambulo__text_buffer *
       numbers(text, table->grf + 3 * i, 3);
       numbers(text, table->cop + 3 * i, 3);
       numbers(text, table->free_moment + i, 1);
+      numbers(text, table->grf_moment + 3 * i, 3);
     }
     patch_numbers(table, k, text);
     for (int i = 0; i < table->devices; i++) {

@@ -15,9 +15,10 @@ typedef struct ambulo__motion_table {
   const double *times, *q, *qd, *qdd, *tau, *zmp;
   int feet;                              /* 0: no forces on the feet */
   const double *grf, *cop, *free_moment; /* [samples][feet][3], ..., [samples][feet] */
+  const double *grf_moment;              /* [samples][feet][3], about the origin */
   int patches;      /* with columns of their own: patch[patches], which of the model's */
   const int *patch; /* their numbers are [samples][patches of the model][3], ... */
-  const double *patch_force, *patch_cop, *patch_free_moment;
+  const double *patch_force, *patch_cop, *patch_free_moment, *patch_moment;
   int devices;                                 /* 0: none */
   const ambulo_device *device;                 /* [devices] */
   const double *effort, *along, *device_power; /* [samples][devices] */
@@ -33,8 +34,8 @@ typedef struct ambulo__motion_table {
 
 /* "# ambulo motion: ..." with the body's mass, gravity and the units, header, one line a time:
  * time, q.*, qd.*, qdd.*, tau.*, zmp.x|y|z; with ground reaction for each foot grf.<foot>.x|y|z,
- * cop.<foot>.x|y|z, free_moment.<foot>, the same of the patches; for each device
- * device.<name>.torque|force, .angle|length, .power; for each hand that holds something
+ * cop.<foot>.x|y|z, free_moment.<foot>, moment.<foot>.x|y|z, the same of the patches; for each
+ * device device.<name>.torque|force, .angle|length, .power; for each hand that holds something
  * held.<load>.<point>.force.x|y|z, .moment.x|y|z, for each load held.<load>.power; of an inverse
  * dynamics wrench.force.x|y|z, wrench.moment.x|y|z, the same of residual, and power.*; a value that
  * does not exist (the ZMP in flight) is "nan". */

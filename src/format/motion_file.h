@@ -7,7 +7,8 @@
  *        degrees where there is no version=... either, as OpenSim takes files of SIMM. nRows, where
  *        given, must agree with the table (a cut-off file is noticed); nColumns should.
  * A comment "# inDegrees=yes" says the same in a CSV. The first column is "time" (s),
- * strictly increasing; names are unique; every number is finite, except that points of the
+ * strictly increasing (but rows of an STO that repeat the one before, which are left out); names
+ * are unique; every number is finite, except that points of the
  * ground that do not exist (columns "zmp.*", "cop.*") are "nan". CRLF, a byte-order mark,
  * empty lines and a missing final newline are accepted.
  *

@@ -31,6 +31,7 @@ typedef struct table_reader {
   ambulo__motion *motion;
   int has_previous_time;
   double previous_time; /* of the row above */
+  int repeated;         /* rows left out that say the same as the row above */
 } table_reader;
 
 static ambulo__place here(const table_reader *reader, int column) {
@@ -184,38 +185,59 @@ static int read_number(table_reader *reader, const ambulo__table_cell *cell, int
   return 0;
 }
 
-static void read_time(table_reader *reader, const ambulo__table_cell *cell, double *time) {
-  int known = read_number(reader, cell, -1, time);
-  if (known && reader->has_previous_time && !(*time > reader->previous_time)) {
-    fault(reader,
-          ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
-                        "time does not increase (got '%.*s'); expected more than in "
-                        "the row before",
-                        quoted_length(cell), cell->start));
-  }
-  reader->has_previous_time = known;
-  reader->previous_time = *time;
+/* Whether the time may stand in the next row: it increases, or an STO says it twice (OpenSim's
+ * tools repeat the last row of a run), and then the rest of the row has to be the same. */
+static void check_time(table_reader *reader, const ambulo__table_cell *cell, double time,
+                       int same_row) {
+  if (!reader->has_previous_time || time > reader->previous_time || same_row) return;
+  fault(reader,
+        ambulo__error(reader->diagnostics, AMBULO_E_SCHEMA, here(reader, cell->column), NULL,
+                      "time does not increase (got '%.*s'); expected more than in "
+                      "the row before",
+                      quoted_length(cell), cell->start));
 }
 
-static void read_row(table_reader *reader, int row) {
+/* row `row` says what the one before says, but for the last digits of ten that are printed */
+static int is_same(const table_reader *reader, int row) {
+  const ambulo__motion *m = reader->motion;
+  const double *values = m->values + (size_t)row * (size_t)m->columns;
+  if (!reader->is_sto || row == 0 || !(m->time[row] == m->time[row - 1])) return 0;
+  for (int c = 0; c < m->columns; c++) {
+    double before = values[c - m->columns];
+    double size = 1e-3 + fmax(fabs(values[c]), fabs(before));
+    int same = fabs(values[c] - before) <= 1e-8 * size;
+    if (!same && !(isnan(values[c]) && isnan(before))) return 0;
+  }
+  return 1;
+}
+
+/* 1 if the row counts */
+static int read_row(table_reader *reader, int row) {
   ambulo__motion *motion = reader->motion;
   int count = ambulo__table_count_cells(&reader->line, reader->cells);
   if (count != motion->columns + 1) {
     fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, here(reader, 1), NULL,
                                 "row with %d cells; expected %d", count, motion->columns + 1));
     reader->has_previous_time = 0;
-    return;
+    return 1;
   }
   size_t position = 0;
-  ambulo__table_cell cell;
+  int known = 0;
+  ambulo__table_cell cell, time_cell = {0};
   double *values = motion->values + (size_t)row * (size_t)motion->columns;
   for (int c = -1; ambulo__table_next_cell(&reader->line, reader->cells, &position, &cell); c++) {
     if (c < 0) {
-      read_time(reader, &cell, &motion->time[row]);
+      time_cell = cell;
+      known = read_number(reader, &cell, c, &motion->time[row]);
     } else {
       (void)read_number(reader, &cell, c, &values[c]);
     }
   }
+  int same = known && is_same(reader, row);
+  if (known) check_time(reader, &time_cell, motion->time[row], same);
+  reader->has_previous_time = known;
+  reader->previous_time = motion->time[row];
+  return !same;
 }
 
 static int count_rows(const table_reader *reader) {
@@ -243,9 +265,16 @@ static ambulo_status read_rows(table_reader *reader) {
   reader->motion->declared_columns = (int)reader->header.declared_columns;
   reader->motion->body_mass = reader->header.body_mass;
   memcpy(reader->motion->gravity, reader->header.gravity, sizeof reader->header.gravity);
-  for (int row = 0; next_row(reader); row++) read_row(reader, row);
+  int kept = 0;
+  while (next_row(reader)) kept += read_row(reader, kept);
+  reader->motion->rows = kept;
+  if (kept < rows)
+    ambulo__warning(reader->diagnostics, start, NULL,
+                    "%d rows say the same as the row before, time and all: they are left out",
+                    rows - kept);
   if (reader->header.declared_rows >= 0 && reader->header.declared_rows != rows) {
-    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, start, NULL,
+    fault(reader, ambulo__error(reader->diagnostics, AMBULO_E_PARSE, start,
+                                "where the file is whole, write its number of rows behind nRows=",
                                 "%d rows; expected %lld (nRows): the file may be cut off", rows,
                                 reader->header.declared_rows));
   }

@@ -89,7 +89,8 @@ static ambulo_status check_obstacle(const ambulo_problem_definition *d, int k,
   const ambulo_obstacle *o = &d->obstacles[k];
   if (!o->name || !o->name[0]) return REFUSE(list, "obstacles[%d] has no name", k);
   if (o->shape != AMBULO_OBSTACLE_BOX && o->shape != AMBULO_OBSTACLE_CAPSULE)
-    return REFUSE(list, "obstacles[%d] ('%s'): unknown shape %d", k, o->name, (int)o->shape);
+    return REFUSE(list, "obstacles[%d] ('%s'): its shape is %s (got %d); expected box or capsule",
+                  k, o->name, o->shape ? "unknown" : "not set", (int)o->shape);
   for (int i = 0; i < k; i++) {
     if (d->obstacles[i].name && !strcmp(d->obstacles[i].name, o->name))
       return REFUSE(list, "obstacles[%d] and obstacles[%d] are both named '%s'", i, k, o->name);

@@ -187,7 +187,7 @@ static double narrow(ambulo__slot_part part, roll at, double length, double size
 /* g, and s dg/ds */
 static double most_after(double rate, double onset_time, double time, double *by_time) {
   *by_time = 0.0;
-  if (rate < 0.0 || isinf(time)) return INFINITY;
+  if (isnan(rate) || isinf(time)) return INFINITY;
   time = fmax(0.0, time);
   double onset = expm1(-time / onset_time);
   *by_time = -rate * onset * time;

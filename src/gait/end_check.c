@@ -201,7 +201,11 @@ static ambulo_status check_ground(const ambulo_problem_definition *d, const int 
     double *place = state + 4 * n + 6;
     for (int i = 0; i < model->coordinate_count; i++) (void)value_at(d, i, 0, final, &state[i]);
     status = ambulo_lagrangian_inverse_dynamics(model, state, state + n, state + 2 * n,
-                                                state + 3 * n, state + 4 * n, place, scratch);
+                                                &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                                  .tau = state + 3 * n,
+                                                                  .wrench = state + 4 * n,
+                                                                  .points = place},
+                                                scratch);
     if (!status) status = check_feet(d, active, final, place, list);
   }
   ambulo__free(allocator, state);

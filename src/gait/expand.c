@@ -15,22 +15,26 @@
  * down exactly at the end is in contact at that instant.
  */
 #include "gait/gait.h"
+#include "base/sized.h"
 #include "base/instant.h"
 #include "model/neutral_pose.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MOST_STEPS = 1000 };
 
 static int gait_is_legal(const ambulo_model *model, const ambulo_gait *gait) {
-  double lengths[] = {gait->step_length, gait->step_width, gait->start, gait->other_step_length};
-  for (int i = 0; i < 4; i++) {
+  double lengths[] = {gait->step_length, gait->step_width, gait->start};
+  for (int i = 0; i < 3; i++) {
     if (!isfinite(lengths[i])) return 0;
   }
   return model->foot_count == 2 && gait->first_foot >= 0 && gait->first_foot < 2 &&
          (gait->forefoot == 0 || gait->forefoot == 1) && gait->steps >= 1 &&
          gait->steps <= MOST_STEPS && gait->step_time > 0.0 && isfinite(gait->step_time) &&
-         gait->other_step_time >= 0.0 && isfinite(gait->other_step_time) &&
+         !isinf(gait->other_step_length) &&
+         (isnan(gait->other_step_time) ||
+          (gait->other_step_time > 0.0 && isfinite(gait->other_step_time))) &&
          gait->step_width >= 0.0 && gait->heel_strike > -0.5 &&
          gait->heel_strike <= gait->foot_flat && gait->foot_flat <= gait->heel_off &&
          gait->heel_off <= gait->toe_off && gait->toe_off < gait->heel_strike + 1.0;
@@ -43,12 +47,12 @@ static double up_to_step(int s, double odd, double even) {
 }
 
 double ambulo__gait_strike(const ambulo_gait *gait, int step) {
-  double other = gait->other_step_time > 0.0 ? gait->other_step_time : gait->step_time;
+  double other = isnan(gait->other_step_time) ? gait->step_time : gait->other_step_time;
   return up_to_step(step, gait->step_time, other);
 }
 
 double ambulo__gait_place(const ambulo_gait *gait, int step) {
-  double other = gait->other_step_length != 0.0 ? gait->other_step_length : gait->step_length;
+  double other = isnan(gait->other_step_length) ? gait->step_length : gait->other_step_length;
   return up_to_step(step, gait->step_length, other);
 }
 
@@ -64,7 +68,8 @@ static int left_foot(const ambulo_model *model) {
 }
 
 typedef struct writer {
-  ambulo_contact *contacts;
+  char *contacts;
+  size_t size; /* of one, as the caller's header has it */
   int capacity, count;
   double duration;
 } writer;
@@ -79,15 +84,21 @@ static void write_span(writer *w, ambulo_contact contact) {
   } else if (contact.to - contact.from <= AMBULO__INSTANT) {
     return;
   }
-  if (w->count < w->capacity) w->contacts[w->count] = contact;
+  if (w->count < w->capacity) memcpy(w->contacts + (size_t)w->count * w->size, &contact, w->size);
   w->count++;
 }
 
 ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *gait,
                                  ambulo_contact *contacts, int capacity, int *count) {
+  ambulo_gait own;
   if (!model || !gait || !count || (!contacts && capacity > 0)) return AMBULO_E_ARGUMENT;
+  if (!AMBULO__OWN(ambulo_gait, &own, gait) ||
+      !ambulo__sized_item(own.contact_size, sizeof *contacts))
+    return AMBULO_E_ARGUMENT;
+  gait = &own;
   if (!gait_is_legal(model, gait)) return AMBULO_E_ARGUMENT;
-  writer w = {contacts, capacity, 0, ambulo__gait_strike(gait, gait->steps)};
+  writer w = {(char *)contacts, own.contact_size, capacity, 0,
+              ambulo__gait_strike(gait, gait->steps)};
   double stride = ambulo__gait_strike(gait, 2);
   const double fraction[] = {gait->heel_strike, gait->foot_flat, gait->heel_off, gait->toe_off};
   int left = left_foot(model);
@@ -101,8 +112,8 @@ ambulo_status ambulo_gait_expand(const ambulo_model *model, const ambulo_gait *g
       ambulo_contact contact = {
           .foot = foot,
           .mode = mode == AMBULO_CONTACT_HEEL ? landing : (ambulo_contact_mode)mode,
-          .from = strike + fraction[mode] * stride,
-          .to = strike + fraction[mode + 1] * stride,
+          .from = strike + fraction[mode - AMBULO_CONTACT_HEEL] * stride,
+          .to = strike + fraction[mode - AMBULO_CONTACT_HEEL + 1] * stride,
           .place = {gait->start + ambulo__gait_place(gait, step), side * gait->step_width}};
       if (contact.to - contact.from > AMBULO__INSTANT) write_span(&w, contact);
     }

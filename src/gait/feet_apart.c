@@ -89,7 +89,7 @@ static void pair_rows(const ambulo__gait_context *context, int foot, int other,
 
 /* (14.g) of every pair of feet */
 void ambulo__feet_apart_rows(const ambulo__gait_context *context, ambulo__row_table *table) {
-  if (context->definition->clearance.feet < 0.0) return;
+  if (isnan(context->definition->clearance.feet)) return;
   for (int foot = 0; foot < context->model->foot_count; foot++)
     for (int other = foot + 1; other < context->model->foot_count; other++)
       pair_rows(context, foot, other, table);

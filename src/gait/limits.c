@@ -62,16 +62,17 @@ static void node_limits(const ambulo__gait_context *context, int node, ambulo__r
                     definition->speed_limits, definition->torque_limits};
     int channel[3] = {ambulo__channel_q(channels, i), ambulo__channel_qd(channels, i),
                       ambulo__channel_tau(channels, i)};
-    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
-      if (!asked[what]) continue;
-      ambulo__row_kind kind = ambulo__row_kind_of_limit((ambulo_limited)what);
+    for (int k = 0; k < 3; k++) {
+      ambulo_limited what = (ambulo_limited)(AMBULO_LIMITED_POSITION + k);
+      if (!asked[k]) continue;
+      ambulo__row_kind kind = ambulo__row_kind_of_limit(what);
       limit l = {kind,
                  ambulo__row_measure(kind, context->model->coordinates[i].type, 0),
-                 ambulo__bounds_of(definition, i, (ambulo_limited)what),
+                 ambulo__bounds_of(definition, i, what),
                  i,
                  node,
                  context->times[node],
-                 channel[what]};
+                 channel[k]};
       add_limit(context, &l, table);
     }
   }

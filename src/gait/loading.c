@@ -87,6 +87,7 @@ static double share_of_front(const ambulo_ground_reaction *reaction, double u) {
   case AMBULO_TRANSFER_SMOOTH:
     return u * u * (3.0 - 2.0 * u);
   case AMBULO_TRANSFER_LINEAR:
+  case AMBULO_TRANSFER_NOT_SET:
     break;
   }
   return u;
@@ -100,6 +101,7 @@ static double slope_of_front(const ambulo_ground_reaction *reaction, double u) {
   case AMBULO_TRANSFER_SMOOTH:
     return 6.0 * u * (1.0 - u);
   case AMBULO_TRANSFER_LINEAR:
+  case AMBULO_TRANSFER_NOT_SET:
     break;
   }
   return 1.0;

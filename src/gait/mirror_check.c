@@ -22,8 +22,9 @@
 #define REFUSE(list, ...)                                                                          \
   ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
 
-static const char *const keys[3] = {"joint_limits", "speed_limits", "torque_limits"};
-static const char *const words[3] = {"range", "speed limits", "torque limits"};
+/* by ambulo_limited */
+static const char *const keys[] = {"", "joint_limits", "speed_limits", "torque_limits"};
+static const char *const words[] = {"", "range", "speed limits", "torque limits"};
 
 static const char *unit_of(const ambulo_coordinate *c, ambulo_limited what) {
   return ambulo__measure_text(ambulo__row_measure(ambulo__row_kind_of_limit(what), c->type, 0));
@@ -123,8 +124,9 @@ ambulo_status ambulo__mirror_check(const ambulo_problem_definition *d,
   if (status == AMBULO_E_MEMORY) return status;
   for (int i = 0; i < d->model->coordinate_count; i++) {
     if (d->model->coordinates[i].mirror < i) continue;
-    for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
-      if (asked[what] && check_limits(d, i, (ambulo_limited)what, list)) status = AMBULO_E_PROBLEM;
+    for (int k = 0; k < 3; k++) {
+      ambulo_limited what = (ambulo_limited)(AMBULO_LIMITED_POSITION + k);
+      if (asked[k] && check_limits(d, i, what, list)) status = AMBULO_E_PROBLEM;
     }
     if (check_tubes(d, i, list)) status = AMBULO_E_PROBLEM;
   }

@@ -48,8 +48,8 @@ static ambulo_status check_contact(const ambulo_problem_definition *definition, 
   const char *name = ambulo__effector_name(definition->model, effector);
   if ((int)c->mode < AMBULO_CONTACT_HEEL || (int)c->mode > AMBULO_CONTACT_PATCH) {
     return REFUSE(list, NULL,
-                  "contacts[%d]: foot '%s' in unknown mode %d; expected heel, flat or toe", index,
-                  name, (int)c->mode);
+                  "contacts[%d]: the mode of foot '%s' is %s (got %d); expected heel, flat or toe",
+                  index, name, c->mode ? "unknown" : "not set", (int)c->mode);
   }
   if (!isfinite(c->place[0]) || !isfinite(c->place[1]) || !isfinite(c->place[2])) {
     return REFUSE(list, NULL,

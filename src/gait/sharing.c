@@ -119,7 +119,7 @@ static void contact_rows(const one *c) {
     if (!c->planar) friction_rows(c, c->load.frame.left, "to the right", "to the left");
   }
   if (r->pressure) pressure_rows(c);
-  if (r->free_moment < 0.0 || c->planar) return;
+  if (isnan(r->free_moment) || c->planar) return;
   ambulo__linear form = {.count = 0};
   ambulo__linear_add(&form, c->moment, c->load.frame.up, 1.0 / c->weight);
   bounded(c, AMBULO__KIND_FREE_MOMENT, "to the right", "to the left", AMBULO__METRES, &form,

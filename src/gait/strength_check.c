@@ -26,8 +26,11 @@ typedef struct standing {
 } standing;
 
 static ambulo_status evaluate(const standing *s) {
-  return ambulo_lagrangian_inverse_dynamics(s->model, s->q, s->zero, s->zero, s->tau, s->wrench,
-                                            s->points, s->scratch);
+  return ambulo_lagrangian_inverse_dynamics(
+      s->model, s->q, s->zero, s->zero,
+      &(ambulo_outputs){
+          .size = sizeof(ambulo_outputs), .tau = s->tau, .wrench = s->wrench, .points = s->points},
+      s->scratch);
 }
 
 /* place of the centre of pressure between heel (0) and toe (1) of a foot */

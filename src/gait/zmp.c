@@ -53,7 +53,7 @@ static void force_row(const ambulo__gait_context *context, int node, ambulo__row
   }
 }
 
-static const char *const mode_words[] = {"on its heel", "flat", "on its toes"};
+static const char *const mode_words[] = {"", "on its heel", "flat", "on its toes"};
 
 static ambulo_status refuse_empty(const ambulo__gait_context *context, int node, double size,
                                   int planar, ambulo_diagnostics *diagnostics) {

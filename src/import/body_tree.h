@@ -12,6 +12,7 @@
 #include "ambulo/import.h"
 #include "base/numtext.h"
 #include "import/arena.h"
+#include "import/mesh.h"
 #include "import/rigid.h"
 #include "import/xml_tree.h"
 #include "model/composite.h"
@@ -35,7 +36,7 @@ typedef enum ambulo__shape {
   AMBULO__CYLINDER,  /* radius, half of the length along z */
   AMBULO__ELLIPSOID, /* half axes */
   AMBULO__BOX,       /* half edges */
-  AMBULO__MESH       /* of a file: not read */
+  AMBULO__MESH       /* of a file */
 } ambulo__shape;
 
 /* What touches other things. */
@@ -44,6 +45,7 @@ typedef struct ambulo__tree_solid {
   ambulo__shape shape;
   ambulo__rigid at; /* in the link's frame */
   double size[3];
+  ambulo__mesh *mesh; /* of a mesh; NULL: no file is named */
 } ambulo__tree_solid;
 
 typedef struct ambulo__tree_point {
@@ -63,6 +65,7 @@ typedef struct ambulo__tree {
   ambulo__xml *xml;
   const ambulo_import_options *options;
   const char *name, *format;
+  const char *path; /* of the file */
   double gravity[3], forward[3];
   char up; /* axis of the format that is: 'y', 'z' */
   ambulo__tree_link *links;
@@ -104,8 +107,9 @@ void ambulo__tree_check(ambulo__tree *tree);
 int ambulo__tree_find(const ambulo__tree *tree, const char *name);
 /* Index of the link that has a coordinate, by the coordinate's name; -1: none. */
 int ambulo__tree_find_coordinate(const ambulo__tree *tree, const char *name);
-/* Placement of a link in the world at q = 0. */
+/* Placement of a link in the world at q = 0; and in the start pose. */
 ambulo__rigid ambulo__tree_place(const ambulo__tree *tree, int link);
+ambulo__rigid ambulo__tree_start_place(const ambulo__tree *tree, int link);
 /* The value that an option or the source gives to a coordinate that is held: `fallback` without. */
 double ambulo__tree_pose(const ambulo__tree *tree, const char *coordinate, double fallback);
 

@@ -2,7 +2,7 @@
  *
  * The lowest point of an ellipsoid with half axes S in axes R is c - R S^2 R' u / |S R' u|; a
  * sphere is one, a capsule two spheres. Of cylinders the eight points of the rims along their own x
- * and y are taken, of boxes the corners.
+ * and y are taken, of boxes the corners, of meshes all vertices, where a foot has no other solids.
  */
 #include "import/foot_solids.h"
 
@@ -86,55 +86,94 @@ static int belongs(const ambulo__tree *tree, int solid, int leader, int whole) {
   return whole ? hangs_on(tree, link, leader) : ambulo__rigid_leader(tree, link) == leader;
 }
 
-static int measure(const ambulo__tree *tree, int leader, int whole, const double axes[3][3],
+/* which solids of a foot count */
+typedef struct choice {
+  int leader, whole, meshes;
+} choice;
+
+static void widen(ambulo__sole *sole, int pass, const double p[3]) {
+  if (pass == 0) sole->height = fmin(sole->height, p[2]);
+  if (pass == 0 || p[2] > sole->height + thickness) return;
+  sole->along[0] = fmin(sole->along[0], p[0]);
+  sole->along[1] = fmax(sole->along[1], p[0]);
+  sole->across[0] = fmin(sole->across[0], p[1]);
+  sole->across[1] = fmax(sole->across[1], p[1]);
+}
+
+static void widen_by_mesh(const ambulo__tree *tree, const ambulo__tree_solid *s,
+                          const double axes[3][3], int pass, ambulo__sole *sole) {
+  if (!s->mesh) return;
+  ambulo__mesh_read(tree->arena, s->mesh);
+  ambulo__rigid link = ambulo__tree_place(tree, s->link);
+  ambulo__rigid place = ambulo__rigid_times(&link, &s->at);
+  for (int k = 0; k < s->mesh->count; k++) {
+    double world[3], p[3];
+    ambulo__rigid_point(&place, s->mesh->points + 3 * k, world);
+    for (int i = 0; i < 3; i++) p[i] = ambulo__dot(axes[i], world);
+    widen(sole, pass, p);
+  }
+}
+
+static int measure(const ambulo__tree *tree, choice of, const double axes[3][3],
                    ambulo__sole *sole) {
   double p[MOST][3];
   *sole = (ambulo__sole){
       .along = {INFINITY, -INFINITY}, .across = {INFINITY, -INFINITY}, .height = INFINITY};
   for (int pass = 0; pass < 2; pass++) {
     for (int s = 0; s < tree->solid_count; s++) {
-      if (!belongs(tree, s, leader, whole)) continue;
+      if (!belongs(tree, s, of.leader, of.whole)) continue;
       if (tree->solids[s].shape == AMBULO__MESH) {
         sole->meshes += pass;
+        if (of.meshes) widen_by_mesh(tree, &tree->solids[s], axes, pass, sole);
         continue;
       }
       sole->solids += pass;
       int count = world_points(tree, &tree->solids[s], axes, p);
-      for (int k = 0; k < count; k++) {
-        if (pass == 0) sole->height = fmin(sole->height, p[k][2]);
-        if (pass == 0 || p[k][2] > sole->height + thickness) continue;
-        sole->along[0] = fmin(sole->along[0], p[k][0]);
-        sole->along[1] = fmax(sole->along[1], p[k][0]);
-        sole->across[0] = fmin(sole->across[0], p[k][1]);
-        sole->across[1] = fmax(sole->across[1], p[k][1]);
-      }
+      for (int k = 0; k < count; k++) widen(sole, pass, p[k]);
     }
   }
   return isfinite(sole->height);
 }
 
+/* from solids that are no meshes: toes of their own may belong to it */
+static int sole_of_solids(const ambulo__tree *tree, int leader, const double axes[3][3],
+                          ambulo__sole *sole) {
+  int found = measure(tree, (choice){leader, 0, 0}, axes, sole);
+  if (!found || sole->along[1] - sole->along[0] >= shortest) return found;
+  ambulo__sole whole;
+  if (measure(tree, (choice){leader, 1, 0}, axes, &whole) &&
+      whole.along[1] - whole.along[0] >= shortest)
+    *sole = whole;
+  return sole->along[1] - sole->along[0] >= 1e-3;
+}
+
+static int sole_of_meshes(const ambulo__tree *tree, int leader, const double axes[3][3],
+                          ambulo__sole *sole) {
+  return measure(tree, (choice){leader, 0, 1}, axes, sole) &&
+         sole->along[1] - sole->along[0] >= 1e-3;
+}
+
 int ambulo__sole_of(const ambulo__tree *tree, int link, const double axes[3][3],
                     ambulo__sole *sole) {
   int leader = ambulo__rigid_leader(tree, link);
-  int found = measure(tree, leader, 0, axes, sole);
-  if (!found || sole->along[1] - sole->along[0] >= shortest) return found;
-  ambulo__sole whole;
-  if (measure(tree, leader, 1, axes, &whole) && whole.along[1] - whole.along[0] >= shortest)
-    *sole = whole;
-  return sole->along[1] - sole->along[0] >= 1e-3;
+  if (sole_of_solids(tree, leader, axes, sole)) return 1;
+  return sole->solids == 0 && sole->meshes > 0 && sole_of_meshes(tree, leader, axes, sole);
 }
 
 int ambulo__lowest_link(const ambulo__tree *tree, const double axes[3][3], char side) {
   int lowest = -1;
   double height = INFINITY;
-  for (int s = 0; s < tree->solid_count; s++) {
-    ambulo__sole sole;
-    int leader = ambulo__rigid_leader(tree, tree->solids[s].link);
-    if (ambulo__side_of_link(tree, leader) != side || !ambulo__sole_of(tree, leader, axes, &sole) ||
-        !(sole.height < height))
-      continue;
-    height = sole.height;
-    lowest = leader;
+  for (int meshes = 0; meshes < 2 && lowest < 0; meshes++) {
+    for (int s = 0; s < tree->solid_count; s++) {
+      ambulo__sole sole;
+      int leader = ambulo__rigid_leader(tree, tree->solids[s].link);
+      if (ambulo__side_of_link(tree, leader) != side) continue;
+      int found = meshes ? sole_of_meshes(tree, leader, axes, &sole)
+                         : sole_of_solids(tree, leader, axes, &sole);
+      if (!found || !(sole.height < height)) continue;
+      height = sole.height;
+      lowest = leader;
+    }
   }
   return lowest;
 }

@@ -14,6 +14,8 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
 
 /* Heels and toes by options and from solids (foot_points.c). */
 void ambulo__find_feet(ambulo__tree *tree);
+/* Defaults within their ranges, the feet on the ground (start_pose.c). */
+void ambulo__find_start(ambulo__tree *tree);
 /* Partners of coordinates, left for right (mirror_pairs.c). */
 void ambulo__find_mirrors(ambulo__tree *tree);
 /* The model file as text (tree_yaml.c). `source`: name of the file it came from. */

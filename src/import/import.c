@@ -8,15 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/output_check.h"
 #include "import/formats.h"
 
-enum { OPTIONS_COOKIE = 0x616d6269 };
-
-ambulo_import_options ambulo_import_options_default(void) {
-  return (ambulo_import_options){.cookie = OPTIONS_COOKIE};
-}
+AMBULO__FILL(ambulo_import_options, {.size = size})
 
 int ambulo_import_available(void) {
 #ifdef AMBULO_HAS_EXPAT
@@ -27,10 +24,10 @@ int ambulo_import_available(void) {
 }
 
 static int options_are_sane(const ambulo_import_options *o) {
-  return o->cookie == OPTIONS_COOKIE && o->pose_count >= 0 && o->foot_count >= 0 &&
-         o->heel_count >= 0 && o->toe_count >= 0 && (o->pose || !o->pose_count) &&
-         (o->feet || !o->foot_count) && (o->heels || !o->heel_count) &&
-         (o->toes || !o->toe_count) && o->root >= AMBULO_ROOT_AS_IS && o->root <= AMBULO_ROOT_FIXED;
+  return o->pose_count >= 0 && o->foot_count >= 0 && o->heel_count >= 0 && o->toe_count >= 0 &&
+         (o->pose || !o->pose_count) && (o->feet || !o->foot_count) &&
+         (o->heels || !o->heel_count) && (o->toes || !o->toe_count) &&
+         o->root >= AMBULO_ROOT_AS_IS && o->root <= AMBULO_ROOT_FIXED;
 }
 
 /* ------------------------------------------------------------------------ reading */
@@ -91,10 +88,12 @@ static ambulo_status read_tree(ambulo__tree *tree, const char *path, ambulo__tex
   ambulo__xml *xml = tree->xml;
   ambulo__xml_node *root = ambulo__xml_load(xml, path);
   if (!root) return xml->status;
+  tree->path = path;
   read_format(tree, root, path);
   expect_motion(tree, root);
   if (!xml->status && !tree->arena->failed) ambulo__tree_check(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_feet(tree);
+  if (!xml->status && !tree->arena->failed) ambulo__find_start(tree);
   if (!xml->status && !tree->arena->failed) ambulo__find_mirrors(tree);
   if (xml->status) return xml->status;
   if (tree->options->name) tree->name = tree->options->name;
@@ -138,8 +137,9 @@ ambulo_status ambulo_import_model(const char *path, const char *output,
                                   const ambulo_import_options *options,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, char **text) {
-  const ambulo_import_options defaults = ambulo_import_options_default();
-  if (!options) options = &defaults;
+  ambulo_import_options own;
+  if (!AMBULO__OWN(ambulo_import_options, &own, options)) return AMBULO_E_ARGUMENT;
+  options = &own;
   if (!path || !path[0] || (!output && !text) || (output && !output[0]) ||
       !options_are_sane(options))
     return AMBULO_E_ARGUMENT;

@@ -103,6 +103,7 @@ void ambulo__read_mjcf(ambulo__tree *tree, ambulo__xml_node *root, const char *p
        n = ambulo__xml_next(n, "compiler"))
     read_compiler(&m, n);
   if (tree->xml->status || tree->arena->failed) return;
+  ambulo__mjcf_key(&m);
   ambulo__mjcf_bodies(&m);
   if (tree->xml->status || tree->arena->failed) return;
   set_total_mass(&m);

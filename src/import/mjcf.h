@@ -23,6 +23,8 @@ typedef struct ambulo__mjcf {
   /* what is left out, counted */
   int armatures, springs;
   int unnamed;
+  double *key; /* qpos of the start pose [key_count]; NULL: none */
+  int key_count, key_used;
 } ambulo__mjcf;
 
 /* <include>s are replaced by what the files hold, <frame>s stay (mjcf_include.c). */
@@ -47,6 +49,16 @@ ambulo__rigid ambulo__mjcf_place(const ambulo__mjcf *m, const ambulo__xml_node *
 /* --------------------------------------------------------- bodies (mjcf_bodies.c) */
 
 void ambulo__mjcf_bodies(ambulo__mjcf *m);
+
+/* ------------------------------------------------------ start pose (mjcf_key.c) */
+
+/* The first keyframe, and its next numbers for the joint that is met next; NULL without. */
+void ambulo__mjcf_key(ambulo__mjcf *m);
+const double *ambulo__mjcf_take(ambulo__mjcf *m, int count);
+/* Defaults of six coordinates from link `first` on, of a body that stands there in the file; of
+ * three. */
+void ambulo__mjcf_start_free(ambulo__mjcf *m, int first, const ambulo__rigid *body);
+void ambulo__mjcf_start_ball(ambulo__mjcf *m, int first);
 
 /* ----------------------------------------------------------- geoms (mjcf_geoms.c) */
 

@@ -90,6 +90,11 @@ static void one_coordinate(reading *b, ambulo__chain *chain, const ambulo__xml_n
   if (link < 0) return;
   read_limits(b, joint, slides, &m->tree->links[link].coordinate);
   (void)ambulo__mjcf_numbers(m, joint, b->around, "ref", 1, 1, &zero);
+  const double *key = ambulo__mjcf_take(m, 1);
+  m->tree->links[link].coordinate.default_value = ambulo__tree_pose(m->tree, name,
+                                                                    key      ? *key
+                                                                    : slides ? zero
+                                                                             : zero * m->angle);
   if (zero == 0.0) return;
   const double back[3] = {-zero * axis[0], -zero * axis[1], -zero * axis[2]};
   ambulo__rigid reference =
@@ -116,20 +121,25 @@ static void add_joint(reading *b, ambulo__chain *chain, const ambulo__xml_node *
   b->joints++;
   if (type == FREE) {
     m->tree->root_free |= chain->parent < 0;
-    ambulo__rigid turned = chain->pending; /* sliders and hinges are the world's, not the body's */
+    ambulo__rigid body = chain->pending,
+                  turned = body; /* sliders and hinges are the world's, not the body's */
     chain->pending = ambulo__rigid_shift(turned.p);
     turned = ambulo__rigid_turned(&turned);
+    first = m->tree->link_count;
     ambulo__chain_free(chain, name);
     ambulo__chain_place(chain, &turned);
+    ambulo__mjcf_start_free(m, first, &body);
     return;
   }
   (void)ambulo__mjcf_numbers(m, joint, b->around, "pos", 3, 3, anchor);
   count_passive(b, joint);
   shift(chain, anchor, 1.0);
-  if (type == BALL)
+  if (type == BALL) {
     ambulo__chain_ball(chain, name, &first);
-  else
+    ambulo__mjcf_start_ball(m, first);
+  } else {
     one_coordinate(b, chain, joint, type == SLIDE, name);
+  }
   shift(chain, anchor, -1.0);
 }
 

@@ -73,6 +73,37 @@ static int needed(int type, int stretched) {
   return stretched && type != SPHERE ? 1 : sizes[type];
 }
 
+/* the file of <asset><mesh name=...>, whose name is by default that of the file */
+static ambulo__mesh *mesh_of(ambulo__mjcf *m, const char *name) {
+  const char *folder = NULL;
+  for (const ambulo__xml_node *n = ambulo__xml_child(m->root, "compiler"); n;
+       n = ambulo__xml_next(n, "compiler")) {
+    if (ambulo__xml_attribute(n, "assetdir")) folder = ambulo__xml_attribute(n, "assetdir");
+    if (ambulo__xml_attribute(n, "meshdir")) folder = ambulo__xml_attribute(n, "meshdir");
+  }
+  for (const ambulo__xml_node *set = ambulo__xml_child(m->root, "asset"); set && name;
+       set = ambulo__xml_next(set, "asset")) {
+    for (const ambulo__xml_node *n = ambulo__xml_child(set, "mesh"); n;
+         n = ambulo__xml_next(n, "mesh")) {
+      const char *file = ambulo__mjcf_text(m, n, NULL, "file");
+      const char *own = ambulo__xml_attribute(n, "name");
+      if (!file) continue;
+      const char *slash = strrchr(file, '/'), *base = slash ? slash + 1 : file;
+      const char *dot = strrchr(base, '.');
+      size_t length = dot ? (size_t)(dot - base) : strlen(base);
+      int same =
+          own ? strcmp(own, name) == 0 : strncmp(base, name, length) == 0 && name[length] == '\0';
+      if (!same) continue;
+      ambulo__mesh *mesh = ambulo__mesh_named(
+          m->tree->arena, m->tree->path,
+          folder ? ambulo__arena_print(m->tree->arena, "%s/%s", folder, file) : file);
+      if (mesh) (void)ambulo__mjcf_numbers(m, n, NULL, "scale", 3, 3, mesh->scale);
+      return mesh;
+    }
+  }
+  return NULL;
+}
+
 static int read_shape(ambulo__mjcf *m, const ambulo__xml_node *geom, const char *around, int type,
                       ambulo__tree_solid *solid) {
   static const ambulo__shape shapes[TYPES] = {AMBULO__MESH,      AMBULO__SPHERE,   AMBULO__CAPSULE,
@@ -80,7 +111,10 @@ static int read_shape(ambulo__mjcf *m, const ambulo__xml_node *geom, const char 
                                               AMBULO__MESH,      AMBULO__MESH,     AMBULO__MESH};
   double ends[6];
   solid->shape = shapes[type];
-  if (solid->shape == AMBULO__MESH) return 1;
+  if (solid->shape == AMBULO__MESH) {
+    solid->mesh = mesh_of(m, ambulo__mjcf_text(m, geom, around, "mesh"));
+    return 1;
+  }
   int stretched = ambulo__mjcf_numbers(m, geom, around, "fromto", 6, 6, ends) == 6;
   int given = ambulo__mjcf_numbers(m, geom, around, "size", 1, 3, solid->size);
   if (given < needed(type, stretched)) {

@@ -40,14 +40,32 @@ static double default_of(ambulo__osim *o, const ambulo__xml_node *node, const ch
   return ambulo__tree_pose(o->tree, name, value);
 }
 
-/* where a dependent coordinate stands: the function of where the other stands */
-static double follow(ambulo__osim *o, const ambulo__xml_node *coupler) {
+/* Where a dependent coordinate stands: the function of where the other stands. Says by how much it
+ * would move over the other's range. */
+static double follow(ambulo__osim *o, const ambulo__xml_node *node, const char *name,
+                     const ambulo__xml_node *coupler) {
+  enum { SAMPLES = 64 };
   const char *leader = ambulo__osim_text(coupler, "independent_coordinate_names", NULL);
   const ambulo__xml_node *holder = ambulo__xml_child(coupler, "coupled_coordinates_function");
   const ambulo__xml_node *function = holder ? holder->first : ambulo__osim_function(coupler);
-  double scale = 1.0, x = default_of(o, find_coordinate(o->model, leader, 9), leader);
+  const ambulo__xml_node *leading = find_coordinate(o->model, leader, 9);
+  double scale = 1.0, x = default_of(o, leading, leader), most = 0.0;
+  double range[2] = {x, x};
   (void)ambulo__xml_child_vector(o->xml, coupler, "scale_factor", 1, 0, &scale);
-  return function ? scale * ambulo__osim_value(o, function, x) : 0.0;
+  double value = function ? scale * ambulo__osim_value(o, function, x) : 0.0;
+  if (leading) (void)ambulo__xml_child_vector(o->xml, leading, "range", 2, 1, range);
+  for (int i = 0; i <= SAMPLES && function; i++) {
+    double at = range[0] + (range[1] - range[0]) * i / SAMPLES;
+    if (!isfinite(at)) continue;
+    most = fmax(most, fabs(scale * ambulo__osim_value(o, function, at) - value));
+  }
+  ambulo__tree_note(
+      o->tree, node,
+      "%s follows %s (%s): it is held at %s; by its %s it would move by up to %s (rad "
+      "or m) over the range of that",
+      name, leader, name_of(coupler), ambulo__number_text(value).text,
+      function ? function->name : "function", ambulo__three_digits(most).text);
+  return value;
 }
 
 static void read_coordinate(ambulo__osim *o, const ambulo__xml_node *node,
@@ -60,10 +78,7 @@ static void read_coordinate(ambulo__osim *o, const ambulo__xml_node *node,
       prescribed = ambulo__osim_flag(node, "prescribed", 0);
   if (coupler) {
     c->held = 1;
-    c->value = follow(o, coupler);
-    ambulo__tree_note(tree, node, "%s follows %s (%s): it is held at %s", c->name,
-                      ambulo__osim_text(coupler, "independent_coordinate_names", NULL),
-                      name_of(coupler), ambulo__number_text(c->value).text);
+    c->value = follow(o, node, c->name, coupler);
   } else if ((locked || prescribed) && !tree->options->unlock) {
     c->held = 1;
     ambulo__tree_note(tree, node, "%s is %s in the source: it is held at %s (--unlock: it moves)",
@@ -171,14 +186,18 @@ void ambulo__osim_contacts(ambulo__osim *o) {
     if (!sphere && !mesh) continue;
     ambulo__rigid place;
     int body = ambulo__osim_frame(o, NULL, n, frame, &place);
-    double at[3] = {0, 0, 0};
+    double at[3] = {0, 0, 0}, turn[3] = {0, 0, 0};
     (void)ambulo__xml_child_vector(o->xml, n, "location", 3, 0, at);
+    (void)ambulo__xml_child_vector(o->xml, n, "orientation", 3, 0, turn);
     if (body <= 0 || o->bodies[body].link < 0) continue;
-    ambulo__rigid shift = ambulo__rigid_shift(at);
+    ambulo__rigid shift = ambulo__rigid_of_xyz(at, turn);
     ambulo__tree_solid solid = {.link = o->bodies[body].link,
                                 .shape = sphere ? AMBULO__SPHERE : AMBULO__MESH,
                                 .at = ambulo__rigid_times(&place, &shift)};
     (void)ambulo__xml_child_vector(o->xml, n, "radius", 1, 0, solid.size);
+    if (mesh)
+      solid.mesh =
+          ambulo__mesh_named(o->tree->arena, o->tree->path, ambulo__osim_text(n, "filename", NULL));
     ambulo__tree_add_solid(o->tree, &solid);
   }
 }

@@ -65,6 +65,7 @@ static void put_moving(building *b, int slides, const double axis[3], int c, dou
                       "length is",
                       coordinate->name, ambulo__number_text(fabs(slope)).text);
   ambulo__osim_limits(b->o, coordinate, fabs(slope), link);
+  if (link >= 0) b->o->tree->links[link].coordinate.default_value = fabs(slope) * coordinate->value;
 }
 
 static void simple(building *b, int slides, int along, int c) {

@@ -58,13 +58,17 @@ static void plain_text(ambulo__text_buffer *text, const char *from) {
 
 /* ------------------------------------------------------------------------ parts */
 
+static double limit_of(double value, double unit) {
+  value /= unit;
+  return unit == 1.0 || !isfinite(value) ? value : round(value * 1e6) / 1e6;
+}
+
 static void print_limits(ambulo__text_buffer *text, const char *key, const double limits[2],
                          double unit) {
   if (!isfinite(limits[0]) && !isfinite(limits[1])) return;
   ambulo__text_append_format(text, ", %s: [", key);
   for (int i = 0; i < 2; i++) {
-    double value = limits[i] / unit;
-    if (unit != 1.0) value = round(value * 1e6) / 1e6;
+    double value = limit_of(limits[i], unit);
     if (i) ambulo__text_append(text, ", ");
     if (isfinite(value))
       ambulo__text_append_number(text, value == 0.0 ? 0.0 : value);
@@ -80,6 +84,10 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
   double unit = link->type == AMBULO_REVOLUTE ? degree : 1.0;
   ambulo__text_append_format(text, ",\n     coordinate: {name: %s", c->name);
   print_limits(text, "range", c->range, unit);
+  if (c->default_value != 0.0) {
+    ambulo__text_append(text, ", default: ");
+    ambulo__text_append_number(text, neat(limit_of(c->default_value, unit)));
+  }
   print_limits(text, "speed", c->speed, unit);
   print_limits(text, "torque", c->torque, 1.0);
   if (!c->actuated) ambulo__text_append(text, ", actuated: false");
@@ -93,7 +101,7 @@ static void print_coordinate(const ambulo__tree *tree, const ambulo__tree_link *
 
 static void print_link(const ambulo__tree *tree, const ambulo__tree_link *link,
                        ambulo__text_buffer *text) {
-  static const char *const types[] = {"fixed", "revolute", "prismatic"};
+  static const char *const types[] = {"", "fixed", "revolute", "prismatic"};
   double rpy[3];
   ambulo__rpy_of_rotation((const double(*)[3])link->origin.r, rpy);
   for (int i = 0; i < 3; i++) rpy[i] = fabs(rpy[i]) < 1e-15 ? 0.0 : rpy[i] / degree;

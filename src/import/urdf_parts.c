@@ -70,6 +70,13 @@ static void add_planar(ambulo__chain *chain, const double axis[3], const char *n
                             ambulo__arena_print(arena, "%.50s_turn", name));
 }
 
+/* the joint beside this one that has a name; NULL */
+static const ambulo__xml_node *joint_named(const ambulo__xml_node *beside, const char *name) {
+  const ambulo__xml_node *n = ambulo__xml_child(beside->parent, "joint");
+  while (n && strcmp(ambulo__urdf_name(n), name) != 0) n = ambulo__xml_next(n, "joint");
+  return n;
+}
+
 /* The value at which a joint with <mimic> is held. */
 static double follow(ambulo__tree *tree, const ambulo__xml_node *joint,
                      const ambulo__xml_node *mimic) {
@@ -82,10 +89,18 @@ static double follow(ambulo__tree *tree, const ambulo__xml_node *joint,
   }
   (void)ambulo__xml_vector(tree->xml, mimic, "multiplier", 1, &multiplier);
   (void)ambulo__xml_vector(tree->xml, mimic, "offset", 1, &offset);
-  double value = multiplier * ambulo__tree_pose(tree, leader, 0.0) + offset;
-  ambulo__tree_note(tree, joint, "%s follows %s (times %s plus %s): it is held at %s", name, leader,
-                    ambulo__number_text(multiplier).text, ambulo__number_text(offset).text,
-                    ambulo__number_text(value).text);
+  double stands = ambulo__tree_pose(tree, leader, 0.0), range[2] = {stands, stands};
+  double value = multiplier * stands + offset;
+  const ambulo__xml_node *limit = ambulo__xml_child(joint_named(joint, leader), "limit");
+  (void)ambulo__xml_vector(tree->xml, limit, "lower", 1, &range[0]);
+  (void)ambulo__xml_vector(tree->xml, limit, "upper", 1, &range[1]);
+  double most = fabs(multiplier) * fmax(fabs(range[0] - stands), fabs(range[1] - stands));
+  ambulo__tree_note(tree, joint,
+                    "%s follows %s (times %s plus %s): it is held at %s; it would move by up to %s "
+                    "(rad or m) over the range of that",
+                    name, leader, ambulo__number_text(multiplier).text,
+                    ambulo__number_text(offset).text, ambulo__number_text(value).text,
+                    ambulo__three_digits(most).text);
   return value;
 }
 
@@ -120,6 +135,7 @@ static int one_coordinate(ambulo__chain *chain, int type, const ambulo__xml_node
                                  axis, name);
   if (link < 0) return 0;
   read_limits(tree->xml, joint, type != CONTINUOUS, &tree->links[link].coordinate);
+  tree->links[link].coordinate.default_value = ambulo__tree_pose(tree, name, 0.0);
   return 1;
 }
 
@@ -201,6 +217,9 @@ static void read_collision(ambulo__tree *tree, int link, const ambulo__xml_node 
     solid.size[1] = 0.5 * length;
   } else {
     solid.shape = AMBULO__MESH;
+    solid.mesh =
+        ambulo__mesh_named(tree->arena, tree->path, ambulo__xml_attribute(shape, "filename"));
+    if (solid.mesh) (void)ambulo__xml_vector(tree->xml, shape, "scale", 3, solid.mesh->scale);
   }
   ambulo__tree_add_solid(tree, &solid);
 }

@@ -8,7 +8,8 @@
 typedef struct ambulo__doubts {
   ambulo_diagnostics *diagnostics;
   int strict;
-  int count; /* so far */
+  int count;        /* so far */
+  int other_forces; /* of ambulo_inverse_options */
 } ambulo__doubts;
 
 /* Says it about a file; `hint` (may be NULL) names the option that mends it. */

@@ -6,15 +6,15 @@
 #include <string.h>
 #include <strings.h>
 
-typedef enum part { FORCE, POINT, TORQUE, FREE_MOMENT } part;
+typedef enum part { FORCE, POINT, TORQUE, FREE_MOMENT, MOMENT } part;
 
 /* a column's name, taken apart */
 typedef struct label {
   part part;
-  int axis;                   /* of FORCE, POINT, TORQUE */
+  int axis;                   /* of all but FREE_MOMENT */
   const char *before, *after; /* tag: around the words */
   size_t before_length, after_length;
-  int own; /* grf., cop., free_moment. */
+  int own; /* grf., cop., free_moment., moment. */
 } label;
 
 static int axis_of(char letter) {
@@ -22,11 +22,11 @@ static int axis_of(char letter) {
   return at ? (int)(at - axes) % 3 : -1;
 }
 
-/* grf.NAME.x, cop.NAME.x, free_moment.NAME */
+/* grf.NAME.x, cop.NAME.x, free_moment.NAME, moment.NAME.x */
 static int read_own(const char *name, label *l) {
-  static const char *const prefixes[] = {"grf.", "cop.", "free_moment."};
-  static const part parts[] = {FORCE, POINT, FREE_MOMENT};
-  for (int i = 0; i < 3; i++) {
+  static const char *const prefixes[] = {"grf.", "cop.", "free_moment.", "moment."};
+  static const part parts[] = {FORCE, POINT, FREE_MOMENT, MOMENT};
+  for (int i = 0; i < 4; i++) {
     size_t head = strlen(prefixes[i]), length = strlen(name),
            tail = parts[i] == FREE_MOMENT ? 0 : 2;
     if (strncmp(name, prefixes[i], head) != 0 || length <= head + tail) continue;
@@ -91,7 +91,8 @@ static void name_group(const label *l, ambulo__force_group *group) {
 
 static ambulo__force_group empty_group(void) {
   ambulo__force_group group = {.foot = -1, .free_moment = -1};
-  for (int i = 0; i < 3; i++) group.force[i] = group.point[i] = group.torque[i] = -1;
+  for (int i = 0; i < 3; i++)
+    group.force[i] = group.point[i] = group.torque[i] = group.moment[i] = -1;
   return group;
 }
 
@@ -103,6 +104,8 @@ static int *place_of(ambulo__force_group *group, const label *l) {
     return &group->point[l->axis];
   case TORQUE:
     return &group->torque[l->axis];
+  case MOMENT:
+    return &group->moment[l->axis];
   case FREE_MOMENT:
     break;
   }
@@ -142,6 +145,22 @@ static ambulo_status take_column(ambulo__force_columns *c, int column,
   return AMBULO_OK;
 }
 
+static int has_any(const int columns[3]) {
+  return columns[0] >= 0 || columns[1] >= 0 || columns[2] >= 0;
+}
+
+/* a column "moment.NAME.x" beside no force of that name is something else */
+static void drop_bare_moments(ambulo__force_columns *c) {
+  int kept = 0;
+  for (int i = 0; i < c->count; i++) {
+    const ambulo__force_group *g = &c->groups[i];
+    int bare = has_any(g->moment) && !has_any(g->force) && !has_any(g->point) &&
+               !has_any(g->torque) && g->free_moment < 0;
+    if (!bare) c->groups[kept++] = *g;
+  }
+  c->count = kept;
+}
+
 ambulo_status ambulo__force_columns_find(const ambulo__motion *table, const char *file,
                                          const ambulo_allocator *allocator,
                                          ambulo_diagnostics *diagnostics,
@@ -150,6 +169,7 @@ ambulo_status ambulo__force_columns_find(const ambulo__motion *table, const char
       .allocator = ambulo__allocator_or_default(allocator), .table = table, .file = file};
   ambulo_status status = AMBULO_OK;
   for (int i = 0; i < table->columns && !status; i++) status = take_column(&c, i, diagnostics);
+  drop_bare_moments(&c);
   if (status) {
     ambulo__force_columns_free(&c);
   } else {

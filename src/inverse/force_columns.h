@@ -2,7 +2,7 @@
  *
  * Programs name the columns of a force on a body in many ways; those of one body form a group:
  *
- *   ambulo                 grf.right.x      cop.right.x       free_moment.right
+ *   ambulo                 grf.right.x      cop.right.x       free_moment.right, moment.right.x
  *   OpenSim, gait models   ground_force_vx  ground_force_px   ground_torque_x
  *                          1_ground_force_vx, l_ground_force_vx, R_ground_force_vx
  *   force plates           ground_force_1_vx  ..._px          ground_torque_1_x, ground_moment_1_mx
@@ -23,6 +23,7 @@ typedef struct ambulo__force_group {
   char name[AMBULO__MOTION_MAX_NAME + 16], tag[AMBULO__MOTION_MAX_NAME + 1];
   int force[3], point[3], torque[3]; /* columns of x, y, z; -1: not in the file */
   int free_moment;                   /* column about the normal; -1 */
+  int moment[3];                     /* all of it, about the world's origin */
   int foot;                          /* of the model; -1: none */
 } ambulo__force_group;
 

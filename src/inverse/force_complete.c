@@ -88,6 +88,12 @@ static ambulo_status check(const ambulo__force_columns *c, const ambulo__force_g
     ambulo__doubt(doubts, c->file, "a column of zeros says that it is zero",
                   "'%s' of foot '%s' lacks the %s of its force; it is taken as 0", group->name,
                   foot, letters);
+  int short_of = missing(group->moment, 7, letters);
+  if (short_of == 0) return AMBULO_OK;
+  if (short_of < 3)
+    ambulo__doubt(doubts, c->file, "its points and its free moment are taken",
+                  "'%s' of foot '%s' lacks the %s of its moment; the others are left out",
+                  group->name, foot, letters);
   check_points(group, model, mask, c->file, doubts);
   if (group->free_moment < 0 && missing(group->torque, 7, letters) == 3)
     ambulo__note(doubts->diagnostics, place,

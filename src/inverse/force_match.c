@@ -263,7 +263,7 @@ static ambulo_status tell_rest(const matching *m, int mapped) {
                   "no columns of forces on foot '%s'; it is taken to carry nothing", name);
   }
   for (int i = 0; i < c->count; i++) {
-    if (c->groups[i].foot < 0 && !mapped && matched > 0)
+    if (c->groups[i].foot < 0 && !mapped && matched > 0 && !m->doubts->other_forces)
       ambulo__doubt(m->doubts, c->file, hint, "the forces '%s' act on no foot and are left out",
                     c->groups[i].name);
   }

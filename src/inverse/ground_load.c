@@ -11,6 +11,8 @@
 
 /* of the body weight: a foot that carries less may lack its point */
 static const double light = 0.05;
+/* body weights m: what a moment and the force at its point may differ by */
+static const double rounded = 1e-4;
 /* times the step of the motion: forces are recorded more often than that */
 static const double sparse = 20.0;
 
@@ -91,15 +93,6 @@ static int find_points(const group_load *g) {
   return 1;
 }
 
-static int has_force(const group_load *g) {
-  for (int k = 0; k < g->table->rows; k++) {
-    double force[3];
-    take(g->table, k, g->group->force, 1.0, force);
-    if (!is_zero(force)) return 1;
-  }
-  return 0;
-}
-
 /* the height of points that have no column for it: the ground's */
 static void put_on_ground(const group_load *g, double point[3]) {
   const double *up = ambulo_model_up(g->source->model);
@@ -161,34 +154,79 @@ static ambulo_status check_point(const group_load *g, int row, double force, int
   return AMBULO_OK;
 }
 
+/* the row's moment about the origin, in full, if the file has it */
+static int take_moment(const group_load *g, int row, double moment[3]) {
+  const int *columns = g->group->moment;
+  if (columns[0] < 0 || columns[1] < 0 || columns[2] < 0) return 0;
+  take(g->table, row, columns, g->source->options->force_length_unit, moment);
+  return is_finite(moment);
+}
+
+/* somebody changed one of them */
+static void doubt_moment(const group_load *g, int row, const double load[6], int *doubtful) {
+  double point[3], torque[3], off = 0.0, unit = g->source->options->force_length_unit;
+  take(g->table, row, g->group->point, unit, point);
+  if (*doubtful || !is_finite(point) || take_torque(g, row, 0.0, torque)) return;
+  ambulo__add_cross(point, load, 1.0, torque);
+  for (int i = 0; i < 3; i++) off = fmax(off, fabs(torque[i] - load[3 + i]));
+  if (off <= rounded * g->weight) return;
+  *doubtful = 1;
+  ambulo__doubt(g->source->doubts, g->source->file,
+                "without the columns 'moment.' points are taken",
+                "the moment of '%s' is %.3g N m from that of its force at its point at t = %g s; "
+                "the moment is taken",
+                g->group->name, off, g->source->options->force_time_unit * g->table->time[row]);
+}
+
+/* the row's force and, of a point, its moment about the origin; of none: what is loose */
+static ambulo_status take_load(const group_load *g, int row, int placed, int *doubtful,
+                               double load[6], double loose[3]) {
+  double torque[3], point[3];
+  ambulo_status status = take_force(g, row, load);
+  if (status) return status;
+  if (take_moment(g, row, load + 3)) {
+    doubt_moment(g, row, load, doubtful);
+    return AMBULO_OK;
+  }
+  double size = size_of(load);
+  status = take_torque(g, row, size, torque);
+  if (!status && placed) status = check_point(g, row, size, doubtful);
+  if (status) return status;
+  memcpy(load + 3, torque, sizeof torque);
+  for (int i = 0; i < 3 && !placed; i++) loose[i] += load[i];
+  if (!placed || is_zero(load)) return AMBULO_OK;
+  take(g->table, g->from[row], g->group->point, g->source->options->force_length_unit, point);
+  put_on_ground(g, point);
+  ambulo__add_cross(point, load, 1.0, load + 3);
+  return AMBULO_OK;
+}
+
 static ambulo_status add_group(const group_load *g, int placed) {
   int doubtful = 0;
   for (int k = 0; k < g->table->rows; k++) {
-    double force[3], torque[3], point[3], moment[3];
-    double *wrench = g->wrench + 6 * (size_t)k, *loose = g->loose + 3 * (size_t)k;
-    ambulo_status status = take_force(g, k, force);
-    if (!status) status = take_torque(g, k, size_of(force), torque);
-    if (!status && placed) status = check_point(g, k, size_of(force), &doubtful);
+    double load[6];
+    ambulo_status status = take_load(g, k, placed, &doubtful, load, g->loose + 3 * (size_t)k);
     if (status) return status;
-    for (int i = 0; i < 3; i++) {
-      wrench[i] += force[i];
-      wrench[3 + i] += torque[i];
-      if (!placed) loose[i] += force[i];
-    }
-    if (!placed || is_zero(force)) continue;
-    take(g->table, g->from[k], g->group->point, g->source->options->force_length_unit, point);
-    put_on_ground(g, point);
-    ambulo__cross(point, force, moment);
-    for (int i = 0; i < 3; i++) wrench[3 + i] += moment[i];
+    for (int i = 0; i < 6; i++) g->wrench[6 * (size_t)k + (size_t)i] += load[i];
   }
   return AMBULO_OK;
+}
+
+/* some row says its force and not where it acts */
+static int is_loose(const group_load *g) {
+  for (int k = 0; k < g->table->rows; k++) {
+    double force[3], moment[3];
+    take(g->table, k, g->group->force, 1.0, force);
+    if (!is_zero(force) && !take_moment(g, k, moment)) return 1;
+  }
+  return 0;
 }
 
 /* ------------------------------------------------------------------- one foot */
 
 /* (I.2): linearly between the file's rows, which cover the time */
-static void interpolate(const ambulo__motion *table, double unit, const double *values, int width,
-                        double time, double *out) {
+void ambulo__load_between(const ambulo__motion *table, double unit, const double *values, int width,
+                          double time, double *out) {
   int low = 0, high = table->rows - 1;
   while (high - low > 1) {
     int middle = low + (high - low) / 2;
@@ -216,7 +254,7 @@ static ambulo_status smooth(const group_load *g) {
                                  .file = g->source->file,
                                  .diagnostics = g->source->doubts->diagnostics};
   const ambulo_allocator *a = &g->table->allocator;
-  if (o->force_cutoff <= 0.0) return AMBULO_OK;
+  if (isnan(o->force_cutoff)) return AMBULO_OK;
   ambulo_status status = ambulo__filter(&filtering, g->wrench, 6, a);
   return status ? status : ambulo__filter(&filtering, g->loose, 3, a);
 }
@@ -230,15 +268,15 @@ static ambulo_status load_foot(group_load *g, const ambulo__force_columns *colum
     g->group = &columns->groups[i];
     if (g->group->foot != foot) continue;
     int placed = find_points(g);
-    if (!placed && has_force(g)) load->is_loose[foot] = 1;
+    if (!placed && is_loose(g)) load->is_loose[foot] = 1;
     status = add_group(g, placed);
   }
   if (!status) status = smooth(g);
   for (int k = 0; k < load->rows && !status; k++) {
     double wrench[6], unit = g->source->options->force_time_unit;
     size_t at = 3 * ((size_t)k * (size_t)load->feet + (size_t)foot);
-    interpolate(g->table, unit, g->wrench, 6, g->source->times[k], wrench);
-    interpolate(g->table, unit, g->loose, 3, g->source->times[k], load->loose + at);
+    ambulo__load_between(g->table, unit, g->wrench, 6, g->source->times[k], wrench);
+    ambulo__load_between(g->table, unit, g->loose, 3, g->source->times[k], load->loose + at);
     memcpy(load->force + at, wrench, 3 * sizeof *wrench);
     memcpy(load->moment + at, wrench + 3, 3 * sizeof *wrench);
   }
@@ -262,7 +300,7 @@ static void doubt_steps(const ambulo__load_source *s, const ambulo__motion *tabl
                   "the rows of the forces are %g s apart, those of the motion %g s", step, own);
 }
 
-static ambulo_status check_times(const ambulo__load_source *s, const ambulo__motion *table) {
+ambulo_status ambulo__load_times_check(const ambulo__load_source *s, const ambulo__motion *table) {
   ambulo__place place = {.file = s->file};
   double first = s->times[0], last = s->times[s->rows - 1], slack = 1e-6 * (last - first);
   double unit = s->options->force_time_unit;
@@ -309,7 +347,7 @@ static ambulo_status read_columns(const ambulo__load_source *s, const ambulo__mo
   if (status) return status;
   status = ambulo__force_columns_match(&columns, s->model, s->options->force_columns, s->doubts);
   if (!status) status = ambulo__force_columns_complete(&columns, s->model, s->doubts);
-  if (!status) status = check_times(s, table);
+  if (!status) status = ambulo__load_times_check(s, table);
   if (!status) status = load_feet(s, table, &columns, load);
   ambulo__force_columns_free(&columns);
   return status;

@@ -1,9 +1,10 @@
 /* inverse/ground_load.h - measured forces on the feet, applied to an inverse dynamics.
  *
  * The load of a foot is a force f and its moment m about the world's origin: p x f + t of a point p
- * and a free torque t. Both are linear between the rows of the file; points are not, for a foot
- * in the air has none. A load changes the generalized force of each coordinate between the foot
- * and the world by
+ * and a free torque t, or what the file says of it ("moment.FOOT.x", as ambulo writes it: a force
+ * without a normal part has no point, and may have a moment). Both are linear between the rows of
+ * the file; points are not, for a foot in the air has none. A load changes the generalized force of
+ * each coordinate between the foot and the world by
  *
  *     revolute   - z . (m - o x f)        prismatic   - z . f
  *
@@ -48,6 +49,14 @@ ambulo_status ambulo__ground_load_read(const ambulo__load_source *source,
                                        ambulo__ground_load *load);
 void ambulo__ground_load_free(ambulo__ground_load *load); /* accepts a zero-filled one */
 
+/* Whether the table covers the times; E_SCHEMA. Rows that are hardly that far apart are doubted. */
+ambulo_status ambulo__load_times_check(const ambulo__load_source *source,
+                                       const ambulo__motion *table);
+/* values [table rows][width] at a time (s) that the table covers, linearly between its rows, whose
+ * times are in units of `unit` seconds. */
+void ambulo__load_between(const ambulo__motion *table, double unit, const double *values, int width,
+                          double time, double *out);
+
 /* ------------------------------------------------------ applying (load_apply.c) */
 
 /* The poses of the rows, as far as loads need them. */
@@ -63,9 +72,18 @@ void ambulo__ground_load_place(ambulo__ground_load *load, const ambulo__load_pos
 /* Fills poses from q [rows][d]. E_MEMORY. */
 ambulo_status ambulo__load_poses_fill(const ambulo_model *model, const double *q, int rows,
                                       const ambulo_allocator *allocator, ambulo__load_poses *poses);
+/* What a force and its moment about the origin have along or about the axis of the joint of `link`:
+ * z . (m - o x f) or z . f; frames [links][12] of a pose. */
+double ambulo__load_share(const ambulo_model *model, const double *frames, int link,
+                          const double *force, const double *moment);
 /* tau [rows][d] changes as above; q [rows][d]. E_MEMORY. */
 ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const ambulo_model *model,
                                         const double *q, double *tau);
+
+/* tau [d] of one pose loses what a force on `link` and its moment about the world's origin come to;
+ * frames [links][12] (mechanics/pose.h). */
+void ambulo__load_take(const ambulo_model *model, const double *frames, int link,
+                       const double force[3], const double moment[3], double *tau);
 
 /* Centres of pressure cop [rows][feet][3] on the plane up . r = height (nan where the ground does
  * not push) and free moments [rows][feet] about the normal. */

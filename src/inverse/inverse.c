@@ -5,43 +5,46 @@
  *
  *     p = (n x M + h F) / (n . F)                                                 (16')
  *
- * Forces on the feet are then taken off the torques (ground_load.h).
+ * What hands hold is added to torques and root wrench (hand_load.h), and forces on the feet are
+ * then taken off the torques (ground_load.h).
  *
  * Reading order: inverse.h, inverse.c, inverse_motion.c, filtering.h, force_columns.h,
- * force_match.c, ground_load.h, load_apply.c, doubt.h, plausibility.c.
+ * force_match.c, ground_load.h, load_apply.c, hand_load.h, doubt.h, plausibility.c.
  */
 #include "inverse/inverse.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/file_steps.h"
 #include "base/output_check.h"
 #include "format/motion_csv.h"
 #include "model/model.h"
 
-enum { OPTIONS_COOKIE = 0x616d6269 };
-
-ambulo_inverse_options ambulo_inverse_options_default(void) {
-  ambulo_inverse_options options = {.cookie = OPTIONS_COOKIE,
-                                    .length_unit = 1.0,
-                                    .time_unit = 1.0,
-                                    .force_length_unit = 1.0,
-                                    .force_time_unit = 1.0,
-                                    .filter_order = 4};
-  return options;
-}
+AMBULO__FILL(ambulo_inverse_options, {.size = size,
+                                      .length_unit = 1.0,
+                                      .time_unit = 1.0,
+                                      .force_length_unit = 1.0,
+                                      .force_time_unit = 1.0,
+                                      .cutoff = AMBULO_OFF,
+                                      .force_cutoff = AMBULO_OFF,
+                                      .filter_order = 4})
+AMBULO__FILL(ambulo_inverse_outputs, {.size = size})
 
 static int is_unit(double unit) {
   return unit > 0.0 && isfinite(unit);
 }
 
+static int is_cutoff(double cutoff) {
+  return isnan(cutoff) || (cutoff > 0.0 && isfinite(cutoff));
+}
+
 static int options_valid(const ambulo_inverse_options *o) {
   int order = o->filter_order;
-  return o->cookie == OPTIONS_COOKIE && is_unit(o->length_unit) && is_unit(o->time_unit) &&
-         is_unit(o->force_length_unit) && is_unit(o->force_time_unit) && o->cutoff >= 0.0 &&
-         isfinite(o->cutoff) && o->force_cutoff >= 0.0 && isfinite(o->force_cutoff) &&
+  return is_unit(o->length_unit) && is_unit(o->time_unit) && is_unit(o->force_length_unit) &&
+         is_unit(o->force_time_unit) && is_cutoff(o->cutoff) && is_cutoff(o->force_cutoff) &&
          (order == 2 || order == 4 || order == 6 || order == 8) && isfinite(o->ground_height) &&
          o->angles >= AMBULO_ANGLES_OF_FILE && o->angles <= AMBULO_ANGLES_RADIANS;
 }
@@ -56,6 +59,7 @@ static void clear(ambulo__inverse *v) {
   ambulo__free(a, v->has_acceleration);
   ambulo__motion_free(v->given);
   ambulo__ground_load_free(&v->load);
+  ambulo__hand_load_free(&v->hands);
 }
 
 /* ----------------------------------------------------------------- dynamics */
@@ -84,16 +88,40 @@ static ambulo_status compute(ambulo__inverse *v) {
   if (!v->tau || !v->power || !v->wrench || !v->zmp) return AMBULO_E_MEMORY;
   ambulo_status status = ambulo_mechanics_create(v->model, a, &mechanics);
   if (!status)
-    status = ambulo_mechanics_inverse_dynamics(mechanics, v->rows, v->q, v->qd, v->qdd, v->tau,
-                                               v->wrench, NULL);
+    status = ambulo_mechanics_inverse_dynamics(
+        mechanics, v->rows, v->q, v->qd, v->qdd,
+        &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = v->tau, .wrench = v->wrench});
   ambulo_mechanics_free(mechanics);
   if (status == AMBULO_E_NUMERIC) {
     ambulo__place place = {.file = v->file};
     (void)ambulo__error(v->doubts.diagnostics, status, place, NULL,
                         "the motion is too large or too fast for numbers: a torque is not finite");
   }
-  if (!status) zero_moment_points(v);
   return status;
+}
+
+/* ------------------------------------------------------------ what hands hold */
+
+/* the columns held.* of the motion, else of the file of forces */
+static ambulo_status apply_hands(ambulo__inverse *v) {
+  int own = ambulo__has_hand_loads(v->given);
+  ambulo__load_source source = {.model = v->model,
+                                .file = own ? v->file : v->options.forces,
+                                .table = own ? v->given : NULL,
+                                .options = &v->options,
+                                .times = v->given->time,
+                                .rows = v->rows,
+                                .doubts = &v->doubts};
+  ambulo_inverse_options options = v->options;
+  ambulo__place place = {.file = source.file};
+  if (v->options.without_forces || !source.file) return AMBULO_OK;
+  if (own) options.force_time_unit = 1.0; /* its times are in seconds already */
+  source.options = &options;
+  ambulo_status status = ambulo__hand_load_read(&source, &v->allocator, &v->hands);
+  if (status || v->hands.loads == 0) return status;
+  ambulo__note(v->doubts.diagnostics, place,
+               "what its hands hold (held.*) is added to the torques; --grf none leaves it out");
+  return ambulo__hand_load_apply(&v->hands, v->model, v->q, v->qd, v->tau, v->wrench);
 }
 
 /* -------------------------------------------------------- forces on the feet */
@@ -115,6 +143,7 @@ static void tell(const ambulo__inverse *v, const char *forces, const ambulo_grou
     ambulo__note(list, place,
                  "its forces on the feet (grf.*) are taken off the torques; --grf none leaves "
                  "them out");
+  if (v->options.other_forces) return;
   ambulo__note(list, place,
                "left over at the root: forward %.4f, up %.4f, left %.4f body weights (rms)",
                r->force_rms[0], r->force_rms[1], r->force_rms[2]);
@@ -202,6 +231,12 @@ static ambulo_status deliver(ambulo__inverse *v, const char *output, char **text
       .grf = v->load.force,
       .cop = v->cop,
       .free_moment = v->free_moment,
+      .grf_moment = v->load.moment,
+      .holds = v->hands.loads,
+      .hold = v->hands.hold,
+      .hold_force = v->hands.force,
+      .hold_moment = v->hands.moment,
+      .hold_power = v->hands.power,
       .wrench = v->wrench,
       .residual = v->residual,
       .power = v->power,
@@ -238,6 +273,8 @@ static ambulo_status run(ambulo__inverse *v, const char *output, ambulo_ground_r
   if (!status) status = check_output(v, output);
   if (!status) status = ambulo__inverse_read(v);
   if (!status) status = compute(v);
+  if (!status) status = apply_hands(v);
+  if (!status) zero_moment_points(v);
   const char *forces = status ? NULL : forces_of(v);
   if (forces) status = apply_forces(v, forces, &left_over);
   if (!status && !forces) tell_unloaded(v);
@@ -254,17 +291,21 @@ ambulo_status ambulo_inverse_dynamics_motion(const ambulo_model *model, const ch
                                              const ambulo_inverse_options *options,
                                              const ambulo_allocator *allocator,
                                              ambulo_diagnostics *diagnostics,
-                                             ambulo_ground_residual *residual, char **text) {
-  ambulo_inverse_options own = options ? *options : ambulo_inverse_options_default();
-  if (!model || !motion || (!output && !text) || !options_valid(&own)) return AMBULO_E_ARGUMENT;
+                                             const ambulo_inverse_outputs *outputs) {
+  ambulo_inverse_options own;
+  ambulo_inverse_outputs out;
+  if (!AMBULO__OWN(ambulo_inverse_options, &own, options) ||
+      !AMBULO__OWN(ambulo_inverse_outputs, &out, outputs))
+    return AMBULO_E_ARGUMENT;
+  if (!model || !motion || (!output && !out.text) || !options_valid(&own)) return AMBULO_E_ARGUMENT;
   ambulo__inverse v = {.allocator = ambulo__allocator_or_default(allocator),
                        .model = model,
                        .options = own,
                        .file = motion,
-                       .doubts = {diagnostics, own.strict, 0}};
-  v.load.allocator = v.allocator;
+                       .doubts = {diagnostics, own.strict, 0, own.other_forces}};
+  v.load.allocator = v.hands.allocator = v.allocator;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = run(&v, output, residual, text);
+  ambulo_status status = run(&v, output, out.residual, out.text);
   clear(&v);
   return ambulo__conclude(diagnostics, errors, status, motion);
 }
@@ -274,18 +315,8 @@ ambulo_status ambulo_inverse_dynamics_file(const ambulo_model *model, const char
                                            ambulo_diagnostics *diagnostics, char **text) {
   ambulo_inverse_options options = ambulo_inverse_options_default();
   options.without_forces = 1;
+  ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
+  outputs.text = text;
   return ambulo_inverse_dynamics_motion(model, motion, output, &options, allocator, diagnostics,
-                                        NULL, text);
-}
-
-ambulo_status ambulo_inverse_dynamics_loaded(const ambulo_model *model, const char *motion,
-                                             const char *forces, const char *output,
-                                             const ambulo_allocator *allocator,
-                                             ambulo_diagnostics *diagnostics,
-                                             ambulo_ground_residual *residual, char **text) {
-  ambulo_inverse_options options = ambulo_inverse_options_default();
-  options.forces = forces;
-  if (!forces) return AMBULO_E_ARGUMENT;
-  return ambulo_inverse_dynamics_motion(model, motion, output, &options, allocator, diagnostics,
-                                        residual, text);
+                                        &outputs);
 }

@@ -7,6 +7,7 @@
 #include "format/motion_file.h"
 #include "inverse/doubt.h"
 #include "inverse/ground_load.h"
+#include "inverse/hand_load.h"
 
 typedef struct ambulo__inverse {
   ambulo_allocator allocator;
@@ -26,6 +27,7 @@ typedef struct ambulo__inverse {
   double *cop, *free_moment;
   ambulo__ground_load load;
   ambulo__load_poses poses;
+  ambulo__hand_load hands;
 } ambulo__inverse;
 
 /* Reads the motion (inverse_motion.c): given, rows, q, qd, qdd and what the file has; filters.

@@ -234,7 +234,7 @@ static ambulo_status filter(const ambulo__inverse *v) {
                                  .option = "--filter",
                                  .file = v->file,
                                  .diagnostics = v->doubts.diagnostics};
-  if (v->options.cutoff <= 0.0) return AMBULO_OK;
+  if (isnan(v->options.cutoff)) return AMBULO_OK;
   note_unused_rates(v);
   return ambulo__filter(&filtering, v->q, v->model->coordinate_count, &v->allocator);
 }

@@ -55,9 +55,9 @@ void ambulo__ground_load_place(ambulo__ground_load *load, const ambulo__load_pos
   }
 }
 
-/* (I.3): z . (m - o x f) or z . f of the joint of `link`; frames [links][12] */
-static double share(const ambulo_model *model, const double *frames, int link, const double *force,
-                    const double *moment) {
+/* (I.3): z . (m - o x f) or z . f */
+double ambulo__load_share(const ambulo_model *model, const double *frames, int link,
+                          const double *force, const double *moment) {
   static const double world[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
   const ambulo_link *l = &model->links[link];
   const double *frame = l->parent < 0 ? world : frames + 12 * (size_t)l->parent;
@@ -72,6 +72,14 @@ static double share(const ambulo_model *model, const double *frames, int link, c
   return ambulo__dot(axis, about);
 }
 
+void ambulo__load_take(const ambulo_model *model, const double *frames, int link,
+                       const double force[3], const double moment[3], double *tau) {
+  for (; link >= 0; link = model->links[link].parent) {
+    int i = model->links[link].coordinate;
+    if (i >= 0) tau[i] -= ambulo__load_share(model, frames, link, force, moment);
+  }
+}
+
 ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const ambulo_model *model,
                                         const double *q, double *tau) {
   ambulo__pose pose = {.model = NULL};
@@ -83,12 +91,8 @@ ambulo_status ambulo__ground_load_apply(const ambulo__ground_load *load, const a
     for (int foot = 0; foot < load->feet; foot++) {
       size_t at = 3 * ((size_t)k * (size_t)load->feet + (size_t)foot);
       int link = model->points[model->feet[foot].heel[0]].link;
-      for (; link >= 0; link = model->links[link].parent) {
-        int i = model->links[link].coordinate;
-        if (i < 0) continue;
-        tau[(size_t)k * d + (size_t)i] -=
-            share(model, pose.frames, link, load->force + at, load->moment + at);
-      }
+      ambulo__load_take(model, pose.frames, link, load->force + at, load->moment + at,
+                        tau + (size_t)k * d);
     }
   }
   ambulo__pose_free(&pose);

@@ -232,5 +232,5 @@ static void doubt_residual(ambulo__inverse *v, const char *forces,
 void ambulo__doubt_loads(ambulo__inverse *v, const char *forces,
                          const ambulo_ground_residual *residual) {
   doubt_places(v, forces, ambulo__model_weight(v->model));
-  doubt_residual(v, forces, residual);
+  if (!v->options.other_forces) doubt_residual(v, forces, residual);
 }

@@ -39,7 +39,7 @@ static void step(const ambulo__task *t, ambulo__explanation *out) {
 static void grade(const ambulo_problem_definition *d, const ambulo__task *t,
                   ambulo__explanation *out) {
   const ambulo_ground_reaction *r = &d->ground_reaction;
-  if (r->kind == AMBULO_REACTION_NONE || r->friction < 0.0 || fabs(t->grade) <= r->friction) return;
+  if (r->kind == AMBULO_REACTION_NONE || !(fabs(t->grade) > r->friction)) return;
   ambulo__explain_line(out,
                        "no walk: feet slip on a slope of %.3g deg unless friction is %.3g or more; "
                        "it is %.3g",

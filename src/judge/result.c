@@ -1,5 +1,6 @@
 /* judge/result.c - memory of a result and access to it. */
 #include "judge/result.h"
+#include "method/history.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,8 @@ ambulo_status ambulo__result_create(const ambulo_problem *p, const ambulo_alloca
   r->row = ambulo__alloc(&own, (size_t)r->rows, sizeof *r->row);
   r->multiplier = ambulo__alloc(&own, (size_t)r->rows, sizeof *r->multiplier);
   r->family = ambulo__alloc(&own, (size_t)r->families, sizeof *r->family);
-  if (!r->x || !r->term || !r->row || !r->multiplier || !r->family) {
+  r->history = ambulo__history_create(&own);
+  if (!r->x || !r->term || !r->row || !r->multiplier || !r->family || !r->history) {
     ambulo_result_free(r);
     return AMBULO_E_MEMORY;
   }
@@ -43,6 +45,7 @@ void ambulo_result_free(ambulo_result *r) {
   ambulo__free(&a, r->dense);
   ambulo__free(&a, r->outcome);
   ambulo__free(&a, r->valleys);
+  ambulo__free(&a, r->history);
   ambulo__free(&a, r);
 }
 
@@ -84,6 +87,10 @@ int ambulo_result_evaluations(const ambulo_result *r) {
 }
 const ambulo_nlopt_work *ambulo_result_nlopt(const ambulo_result *r) {
   return &r->nlopt;
+}
+
+const ambulo_history *ambulo_result_history(const ambulo_result *r) {
+  return r ? &r->history->shown : NULL;
 }
 
 const ambulo_timing *ambulo_result_timing(const ambulo_result *r) {

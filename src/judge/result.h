@@ -10,6 +10,7 @@ struct ambulo__explanation;  /* judge/explain.h */
 struct ambulo__dense_report; /* judge/dense_audit.h */
 struct ambulo__outcome;      /* outer/outcome.h */
 struct ambulo__valleys;      /* solver/starts.h */
+struct ambulo__history;      /* method/history.h */
 
 struct ambulo_result {
   ambulo_allocator allocator;
@@ -29,6 +30,7 @@ struct ambulo_result {
   struct ambulo__explanation *explanation; /* NULL: none */
   struct ambulo__dense_report *dense;      /* NULL: not audited */
   struct ambulo__valleys *valleys;         /* of several starts; NULL: there was one */
+  struct ambulo__history *history;
   struct ambulo__outcome *outcome;         /* of free parameters; NULL: there were none */
   char ending[AMBULO__ENDING_SIZE];
 };

@@ -27,6 +27,7 @@
 #include <string.h>
 
 #include "ambulo/mechanics.h"
+#include "base/sized.h"
 #include "mechanics/lagrangian.h"
 #include "model/model.h"
 
@@ -218,9 +219,10 @@ static void copy_out(double *out, int is_complex, const scalar *values, size_t c
 }
 
 static ambulo_status inverse_dynamics(const ambulo_model *model, int is_complex, const double *q,
-                                      const double *qd, const double *qdd, double *tau,
-                                      double *wrench, double *points, void *scratch) {
-  if (!model || !scratch) return AMBULO_E_ARGUMENT;
+                                      const double *qd, const double *qdd,
+                                      const ambulo_outputs *outputs, void *scratch) {
+  ambulo_outputs out;
+  if (!model || !scratch || !AMBULO__OWN(ambulo_outputs, &out, outputs)) return AMBULO_E_ARGUMENT;
   if (model->coordinate_count > 0 && (!q || !qd || !qdd)) return AMBULO_E_ARGUMENT;
   size_t dofs = (size_t)model->coordinate_count, point_values = 3 * (size_t)model->point_count;
   link_state *states = scratch;
@@ -237,23 +239,23 @@ static ambulo_status inverse_dynamics(const ambulo_model *model, int is_complex,
   if (!all_finite(forces, dofs + point_values) || !all_finite(total, 6)) {
     return AMBULO_E_NUMERIC;
   }
-  copy_out(tau, is_complex, forces, dofs);
-  copy_out(wrench, is_complex, total, 6);
-  copy_out(points, is_complex, places, point_values);
+  copy_out(out.tau, is_complex, forces, dofs);
+  copy_out(out.wrench, is_complex, total, 6);
+  copy_out(out.points, is_complex, places, point_values);
   return AMBULO_OK;
 }
 
 ambulo_status ambulo_lagrangian_inverse_dynamics(const ambulo_model *model, const double *q,
-                                                 const double *qd, const double *qdd, double *tau,
-                                                 double *wrench, double *points, void *scratch) {
-  return inverse_dynamics(model, 0, q, qd, qdd, tau, wrench, points, scratch);
+                                                 const double *qd, const double *qdd,
+                                                 const ambulo_outputs *outputs, void *scratch) {
+  return inverse_dynamics(model, 0, q, qd, qdd, outputs, scratch);
 }
 
 ambulo_status ambulo_lagrangian_inverse_dynamics_complex(const ambulo_model *model, const double *q,
                                                          const double *qd, const double *qdd,
-                                                         double *tau, double *wrench,
-                                                         double *points, void *scratch) {
-  return inverse_dynamics(model, 1, q, qd, qdd, tau, wrench, points, scratch);
+                                                         const ambulo_outputs *outputs,
+                                                         void *scratch) {
+  return inverse_dynamics(model, 1, q, qd, qdd, outputs, scratch);
 }
 
 /* (E): T = sum tr(B J B^T) / 2,  V = -sum m g . c. */

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "ambulo/mechanics.h"
+#include "base/sized.h"
 #include "mechanics/lane_transpose.h"
 
 /* Inputs up to this cannot make results overflow. */
@@ -29,6 +30,11 @@ struct ambulo_mechanics {
   double *jq, *jqd, *jqdd; /* [count] and [dynamic_count][lanes] */
   double *scratch;
 };
+
+AMBULO__FILL(ambulo_outputs, {.size = size})
+AMBULO__FILL(ambulo_output_weights, {.size = size})
+AMBULO__FILL(ambulo_motion_gradient, {.size = size})
+AMBULO__FILL(ambulo_jacobians, {.size = size})
 
 typedef struct batch {
   int nodes;
@@ -149,10 +155,12 @@ static void gather_block(ambulo_mechanics *m, const batch *motion, int first) {
 }
 
 ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, const double *q,
-                                                const double *qd, const double *qdd, double *tau,
-                                                double *wrench, double *points) {
+                                                const double *qd, const double *qdd,
+                                                const ambulo_outputs *outputs) {
   batch motion = {nodes, q, qd, qdd};
-  if (!is_legal(m, &motion)) return AMBULO_E_ARGUMENT;
+  ambulo_outputs out;
+  if (!is_legal(m, &motion) || !AMBULO__OWN(ambulo_outputs, &out, outputs))
+    return AMBULO_E_ARGUMENT;
   int d = ambulo__plan_coordinates(m->plan), p = 3 * ambulo__plan_points(m->plan);
   size_t rows = (size_t)ambulo__plan_rows(m->plan);
   int runs = run_count(largest_input(m, &motion));
@@ -163,9 +171,9 @@ ambulo_status ambulo_mechanics_inverse_dynamics(ambulo_mechanics *m, int nodes, 
       m->kernels->outputs(m->plan, m->q, m->qd, m->qdd, NULL, m->out, m->scratch);
       if (!all_finite(m->out, rows)) return AMBULO_E_NUMERIC;
       if (run > 1) continue;
-      ambulo__lanes_scatter(tau, m->out, d, first, nodes);
-      ambulo__lanes_scatter(wrench, m->out + d * AMBULO__LANES, 6, first, nodes);
-      ambulo__lanes_scatter(points, m->out + (d + 6) * AMBULO__LANES, p, first, nodes);
+      ambulo__lanes_scatter(out.tau, m->out, d, first, nodes);
+      ambulo__lanes_scatter(out.wrench, m->out + d * AMBULO__LANES, 6, first, nodes);
+      ambulo__lanes_scatter(out.points, m->out + (d + 6) * AMBULO__LANES, p, first, nodes);
     }
   }
   return AMBULO_OK;
@@ -176,10 +184,14 @@ ambulo_status ambulo_mechanics_gradient(ambulo_mechanics *m, int nodes, const do
                                         const ambulo_output_weights *weights,
                                         const ambulo_motion_gradient *gradient) {
   batch motion = {nodes, q, qd, qdd};
-  if (!is_legal(m, &motion) || !weights || !gradient || !gradient->q || !gradient->qd ||
-      !gradient->qdd) {
+  ambulo_output_weights by;
+  ambulo_motion_gradient to;
+  if (!is_legal(m, &motion) || !weights || !gradient ||
+      !AMBULO__OWN(ambulo_output_weights, &by, weights) ||
+      !AMBULO__OWN(ambulo_motion_gradient, &to, gradient) || !to.q || !to.qd || !to.qdd)
     return AMBULO_E_ARGUMENT;
-  }
+  weights = &by;
+  gradient = &to;
   int d = ambulo__plan_coordinates(m->plan), p = 3 * ambulo__plan_points(m->plan);
   size_t n = (size_t)nodes, columns = (size_t)d;
   double most = fmax(largest_input(m, &motion), largest(weights->tau, n * columns));
@@ -231,7 +243,10 @@ ambulo_status ambulo_mechanics_jacobians(ambulo_mechanics *m, int nodes, const d
                                          const double *qd, const double *qdd,
                                          const ambulo_jacobians *jacobians) {
   batch motion = {nodes, q, qd, qdd};
-  if (!jacobians || !is_legal(m, &motion)) return AMBULO_E_ARGUMENT;
+  ambulo_jacobians own;
+  if (!jacobians || !is_legal(m, &motion) || !AMBULO__OWN(ambulo_jacobians, &own, jacobians))
+    return AMBULO_E_ARGUMENT;
+  jacobians = &own;
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(m->plan);
   int d = ambulo__plan_coordinates(m->plan), rows = ambulo__plan_rows(m->plan);
   size_t count = (size_t)pattern.count + 2 * (size_t)pattern.dynamic_count;

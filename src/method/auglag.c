@@ -132,6 +132,15 @@ static void update_multipliers(drive *s) {
   take_multipliers(s);
 }
 
+static void tell(ambulo__engine *e) {
+  const ambulo__trial *point = &e->reached;
+  double gradient =
+      point->gradient_norm < 0.0 ? NAN : point->gradient_norm / fmax(1.0, fabs(point->objective));
+  (void)ambulo__run_iteration(e->run, e->setup->problem->definition.intervals,
+                              point->objective / e->setup->objective_scale, point->violation,
+                              gradient);
+}
+
 /* an inner solve has ended at the point held, where F is `value` */
 static void inner_ended(drive *s, double value) {
   ambulo__engine *e = s->engine;
@@ -144,8 +153,7 @@ static void inner_ended(drive *s, double value) {
   ambulo__run_forgive(run);
   run->iterations++;
   run->nlopt.outer++;
-  (void)ambulo__run_progress(run, e->reached.objective / e->setup->objective_scale,
-                             e->reached.violation); /* a stop is the run's */
+  tell(e); /* a stop is the run's */
   s->ending = ambulo__stopping_test(s->stopping, e, s->x);
   if (!s->ending && s->stopping->points >= run->options->maximum_iterations)
     s->ending = AMBULO_ENDING_ITERATIONS;

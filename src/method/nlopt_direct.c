@@ -67,7 +67,9 @@ static void keep_best(ambulo__direct *d) {
   d->best_violation = violation;
   d->best_objective = objective;
   memcpy(d->best_x, d->x, (size_t)d->problem->variables * sizeof *d->x);
-  if (!d->whitener) (void)ambulo__run_progress(d->run, objective, violation);
+  if (!d->whitener)
+    (void)ambulo__run_iteration(d->run, d->problem->definition.intervals, objective, violation,
+                                NAN);
 }
 
 /* evaluates at w; 0 when the values are finite. Values that are not, and gradients of them, give

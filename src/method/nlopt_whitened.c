@@ -50,7 +50,8 @@ static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_alg
   if (!(d->best_violation < HUGE_VAL)) *ending = AMBULO_ENDING_NO_DESCENT;
   if (feasible && before < HUGE_VAL && change <= AMBULO__ROUNDS_SETTLED * (fabs(before) + 1e-12))
     *ending = AMBULO_ENDING_SETTLED;
-  (void)ambulo__run_progress(e->run, d->best_objective, d->best_violation);
+  (void)ambulo__run_iteration(e->run, d->problem->definition.intervals, d->best_objective,
+                              d->best_violation, NAN);
   return AMBULO_OK;
 }
 

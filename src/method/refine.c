@@ -65,6 +65,7 @@ static ambulo_status create_level(const ambulo_problem *problem, int intervals, 
   if (status) return status;
   l->x = ambulo__alloc(a, (size_t)l->problem->variables, sizeof *l->x);
   if (!l->x) return AMBULO_E_MEMORY;
+  ambulo__start_pose(l->problem, l->x);
   return before->problem ? ambulo_problem_transfer(before->problem, before->x, l->problem, l->x)
                          : AMBULO_OK;
 }

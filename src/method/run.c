@@ -43,12 +43,25 @@ int ambulo__run_progress(ambulo__run *run, double objective, double violation) {
       .violation = violation,
       .seconds = ambulo__seconds_now() - run->started,
       .time_limit = o->time_limit,
-      .seconds_left = -1.0,
+      .seconds_left = AMBULO_OFF,
       .stage = run->stage,
       .best = NAN,
   };
   if (o->progress(o->user, &progress)) stop(run, AMBULO_ENDING_CALLER);
   return run->stopped;
+}
+
+int ambulo__run_iteration(ambulo__run *run, int intervals, double objective, double violation,
+                          double gradient) {
+  ambulo_iteration iteration = {.iteration = run->iterations,
+                                .evaluations = run->evaluations,
+                                .intervals = intervals,
+                                .objective = objective,
+                                .violation = violation,
+                                .gradient = gradient,
+                                .seconds = ambulo__seconds_now() - run->started};
+  ambulo__history_add(run->history, &iteration);
+  return ambulo__run_progress(run, objective, violation);
 }
 
 void ambulo__run_nlopt(ambulo__run *run, int result, const char *name, double seconds) {

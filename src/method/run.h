@@ -5,6 +5,7 @@
 #include "nlp/states.h"
 #include "ambulo/solve.h"
 #include "linear/poll.h"
+#include "method/history.h"
 
 typedef struct ambulo__run {
   const ambulo_options *options;
@@ -20,6 +21,7 @@ typedef struct ambulo__run {
   ambulo_fault fault, first_fault; /* the first of those lately; of all */
   ambulo_nlopt_work nlopt;
   double seconds_evaluate, seconds_linear;
+  ambulo__history *history; /* NULL: none is kept */
 } ambulo__run;
 
 void ambulo__run_begin(ambulo__run *run, const ambulo_options *options);
@@ -27,6 +29,10 @@ void ambulo__run_begin(ambulo__run *run, const ambulo_options *options);
 int ambulo__run_count(ambulo__run *run);
 /* 1 when the time or the evaluations are used up or the caller said stop. */
 int ambulo__run_over(ambulo__run *run);
+/* An iteration on a grid of so many intervals has ended (ambulo_iteration): keeps it and tells the
+ * caller's callback; 1 when that says stop. */
+int ambulo__run_iteration(ambulo__run *run, int intervals, double objective, double violation,
+                          double gradient);
 /* Tells the caller's callback; 1 when it says stop. */
 int ambulo__run_progress(ambulo__run *run, double objective, double violation);
 /* The same from work that has no numbers to show, at most every tenth of a second; also looks at

@@ -8,13 +8,12 @@
  * direction of its weight has changed.
  */
 #include "model/conditions.h"
+#include "base/sized.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "model/composite.h"
-
-enum { CONDITIONS_COOKIE = 0x616d636f };
 
 void ambulo__model_carry(ambulo_model *model, int link, double mass, const double position[3]) {
   ambulo_link *carrier = &model->links[link];
@@ -47,9 +46,7 @@ void ambulo__model_tilt(ambulo_model *model, double slope) {
 
 /* --------------------------------------------------------------- in the open */
 
-ambulo_conditions ambulo_conditions_default(void) {
-  return (ambulo_conditions){.cookie = CONDITIONS_COOKIE, .load_link = -1};
-}
+AMBULO__FILL(ambulo_conditions, {.size = size, .load_link = -1})
 
 static int in_range(const ambulo_model *model, const ambulo_conditions *c) {
   if (!(fabs(c->slope) <= AMBULO__LARGEST_SLOPE)) return 0;
@@ -76,7 +73,7 @@ ambulo_status ambulo__model_copy(const ambulo_model *model, const ambulo_point *
   d.patch_count = model->patch_count;
   d.capsules = model->capsules;
   d.capsule_count = model->capsule_count;
-  d.stature = model->stature;
+  d.stature = model->stature > 0.0 ? model->stature : AMBULO_OFF;
   for (int i = 0; i < 3; i++) {
     d.gravity[i] = -9.81 * model->up[i];
     d.forward[i] = model->forward[i];
@@ -101,8 +98,10 @@ ambulo_status ambulo__model_copy(const ambulo_model *model, const ambulo_point *
 ambulo_status ambulo_model_adapt(const ambulo_model *model, const ambulo_conditions *conditions,
                                  const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                                  ambulo_model **adapted) {
-  if (!model || !conditions || !adapted || conditions->cookie != CONDITIONS_COOKIE)
+  ambulo_conditions own;
+  if (!model || !conditions || !adapted || !AMBULO__OWN(ambulo_conditions, &own, conditions))
     return AMBULO_E_ARGUMENT;
+  conditions = &own;
   if (!in_range(model, conditions)) {
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "the conditions are out of range (slope %g rad, %g kg on link %d); "

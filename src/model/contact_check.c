@@ -49,6 +49,21 @@ static void check_interval(ambulo__checker *c, int index, const char *what,
                             ambulo__number_text(interval[1]).text, in_degrees);
 }
 
+/* 0 is where coordinates stand that nobody gave a default, whatever their range */
+static void check_default(ambulo__checker *c, int index) {
+  const ambulo_coordinate *self = &c->definition->coordinates[index];
+  double value = self->default_value;
+  if (value == 0.0 || (value >= self->range[0] && value <= self->range[1] && isfinite(value) &&
+                       fabs(value) <= LARGEST_LIMIT))
+    return;
+  c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
+                            "the default of coordinate '%s' is out of its range (got %s); expected "
+                            "%s to %s",
+                            self->name ? self->name : "", ambulo__number_text(value).text,
+                            ambulo__number_text(self->range[0]).text,
+                            ambulo__number_text(self->range[1]).text);
+}
+
 static void report_mirror(ambulo__checker *c, int index, const char *why) {
   const char *name = c->definition->coordinates[index].name;
   c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place_of_coordinate(c, index), NULL,
@@ -83,6 +98,7 @@ void ambulo__check_coordinates(ambulo__checker *c) {
     check_interval(c, i, "range", coordinate->range);
     check_interval(c, i, "speed", coordinate->speed);
     check_interval(c, i, "torque", coordinate->torque);
+    check_default(c, i);
     check_mirror(c, i);
   }
 }

@@ -81,8 +81,9 @@ static void check_link(ambulo__checker *c, int i) {
   if (link->type != AMBULO_FIXED && link->type != AMBULO_REVOLUTE &&
       link->type != AMBULO_PRISMATIC) {
     c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, ambulo__place_of_link(c, i), NULL,
-                              "link '%s' has an unknown joint type (got %d)", name_of(c, i),
-                              (int)link->type);
+                              "the joint type of link '%s' is %s (got %d); expected fixed, "
+                              "revolute or prismatic",
+                              name_of(c, i), link->type ? "unknown" : "not set", (int)link->type);
   }
   int has_inertia = 0;
   for (int k = 0; k < 6; k++) has_inertia |= link->inertia[k] != 0;

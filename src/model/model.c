@@ -8,28 +8,8 @@
 #include <string.h>
 
 #include "model/check.h"
+#include "model/definition_take.h"
 #include "model/neutral_pose.h"
-
-enum { DEFINITION_COOKIE = 0x616d626d };
-
-ambulo_model_definition ambulo_model_definition_default(void) {
-  return (ambulo_model_definition){
-      .cookie = DEFINITION_COOKIE, .name = "model", .gravity = {0, -9.81, 0}, .forward = {1, 0, 0}};
-}
-
-ambulo_link ambulo_link_default(void) {
-  return (ambulo_link){.parent = -1, .type = AMBULO_FIXED, .coordinate = -1};
-}
-
-ambulo_coordinate ambulo_coordinate_default(void) {
-  return (ambulo_coordinate){.type = AMBULO_REVOLUTE,
-                             .range = {-INFINITY, INFINITY},
-                             .speed = {-INFINITY, INFINITY},
-                             .torque = {-INFINITY, INFINITY},
-                             .actuated = 1,
-                             .mirror = -1,
-                             .mirror_sign = 1};
-}
 
 /* -------------------------------------------------------------- renumbering */
 
@@ -191,7 +171,7 @@ static ambulo_status copy(ambulo_model *m, const ambulo_model_definition *d) {
   m->foot_count = d->foot_count;
   m->patch_count = d->patch_count;
   m->capsule_count = d->capsule_count;
-  m->stature = d->stature;
+  m->stature = isnan(d->stature) ? 0.0 : d->stature;
   char *text = m->text;
   m->name = keep(&text, d->name);
   copy_links(m, d, &n, &text);
@@ -208,7 +188,7 @@ ambulo_status ambulo__model_build(const ambulo_model_definition *definition,
                                   const ambulo__model_places *places,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_model **model) {
-  if (!definition || definition->cookie != DEFINITION_COOKIE || !model) return AMBULO_E_ARGUMENT;
+  if (!definition || definition->size != sizeof *definition || !model) return AMBULO_E_ARGUMENT;
   ambulo_status status = ambulo__model_check(definition, places, diagnostics);
   if (status != AMBULO_OK) return status;
   ambulo_allocator own = ambulo__allocator_or_default(allocator);
@@ -228,7 +208,10 @@ ambulo_status ambulo_model_create(const ambulo_model_definition *definition,
                                   const ambulo_allocator *allocator,
                                   ambulo_diagnostics *diagnostics, ambulo_model **model) {
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = ambulo__model_build(definition, NULL, allocator, diagnostics, model);
+  ambulo__taken_model own;
+  ambulo_status status = ambulo__model_take(definition, allocator, &own);
+  if (!status) status = ambulo__model_build(&own.definition, NULL, allocator, diagnostics, model);
+  ambulo__model_drop(&own);
   return ambulo__conclude(diagnostics, errors, status, NULL);
 }
 

@@ -181,10 +181,11 @@ static void check_world(ambulo__checker *c) {
                               ambulo__number_text(f[2]).text);
   }
   double stature = c->definition->stature;
-  if (!isfinite(stature) || stature < 0 || stature > 100) {
-    c->status = ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
-                              "stature is out of range (got %s); expected 0 (unknown) to 100 m",
-                              ambulo__number_text(stature).text);
+  if (!isnan(stature) && !(stature > 0 && stature <= 100)) {
+    c->status =
+        ambulo__error(c->diagnostics, AMBULO_E_MODEL, place, NULL,
+                      "stature is out of range (got %s); expected up to 100 m, or AMBULO_OFF",
+                      ambulo__number_text(stature).text);
   }
 }
 

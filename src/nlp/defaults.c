@@ -1,48 +1,92 @@
-/* nlp/defaults.c - what parts of a problem definition are before a caller says otherwise. Those
- * with numbers of their own have them in ambulo_problem_definition_default() (nlp/problem.c). */
-#include "ambulo/problem.h"
+/* nlp/defaults.c - what a problem definition and its parts are before a caller says otherwise. */
+#include "ambulo/evaluate.h"
+#include "base/sized.h"
+#include "nlp/definition_take.h"
 
 #include <math.h>
 
 enum { NOT_GIVEN = -1, NONE = -1 };
 
-ambulo_contact ambulo_contact_default(void) {
-  return (ambulo_contact){.foot = NONE, .mode = AMBULO_CONTACT_FLAT, .patch = NONE};
-}
+AMBULO__FILL(ambulo_contact, {.foot = NONE, .mode = AMBULO_CONTACT_FLAT, .patch = NONE})
 
 /* phases of people at a comfortable speed, as docs/guide-gait.md has them */
-ambulo_gait ambulo_gait_default(void) {
-  return (ambulo_gait){.steps = 1, .foot_flat = 0.08, .heel_off = 0.38, .toe_off = 0.62};
+void ambulo_gait_fill(ambulo_gait *filled) {
+  const ambulo_gait usual = {.size = filled->size,
+                             .contact_size = filled->contact_size,
+                             .steps = 1,
+                             .foot_flat = 0.08,
+                             .heel_off = 0.38,
+                             .toe_off = 0.62,
+                             .other_step_length = AMBULO_OFF,
+                             .other_step_time = AMBULO_OFF};
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
 }
 
-ambulo_end_value ambulo_end_value_default(void) {
-  return (ambulo_end_value){.coordinate = NOT_GIVEN};
+AMBULO__FILL(ambulo_end_value, {.coordinate = NOT_GIVEN})
+
+AMBULO__FILL(ambulo_tube, {.samples = 0})
+
+AMBULO__FILL(ambulo_user_row, {.relation = AMBULO_NOT_NEGATIVE, .to = (double)INFINITY})
+
+AMBULO__FILL(ambulo_ground_reaction, {.kind = AMBULO_REACTION_NONE,
+                                      .transfer = AMBULO_TRANSFER_EARLY,
+                                      .exponent = 1.4,
+                                      .shear = 1.0,
+                                      .friction = 0.5,
+                                      .free_moment = 0.02,
+                                      .pressure = 1,
+                                      .heel_pressure = {-0.02, 0.03},
+                                      .heel_roll = 0.04,
+                                      .flat_pressure = {-0.005, 0.02},
+                                      .toe_pressure = {-0.02, 0.055},
+                                      .pressure_width = 0.035,
+                                      .arc_pressure = 0.0045,
+                                      .moment_arm = 0.2,
+                                      .slant = 0.2,
+                                      .loading_rate = 15.0,
+                                      .flight_tolerance = 0.002})
+
+AMBULO__FILL(ambulo_clearance, {.height = AMBULO_OFF,
+                                .tip_from = 0.3,
+                                .ceiling = 0.35,
+                                .turn = 0.2,
+                                .outward = 0.06,
+                                .inward = 0.03,
+                                .feet = AMBULO_OFF})
+
+AMBULO__FILL(ambulo_collision, {.mode = AMBULO_COLLISION_OFF})
+
+AMBULO__FILL(ambulo_capsule_pair, {.one = NOT_GIVEN, .other = NOT_GIVEN})
+
+AMBULO__FILL(ambulo_obstacle, {.shape = AMBULO_OBSTACLE_BOX})
+
+AMBULO__FILL(ambulo_reach, {.point = NOT_GIVEN, .about = NONE, .to = (double)INFINITY})
+
+AMBULO__FILL(ambulo_motion, {.size = size})
+
+void ambulo_term_fill(ambulo_term *filled, ambulo_term_kind kind, size_t size) {
+  ambulo_term usual = {.kind = kind, .weight = 1.0, .smoothing = 1.0, .power = 2.0, .height = 0.02};
+  if (kind == AMBULO_TORQUE_POWER) {
+    usual.power = 3.0;
+    usual.smoothing = 0.01;
+  }
+  if (kind == AMBULO_MECHANICAL_POWER) usual.smoothing = 0.05;
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
 }
 
-ambulo_tube ambulo_tube_default(void) {
-  return (ambulo_tube){.samples = 0};
-}
-
-ambulo_user_row ambulo_user_row_default(void) {
-  return (ambulo_user_row){.relation = AMBULO_NOT_NEGATIVE, .to = (double)INFINITY};
-}
-
-ambulo_ground_reaction ambulo_ground_reaction_default(void) {
-  return ambulo_problem_definition_default().ground_reaction;
-}
-
-ambulo_clearance ambulo_clearance_default(void) {
-  return ambulo_problem_definition_default().clearance;
-}
-
-ambulo_collision ambulo_collision_default(void) {
-  return ambulo_problem_definition_default().collision;
-}
-
-ambulo_obstacle ambulo_obstacle_default(void) {
-  return (ambulo_obstacle){.shape = AMBULO_OBSTACLE_BOX};
-}
-
-ambulo_reach ambulo_reach_default(void) {
-  return (ambulo_reach){.point = NOT_GIVEN, .about = NONE, .to = (double)INFINITY};
+void ambulo_problem_definition_fill(ambulo_problem_definition *filled) {
+  ambulo_problem_definition usual = {.duration = 1.0,
+                                     .intervals = 12,
+                                     .grid = AMBULO_GRID_UNIFORM,
+                                     .discretization = AMBULO_BSPLINE,
+                                     .degree = 3,
+                                     .knots = AMBULO_GRID_UNIFORM,
+                                     .minimum_force = AMBULO_OFF,
+                                     .orientation_tolerance = 0.01,
+                                     .strike_pitch = {AMBULO_OFF, AMBULO_OFF},
+                                     .clearance = ambulo_clearance_default(),
+                                     .ground_reaction = ambulo_ground_reaction_default(),
+                                     .collision = ambulo_collision_default(),
+                                     .ends_order = 1};
+  ambulo__definition_give(&usual, filled);
 }

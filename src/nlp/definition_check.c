@@ -29,6 +29,7 @@ typedef struct number_range {
   const double *value;
   int count;
   double low, high;
+  int may_be_off;
 } number_range;
 
 static int lies_in(const number_range *r, double value) {
@@ -38,11 +39,11 @@ static int lies_in(const number_range *r, double value) {
 static ambulo_status check_range(const number_range *r, ambulo_diagnostics *list) {
   const char *space = r->unit[0] ? " " : "";
   for (int i = 0; r->value && i < r->count; i++) {
-    if (lies_in(r, r->value[i])) continue;
+    if (lies_in(r, r->value[i]) || (r->may_be_off && isnan(r->value[i]))) continue;
     char place[16] = "";
     if (r->count > 1) (void)snprintf(place, sizeof place, "[%d]", i);
-    return REFUSE(list, "%s%s is %g%s%s; expected %g to %g", r->name, place, r->value[i], space,
-                  r->unit, r->low, r->high);
+    return REFUSE(list, "%s%s is %g%s%s; expected %g to %g%s", r->name, place, r->value[i], space,
+                  r->unit, r->low, r->high, r->may_be_off ? ", or AMBULO_OFF" : "");
   }
   return AMBULO_OK;
 }
@@ -57,57 +58,92 @@ static ambulo_status check_ranges(const number_range *ranges, size_t count,
   return status;
 }
 
+static ambulo_status check_strike_pitch(const double *pitch, ambulo_diagnostics *list) {
+  const number_range range = {"constraints.strike_pitch", "rad", pitch, 2, -10.0, 10.0, 0};
+  if (isnan(pitch[0]) && isnan(pitch[1])) return AMBULO_OK;
+  ambulo_status status = check_range(&range, list);
+  if (!status && !(pitch[0] < pitch[1]))
+    status =
+        REFUSE(list,
+               "constraints.strike_pitch is from %g to %g rad; expected rising angles, or both "
+               "AMBULO_OFF",
+               pitch[0], pitch[1]);
+  return status;
+}
+
 static ambulo_status check_task(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
   const number_range ranges[] = {
-      {"constraints.ground_height", "m", &d->ground_height, 1, -longest, longest},
-      {"constraints.zmp_margin", "m", &d->support_margin, 1, 0.0, longest},
-      {"minimum_force", "body weights", &d->minimum_force, 1, -largest, largest},
-      {"constraints.contact_tolerance", "m", &d->contact_tolerance, 1, -longest, longest},
-      {"constraints.orientation_tolerance", "rad", &d->orientation_tolerance, 1, 0.0, 10.0},
-      {"constraints.strike_pitch", "rad", d->strike_pitch, 2, -10.0, 10.0},
-      {"ends.travel", "m", &d->travel, 1, -longest, longest},
-      {"ends.rise", "m", &d->rise, 1, -longest, longest},
+      {"constraints.ground_height", "m", &d->ground_height, 1, -longest, longest, 0},
+      {"constraints.zmp_margin", "m", &d->support_margin, 1, 0.0, longest, 0},
+      {"minimum_force", "body weights", &d->minimum_force, 1, 0.0, largest, 1},
+      {"constraints.contact_tolerance", "m", &d->contact_tolerance, 1, -longest, longest, 0},
+      {"constraints.orientation_tolerance", "rad", &d->orientation_tolerance, 1, 0.0, 10.0, 0},
+      {"ends.travel", "m", &d->travel, 1, -longest, longest, 0},
+      {"ends.rise", "m", &d->rise, 1, -longest, longest, 0},
   };
-  return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+  ambulo_status pitch = check_strike_pitch(d->strike_pitch, list);
+  ambulo_status status = check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
+  return status ? status : pitch;
 }
 
 static ambulo_status check_clearance(const ambulo_clearance *c, ambulo_diagnostics *list) {
   const number_range ranges[] = {
-      {"constraints.clearance.height", "m", &c->height, 1, -longest, longest},
-      {"constraints.clearance.tip_from", "", &c->tip_from, 1, -largest, largest},
-      {"constraints.clearance.ceiling", "m", &c->ceiling, 1, -longest, everything},
-      {"constraints.clearance.turn", "", &c->turn, 1, 0.0, everything},
-      {"constraints.clearance.outward", "m", &c->outward, 1, 0.0, everything},
-      {"constraints.clearance.inward", "m", &c->inward, 1, 0.0, everything},
-      {"constraints.clearance.feet", "m", &c->feet, 1, -longest, longest},
+      {"constraints.clearance.height", "m", &c->height, 1, 0.0, longest, 1},
+      {"constraints.clearance.tip_from", "", &c->tip_from, 1, -largest, largest, 0},
+      {"constraints.clearance.ceiling", "m", &c->ceiling, 1, -longest, everything, 0},
+      {"constraints.clearance.turn", "", &c->turn, 1, 0.0, everything, 0},
+      {"constraints.clearance.outward", "m", &c->outward, 1, 0.0, everything, 0},
+      {"constraints.clearance.inward", "m", &c->inward, 1, 0.0, everything, 0},
+      {"constraints.clearance.feet", "m", &c->feet, 1, 0.0, longest, 1},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }
 
 static ambulo_status check_reaction(const ambulo_ground_reaction *r, ambulo_diagnostics *list) {
   const number_range ranges[] = {
-      {"ground_reaction.exponent", "", &r->exponent, 1, 1.0, 100.0},
-      {"ground_reaction.shear", "", &r->shear, 1, -100.0, 100.0},
-      {"ground_reaction.friction", "", &r->friction, 1, -largest, largest},
-      {"ground_reaction.free_moment", "m", &r->free_moment, 1, -largest, largest},
-      {"ground_reaction.heel_pressure", "m", r->heel_pressure, 2, -longest, longest},
-      {"ground_reaction.heel_roll", "m", &r->heel_roll, 1, -longest, longest},
-      {"ground_reaction.flat_pressure", "m", r->flat_pressure, 2, -longest, longest},
-      {"ground_reaction.toe_pressure", "m", r->toe_pressure, 2, -longest, longest},
-      {"ground_reaction.pressure_width", "m", &r->pressure_width, 1, 0.0, longest},
-      {"ground_reaction.arc_pressure", "m", &r->arc_pressure, 1, 0.0, longest},
-      {"ground_reaction.moment_arm", "m", &r->moment_arm, 1, 1e-6, longest},
-      {"ground_reaction.slant", "", &r->slant, 1, 1e-6, largest},
-      {"ground_reaction.loading_rate", "1/s", &r->loading_rate, 1, -largest, largest},
-      {"ground_reaction.flight_tolerance", "body weights", &r->flight_tolerance, 1, 1e-6, largest},
+      {"ground_reaction.exponent", "", &r->exponent, 1, 1.0, 100.0, 0},
+      {"ground_reaction.shear", "", &r->shear, 1, -100.0, 100.0, 0},
+      {"ground_reaction.friction", "", &r->friction, 1, 0.0, largest, 1},
+      {"ground_reaction.free_moment", "m", &r->free_moment, 1, 0.0, largest, 1},
+      {"ground_reaction.heel_pressure", "m", r->heel_pressure, 2, -longest, longest, 0},
+      {"ground_reaction.heel_roll", "m", &r->heel_roll, 1, -longest, longest, 0},
+      {"ground_reaction.flat_pressure", "m", r->flat_pressure, 2, -longest, longest, 0},
+      {"ground_reaction.toe_pressure", "m", r->toe_pressure, 2, -longest, longest, 0},
+      {"ground_reaction.pressure_width", "m", &r->pressure_width, 1, 0.0, longest, 0},
+      {"ground_reaction.arc_pressure", "m", &r->arc_pressure, 1, 0.0, longest, 0},
+      {"ground_reaction.moment_arm", "m", &r->moment_arm, 1, 1e-6, longest, 0},
+      {"ground_reaction.slant", "", &r->slant, 1, 1e-6, largest, 0},
+      {"ground_reaction.loading_rate", "1/s", &r->loading_rate, 1, 0.0, largest, 1},
+      {"ground_reaction.flight_tolerance", "body weights", &r->flight_tolerance, 1, 1e-6, largest,
+       0},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }
 
 /* -------------------------------------------------------------------- the rest */
 
-static int is_grid(ambulo_grid grid) {
-  return grid == AMBULO_GRID_UNIFORM || grid == AMBULO_GRID_EVENTS;
+/* constants of enumerations go from 1 on; 0 is that nobody chose */
+static ambulo_status check_choice(const char *name, int value, int last, const char *expected,
+                                  ambulo_diagnostics *list) {
+  if (value >= 1 && value <= last) return AMBULO_OK;
+  return REFUSE(list, "%s is %s (got %d); expected %s", name, value ? "unknown" : "not set", value,
+                expected);
+}
+
+static ambulo_status check_choices(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
+  static const char grids[] = "AMBULO_GRID_UNIFORM or _EVENTS";
+  ambulo_status status[] = {
+      check_choice("time.grid", (int)d->grid, AMBULO_GRID_EVENTS, grids, list),
+      check_choice("trajectory.knots", (int)d->knots, AMBULO_GRID_EVENTS, grids, list),
+      check_choice("trajectory.basis", (int)d->discretization, AMBULO_HERMITE,
+                   "AMBULO_BSPLINE, _CENTRAL_DIFFERENCE or _HERMITE", list),
+      d->ground_reaction.kind == AMBULO_REACTION_TWO_STEP
+          ? check_choice("ground_reaction.transfer", (int)d->ground_reaction.transfer,
+                         AMBULO_TRANSFER_SMOOTH, "AMBULO_TRANSFER_EARLY, _LINEAR or _SMOOTH", list)
+          : AMBULO_OK};
+  for (size_t i = 0; i < sizeof status / sizeof *status; i++)
+    if (status[i]) return status[i];
+  return AMBULO_OK;
 }
 
 static ambulo_status check_node_times(const ambulo_problem_definition *d,
@@ -130,9 +166,6 @@ static ambulo_status check_node_times(const ambulo_problem_definition *d,
 /* the places of nodes and knots */
 static ambulo_status check_places(const ambulo_problem_definition *d, ambulo_diagnostics *list) {
   int on_events = d->grid == AMBULO_GRID_EVENTS || d->knots == AMBULO_GRID_EVENTS;
-  if (!is_grid(d->grid) || !is_grid(d->knots))
-    return REFUSE(list, "unknown grid %d, knots %d; expected uniform or events", (int)d->grid,
-                  (int)d->knots);
   if (on_events && d->discretization != AMBULO_BSPLINE)
     return REFUSE(list, "a grid on events with basis %s; expected bspline",
                   d->discretization == AMBULO_HERMITE ? "hermite" : "central_difference");
@@ -179,7 +212,11 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                                 ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
   const ambulo__term_info *info = ambulo__term_info_of(term->kind);
-  if (!info) return REFUSE(list, "objective[%d]: unknown term kind %d", t, (int)term->kind);
+  if (!info)
+    return REFUSE(list,
+                  "objective[%d]: the kind of the term is %s (got %d); expected an "
+                  "ambulo_term_kind",
+                  t, term->kind ? "unknown" : "not set", (int)term->kind);
   if (!(term->weight >= 0.0 && term->weight <= largest))
     return REFUSE(list, "objective[%d] (%s): weight is %g; expected 0 to %g", t, info->name,
                   term->weight, largest);
@@ -253,12 +290,12 @@ static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t
   (void)snprintf(reference, sizeof reference, "objective[%d]: reference", t);
   int samples = d->intervals > 0 && d->intervals <= MAX_INTERVALS ? d->intervals + 1 : 0;
   const number_range ranges[] = {
-      {scale, "", term->scale, n, -largest, largest},
-      {offset, "", term->offset, n, -largest, largest},
-      {passive, "", term->passive, 4 * n, -largest, largest},
-      {strength, "", term->strength, 6 * n, -largest, largest},
-      {reference, "", term->reference, n * samples, -largest, largest},
-      {scale, "", term->device_scale, d->device_count, 0.0, largest},
+      {scale, "", term->scale, n, -largest, largest, 0},
+      {offset, "", term->offset, n, -largest, largest, 0},
+      {passive, "", term->passive, 4 * n, -largest, largest, 0},
+      {strength, "", term->strength, 6 * n, -largest, largest, 0},
+      {reference, "", term->reference, n * samples, -largest, largest, 0},
+      {scale, "", term->device_scale, d->device_count, 0.0, largest, 0},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }
@@ -278,6 +315,11 @@ static ambulo_status check_terms(const ambulo_problem_definition *d, ambulo_diag
   for (int i = 0; i < d->user_row_count; i++) {
     if (!d->user_rows[i].function || !d->user_rows[i].name || !d->user_rows[i].unit)
       status = REFUSE(list, "user row %d has no function, name or unit", i);
+    char place[48];
+    (void)snprintf(place, sizeof place, "the relation of user row %d", i);
+    ambulo_status chosen = check_choice(place, (int)d->user_rows[i].relation, AMBULO_NOT_NEGATIVE,
+                                        "AMBULO_EQUAL or AMBULO_NOT_NEGATIVE", list);
+    if (chosen) status = chosen;
     if (isnan(d->user_rows[i].from) || isnan(d->user_rows[i].to))
       status = REFUSE(list, "user row %d is asked for from %g s to %g s; expected times", i,
                       d->user_rows[i].from, d->user_rows[i].to);
@@ -320,9 +362,9 @@ static int arrays_are_there(const ambulo_problem_definition *d) {
 
 ambulo_status ambulo__definition_check(const ambulo_problem_definition *d,
                                        ambulo_diagnostics *diagnostics) {
-  if (!d || d->cookie != AMBULO__DEFINITION_COOKIE || !d->model || !arrays_are_there(d))
-    return AMBULO_E_ARGUMENT;
-  ambulo_status status = check_grid(d, diagnostics);
+  if (!d || d->size != sizeof *d || !d->model || !arrays_are_there(d)) return AMBULO_E_ARGUMENT;
+  ambulo_status status = check_choices(d, diagnostics);
+  if (!status) status = check_grid(d, diagnostics);
   ambulo_status terms = check_terms(d, diagnostics);
   ambulo_status ends = check_ends(d, diagnostics);
   if (!status) status = terms;

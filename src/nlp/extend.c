@@ -3,14 +3,16 @@
  * The extended problem is built anew from the definition that the first one came to (its nodes,
  * its contacts, its pairs of capsules), with the additions behind, and shares its model. */
 #include "ambulo/extend.h"
+#include "base/sized.h"
+#include "nlp/definition_take.h"
 #include "nlp/problem.h"
 
 #include <string.h>
 
-enum { COOKIE = 0x616d6265 };
-
-ambulo_extension ambulo_extension_default(void) {
-  return (ambulo_extension){.cookie = COOKIE};
+void ambulo_extension_fill(ambulo_extension *filled) {
+  const ambulo_extension usual = {
+      .size = filled->size, .term_size = filled->term_size, .user_row_size = filled->user_row_size};
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
 }
 
 static int is_there(const void *array, int count) {
@@ -26,7 +28,7 @@ static void *joined(const ambulo_allocator *a, size_t size, const void *first, i
   return both;
 }
 
-static ambulo_status extend(const ambulo_problem *p, const ambulo_extension *e,
+static ambulo_status extend(const ambulo_problem *p, const ambulo_problem_definition *e,
                             const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics,
                             ambulo_problem **extended) {
   ambulo_allocator a = ambulo__allocator_or_default(allocator);
@@ -55,12 +57,17 @@ ambulo_status ambulo_problem_extend(const ambulo_problem *problem,
                                     const ambulo_extension *extension,
                                     const ambulo_allocator *allocator,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **extended) {
-  if (!problem || !extension || !extended || extension->cookie != COOKIE ||
-      !is_there(extension->terms, extension->term_count) ||
-      !is_there(extension->user_rows, extension->user_row_count))
-    return AMBULO_E_ARGUMENT;
+  if (!problem || !extension || !extended) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = extend(problem, extension, allocator, diagnostics, extended);
+  ambulo__taken_definition own;
+  const ambulo_problem_definition *d = &own.definition;
+  ambulo_status status = ambulo__extension_take(extension, allocator, &own);
+  if (!status && (!is_there(d->terms, d->term_count) || !is_there(d->user_rows, d->user_row_count)))
+    status = AMBULO_E_ARGUMENT;
+  int is_legal = status != AMBULO_E_ARGUMENT;
+  if (!status) status = extend(problem, d, allocator, diagnostics, extended);
+  ambulo__definition_drop(&own);
+  if (!is_legal) return status;
   return ambulo__conclude(diagnostics, errors, status, NULL);
 }
 

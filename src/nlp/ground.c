@@ -111,36 +111,38 @@ static void add_slot(const ambulo_problem *p, const ambulo__contact_load *load, 
   ambulo__add_cross(arm, own, 1.0, moment);
 }
 
-/* (W.10) origin + n x M / (n.f), M.f / (n.f) */
-static void pressure_of(const ambulo__contact_frame *frame, const double force[3],
-                        const double moment[3], double cop[3], double *free_moment) {
-  double normal = 0.0, twist = 0.0, shift[3] = {0.0, 0.0, 0.0};
-  for (int i = 0; i < 3; i++) {
-    normal += force[i] * frame->up[i];
-    twist += force[i] * moment[i];
-  }
+/* (W.10) origin + n x M / (n.f), M.f / (n.f). A contact without normal force may still have a
+ * moment, by the allowance of its rows (gait/sharing.c): no centre says which, so that the moment
+ * about the world's origin, M + origin x f, is told besides */
+static void place_pressure(const ambulo__contact_frame *frame, const double moment[3],
+                           ambulo__pressure *at) {
+  double normal = ambulo__dot(at->force, frame->up), shift[3] = {0.0, 0.0, 0.0};
   ambulo__add_cross(frame->up, moment, 1.0, shift);
-  for (int i = 0; i < 3; i++)
-    cop[i] = normal > 0.0 ? frame->origin[i] + shift[i] / normal : (double)NAN;
-  *free_moment = normal > 0.0 ? twist / normal : 0.0;
+  for (int i = 0; i < 3; i++) {
+    at->center[i] = normal > 0.0 ? frame->origin[i] + shift[i] / normal : (double)NAN;
+    at->moment[i] = moment[i];
+  }
+  ambulo__add_cross(frame->origin, at->force, 1.0, at->moment);
+  at->free_moment = normal > 0.0 ? ambulo__dot(at->force, moment) / normal : 0.0;
 }
 
-void ambulo__contact_pressure(const ambulo_problem *p, const ambulo__foot_outline *outlines,
-                              int effector, double time, const double *channel, double force[3],
-                              double cop[3], double *free_moment) {
+ambulo__pressure ambulo__contact_pressure(const ambulo_problem *p,
+                                          const ambulo__foot_outline *outlines, int effector,
+                                          double time, const double *channel) {
   ambulo__slots slots = ambulo__slots_of(&p->definition);
   ambulo__contact_frame frame = {{0.0}, {0.0}, {0.0}, {0.0}};
+  ambulo__pressure at = {.free_moment = 0.0};
   double moment[3] = {0.0, 0.0, 0.0};
-  for (int i = 0; i < 3; i++) force[i] = 0.0;
   for (int slot = 0; slot < slots.count; slot++) {
     if (slots.effector[slot] != effector) continue;
     ambulo__contact_load load =
         ambulo__contact_load_at(&p->definition, outlines, &slots, slot, NULL, time);
     if (!load.loaded) continue;
     frame = load.frame;
-    add_slot(p, &load, slot, channel, force, moment);
+    add_slot(p, &load, slot, channel, at.force, moment);
   }
-  pressure_of(&frame, force, moment, cop, free_moment);
+  place_pressure(&frame, moment, &at);
+  return at;
 }
 
 const ambulo_ground_reaction *ambulo_problem_ground_reaction(const ambulo_problem *p) {

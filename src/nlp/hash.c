@@ -41,6 +41,10 @@ static hash add_model(hash h, const ambulo_model *model) {
     h = add_numbers(h, constants, 5);
     h = add_numbers(add_numbers(h, link->com, 3), link->inertia, 6);
   }
+  for (int i = 0; i < model->coordinate_count; i++) { /* all zero: as before there was one */
+    double start = model->coordinates[i].default_value;
+    if (start != 0.0) h = add_numbers(add_integer(h, i), &start, 1);
+  }
   for (int i = 0; i < ambulo_model_point_count(model); i++) {
     const ambulo_point *point = ambulo_model_point(model, i);
     h = add_numbers(add_integer(add_text(h, point->name), point->link), point->position, 3);

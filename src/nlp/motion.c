@@ -6,7 +6,9 @@
  *     p = (n x M + h F) / (n . F)
  */
 #include "nlp/nlp.h"
+#include "base/sized.h"
 
+#include "base/vector.h"
 #include "device/told.h"
 #include "gait/effector.h"
 
@@ -79,7 +81,22 @@ static void fill_zmp(const ambulo_problem *p, const dense *d, int channels, int 
   for (int k = 0; k < count; k++) zmp_at(p, d, channels, k, zmp + 3 * k);
 }
 
-/* forces, centres of pressure and free moments of the feet: of the two-step split */
+/* moment about the world's origin: of the pressure's centre, which follows from the zero-moment
+ * point of (16'), with what turns about the normal there */
+static void split_moment(const ambulo_problem *p, const dense *d, int channels, int k, int foot,
+                         const double zmp[3], double moment[3]) {
+  const double *up = ambulo_model_up(p->model);
+  double centers[6], force[4];
+  ambulo__pressure_centers(d->ground, k, zmp, centers);
+  for (int i = 0; i < 4; i++) {
+    int channel = ambulo__channel_foot_force(&p->channels, foot, i);
+    force[i] = d->channel[ambulo__lane_index(k, channels, channel)];
+  }
+  for (int i = 0; i < 3; i++) moment[i] = force[3] * up[i];
+  if (isfinite(centers[3 * foot])) ambulo__add_cross(centers + 3 * foot, force, 1.0, moment);
+}
+
+/* forces, centres of pressure and moments of the feet: of the two-step split */
 static void fill_split(const ambulo_problem *p, const dense *d, int channels, int count,
                        const ambulo_motion *motion) {
   for (int at = 0; at < 2 * count; at++) {
@@ -91,27 +108,31 @@ static void fill_split(const ambulo_problem *p, const dense *d, int channels, in
       if (axis == 3 && motion->free_moment) motion->free_moment[at] = value;
     }
   }
-  for (int k = 0; motion->cop && k < count; k++) {
+  for (int k = 0; k < count; k++) {
     double zmp[3];
     zmp_at(p, d, channels, k, zmp);
-    ambulo__pressure_centers(d->ground, k, zmp, motion->cop + 6 * k);
+    if (motion->cop) ambulo__pressure_centers(d->ground, k, zmp, motion->cop + 6 * k);
+    for (int foot = 0; motion->grf_moment && foot < 2; foot++)
+      split_moment(p, d, channels, k, foot, zmp, motion->grf_moment + 6 * k + 3 * foot);
   }
 }
 
 /* where one foot or patch of sample k stands in the outputs of the caller */
 typedef struct outputs {
-  double *force, *cop, *free_moment;
+  double *force, *cop, *free_moment, *moment;
 } outputs;
 
 static outputs outputs_of(const ambulo_model *m, const ambulo_motion *motion, int effector, int k) {
   int patch = ambulo__effector_patch(m, effector);
   outputs all = patch < 0
-                    ? (outputs){motion->grf, motion->cop, motion->free_moment}
-                    : (outputs){motion->patch_force, motion->patch_cop, motion->patch_free_moment};
+                    ? (outputs){motion->grf, motion->cop, motion->free_moment, motion->grf_moment}
+                    : (outputs){motion->patch_force, motion->patch_cop, motion->patch_free_moment,
+                                motion->patch_moment};
   size_t of = (size_t)(patch < 0 ? m->foot_count : m->patch_count);
   size_t at = (size_t)k * of + (size_t)(patch < 0 ? effector : patch);
   return (outputs){all.force ? all.force + 3 * at : NULL, all.cop ? all.cop + 3 * at : NULL,
-                   all.free_moment ? all.free_moment + at : NULL};
+                   all.free_moment ? all.free_moment + at : NULL,
+                   all.moment ? all.moment + 3 * at : NULL};
 }
 
 /* of contacts that share the load */
@@ -124,14 +145,13 @@ static ambulo_status fill_contacts(const ambulo_problem *p, const dense *d,
   for (int at = 0; at < count * effectors; at++) {
     int k = at / effectors, effector = at % effectors;
     outputs out = outputs_of(p->model, motion, effector, k);
-    double force[3], cop[3], free_moment;
-    if (!out.force && !out.cop && !out.free_moment) continue;
-    ambulo__contact_pressure(p, outlines, effector, times[k],
-                             d->channel + ambulo__lane_index(k, channels, 0), force, cop,
-                             &free_moment);
-    if (out.force) memcpy(out.force, force, sizeof force);
-    if (out.cop) memcpy(out.cop, cop, sizeof cop);
-    if (out.free_moment) *out.free_moment = free_moment;
+    if (!out.force && !out.cop && !out.free_moment && !out.moment) continue;
+    const double *channel = d->channel + ambulo__lane_index(k, channels, 0);
+    ambulo__pressure has = ambulo__contact_pressure(p, outlines, effector, times[k], channel);
+    if (out.force) memcpy(out.force, has.force, sizeof has.force);
+    if (out.cop) memcpy(out.cop, has.center, sizeof has.center);
+    if (out.free_moment) *out.free_moment = has.free_moment;
+    if (out.moment) memcpy(out.moment, has.moment, sizeof has.moment);
   }
   ambulo__free(a, outlines);
   return AMBULO_OK;
@@ -146,6 +166,7 @@ static void fill_no_patches(const ambulo_problem *p, int count, const ambulo_mot
   fill_none(3 * count * patches, motion->patch_force);
   fill_none(3 * count * patches, motion->patch_cop);
   fill_none(count * patches, motion->patch_free_moment);
+  fill_none(3 * count * patches, motion->patch_moment);
 }
 
 static ambulo_status fill_effectors(const ambulo_problem *p, const dense *d,
@@ -165,6 +186,7 @@ static ambulo_status fill_effectors(const ambulo_problem *p, const dense *d,
   fill_none(3 * count * feet, motion->grf);
   fill_none(3 * count * feet, motion->cop);
   fill_none(count * feet, motion->free_moment);
+  fill_none(3 * count * feet, motion->grf_moment);
   fill_no_patches(p, count, motion);
   return AMBULO_OK;
 }
@@ -214,8 +236,11 @@ static int times_valid(const ambulo_problem *p, const double *times, int count) 
 ambulo_status ambulo_problem_motion(const ambulo_problem *p, ambulo_workspace *workspace,
                                     const double *x, int count, const double *times,
                                     const ambulo_motion *motion) {
-  if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion)
+  ambulo_motion own;
+  if (!p || !workspace || workspace->problem != p || !x || count < 1 || !times || !motion ||
+      !AMBULO__OWN(ambulo_motion, &own, motion))
     return AMBULO_E_ARGUMENT;
+  motion = &own;
   if (!times_valid(p, times, count)) return AMBULO_E_ARGUMENT;
   dense d = {NULL, NULL, NULL, NULL, NULL, NULL};
   const ambulo_allocator *a = &workspace->allocator;

@@ -50,8 +50,9 @@ typedef struct ambulo__problem_keys {
   int step_time;                        /* gait.step_time is there, one number */
   int times;                            /* as a list */
   int duration;                         /* time.duration is there */
-  int loads;                            /* `load` is a list */
-  ambulo_gait walk;                     /* what the keys of the gait come to */
+  int loads;                            /* `load` is a list, and which items of it are on links */
+  int load_item[AMBULO__MOST_LOADS], hold_item[AMBULO__MOST_LOADS]; /* and in hands */
+  ambulo_gait walk; /* what the keys of the gait come to */
   ambulo__phase_kind by_speed[AMBULO__PHASES];
   double phase_slope[AMBULO__PHASES]; /* of it, by speed_number */
   double speed_number;                /* v / sqrt(g H) of the walk; 0: no stature, no speed */
@@ -169,12 +170,16 @@ ambulo_status ambulo__ground_fill(const ambulo_problem *problem, const ambulo_al
 /* Centres of pressure cop[2][3] of the feet at one node from its ZMP, of the two-step split; NaN
  * for a foot in the air. */
 void ambulo__pressure_centers(const double *ground, int node, const double *zmp, double *cop);
-/* Force (N), centre of pressure (m) and free moment (N m) of a foot or a patch (gait/effector.h)
- * where contacts share the load, at `time`, from the channels of a node (`channel`: of the first,
- * in the lanes); cop is NaN where it carries nothing. */
-void ambulo__contact_pressure(const ambulo_problem *problem, const ambulo__foot_outline *outlines,
-                              int effector, double time, const double *channel, double force[3],
-                              double cop[3], double *free_moment);
+/* What a foot or a patch is given: force, centre of pressure (NaN where the ground does not push),
+ * moment about the normal there, moment about the world's origin; N, m, N m. */
+typedef struct ambulo__pressure {
+  double force[3], center[3], free_moment, moment[3];
+} ambulo__pressure;
+/* Of a foot or a patch (gait/effector.h) where contacts share the load, at `time`, from the
+ * channels of a node (`channel`: of the first, in the lanes). */
+ambulo__pressure ambulo__contact_pressure(const ambulo_problem *problem,
+                                          const ambulo__foot_outline *outlines, int effector,
+                                          double time, const double *channel);
 /* The entries of one block, NULL without ground reaction. */
 static inline const double *ambulo__ground_block(const ambulo_problem *problem,
                                                  const double *ground, int block) {

@@ -15,54 +15,12 @@
 #include "gait/patch_rows.h"
 #include "gait/flight.h"
 #include "gait/sharing.h"
+#include "nlp/definition_take.h"
 #include "nlp/memory.h"
 #include "objective/mirror_terms.h"
 
 #include <math.h>
 #include <string.h>
-
-ambulo_problem_definition ambulo_problem_definition_default(void) {
-  ambulo_problem_definition definition = {
-      .cookie = AMBULO__DEFINITION_COOKIE,
-      .duration = 1.0,
-      .intervals = 12,
-      .grid = AMBULO_GRID_UNIFORM,
-      .discretization = AMBULO_BSPLINE,
-      .degree = 3,
-      .minimum_force = -1.0,
-      .orientation_tolerance = 0.01,
-      .clearance = {-1.0, 0.3, 0.35, 0.2, 0.06, 0.03, -1.0},
-      .ground_reaction = {.kind = AMBULO_REACTION_NONE,
-                          .transfer = AMBULO_TRANSFER_EARLY,
-                          .exponent = 1.4,
-                          .shear = 1.0,
-                          .friction = 0.5,
-                          .free_moment = 0.02,
-                          .pressure = 1,
-                          .heel_pressure = {-0.02, 0.03},
-                          .heel_roll = 0.04,
-                          .flat_pressure = {-0.005, 0.02},
-                          .toe_pressure = {-0.02, 0.055},
-                          .pressure_width = 0.035,
-                          .arc_pressure = 0.0045,
-                          .moment_arm = 0.2,
-                          .slant = 0.2,
-                          .loading_rate = 15.0,
-                          .flight_tolerance = 0.002},
-      .ends_order = 1,
-  };
-  return definition;
-}
-
-ambulo_term ambulo_term_default(ambulo_term_kind kind) {
-  ambulo_term term = {.kind = kind, .weight = 1.0, .smoothing = 1.0, .power = 2.0, .height = 0.02};
-  if (kind == AMBULO_TORQUE_POWER) {
-    term.power = 3.0;
-    term.smoothing = 0.01;
-  }
-  if (kind == AMBULO_MECHANICAL_POWER) term.smoothing = 0.05;
-  return term;
-}
 
 #define REFUSE(diagnostics, ...)                                                                   \
   ambulo__error(diagnostics, AMBULO_E_PROBLEM, ambulo__nowhere, NULL, __VA_ARGS__)
@@ -82,8 +40,9 @@ static ambulo_status build_basis(ambulo_problem *p, ambulo_diagnostics *diagnost
     status = ambulo__knot_times(d, spline, &p->allocator, diagnostics, own);
   }
   if (!status)
-    status = ambulo__basis_create(kinds[d->discretization], d->degree, spline, d->duration,
-                                  own ? own : d->breakpoints, &p->allocator, &p->basis);
+    status =
+        ambulo__basis_create(kinds[d->discretization - AMBULO_BSPLINE], d->degree, spline,
+                             d->duration, own ? own : d->breakpoints, &p->allocator, &p->basis);
   ambulo__free(&p->allocator, own);
   return status;
 }
@@ -311,7 +270,10 @@ ambulo_status ambulo_problem_create(const ambulo_problem_definition *definition,
                                     ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
   if (!problem) return AMBULO_E_ARGUMENT;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
-  ambulo_status status = create_named(definition, allocator, diagnostics, problem);
+  ambulo__taken_definition own;
+  ambulo_status status = ambulo__definition_take(definition, allocator, &own);
+  if (!status) status = create_named(&own.definition, allocator, diagnostics, problem);
+  ambulo__definition_drop(&own);
   if (status) return ambulo__conclude(diagnostics, errors, status, NULL);
   (*problem)->hash = ambulo__problem_hash_of(*problem);
   return AMBULO_OK;

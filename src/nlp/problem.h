@@ -17,7 +17,6 @@ ambulo_status ambulo__obstacles_copy(const ambulo_problem_definition *definition
                                      char **names);
 
 /* What ambulo_problem_definition_default() sets. */
-enum { AMBULO__DEFINITION_COOKIE = 0x616d6270 };
 
 /* definition_check.c: every check that needs no grid; all faults are reported. E_ARGUMENT for a
  * definition that did not come from ambulo_problem_definition_default(). */
@@ -34,6 +33,8 @@ void ambulo__definition_free(const ambulo_allocator *allocator,
 void ambulo__definition_set_pairs(const ambulo_allocator *allocator,
                                   ambulo_problem_definition *definition, ambulo_capsule_pair *pairs,
                                   int count);
+/* start_pose.c: unknowns x [variables] of a motion that rests in the model's start pose. */
+void ambulo__start_pose(const ambulo_problem *problem, double *x);
 /* The same problem on another grid: `intervals` time intervals and `spline_intervals`
  * intervals of the trajectory. Breakpoints of its own are kept only while their number
  * stays, and times of nodes of its own likewise: other numbers are distributed over the phases.

@@ -1,4 +1,5 @@
 /* nlp/query.c - what a problem tells about itself. */
+#include "nlp/definition_take.h"
 #include "nlp/problem.h"
 
 #include "base/instant.h"
@@ -93,12 +94,21 @@ ambulo_status ambulo_problem_row(const ambulo_problem *p, int index, ambulo_row 
   return AMBULO_OK;
 }
 
-ambulo_status ambulo_node_times(const ambulo_problem_definition *d, double *times) {
-  if (!d || d->cookie != AMBULO__DEFINITION_COOKIE || !d->model || !times || d->intervals < 1 ||
-      !(d->duration > 0.0) || d->contact_count < 0 || (d->contact_count > 0 && !d->contacts))
-    return AMBULO_E_ARGUMENT;
+static int has_times(const ambulo_problem_definition *d) {
+  return d->model && d->intervals >= 1 && d->duration > 0.0 && d->contact_count >= 0 &&
+         (d->contact_count == 0 || d->contacts) &&
+         (d->grid == AMBULO_GRID_UNIFORM || d->grid == AMBULO_GRID_EVENTS);
+}
+
+ambulo_status ambulo_node_times(const ambulo_problem_definition *definition, double *times) {
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  return ambulo__node_times(d, &a, NULL, times);
+  ambulo__taken_definition own;
+  if (!definition || !times) return AMBULO_E_ARGUMENT;
+  ambulo_status status = ambulo__definition_take(definition, NULL, &own);
+  if (!status && !has_times(&own.definition)) status = AMBULO_E_ARGUMENT;
+  if (!status) status = ambulo__node_times(&own.definition, &a, NULL, times);
+  ambulo__definition_drop(&own);
+  return status;
 }
 
 double ambulo_problem_node_time(const ambulo_problem *p, int node) {

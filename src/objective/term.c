@@ -20,7 +20,7 @@ const ambulo__term_info *ambulo__term_info_of(ambulo_term_kind kind) {
       [AMBULO_USER_SQUARE] = {.name = "user_square", .uses_tau = 1, .uses_qdd = 1, .uses_q = 1},
   };
   int index = (int)kind;
-  if (index < 0 || index >= (int)(sizeof infos / sizeof infos[0])) return NULL;
+  if (index < AMBULO_TORQUE_SQUARED || index >= (int)(sizeof infos / sizeof infos[0])) return NULL;
   return &infos[index];
 }
 
@@ -45,6 +45,7 @@ int ambulo__term_is_simple(const ambulo_term *term) {
   case AMBULO_CLEARANCE:
   case AMBULO_FORCE_RATE:
   case AMBULO_DEVICE_EFFORT:
+  case AMBULO_TERM_KIND_NOT_SET:
     break;
   }
   return 0;
@@ -102,6 +103,7 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *cont
   case AMBULO_POSTURE:
   case AMBULO_USER_TERM:
   case AMBULO_USER_SQUARE:
+  case AMBULO_TERM_KIND_NOT_SET:
     break;
   }
   return 0;
@@ -143,6 +145,7 @@ void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *cont
   case AMBULO_POSTURE:
   case AMBULO_USER_TERM:
   case AMBULO_USER_SQUARE:
+  case AMBULO_TERM_KIND_NOT_SET:
     break;
   }
 }

@@ -57,7 +57,8 @@ static void fill_items(const ambulo__outer *run, ambulo__outcome *outcome) {
                                  .upper = item->upper,
                                  .first = p->value,
                                  .derivative = known ? run->best.gradient[i] : (double)NAN};
-    outcome->item[i].bound = (ambulo_bound)ambulo__outer_bound(run, run->best.value, i);
+    outcome->item[i].bound =
+        (ambulo_bound)(AMBULO_BETWEEN + ambulo__outer_bound(run, run->best.value, i));
   }
 }
 

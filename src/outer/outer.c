@@ -12,6 +12,7 @@
  * comes back toward the best. Its answer is not believed: the best trial is kept here.
  */
 #include "outer/outcome.h"
+#include "base/sized.h"
 #include "base/clock.h"
 #include "base/diagnostics.h"
 #include "gait/effector.h"
@@ -58,11 +59,31 @@ static ambulo_status check_item(const ambulo__outer *run, int i) {
   return AMBULO_OK;
 }
 
-static ambulo_status check_counts(const ambulo__outer *run) {
-  const ambulo_parameters *p = &run->parameters;
-  if (p->cookie != ambulo_parameters_default().cookie)
+static void usual_parameter(void *item, const void *given) {
+  (void)given;
+  *(ambulo_parameter *)item = ambulo_parameter_default();
+}
+
+/* what the caller gave, of whatever age; items of an older header as *older, to be freed */
+static ambulo_status take(ambulo__outer *run, const ambulo_parameters *given,
+                          ambulo_parameter **older) {
+  ambulo_parameters *own = &run->parameters;
+  size_t full = sizeof **older;
+  if (given) *own = ambulo_parameters_default();
+  if (!ambulo__sized_take(own, sizeof *own, given) ||
+      !ambulo__sized_item(own->parameter_size, full))
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "free parameters did not come from ambulo_parameters_default()");
+  run->start = own->start;
+  if (own->parameter_size == full || own->count < 1 || !own->items) return AMBULO_OK;
+  *older = ambulo__sized_items(&run->allocator, own->items, own->count, own->parameter_size, full,
+                               usual_parameter);
+  own->items = *older;
+  return *older ? AMBULO_OK : AMBULO_E_MEMORY;
+}
+
+static ambulo_status check_counts(const ambulo__outer *run) {
+  const ambulo_parameters *p = &run->parameters;
   if (p->count < 1 || !p->items || p->maximum_solves < 1)
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "%d free parameters, at most %d solves; expected at least 1 of each",
@@ -72,10 +93,6 @@ static ambulo_status check_counts(const ambulo__outer *run) {
         run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
         "free parameters are chosen by sensitivities, which contacts of patches do "
         "not have yet; expected contacts of feet alone");
-  if (run->problem->definition.hold_count > 0)
-    return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "free parameters are chosen by sensitivities, which what hands hold does "
-                         "not have yet; expected a load on a link, or none");
   if (!p->problem_at && !ambulo__problem_root(run->problem)->free)
     return ambulo__error(run->diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "free parameters without problem_at; expected it, or a problem from a "
@@ -98,8 +115,7 @@ static ambulo_status check_per(ambulo__outer *run) {
 }
 
 static ambulo_status check(ambulo__outer *run) {
-  ambulo_status status = ambulo__options_check(&run->options, run->diagnostics);
-  if (!status) status = check_counts(run);
+  ambulo_status status = check_counts(run);
   if (!status) status = check_per(run);
   return status;
 }
@@ -267,7 +283,7 @@ static void end(ambulo__outer *run) {
 
 ambulo_status ambulo_solve_parameters(const ambulo_problem *problem,
                                       const ambulo_parameters *parameters,
-                                      const ambulo_options *options, const double *start,
+                                      const ambulo_options *options,
                                       const ambulo_allocator *allocator,
                                       ambulo_diagnostics *diagnostics, ambulo_problem **best,
                                       ambulo_result **result) {
@@ -276,12 +292,16 @@ ambulo_status ambulo_solve_parameters(const ambulo_problem *problem,
   ambulo__outer run = {.allocator = ambulo__allocator_or_default(allocator),
                        .diagnostics = diagnostics,
                        .problem = problem,
-                       .parameters = parameters ? *parameters : ambulo_problem_parameters(problem),
-                       .options = options ? *options : ambulo_problem_options(problem),
-                       .start = start,
+                       .parameters = ambulo_problem_parameters(problem),
                        .started = ambulo__seconds_now()};
-  ambulo_status status = check(&run);
-  if (status) return status;
+  ambulo_parameter *older = NULL;
+  ambulo_status status = ambulo__options_own(problem, options, diagnostics, &run.options);
+  if (!status) status = take(&run, parameters, &older);
+  if (!status) status = check(&run);
+  if (status) {
+    ambulo__free(&run.allocator, older);
+    return status;
+  }
   status = begin(&run);
   if (!status) status = search(&run);
   if (!status) {
@@ -291,5 +311,6 @@ ambulo_status ambulo_solve_parameters(const ambulo_problem *problem,
     run.best.result = NULL;
   }
   end(&run);
+  ambulo__free(&run.allocator, older);
   return ambulo__conclude(diagnostics, errors, status, NULL);
 }

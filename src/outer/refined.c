@@ -10,6 +10,7 @@
 #include "base/diagnostics.h"
 #include "judge/result.h"
 #include "nlp/problem.h"
+#include "solver/options.h"
 
 #include <math.h>
 
@@ -97,8 +98,9 @@ ambulo_status ambulo_solve_refined(const ambulo_problem *problem, const ambulo_o
                                    ambulo_result **result) {
   if (!problem || !finer || !result) return AMBULO_E_ARGUMENT;
   refinement r = {.first = problem, .allocator = allocator, .began = ambulo__seconds_now()};
-  r.options = options ? *options : ambulo_problem_options(problem);
-  ambulo_status status = solve(&r, problem, start, &r.result, &r.messages);
+  ambulo_status status = ambulo__options_own(problem, options, diagnostics, &r.options);
+  if (status) return status;
+  status = solve(&r, problem, start, &r.result, &r.messages);
   r.options.starts = 1;
   int done = status != AMBULO_OK;
   for (int k = 0; k < ROUNDS && !done && !status; k++) {

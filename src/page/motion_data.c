@@ -13,6 +13,7 @@
 #include "ambulo/report.h"
 #include "format/motion_file.h"
 #include "model/model.h"
+#include "page/packed_text.h"
 #include "page/script_text.h"
 #include "scene/scene.h"
 
@@ -54,16 +55,21 @@ static ambulo_status append(const ambulo_page_options *o, const ambulo__motion *
   if (!q) return AMBULO_E_MEMORY;
   const char *slash = strrchr(o->motion, '/');
   const char *name = slash ? slash + 1 : o->motion;
-  ambulo__text_buffer scene;
+  ambulo__text_buffer scene, data;
   ambulo__text_init(&scene, &out->allocator);
   sample(model, table, span[0], span[1], q);
   ambulo_status status = ambulo__scene_of_motion(model, "measured", q, AMBULO__SCENE_SAMPLES,
                                                  span[1] - span[0], o->ground_height, &scene);
+  ambulo__text_init_part(&data, out);
+  ambulo__text_append(&data, "{\"summary\":{},\"scene\":");
+  ambulo__script_json(&data, ambulo__text_data(&scene), scene.length);
+  ambulo__text_append_char(&data, '}');
   ambulo__text_append(out, "{\"name\":");
   ambulo__script_text(out, name);
-  ambulo__text_append(out, ",\"summary\":{},\"scene\":");
-  ambulo__script_json(out, ambulo__text_data(&scene), scene.length);
+  ambulo__text_append(out, ",\"packed\":");
+  ambulo__packed_text(out, ambulo__text_data(&data), data.length);
   ambulo__text_append_char(out, '}');
+  ambulo__text_free(&data);
   ambulo__text_free(&scene);
   ambulo__free(&out->allocator, q);
   return status ? status : ambulo__text_status(out);
@@ -78,8 +84,9 @@ ambulo_status ambulo__page_add_motion(const ambulo_page_options *o, ambulo__text
   double span[2];
   ambulo__motion *table = NULL;
   const ambulo_allocator *a = &out->allocator;
-  ambulo_status status = ambulo_inverse_dynamics_motion(o->body, o->motion, NULL, &options, a,
-                                                        diagnostics, NULL, &text);
+  ambulo_status status = ambulo_inverse_dynamics_motion(
+      o->body, o->motion, NULL, &options, a, diagnostics,
+      &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text});
   if (!status)
     status = ambulo__table_read(text, strlen(text), o->motion, AMBULO__MOTION_CSV, 1, a,
                                 diagnostics, &table);

@@ -1,7 +1,7 @@
 /* page/page.c - the page: the viewer with data in it (ambulo/page.h).
  *
- * Reading order: page.h, page.c, result_data.c, script_text.h, motion_data.c, study_data.c, thin.h,
- * viewer.h; the page's own program in viewer/, from main.js on.
+ * Reading order: page.h, page.c, result_data.c, script_text.h, packed_text.h, motion_data.c,
+ * study_data.c, thin.h, viewer.h; the page's own program in viewer/, from main.js on.
  */
 #include "page/page.h"
 
@@ -9,26 +9,22 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/output_check.h"
 #include "page/viewer.h"
 
-enum { OPTIONS_COOKIE = 0x616d7067, START_BYTES = 1024 };
+enum { START_BYTES = 1024 };
 
 /* how a page is known for one of ours; and where the data go */
 static const char own_mark[] = "<meta name=\"generator\" content=\"ambulo report\">";
 static const char data_mark[] = "/*DATA*/";
 
-ambulo_page_options ambulo_page_options_default(void) {
-  ambulo_page_options options = {.cookie = OPTIONS_COOKIE,
-                                 .from = -(double)INFINITY,
-                                 .to = (double)INFINITY,
-                                 .megabytes = 12.0};
-  return options;
-}
+AMBULO__FILL(ambulo_page_options,
+             {.size = size, .from = -(double)INFINITY, .to = (double)INFINITY, .megabytes = 12.0})
 
 static int options_are_valid(const ambulo_page_options *o) {
-  if (o->cookie != OPTIONS_COOKIE || !isfinite(o->ground_height)) return 0;
+  if (!isfinite(o->ground_height)) return 0;
   if (!(o->megabytes >= 0.0 && o->megabytes <= 1e6)) return 0;
   return !o->motion || (o->body && o->from < o->to);
 }
@@ -110,7 +106,8 @@ ambulo_status ambulo_page_write(const char *const *directories, int count, const
                                 const ambulo_page_options *options,
                                 const ambulo_allocator *allocator,
                                 ambulo_diagnostics *diagnostics) {
-  ambulo_page_options own = options ? *options : ambulo_page_options_default();
+  ambulo_page_options own;
+  if (!AMBULO__OWN(ambulo_page_options, &own, options)) return AMBULO_E_ARGUMENT;
   if (!directories || count < 1 || !output || !options_are_valid(&own)) return AMBULO_E_ARGUMENT;
   for (int i = 0; i < count; i++)
     if (!directories[i]) return AMBULO_E_ARGUMENT;

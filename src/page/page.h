@@ -1,10 +1,11 @@
 /* page/page.h - the data of a page: what its program is given to show.
  *
- *     {"results": [{"name", "summary", "scene", "strip"}, ...]}      of result folders
- *     {"study": {"name", "columns", "cases": [...]}}                 of a batch folder
+ *     {"results": [{"name", "packed"}, ...]}                of result folders
+ *     {"study": {"name", "columns", "cases": [...]}}        of a batch folder, some with "packed"
  *
- * `summary` and `scene` are the files of the folder (docs/results.md), `strip` its gait.svg as a
- * text. All of it is JSON for a <script> element (script_text.h). */
+ * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
+ * the files of the folder (docs/results.md), `strip` its gait.svg as a text. All of it is JSON for
+ * a <script> element (script_text.h). */
 #ifndef AMBULO_PAGE_PAGE_H
 #define AMBULO_PAGE_PAGE_H
 

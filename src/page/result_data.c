@@ -8,6 +8,7 @@
 #include "base/file_steps.h"
 #include "base/paths.h"
 #include "base/read_file.h"
+#include "page/packed_text.h"
 #include "page/script_text.h"
 
 static const char folder_hint[] = "'ambulo solve PROBLEM.yaml -o DIR' fills one";
@@ -135,14 +136,20 @@ ambulo_status ambulo__page_add_result(const char *directory, int with_strip,
   ambulo__page_result r;
   ambulo_status status = ambulo__page_result_read(directory, &out->allocator, diagnostics, &r);
   if (status) return status;
+  ambulo__text_buffer data;
+  ambulo__text_init_part(&data, out);
+  ambulo__text_append(&data, "{\"summary\":");
+  ambulo__script_json(&data, r.summary.text, r.summary.length);
+  ambulo__text_append(&data, ",\"scene\":");
+  ambulo__script_json(&data, r.scene.text, r.scene.length);
+  if (with_strip) status = strip(directory, &data);
+  ambulo__text_append_char(&data, '}');
   ambulo__text_append(out, "{\"name\":");
   folder_name(directory, out);
-  ambulo__text_append(out, ",\"summary\":");
-  ambulo__script_json(out, r.summary.text, r.summary.length);
-  ambulo__text_append(out, ",\"scene\":");
-  ambulo__script_json(out, r.scene.text, r.scene.length);
-  if (with_strip) status = strip(directory, out);
+  ambulo__text_append(out, ",\"packed\":");
+  ambulo__packed_text(out, ambulo__text_data(&data), data.length);
   ambulo__text_append_char(out, '}');
+  ambulo__text_free(&data);
   ambulo__page_result_free(&r);
   return status ? status : ambulo__text_status(out);
 }

@@ -12,6 +12,7 @@
 #include "base/paths.h"
 #include "batch/case_path.h"
 #include "collect/gather.h"
+#include "page/packed_text.h"
 #include "page/page.h"
 #include "page/script_text.h"
 #include "page/thin.h"
@@ -87,25 +88,33 @@ static void node(ambulo__text_buffer *out, const ambulo__yaml_node *value) {
 
 /* *stands: its motion is in the page */
 static ambulo_status add_motion(study *s, const char *folder, int *stands) {
-  static const char *const left[] = {"families",   "between_nodes",    "sensitivities",
-                                     "approaches", "no_sensitivities", "versions",
-                                     NULL};
+  static const char *const left[] = {
+      "families",         "between_nodes", "sensitivities", "approaches",
+      "no_sensitivities", "versions",      "convergence",   NULL};
   const ambulo_allocator *a = &s->out->allocator;
   ambulo__page_result result;
-  ambulo__text_buffer thin;
+  ambulo__text_buffer thin, data, packed;
   ambulo_status status = ambulo__page_result_read(folder, a, s->diagnostics, &result);
   if (status) return status;
   ambulo__text_init(&thin, a);
+  ambulo__text_init_part(&data, &thin);
+  ambulo__text_init_part(&packed, &thin);
   ambulo__scene_thin(&thin, result.scene.text, result.scene.length);
-  status = ambulo__text_status(&thin);
-  *stands = !status && (double)(s->motions + thin.length) <= 1e6 * s->megabytes;
+  ambulo__text_append(&data, "{\"summary\":");
+  pairs(&data, ambulo__yaml_root(result.summary.document), left);
+  ambulo__text_append(&data, ",\"scene\":");
+  ambulo__script_json(&data, ambulo__text_data(&thin), thin.length);
+  ambulo__text_append_char(&data, '}');
+  ambulo__packed_text(&packed, ambulo__text_data(&data), data.length);
+  *stands = (double)(s->motions + packed.length) <= 1e6 * s->megabytes;
   if (*stands) {
-    s->motions += thin.length;
-    ambulo__text_append(s->out, ",\"summary\":");
-    pairs(s->out, ambulo__yaml_root(result.summary.document), left);
-    ambulo__text_append(s->out, ",\"scene\":");
-    ambulo__script_json(s->out, ambulo__text_data(&thin), thin.length);
+    s->motions += packed.length;
+    ambulo__text_append(s->out, ",\"packed\":");
+    ambulo__text_append(s->out, ambulo__text_data(&packed));
   }
+  ambulo__text_free(&packed);
+  ambulo__text_free(&data);
+  status = ambulo__text_status(&thin);
   ambulo__text_free(&thin);
   ambulo__page_result_free(&result);
   return status;

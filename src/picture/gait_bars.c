@@ -15,7 +15,7 @@ static const char *const side_bar[] = {"trunk-bar", "left-bar", "right-bar"};
 static const char *const side_partial[] = {"trunk-bar partial", "left-bar partial",
                                            "right-bar partial"};
 static const char *const side_text[] = {"panel end", "left-text end", "right-text end"};
-static const char *const mode_words[] = {"heel", "flat", "toe", "down"};
+static const char *const mode_words[] = {"", "heel", "flat", "toe", "down"};
 static const double in_the_middle = 1e-3; /* m */
 
 /* -1 in the air */

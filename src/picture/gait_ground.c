@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vector.h"
 #include "gait/foot_outline.h"
 #include "gait/step_edge.h"
 
@@ -77,6 +78,10 @@ ambulo_status ambulo__gait_ground_create(const ambulo_problem *problem,
 
 void ambulo__gait_ground_free(ambulo__gait_ground *ground) {
   ambulo__free(&ground->allocator, ground->surface);
+}
+
+double ambulo__ground_slope(const ambulo_model *m) {
+  return atan2(-ambulo__dot(m->forward, m->gravity), -ambulo__dot(m->up, m->gravity));
 }
 
 double ambulo__surface_height(const ambulo__surface *surface, double x) {

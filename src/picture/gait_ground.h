@@ -23,6 +23,9 @@ ambulo_status ambulo__gait_ground_create(const ambulo_problem *problem,
                                          ambulo__gait_ground *ground);
 void ambulo__gait_ground_free(ambulo__gait_ground *ground); /* accepts a zero-filled one */
 
+/* Radians that the ground rises along forward: gravity is not along its normal then. */
+double ambulo__ground_slope(const ambulo_model *model);
+
 /* Height of a surface at x along forward, m above the ground's height. */
 double ambulo__surface_height(const ambulo__surface *surface, double x);
 

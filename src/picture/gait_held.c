@@ -40,7 +40,7 @@ ambulo_status ambulo__held_places_create(const ambulo_problem *p, const double *
   for (; !status && places->count < d->hold_count; places->count++) {
     const ambulo_hold *hold = &d->holds[places->count];
     const double times[2] = {fmax(hold->from, 0.0), fmin(hold->to, d->duration)};
-    const ambulo_motion motion = {.points = at};
+    const ambulo_motion motion = {.size = sizeof motion, .points = at};
     status = ambulo_problem_motion(p, workspace, x, 2, times, &motion);
     if (status == AMBULO_E_NUMERIC) status = AMBULO_OK; /* still shown, as far as it goes */
     for (int end = 0; end < 2; end++)

@@ -43,6 +43,21 @@ ambulo__outline ambulo__obstacle_outline(const ambulo_problem *p, int obstacle) 
   return o;
 }
 
+int ambulo__obstacles_widen(const ambulo_problem *p, double origin, double half, double *left,
+                            double *right) {
+  double from = *left, to = *right;
+  for (int i = 0; i < p->definition.obstacle_count; i++) {
+    ambulo__outline o = ambulo__obstacle_outline(p, i);
+    if (o.to - origin < -half || o.from - origin > half) continue;
+    from = fmin(from, fmax(o.from - origin, -half));
+    to = fmax(to, fmin(o.to - origin, half));
+  }
+  int wider = from < *left || to > *right;
+  *left = from;
+  *right = to;
+  return wider;
+}
+
 static void draw_outline(const ambulo__outline *o, const ambulo__figure_view *v,
                          ambulo__text_buffer *text) {
   double from = fmax(o->from - v->origin, -v->half), to = fmin(o->to - v->origin, v->half);

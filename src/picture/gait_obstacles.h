@@ -14,6 +14,11 @@ typedef struct ambulo__outline {
 /* The smallest upright rectangle around it. */
 ambulo__outline ambulo__obstacle_outline(const ambulo_problem *problem, int obstacle);
 
+/* Widens left..right, m from `origin` along forward, by obstacles as far as `half` to either side;
+ * 1 if one stands out of it. */
+int ambulo__obstacles_widen(const ambulo_problem *problem, double origin, double half, double *left,
+                            double *right);
+
 /* Where one figure of a strip stands. */
 typedef struct ambulo__figure_view {
   double origin;         /* what is drawn at x, along forward, m */

@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "gait/contact_frame.h"
 #include "picture/gait_ground.h"
 #include "picture/gait_held.h"
@@ -20,12 +21,15 @@
 #include "picture/gait_worn.h"
 #include "picture/svg.h"
 
-enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, EXTENT_SAMPLES = 61 };
+enum { MOST_FIGURES = 15, FEWEST_FIGURES = 9, FEWEST_SCENES = 7, EXTENT_SAMPLES = 61 };
 
 static const double head_room = 14.0;                  /* px above the figures */
 static const double soil_depth = 15.0, slot_gap = 3.0; /* px */
 static const double around = 0.3; /* m: ground before and behind a figure that is always shown */
-static const double most_stretch = 5.0; /* beyond, figures are just one beside the other */
+static const double side_room =
+    78.0; /* px beside the first and the last figure, within the margins */
+static const double figure_room = 108.0; /* of a foot that reaches into them */
+static const double most_stretch = 5.0;  /* beyond, figures are just one beside the other */
 
 typedef struct strip {
   const ambulo__panel *panel;
@@ -37,30 +41,27 @@ typedef struct strip {
   double speed, start; /* of the reference along forward, m/s, m */
   double ground;       /* m */
   double left, right;  /* extent of the figures about the reference line, m */
+  double reach;        /* how far to either side of one that stands things are drawn, m */
   double low, high;    /* above the ground, m */
   double scale;        /* px per m */
   double base;         /* y of the ground, px */
   int figures;
 } strip;
 
-static double along(const double *axis, const double *r) {
-  return axis[0] * r[0] + axis[1] * r[1] + axis[2] * r[2];
-}
-
 static double reference_place(const strip *s) {
   static const double origin[3] = {0.0, 0.0, 0.0};
   double world[3];
   int link = s->reference >= 0 ? s->model->links[s->reference].parent : -1;
   ambulo__pose_point(&s->skeleton.pose, link, origin, world);
-  return along(s->model->forward, world);
+  return ambulo__dot(s->model->forward, world);
 }
 
 /* (forward of the moving reference line, height) of a bone's end, m */
 static void flat_point(const strip *s, const ambulo__bone *bone, int end, double t, double at[2]) {
   double world[3];
   ambulo__pose_point(&s->skeleton.pose, bone->link[end], bone->at[end], world);
-  at[0] = along(s->model->forward, world) - s->start - s->speed * t;
-  at[1] = along(s->model->up, world) - s->ground;
+  at[0] = ambulo__dot(s->model->forward, world) - s->start - s->speed * t;
+  at[1] = ambulo__dot(s->model->up, world) - s->ground;
 }
 
 static void find_reference(strip *s, const ambulo__stride *stride) {
@@ -114,22 +115,24 @@ static void find_extent(strip *s, const ambulo__stride *stride) {
   }
 }
 
+/* figures that walk, and not only stand beside their own later ones */
+static int walks(const strip *s) {
+  return s->scale * fabs(s->speed) * s->panel->duration > s->panel->width / most_stretch;
+}
+
 /* as many figures as stand apart, as large as fits */
-static void choose_scale(strip *s) {
+static void choose_scale(strip *s, double overlap, double room, int fewest) {
   double height = fmax(s->high - s->low, 0.1), width = fmax(s->right - s->left, 0.05);
-  const double side_room = s->model->foot_count ? 108.0 : 78.0;
-  /* part of a figure's width that its neighbour leaves it: legs may cross, an arm stands free */
-  const double overlap = s->soil.count ? 1.0 : s->model->foot_count ? 0.56 : 1.08;
   s->scale = (s->panel->height - head_room) / height;
   /* the first and the last figure stay on the page */
-  if (s->right * s->scale > side_room) s->scale = side_room / s->right;
-  if (-s->left * s->scale > side_room) s->scale = side_room / -s->left;
+  if (s->right * s->scale > room) s->scale = room / s->right;
+  if (-s->left * s->scale > room) s->scale = room / -s->left;
   double spacing = overlap * width * s->scale;
   s->figures = (int)(s->panel->width / spacing) + 1;
   if (s->figures > MOST_FIGURES) s->figures = MOST_FIGURES;
-  if (s->figures < FEWEST_FIGURES) {
-    s->figures = FEWEST_FIGURES;
-    s->scale *= s->panel->width / (double)(FEWEST_FIGURES - 1) / spacing;
+  if (s->figures < fewest) {
+    s->figures = fewest;
+    s->scale *= s->panel->width / (double)(fewest - 1) / spacing;
   }
   s->base = s->panel->y + s->panel->height + s->scale * s->low;
 }
@@ -235,8 +238,8 @@ static void draw_patches(const strip *s, const ambulo__stride *stride, double t,
     const ambulo_point *point = &model->points[model->patches[i].point];
     ambulo__contact_frame frame = ambulo__contact_frame_of(&stride->problem->definition, contact);
     double ahead = model->patches[i].size[0] * s->scale, page[2];
-    double x = ahead * along(model->forward, frame.forward);
-    double y = ahead * along(model->up, frame.forward);
+    double x = ahead * ambulo__dot(model->forward, frame.forward);
+    double y = ahead * ambulo__dot(model->up, frame.forward);
     if (!on_page(s, point->link, point->position, t, page)) continue;
     ambulo__svg_line(text, styles[ambulo__gait_patch_side(model, i)], page[0] - x, page[1] + y,
                      page[0] + x, page[1] - y);
@@ -280,16 +283,11 @@ static void draw_ground_below(const strip *s, double t, ambulo__text_buffer *tex
   ambulo__svg_path_end(text);
 }
 
-/* figures that walk, and not only stand beside their own later ones */
-static int walks(const strip *s) {
-  return s->scale * fabs(s->speed) * s->panel->duration > s->panel->width / most_stretch;
-}
-
 /* obstacles and places beside a figure: as far as halfway to the next, or in its reach */
 static void draw_surroundings(const strip *s, const ambulo__stride *stride, double t,
                               ambulo__text_buffer *text) {
   double half = 0.5 * s->panel->width / (double)(s->figures - 1) / s->scale;
-  if (!walks(s)) half = fmax(-s->left, s->right) + around;
+  if (!walks(s)) half = s->reach;
   double apart = stride->duration / (double)(stride->samples - 1);
   ambulo__figure_view view = {
       s->start + s->speed * t, half, ambulo__panel_time(s->panel, t), s->base, s->scale, t, apart};
@@ -325,11 +323,6 @@ static void draw_figures(strip *s, const ambulo__stride *stride, ambulo__text_bu
   }
 }
 
-/* radians that the ground rises along forward: gravity is not along its normal then */
-static double slope_of(const ambulo_model *model) {
-  return atan2(-along(model->forward, model->gravity), -along(model->up, model->gravity));
-}
-
 /* how far the drawing departs from the truth */
 static void caption(const strip *s, ambulo__text_buffer *text) {
   double true_width = s->scale * fabs(s->speed) * s->panel->duration;
@@ -342,7 +335,7 @@ static void caption(const strip *s, ambulo__text_buffer *text) {
   } else {
     ambulo__text_append(&label, "side view, one figure beside the other in time");
   }
-  double slope = 57.295779513082321 * slope_of(s->model);
+  double slope = 57.295779513082321 * ambulo__ground_slope(s->model);
   if (s->model->foot_count && fabs(slope) > 0.05) {
     ambulo__text_append(&label, slope > 0.0 ? ", uphill " : ", downhill ");
     ambulo__label_number(&label, fabs(slope), 1);
@@ -366,7 +359,13 @@ static ambulo_status measure(const ambulo_problem *problem, const double *x,
   if (status) return status;
   find_reference(s, &dense);
   find_extent(s, &dense);
-  choose_scale(s);
+  s->reach = fmax(-s->left, s->right) + around;
+  /* part of a figure's width that its neighbour leaves it: legs may cross, an arm stands free */
+  double overlap = s->soil.count ? 1.0 : s->model->foot_count ? 0.56 : 1.08;
+  choose_scale(s, overlap, s->model->foot_count ? figure_room : side_room, FEWEST_FIGURES);
+  if (!walks(s) && ambulo__obstacles_widen(problem, s->start, s->reach, &s->left, &s->right))
+    choose_scale(s, 1.0, side_room,
+                 FEWEST_SCENES); /* what stands beside a figure is beside no other */
   ambulo__stride_free(&dense);
   return AMBULO_OK;
 }

@@ -9,25 +9,24 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "base/paths.h"
 #include "base/read_file.h"
 #include "picture/convert.h"
 #include "picture/gait_svg.h"
 
-enum { OPTIONS_COOKIE = 0x616d7069, MOST_BYTES = 256 << 20 };
+enum { MOST_BYTES = 256 << 20 };
 
-ambulo_picture_options ambulo_picture_options_default(void) {
-  ambulo_picture_options options = {.cookie = OPTIONS_COOKIE, .dots_per_inch = 300.0};
-  return options;
-}
+AMBULO__FILL(ambulo_picture_options,
+             {.size = size, .millimetres = AMBULO_OFF, .dots_per_inch = 300.0})
 
 /* NULL: the defaults. 0 when what was given is not valid */
 static int options_of(const ambulo_picture_options *given, ambulo_picture_options *o) {
-  *o = given ? *given : ambulo_picture_options_default();
-  return o->cookie == OPTIONS_COOKIE && (int)o->parts >= 0 && o->parts <= AMBULO_PICTURE_CURVES &&
-         o->millimetres >= 0.0 && o->millimetres <= 2000.0 && o->dots_per_inch >= 10.0 &&
-         o->dots_per_inch <= 2400.0;
+  return AMBULO__OWN(ambulo_picture_options, o, given) && (int)o->parts >= 0 &&
+         o->parts <= AMBULO_PICTURE_CURVES &&
+         (isnan(o->millimetres) || (o->millimetres > 0.0 && o->millimetres <= 2000.0)) &&
+         o->dots_per_inch >= 10.0 && o->dots_per_inch <= 2400.0;
 }
 
 static ambulo_status check_output(const char *output, int overwrite,
@@ -70,7 +69,7 @@ static ambulo_status draw(const ambulo_problem *problem, const ambulo_result *re
                                     .powers = o->powers,
                                     .per_kg = o->per_kg,
                                     .percent = o->percent,
-                                    .millimetres = o->millimetres};
+                                    .millimetres = isnan(o->millimetres) ? 0.0 : o->millimetres};
   if (o->reference)
     status = ambulo__people_read(o->reference, NULL, &text->allocator, diagnostics, &people);
   else if (wanted)

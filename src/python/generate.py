@@ -25,7 +25,8 @@ from pathlib import Path
 # Structures that Python code never holds: callbacks' views, arrays of outputs, the allocator.
 INTERNAL = {
     "ambulo_allocator", "ambulo_node_state", "ambulo_node_gradient", "ambulo_motion",
-    "ambulo_jacobians", "ambulo_output_weights", "ambulo_motion_gradient",
+    "ambulo_jacobians", "ambulo_output_weights", "ambulo_motion_gradient", "ambulo_outputs",
+    "ambulo_inverse_outputs", "ambulo_problem_text",
 }
 
 # Arrays of doubles that come without a count: their shapes. d: coordinates; devices, nodes, knots:
@@ -47,8 +48,9 @@ SHAPES = {
 # What the package fills by itself.
 OWN = {
     ("ambulo_options", "progress"), ("ambulo_parameters", "problem_at"),
+    ("ambulo_parameters", "start"),
     ("ambulo_batch_options", "progress"), ("ambulo_fit_options", "progress"),
-    ("ambulo_export_options", "inverse"),
+    ("ambulo_export_options", "inverse"), ("ambulo_export_options", "problem"),
 }
 
 # Numbers that stand for something of the model and may be given by its name.
@@ -68,8 +70,9 @@ def preprocessed(include):
     """The headers as C without directives, attributes and system headers."""
     with tempfile.TemporaryDirectory() as empty:
         Path(empty, "stddef.h").write_text("")  # size_t is known to cffi
+        Path(empty, "math.h").write_text("")
         command = os.environ.get("CC", "cc").split() + [
-            "-E", "-P", "-undef", "-nostdinc", "-I" + empty, "-I" + str(include),
+            "-E", "-P", "-undef", "-nostdinc", "-DAMBULO_DECLARATIONS_ONLY", "-I" + empty, "-I" + str(include),
             str(Path(include, "ambulo", "ambulo.h")),
         ]
         return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
@@ -193,9 +196,11 @@ def array_spec(kind):
 
 def spec_of(struct, name, kind, names):
     """How a field is carried over; None: it is none of Python's business."""
-    if name in ("cookie", "user") or name == "count" or name.endswith("_count"):
-        return ("count",) if name != "cookie" and name != "user" and not any(
-            count_of(other, names) == name for other in names) else None
+    is_size = kind.kind == "primitive" and kind.cname in ("size_t", "unsigned long")
+    if name == "user" or (is_size and (name == "size" or name.endswith("_size"))):
+        return None
+    if name == "count" or name.endswith("_count"):
+        return ("count",) if not any(count_of(other, names) == name for other in names) else None
     is_object = kind.kind == "pointer" and kind.item.kind == "struct" and not kind.item.fields
     if (struct, name) in OWN or is_object:
         return None
@@ -299,12 +304,13 @@ def class_text(struct, fields, comments):
 def members_of(ffi, enum):
     """[(name in Python, value, name in C)]: the constants without what all of them begin with"""
     by_value = sorted((value, name) for name, value in ffi.typeof(enum).relements.items())
-    words = [name.split("_") for _, name in by_value]
+    words = [name.split("_") for _, name in by_value if not name.endswith("_NOT_SET")]
     shared = 1
     while len(words) > 1 and all(len(w) > shared + 1 and w[shared] == words[0][shared]
                                  for w in words):
         shared += 1
-    return [("_".join(w[shared:]), value, name) for w, (value, name) in zip(words, by_value)]
+    return [("NOT_SET" if name.endswith("_NOT_SET") else "_".join(name.split("_")[shared:]), value,
+             name) for value, name in by_value]
 
 
 def enum_text(ffi, enum, comments):
@@ -347,7 +353,8 @@ def write_records(ffi, comments, folder):
     parts += [enum_text(ffi, name, comments) for name in enums]
     parts += [class_text(name, fields_of(ffi, name), comments) for name in structs]
     names = [class_name(name) for name in enums + structs]
-    constants = {c_name: name.lower() for enum in enums for name, _, c_name in members_of(ffi, enum)}
+    constants = {"AMBULO_OFF": "nan (or None)"}
+    constants.update({c_name: name.lower() for enum in enums for name, _, c_name in members_of(ffi, enum)})
     parts = [in_python(part, constants) for part in parts]
     parts.append("__all__ = [\n" + "".join(f'    "{name}",\n' for name in sorted(names)) + "]\n")
     Path(folder, "_records.py").write_text("\n\n".join(parts))

@@ -3,14 +3,15 @@
     python3 package.py stage LIBRARY FOLDER     FOLDER/ambulo, to be used by PYTHONPATH
     python3 package.py wheel LIBRARY FOLDER     a wheel in FOLDER
 
-The wheel holds no compiled Python module (cffi opens the library at run time), so one serves every
+The program `ambulo` beside LIBRARY goes along: it runs the cases of batches and fits. The wheel holds no compiled Python module (cffi opens the library at run time), so one serves every
 Python 3 of its platform: py3-none-PLATFORM. NLopt, libyaml and the LAPACK are those of the system,
 unless auditwheel and patchelf are there: then they go into the wheel, and its platform is the oldest
 manylinux that it runs on. AMBULO_WHEEL=system keeps to the system's all the same.
 
 Reading order: package.py, generate.py; ambulo/_native.py, ambulo/errors.py, ambulo/records.py,
 ambulo/model.py, ambulo/mechanics.py, ambulo/problem.py, ambulo/callbacks.py, ambulo/motion.py,
-ambulo/solving.py, ambulo/result.py; ambulo/files.py, ambulo/tables.py, ambulo/plots.py.
+ambulo/solving.py, ambulo/result.py; ambulo/files.py, ambulo/tables.py, ambulo/plots.py;
+ambulo/processes.py, ambulo/batch.py, ambulo/fit.py.
 
 The module is a build backend too (PEP 517): `pip install src/python` runs make first.
 Python's standard library and cffi are all it takes.
@@ -21,6 +22,7 @@ import hashlib
 import os
 import re
 import shutil
+import stat
 import subprocess
 import sys
 import sysconfig
@@ -53,6 +55,8 @@ def stage(library, folder):
     shutil.copytree(HERE / "ambulo", fresh, ignore=shutil.ignore_patterns("__pycache__"))
     generate.generate(TOP / "include", fresh)
     shutil.copy2(library, fresh / "libambulo.so")
+    (fresh / "bin").mkdir()
+    shutil.copy2(Path(library).with_name("ambulo"), fresh / "bin" / "ambulo")
     for source in sorted((TOP / "models").rglob("*")):
         if source.suffix in (".yaml", ".csv", ".md"):
             target = fresh / "models" / source.relative_to(TOP / "models")
@@ -94,27 +98,31 @@ def write_wheel(library, folder):
     with tempfile.TemporaryDirectory() as scratch:
         stage(library, scratch)
         strip(Path(scratch, "ambulo", "libambulo.so"))
+        strip(Path(scratch, "ambulo", "bin", "ambulo"))
         files = {str(file.relative_to(scratch)): file.read_bytes()
                  for file in sorted(Path(scratch).rglob("*")) if file.is_file()}
     files[f"{info}/METADATA"] = metadata().encode()
     files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: ambulo\nRoot-Is-Purelib: false\n"
                               f"Tag: py3-none-{platform}\n").encode()
+    files[f"{info}/entry_points.txt"] = b"[console_scripts]\nambulo = ambulo.processes:main\n"
     files[f"{info}/LICENSE"] = (TOP / "LICENSE").read_bytes()
     lines = [record_line(name, data) for name, data in files.items()] + [f"{info}/RECORD,,"]
     files[f"{info}/RECORD"] = ("\n".join(lines) + "\n").encode()
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files.items():
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-            entry.external_attr = (0o755 if name.endswith(".so") else 0o644) << 16
+            # pip keeps programs executable where they are said to be regular files
+            mode = 0o755 if name.endswith((".so", "/bin/ambulo")) else 0o644
+            entry.external_attr = (stat.S_IFREG | mode) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, data)
     return path
 
 
-def strip(library):
+def strip(binary):
     """Leaves debugging information out: five sixths of the file."""
     if shutil.which("strip"):
-        subprocess.run(["strip", "--strip-unneeded", str(library)], check=True)
+        subprocess.run(["strip", "--strip-unneeded", str(binary)], check=True)
 
 
 def bundle(wheel, folder):
@@ -154,7 +162,7 @@ def get_requires_for_build_wheel(config_settings=None):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    subprocess.run(["make", "-C", str(TOP), "build/libambulo.so"], check=True)
+    subprocess.run(["make", "-C", str(TOP), "build/libambulo.so", "build/ambulo"], check=True)
     return make_wheel(TOP / "build" / "libambulo.so", wheel_directory).name
 
 

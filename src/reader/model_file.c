@@ -1,5 +1,6 @@
 /* reader/model_file.c - a model file, from text to model (docs/model-format.md). */
 #include "reader/model_file.h"
+#include "base/sized.h"
 
 #include <math.h>
 #include <string.h>
@@ -130,11 +131,14 @@ static void read_document(ambulo__reader *r, const ambulo_subject *asked) {
 
 /* ------------------------------------------------------------------- loading */
 
-static ambulo_status check_subject(const ambulo_subject *subject, ambulo_diagnostics *diagnostics) {
-  if (!subject) return AMBULO_OK;
-  int good = subject->sex >= AMBULO_SEX_FILE && subject->sex <= AMBULO_MALE;
-  good &= subject->mass == 0 || (subject->mass >= 0.5 && subject->mass <= 1000);
-  good &= subject->stature == 0 || (subject->stature >= 0.2 && subject->stature <= 3);
+/* *own: what the caller asks for, of whatever age */
+static ambulo_status take_subject(const ambulo_subject *given, ambulo_diagnostics *diagnostics,
+                                  ambulo_subject *own) {
+  if (!AMBULO__OWN(ambulo_subject, own, given)) return AMBULO_E_ARGUMENT;
+  const ambulo_subject *subject = own;
+  int good = subject->sex >= AMBULO_SEX_NOT_SET && subject->sex <= AMBULO_MALE;
+  good &= isnan(subject->mass) || (subject->mass >= 0.5 && subject->mass <= 1000);
+  good &= isnan(subject->stature) || (subject->stature >= 0.2 && subject->stature <= 3);
   if (good) return AMBULO_OK;
   return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                        "the subject is out of range (got %s kg, %s m); expected a mass of 0.5 to "
@@ -150,7 +154,7 @@ static ambulo_status build(ambulo__yaml *document, const ambulo_subject *subject
                            .diagnostics = diagnostics,
                            .document = document,
                            .definition = ambulo_model_definition_default()};
-  if (subject) reader.subject = *subject;
+  reader.subject = *subject;
   read_document(&reader, subject);
   ambulo_status status = ambulo__reader_status(&reader);
   if (status == AMBULO_OK) {
@@ -172,11 +176,12 @@ ambulo_status ambulo__model_load_with(const char *path, const ambulo_subject *su
                                       const ambulo_allocator *allocator,
                                       ambulo_diagnostics *diagnostics, ambulo_model **model) {
   ambulo__yaml *document = NULL;
-  ambulo_status status = check_subject(subject, diagnostics);
+  ambulo_subject own;
+  ambulo_status status = take_subject(subject, diagnostics, &own);
   if (status == AMBULO_OK) status = ambulo__yaml_load(path, allocator, diagnostics, &document);
   for (int i = 0; i < settings && status == AMBULO_OK; i++)
     status = ambulo__yaml_set_below(document, "model.", setting[i].path, setting[i].value);
-  if (status == AMBULO_OK) status = build(document, subject, allocator, diagnostics, model);
+  if (status == AMBULO_OK) status = build(document, &own, allocator, diagnostics, model);
   ambulo__yaml_free(document);
   return status;
 }
@@ -220,11 +225,12 @@ ambulo_status ambulo_model_load_with(const char *path, const char *const *overri
   if (!path || !model || override_count < 0 || (override_count > 0 && !overrides))
     return AMBULO_E_ARGUMENT;
   ambulo__yaml *document = NULL;
-  ambulo_status status = check_subject(subject, diagnostics);
+  ambulo_subject own;
+  ambulo_status status = take_subject(subject, diagnostics, &own);
   if (!status) status = ambulo__yaml_load(path, allocator, diagnostics, &document);
   for (int i = 0; i < override_count && !status; i++)
     status = apply_override(document, overrides[i], allocator, diagnostics);
-  if (!status) status = build(document, subject, allocator, diagnostics, model);
+  if (!status) status = build(document, &own, allocator, diagnostics, model);
   ambulo__yaml_free(document);
   return status;
 }
@@ -236,11 +242,12 @@ ambulo_status ambulo_model_load_text(const char *text, size_t length, const char
   ambulo__yaml *document = NULL;
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   if (!text || !model) return AMBULO_E_ARGUMENT;
-  ambulo_status status = check_subject(subject, diagnostics);
+  ambulo_subject own;
+  ambulo_status status = take_subject(subject, diagnostics, &own);
   if (status == AMBULO_OK) {
     status = ambulo__yaml_load_text(text, length, name, allocator, diagnostics, &document);
   }
-  if (status == AMBULO_OK) status = build(document, subject, allocator, diagnostics, model);
+  if (status == AMBULO_OK) status = build(document, &own, allocator, diagnostics, model);
   ambulo__yaml_free(document);
   return ambulo__conclude(diagnostics, errors, status, name);
 }

@@ -89,6 +89,10 @@ static void read_coordinate(ambulo__reader *reader, const ambulo__yaml_node *nod
   ambulo__read_interval(reader, ambulo__yaml_get(node, "speed"), unit, 0, coordinate->speed);
   ambulo__read_interval(reader, ambulo__yaml_get(node, "torque"),
                         is_angle ? reader->moment : reader->force, 0, coordinate->torque);
+  const ambulo__yaml_node *start = ambulo__yaml_get(node, "default");
+  if (start)
+    coordinate->default_value = is_angle ? ambulo__read_angle(reader, start, unit)
+                                         : ambulo__read_scaled(reader, start, unit, 0);
   coordinate->actuated = ambulo__yaml_boolean(ambulo__yaml_get(node, "actuated"), 1);
   coordinate->mirror_sign = sign_at(ambulo__yaml_get(node, "mirror_sign"));
   ambulo__yaml_expect(node, "mirror");

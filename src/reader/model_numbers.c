@@ -36,7 +36,7 @@ const ambulo__yaml_node *ambulo__by_sex(ambulo__reader *reader, const ambulo__ya
   const ambulo__yaml_node *female = ambulo__yaml_require(node, "female");
   const ambulo__yaml_node *male = ambulo__yaml_require(node, "male");
   ambulo__yaml_close(node);
-  if (reader->subject.sex == AMBULO_SEX_FILE) {
+  if (reader->subject.sex == AMBULO_SEX_NOT_SET) {
     ambulo__yaml_error(node, AMBULO_E_SCHEMA, "add it to `subject`",
                        "a value differs by sex, but the subject has none; expected subject.sex");
     return NULL;

@@ -17,14 +17,15 @@ void ambulo__read_subject(ambulo__reader *reader, const ambulo__yaml_node *root)
   static const char *const sexes[] = {"female", "male"};
   const ambulo__yaml_node *node = ambulo__yaml_get(root, "subject");
   ambulo_subject *s = &reader->subject;
-  double mass = ambulo__yaml_number_in(ambulo__yaml_get(node, "mass"), LEAST_MASS, LARGEST_MASS, 0);
-  double stature =
-      ambulo__yaml_number_in(ambulo__yaml_get(node, "stature"), LEAST_STATURE, LARGEST_STATURE, 0);
+  double mass =
+      ambulo__yaml_number_in(ambulo__yaml_get(node, "mass"), LEAST_MASS, LARGEST_MASS, AMBULO_OFF);
+  double stature = ambulo__yaml_number_in(ambulo__yaml_get(node, "stature"), LEAST_STATURE,
+                                          LARGEST_STATURE, AMBULO_OFF);
   int sex = ambulo__yaml_choice(ambulo__yaml_get(node, "sex"), sexes, 2, -1);
   ambulo__yaml_close(node);
-  if (s->mass == 0) s->mass = mass;
-  if (s->stature == 0) s->stature = stature;
-  if (s->sex == AMBULO_SEX_FILE && sex >= 0) s->sex = sex == 0 ? AMBULO_FEMALE : AMBULO_MALE;
+  if (isnan(s->mass)) s->mass = mass;
+  if (isnan(s->stature)) s->stature = stature;
+  if (s->sex == AMBULO_SEX_NOT_SET && sex >= 0) s->sex = sex == 0 ? AMBULO_FEMALE : AMBULO_MALE;
   reader->definition.stature = s->stature;
 }
 

@@ -4,20 +4,30 @@
  * parameter: what a user would have by `--set`; then extended as the problem was.
  */
 #include "nlp/problem.h"
+#include "base/sized.h"
 #include "reader/problem_free.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { COOKIE = 0x616d6266, MOST_SOLVES = 60, NUMBER = 40 };
+enum { MOST_SOLVES = 60, NUMBER = 40 };
 
-ambulo_parameters ambulo_parameters_default(void) {
-  return (ambulo_parameters){.cookie = COOKIE, .maximum_solves = MOST_SOLVES};
+AMBULO__FILL(ambulo_parameter, {.lower = AMBULO_OFF, .upper = AMBULO_OFF})
+
+void ambulo_parameters_fill(ambulo_parameters *filled) {
+  const ambulo_parameters usual = {.size = filled->size,
+                                   .parameter_size = filled->parameter_size,
+                                   .maximum_solves = MOST_SOLVES};
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
 }
 
-ambulo_parameters ambulo_problem_parameters(const ambulo_problem *problem) {
+/* The items are the library's own, of its size: the caller reads the beginning of each. */
+void ambulo_problem_parameters_fill(const ambulo_problem *problem, ambulo_parameters *filled) {
   const ambulo__free_section *s = ambulo__problem_root(problem)->free;
-  return s ? s->parameters : ambulo_parameters_default();
+  if (!s) return;
+  ambulo_parameters usual = s->parameters;
+  usual.size = filled->size;
+  ambulo__sized_fill(filled, filled->size, &usual, sizeof usual);
 }
 
 /* names in "a, b" */
@@ -76,9 +86,14 @@ ambulo_status ambulo__problem_at(ambulo__text_loader *load, const ambulo_problem
   ambulo_problem *read = NULL;
   ambulo_status status = AMBULO_E_MEMORY;
   if (override && text) {
-    int count = fill(s, values, text, override);
-    status =
-        load(s->text, s->length, s->name, s->directory, override, count, &own, diagnostics, &read);
+    ambulo_problem_text file = ambulo_problem_text_default();
+    file.text = s->text;
+    file.length = s->length;
+    file.name = s->name;
+    file.directory = s->directory;
+    file.overrides = override;
+    file.override_count = fill(s, values, text, override);
+    status = load(&file, &own, diagnostics, &read);
   }
   if (!status) status = ambulo__extend_alike(problem, read, &own, diagnostics, at);
   ambulo__free(&own, override);

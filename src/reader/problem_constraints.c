@@ -9,12 +9,12 @@
 static double read_minimum_force(const ambulo__yaml_node *node) {
   static const char *const words[] = {"off"};
   const char *text = ambulo__yaml_text(node);
-  if (!text[0]) return -1.0;
+  if (!text[0]) return AMBULO_OFF;
   if (text[0] == 'o') {
     (void)ambulo__yaml_choice(node, words, 1, 0);
-    return -1.0;
+    return AMBULO_OFF;
   }
-  return ambulo__yaml_number_in(node, 0.0, 100.0, -1.0);
+  return ambulo__yaml_number_in(node, 0.0, 100.0, AMBULO_OFF);
 }
 
 void ambulo__read_constraints(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {

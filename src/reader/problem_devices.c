@@ -115,11 +115,11 @@ static void read_spring(ambulo__problem_reader *reader, const ambulo__yaml_node 
                         ambulo_device *device) {
   static const char *const sides[] = {"both", "above", "below"};
   device->stiffness =
-      ambulo__yaml_number_in(ambulo__yaml_require(node, "stiffness"), 1e-9, most, 1.0);
+      ambulo__yaml_number_in(ambulo__yaml_require(node, "stiffness"), 0.0, most, 1.0);
   device->rest = read_along(reader, ambulo__yaml_require(node, "rest"), device, 0.0);
   device->pretension = ambulo__yaml_number(ambulo__yaml_get(node, "pretension"), 0.0);
-  device->side = (ambulo_device_side)ambulo__yaml_choice(ambulo__yaml_get(node, "side"), sides, 3,
-                                                         AMBULO_DEVICE_BOTH);
+  int side = ambulo__yaml_choice(ambulo__yaml_get(node, "side"), sides, 3, 0);
+  device->side = (ambulo_device_side)(AMBULO_DEVICE_BOTH + side);
   device->smoothing =
       read_along(reader, ambulo__yaml_get(node, "smoothing"), device, device->smoothing);
 }
@@ -189,6 +189,8 @@ static void read_law(ambulo__problem_reader *reader, const ambulo__yaml_node *no
     device->amount = ambulo__yaml_number_in(ambulo__yaml_get(node, "amount"), -most, most, 1.0);
     read_points(reader, node, device);
     break;
+  case AMBULO_DEVICE_KIND_NOT_SET:
+    break;
   }
   read_clutch(node, device);
   read_foot(reader, node, device);
@@ -220,7 +222,7 @@ static int read_device(ambulo__problem_reader *reader, const ambulo__yaml_node *
   int index = kind ? ambulo__yaml_choice(kind, device_kinds, 3, -1) : -1;
   *mirrored = ambulo__yaml_boolean(ambulo__yaml_get(node, "mirror"), 0);
   if (index < 0) return 0;
-  *device = ambulo_device_default((ambulo_device_kind)index);
+  *device = ambulo_device_default((ambulo_device_kind)(AMBULO_DEVICE_SPRING + index));
   device->name = name;
   int placed = read_site(reader, node, device);
   read_law(reader, node, device);

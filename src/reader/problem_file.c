@@ -11,6 +11,7 @@
  */
 #include "reader/problem_free.h"
 
+#include "base/sized.h"
 #include "base/read_file.h"
 #include "nlp/nlp.h"
 
@@ -90,11 +91,12 @@ static void read_header(ambulo__problem_reader *reader, const ambulo__yaml_node 
 
 static ambulo_subject read_subject(const ambulo__yaml_node *root) {
   static const char *const sexes[] = {"female", "male"};
-  ambulo_subject subject = {.sex = AMBULO_SEX_FILE};
+  ambulo_subject subject = ambulo_subject_default();
   const ambulo__yaml_node *section = ambulo__reader_section(root, "subject");
   if (!section) return subject;
-  subject.mass = ambulo__yaml_number_in(ambulo__yaml_get(section, "mass"), 1.0, 1000.0, 0.0);
-  subject.stature = ambulo__yaml_number_in(ambulo__yaml_get(section, "stature"), 0.3, 3.0, 0.0);
+  subject.mass = ambulo__yaml_number_in(ambulo__yaml_get(section, "mass"), 1.0, 1000.0, AMBULO_OFF);
+  subject.stature =
+      ambulo__yaml_number_in(ambulo__yaml_get(section, "stature"), 0.3, 3.0, AMBULO_OFF);
   const ambulo__yaml_node *sex = ambulo__yaml_get(section, "sex");
   if (sex) subject.sex = ambulo__yaml_choice(sex, sexes, 2, 0) ? AMBULO_MALE : AMBULO_FEMALE;
   ambulo__yaml_close(section);
@@ -304,22 +306,24 @@ ambulo_status ambulo_problem_load(const char *path, const char *const *overrides
   return ambulo__conclude(diagnostics, errors, status, path);
 }
 
-ambulo_status ambulo_problem_load_text(const char *text, size_t length, const char *name,
-                                       const char *directory, const char *const *overrides,
-                                       int override_count, const ambulo_allocator *allocator,
+AMBULO__FILL(ambulo_problem_text, {.size = size})
+
+ambulo_status ambulo_problem_load_text(const ambulo_problem_text *text,
+                                       const ambulo_allocator *allocator,
                                        ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
-  if (!text || !problem || override_count < 0 || (override_count > 0 && !overrides)) {
+  ambulo_problem_text own;
+  if (!AMBULO__OWN(ambulo_problem_text, &own, text)) return AMBULO_E_ARGUMENT;
+  if (!own.text || !problem || own.override_count < 0 || (own.override_count > 0 && !own.overrides))
     return AMBULO_E_ARGUMENT;
-  }
   size_t errors = ambulo_diagnostics_error_count(diagnostics);
   ambulo__problem_reader reader = reader_make(allocator, diagnostics);
-  if (directory) reader.directory = directory;
-  reader.text = text;
-  reader.length = length;
-  reader.name = name ? name : "problem";
-  reader.override = overrides;
-  reader.override_count = override_count;
-  return ambulo__conclude(diagnostics, errors, read_text(&reader, problem), name);
+  if (own.directory) reader.directory = own.directory;
+  reader.text = own.text;
+  reader.length = own.length;
+  reader.name = own.name ? own.name : "problem";
+  reader.override = own.overrides;
+  reader.override_count = own.override_count;
+  return ambulo__conclude(diagnostics, errors, read_text(&reader, problem), own.name);
 }
 
 ambulo_status ambulo_problem_at(const ambulo_problem *problem, const double *values,

@@ -288,12 +288,6 @@ ambulo_status ambulo__read_free(ambulo__problem_reader *reader, const ambulo__ya
                              "do not have yet; expected contacts of feet alone");
     return ambulo__yaml_finish(reader->document);
   }
-  if (problem->definition.hold_count > 0) {
-    (void)ambulo__yaml_error(section, AMBULO_E_PROBLEM, NULL,
-                             "free numbers are chosen by sensitivities, which what hands hold "
-                             "does not have yet; expected a load on a link, or none");
-    return ambulo__yaml_finish(reader->document);
-  }
   gathered g = {.reader = reader,
                 .section = section,
                 .problem = problem,

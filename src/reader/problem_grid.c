@@ -20,7 +20,8 @@ void ambulo__read_time(ambulo__problem_reader *reader, const ambulo__yaml_node *
   reader->has_duration = duration != NULL;
   d->intervals =
       ambulo__yaml_integer(ambulo__yaml_require(time, "intervals"), 1, MOST_INTERVALS, 12);
-  d->grid = (ambulo_grid)ambulo__yaml_choice(ambulo__yaml_get(time, "grid"), grids, 2, 0);
+  int grid = ambulo__yaml_choice(ambulo__yaml_get(time, "grid"), grids, 2, 0);
+  d->grid = (ambulo_grid)(AMBULO_GRID_UNIFORM + grid);
   reader->grid = ambulo__yaml_get(time, "grid");
   ambulo__yaml_close(time);
 }
@@ -65,7 +66,7 @@ static void read_breakpoints(ambulo__problem_reader *reader, const ambulo__yaml_
 static void read_knots(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                        const ambulo__yaml_node *breakpoints) {
   int knots = ambulo__yaml_choice(node, grids, 2, 0);
-  reader->definition.knots = (ambulo_grid)knots;
+  reader->definition.knots = (ambulo_grid)(AMBULO_GRID_UNIFORM + knots);
   if (node && breakpoints)
     (void)ambulo__yaml_error(node, AMBULO_E_SCHEMA, NULL,
                              "knots are '%s', but breakpoints are given; expected one of the two",
@@ -95,7 +96,7 @@ void ambulo__read_trajectory(ambulo__problem_reader *reader, const ambulo__yaml_
   const ambulo__yaml_node *section = ambulo__reader_section(root, "trajectory");
   if (!section) return;
   int basis = ambulo__yaml_choice(ambulo__yaml_get(section, "basis"), bases, 3, 0);
-  d->discretization = (ambulo_discretization)basis;
+  d->discretization = (ambulo_discretization)(AMBULO_BSPLINE + basis);
   const ambulo__yaml_node *intervals = ambulo__yaml_get(section, "intervals");
   d->spline_intervals = ambulo__yaml_integer(intervals, 1, MOST_INTERVALS, 0);
   if (d->discretization == AMBULO_BSPLINE) {

@@ -78,7 +78,12 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *n
                              AMBULO__MOST_LOADS);
     return;
   }
-  for (int i = 0; i < count; i++) read_one_load(reader, ambulo__yaml_item(node, i));
+  for (int i = 0; i < count; i++) {
+    int on_links = reader->model->load_count, in_hands = reader->definition.hold_count;
+    read_one_load(reader, ambulo__yaml_item(node, i));
+    if (reader->definition.hold_count > in_hands) reader->keys.hold_item[in_hands] = i;
+    if (reader->model->load_count > on_links) reader->keys.load_item[on_links] = i;
+  }
 }
 
 /* ------------------------------------------------------------ ground reaction */
@@ -90,7 +95,7 @@ static double read_bound(const ambulo__yaml_node *node, double most, double fall
   if (!text[0]) return fallback;
   if (text[0] != 'o') return ambulo__yaml_number_in(node, 0.0, most, fallback);
   (void)ambulo__yaml_choice(node, words, 1, 0);
-  return -1.0;
+  return AMBULO_OFF;
 }
 
 static void read_interval(const ambulo__yaml_node *node, double interval[2]) {
@@ -148,7 +153,7 @@ static void read_reaction(ambulo__problem_reader *reader, const ambulo__yaml_nod
   if (kind >= 0) warn_of_others(section, kind);
   if (kind < 0) kind = AMBULO_REACTION_TWO_STEP; /* that was said */
   r->kind = (ambulo_reaction_kind)kind;
-  r->transfer = (ambulo_transfer)transfer;
+  r->transfer = (ambulo_transfer)(AMBULO_TRANSFER_EARLY + transfer);
   r->exponent =
       ambulo__yaml_number_in(ambulo__yaml_get(section, "exponent"), 1.0, 10.0, r->exponent);
   r->shear = ambulo__yaml_number_in(ambulo__yaml_get(section, "shear"), 0.0, 2.0, r->shear);

@@ -223,6 +223,7 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_TORQUE_RATE:
   case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:
+  case AMBULO_TERM_KIND_NOT_SET:
     break;
   case AMBULO_DEVICE_EFFORT:
     term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));

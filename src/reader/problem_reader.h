@@ -14,9 +14,8 @@
 typedef struct ambulo__reader_block ambulo__reader_block;
 
 /* ambulo_problem_load_text */
-typedef ambulo_status ambulo__text_loader(const char *text, size_t length, const char *name,
-                                          const char *directory, const char *const *overrides,
-                                          int override_count, const ambulo_allocator *allocator,
+typedef ambulo_status ambulo__text_loader(const ambulo_problem_text *text,
+                                          const ambulo_allocator *allocator,
                                           ambulo_diagnostics *diagnostics,
                                           ambulo_problem **problem);
 

@@ -99,7 +99,7 @@ static void read_effector(ambulo__problem_reader *reader, const ambulo__yaml_nod
   }
   contact->foot = read_foot(reader, ambulo__yaml_require(node, "foot"));
   int mode = ambulo__yaml_choice(ambulo__yaml_require(node, "mode"), modes, 3, 1);
-  contact->mode = (ambulo_contact_mode)mode;
+  contact->mode = (ambulo_contact_mode)(AMBULO_CONTACT_HEEL + mode);
 }
 
 static void read_contact(ambulo__problem_reader *reader, const ambulo__yaml_node *node,
@@ -309,7 +309,7 @@ static void read_step_lengths(ambulo__problem_reader *reader, const ambulo__yaml
     double lengths[2] = {0.0, 0.0};
     (void)ambulo__yaml_numbers(node, 2, lengths);
     gait->step_length = lengths[0];
-    gait->other_step_length = lengths[1];
+    gait->other_step_length = lengths[1] != 0.0 ? lengths[1] : AMBULO_OFF;
   } else if (ambulo__yaml_is(node, AMBULO__YAML_MAPPING)) {
     gait->step_length = ambulo__read_step_length(reader, node, pace->speed);
   } else if (!node && !isnan(by_time)) {
@@ -323,13 +323,12 @@ static void read_step_lengths(ambulo__problem_reader *reader, const ambulo__yaml
   }
 }
 
-/* the other one is 0 where it was not given */
 static int differs(double value, double other) {
-  return other != 0.0 && fabs(value - other) > 1e-9 * fabs(value);
+  return !isnan(other) && fabs(value - other) > 1e-9 * fabs(value);
 }
 
 static void read_gait(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
-  ambulo_gait gait = {.steps = 1};
+  ambulo_gait gait = ambulo_gait_default();
   gait.steps = ambulo__yaml_integer(ambulo__yaml_require(section, "steps"), 1, 1000, 1);
   gait.first_foot = read_foot(reader, ambulo__yaml_require(section, "first_foot"));
   const walking_pace pace = read_pace(section);

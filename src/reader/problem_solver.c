@@ -11,6 +11,12 @@ static int read_switch(const ambulo__yaml_node *node, int fallback) {
   return choice < 0 ? fallback : choice % 2;
 }
 
+/* 0 in a file: none */
+static double read_limit(const ambulo__yaml_node *node) {
+  double limit = ambulo__yaml_number_in(node, 0.0, 1e9, 0.0);
+  return limit > 0.0 ? limit : AMBULO_OFF;
+}
+
 void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node *section) {
   static const char *const algorithms[] = {"auto", "slsqp", "auglag"};
   static const char *const finishers[] = {"none", "slsqp"};
@@ -22,17 +28,14 @@ void ambulo__read_solver(ambulo__problem_reader *reader, const ambulo__yaml_node
   int finisher = ambulo__yaml_choice(ambulo__yaml_get(section, "finisher"), finishers, 2, 0);
   o->finisher = (ambulo_finisher)finisher;
   int whose = ambulo__yaml_choice(ambulo__yaml_get(section, "equalities"), equalities, 2, 0);
-  o->equalities = (ambulo_equalities)whose;
+  o->equalities = (ambulo_equalities)(AMBULO_EQUALITIES_HELD + whose);
   o->presolve = read_switch(ambulo__yaml_get(section, "presolve"), o->presolve);
   o->maximum_evaluations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_evaluations"), 1,
                                                 1000000000, o->maximum_evaluations);
   o->maximum_iterations = ambulo__yaml_integer(ambulo__yaml_get(section, "maximum_iterations"), 1,
                                                1000000000, o->maximum_iterations);
-  o->time_limit =
-      ambulo__yaml_number_in(ambulo__yaml_get(section, "time_limit"), 0.0, 1e9, o->time_limit);
-  double gigabytes = ambulo__yaml_number_in(ambulo__yaml_get(section, "maximum_memory"), 0.0, 1e9,
-                                            o->maximum_memory / gigabyte);
-  o->maximum_memory = gigabytes * gigabyte;
+  o->time_limit = read_limit(ambulo__yaml_get(section, "time_limit"));
+  o->maximum_memory = gigabyte * read_limit(ambulo__yaml_get(section, "maximum_memory"));
   o->feasibility_tolerance = ambulo__yaml_number_in(
       ambulo__yaml_get(section, "feasibility_tolerance"), 1e-14, 1.0, o->feasibility_tolerance);
   o->optimality_tolerance = ambulo__yaml_number_in(

@@ -93,6 +93,7 @@ static factors factors_of(const ambulo_term *term, int turns, double longer, dou
   case AMBULO_TRACKING:
   case AMBULO_POSTURE:
     return (factors){turns ? 1.0 : 1.0 / longer, turns ? 1.0 : longer};
+  case AMBULO_TERM_KIND_NOT_SET:
   case AMBULO_USER_TERM:
   case AMBULO_USER_SQUARE:
   case AMBULO_UPRIGHT:

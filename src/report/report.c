@@ -1,13 +1,13 @@
 /* report/report.c - the result folder, all or nothing.
  *
- * Reading order: report.c, summary_json.h, summary_json.c, devices_json.h, holds_json.h,
- * solution_yaml.c,
- * versions.c.
+ * Reading order: report.c, summary_json.h, summary_json.c, history_json.h, devices_json.h,
+ * holds_json.h, solution_yaml.c, versions.c.
  */
 #include "ambulo/report.h"
 
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/atomic_file.h"
 #include "format/motion_csv.h"
 #include "gait/effector.h"
@@ -17,8 +17,6 @@
 #include "report/summary_json.h"
 #include "scene/scene.h"
 #include "stride/stride.h"
-
-enum { OPTIONS_COOKIE = 0x616d6272 };
 
 static const char summary_name[] = "summary.json";
 
@@ -30,15 +28,12 @@ static const char *const file_names[] = {"summary.json",  "motion.csv", "motion.
 static const ambulo__folder_mark mark = {summary_name, "\"schema\": \"ambulo-summary/", file_names,
                                          sizeof file_names / sizeof *file_names};
 
-ambulo_report_options ambulo_report_options_default(void) {
-  ambulo_report_options options = {.cookie = OPTIONS_COOKIE};
-  return options;
-}
+AMBULO__FILL(ambulo_report_options, {.size = size})
 
 /* NULL: the defaults. 0 when what was given is not valid */
 static int options_of(const ambulo_report_options *given, ambulo_report_options *options) {
-  *options = given ? *given : ambulo_report_options_default();
-  return options->cookie == OPTIONS_COOKIE && options->samples >= 0 && options->samples != 1;
+  return AMBULO__OWN(ambulo_report_options, options, given) && options->samples >= 0 &&
+         options->samples != 1;
 }
 
 static ambulo_status begin(const char *directory, const ambulo_report_options *options,
@@ -93,11 +88,13 @@ static ambulo_status write_motion(const ambulo_problem *problem, const ambulo_re
       .grf = stride.grf,
       .cop = stride.cop,
       .free_moment = stride.free_moment,
+      .grf_moment = stride.grf_moment,
       .patches = patches,
       .patch = patch,
       .patch_force = stride.patch_force,
       .patch_cop = stride.patch_cop,
       .patch_free_moment = stride.patch_free_moment,
+      .patch_moment = stride.patch_moment,
       .devices = stride.devices,
       .device = problem->definition.devices,
       .effort = stride.effort,

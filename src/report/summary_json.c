@@ -11,6 +11,7 @@
 #include "report/devices_json.h"
 #include "report/holds_json.h"
 #include "report/economy_json.h"
+#include "report/history_json.h"
 #include "report/reaction_json.h"
 #include "stride/strikes.h"
 
@@ -65,6 +66,16 @@ static void audit(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_close(json, ']');
 }
 
+static void dense_family(ambulo__json *json, const ambulo_dense_family *f) {
+  ambulo__json_open(json, NULL, '{');
+  violation_members(json, &f->violation);
+  ambulo__json_number(json, "tolerance", f->tolerance);
+  ambulo__json_integer(json, "holds", f->holds);
+  ambulo__json_text(json, "settings", f->settings);
+  ambulo__json_text(json, "advice", f->advice);
+  ambulo__json_close(json, '}');
+}
+
 static void between_nodes(ambulo__json *json, const ambulo_result *result) {
   const ambulo_dense_audit *dense = ambulo_result_dense_audit(result);
   if (!dense) return;
@@ -77,16 +88,7 @@ static void between_nodes(ambulo__json *json, const ambulo_result *result) {
   ambulo__json_integer(json, "intervals", dense->intervals);
   ambulo__json_integer(json, "trajectory_intervals", dense->spline_intervals);
   ambulo__json_open(json, "families", '[');
-  for (int i = 0; i < dense->family_count; i++) {
-    const ambulo_dense_family *f = &dense->families[i];
-    ambulo__json_open(json, NULL, '{');
-    violation_members(json, &f->violation);
-    ambulo__json_number(json, "tolerance", f->tolerance);
-    ambulo__json_integer(json, "holds", f->holds);
-    ambulo__json_text(json, "settings", f->settings);
-    ambulo__json_text(json, "advice", f->advice);
-    ambulo__json_close(json, '}');
-  }
+  for (int i = 0; i < dense->family_count; i++) dense_family(json, &dense->families[i]);
   ambulo__json_close(json, ']');
   ambulo__json_close(json, '}');
 }
@@ -338,10 +340,6 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   ambulo__json writer = {.text = text, .first = 1};
   ambulo__json *json = &writer;
   ambulo_verdict verdict = ambulo_result_verdict(result);
-  char hash[24];
-  unsigned long long value = ambulo_problem_hash(problem);
-  for (int i = 0; i < 16; i++) hash[i] = "0123456789abcdef"[(value >> (60 - 4 * i)) & 15];
-  hash[16] = '\0';
   ambulo__json_open(json, NULL, '{');
   ambulo__json_text(json, "schema", "ambulo-summary/1");
   ambulo__json_text(json, "problem", ambulo_problem_name(problem));
@@ -367,8 +365,9 @@ void ambulo__summary_json(const ambulo_problem *problem, const ambulo_result *re
   sizes(json, problem);
   starts(json, ambulo_result_starts(result));
   effort(json, result);
+  ambulo__history_json(json, result);
   versions(json);
-  ambulo__json_text(json, "input_hash", hash);
+  ambulo__json_hash(json, "input_hash", ambulo_problem_hash(problem));
   ambulo__json_close(json, '}');
   if (status) text->failed = 1; /* want of memory is all that can go wrong */
 }

@@ -44,11 +44,7 @@ static int is_finite(const double *q, size_t count) {
 static void about_problem(ambulo__json *json, const ambulo__stride *s) {
   const ambulo_problem_definition *d = &s->problem->definition;
   double periods = s->mirrored ? 2.0 : 1.0;
-  char hash[24];
-  unsigned long long value = ambulo_problem_hash(s->problem);
-  for (int i = 0; i < 16; i++) hash[i] = "0123456789abcdef"[(value >> (60 - 4 * i)) & 15];
-  hash[16] = '\0';
-  ambulo__json_text(json, "input_hash", hash);
+  ambulo__json_hash(json, "input_hash", ambulo_problem_hash(s->problem));
   ambulo__json_integer(json, "repeats", d->ends != AMBULO_ENDS_FREE);
   ambulo__json_integer(json, "mirrored", s->mirrored);
   ambulo__json_number(json, "travel", d->ends == AMBULO_ENDS_FREE ? 0.0 : periods * d->travel);

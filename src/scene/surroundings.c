@@ -15,13 +15,18 @@
 
 enum { CONTACT_SAMPLES = 2400 }; /* of a stride of 1.2 s: .5 ms */
 
-static const char *const mode_words[] = {"heel", "flat", "toe", "patch"};
+static const char *const mode_words[] = {"", "heel", "flat", "toe", "patch"};
 
 /* -------------------------------------------------------------------- ground */
 
-/* radians that the ground rises along forward: gravity is not along its normal then */
-static double slope_of(const ambulo_model *m) {
-  return atan2(-ambulo__dot(m->forward, m->gravity), -ambulo__dot(m->up, m->gravity));
+static void surface(ambulo__json *json, const ambulo__surface *p) {
+  ambulo__json_open(json, NULL, '{');
+  ambulo__json_number(json, "from", p->from);
+  ambulo__json_number(json, "to", p->to);
+  ambulo__json_number(json, "at", p->at);
+  ambulo__json_number(json, "height", p->height);
+  ambulo__json_number(json, "slope", p->slope);
+  ambulo__json_close(json, '}');
 }
 
 static ambulo_status ground(ambulo__json *json, const ambulo__stride *s) {
@@ -30,18 +35,9 @@ static ambulo_status ground(ambulo__json *json, const ambulo__stride *s) {
   if (status) return status;
   ambulo__json_open(json, "ground", '{');
   ambulo__json_integer(json, "is_there", s->model->foot_count > 0);
-  ambulo__json_number(json, "slope", slope_of(s->model));
+  ambulo__json_number(json, "slope", ambulo__ground_slope(s->model));
   ambulo__json_open(json, "surfaces", '[');
-  for (int i = 0; i < soil.count; i++) {
-    const ambulo__surface *p = &soil.surface[i];
-    ambulo__json_open(json, NULL, '{');
-    ambulo__json_number(json, "from", p->from);
-    ambulo__json_number(json, "to", p->to);
-    ambulo__json_number(json, "at", p->at);
-    ambulo__json_number(json, "height", p->height);
-    ambulo__json_number(json, "slope", p->slope);
-    ambulo__json_close(json, '}');
-  }
+  for (int i = 0; i < soil.count; i++) surface(json, &soil.surface[i]);
   ambulo__json_close(json, ']');
   ambulo__json_close(json, '}');
   ambulo__gait_ground_free(&soil);

@@ -46,8 +46,8 @@ static void add_limit(const ambulo_problem *p, const ambulo__table_row *row, dou
   if (row->relation == AMBULO_EQUAL) return;
   ambulo__bounds bounds = ambulo__bounds_of(d, i, what);
   const ambulo__bound *bound = is_low ? &bounds.low : &bounds.high;
-  partials->limit[2 * ((int)what * p->coordinates + bound->owner) + bound->is_upper] +=
-      bound->is_upper ? pull : -pull;
+  partials->limit[2 * (ambulo__limited_place(what) * p->coordinates + bound->owner) +
+                  bound->is_upper] += bound->is_upper ? pull : -pull;
   if (bound->later == 0.0 || what != AMBULO_LIMITED_POSITION) return;
   double turned = p->model->coordinates[i].mirror_sign * (is_low ? pull : -pull);
   partials->travel += turned * shift_per_travel(d, bound->owner);

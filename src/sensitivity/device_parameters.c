@@ -39,7 +39,9 @@ static void add(const device_keys *k, int number, ambulo__quantity quantity, dou
 static void add_spring(const device_keys *k, int turns) {
   const ambulo_device *v = k->device;
   ambulo__quantity along = turns ? AMBULO__ANGLE : AMBULO__STEP_LENGTH;
-  add(k, AMBULO__DEVICE_STIFFNESS, AMBULO__RATIO, v->stiffness, 0, "stiffness", "stiffness");
+  ambulo__quantity stiff = turns ? AMBULO__TURNING_STIFF : AMBULO__STIFF;
+  add(k, AMBULO__DEVICE_STIFFNESS, v->stiffness != 0.0 ? AMBULO__RATIO : stiff, v->stiffness, 0,
+      "stiffness", "stiffness");
   add(k, AMBULO__DEVICE_REST, along, v->rest, 1, "rest", "rest");
   if (v->pretension != 0.0)
     add(k, AMBULO__DEVICE_PRETENSION, turns ? AMBULO__TORQUE : AMBULO__FORCE, v->pretension, 1,
@@ -64,6 +66,8 @@ static void add_keys(const device_keys *k) {
         : turns                            ? AMBULO__TORQUE
                                            : AMBULO__FORCE,
         v->amount, 1, "amount", "amount");
+    break;
+  case AMBULO_DEVICE_KIND_NOT_SET:
     break;
   }
   if (!v->clutch) return;

@@ -66,7 +66,7 @@ static void add_device(const ambulo__stationary *s, int node, int device, double
   double *by = partials->device + (size_t)device * AMBULO__DEVICE_NUMBERS;
   add_law(&d, by);
   add_told(&d, &told, by, partials);
-  partials->of_devices += pull * effort.value;
+  partials->of_others += pull * effort.value;
 }
 
 /* (S.20) c dE/dp */

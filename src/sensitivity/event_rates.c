@@ -7,10 +7,12 @@
  *
  * Where the tip of a foot begins to have to clear the ground, or where a foot comes to the edge of
  * a step and is past it, off + r (down - off) of a swing, that moves by (1 - r) off. + r down. s.
+ * What hands hold has its window's ramps from `from` to from + ramp and from to - ramp to `to`.
  */
 #include "sensitivity/event_rates.h"
 
 #include "base/instant.h"
+#include "gait/hold_times.h"
 
 #include <math.h>
 #include <string.h>
@@ -92,6 +94,11 @@ static void settle_all(ambulo__event_map *map) {
     hold(map, d->reaches[i].from);
     hold(map, d->reaches[i].to);
   }
+  for (int i = 0; i < d->hold_count; i++) {
+    double time[4];
+    int count = ambulo__hold_events(&d->holds[i], d->duration, time);
+    for (int k = 0; k < count; k++) hold(map, time[k]);
+  }
 }
 
 static ambulo_status take_events(ambulo__event_map *map, ambulo__event_kind kind,
@@ -151,35 +158,93 @@ static double rate_of_row(const ambulo__event_map *map, int row, int event) {
   return rate;
 }
 
+/* What moves: an event of the contacts, or (event -1) up to two times of a hold. */
+typedef struct mover {
+  int event, count;
+  double time[2], rate[2];
+} mover;
+
 static double rate_of(const ambulo__event_map *map, const ambulo__events *events, int i,
-                      int event) {
+                      const mover *moves) {
+  double rate = 0.0;
+  int event = moves->event;
   if (i < 0 || i >= events->count) return 0.0;
+  for (int k = 0; k < moves->count; k++)
+    if (fabs(moves->time[k] - events->time[i]) <= AMBULO__INSTANT) rate += moves->rate[k];
+  if (event < 0) return rate;
   return events == &map->rows ? rate_of_row(map, i, event)
                               : ambulo__event_at(&map->contacts, events->time[i]) == event;
 }
 
 /* (S.12) e. + (t - e) / (e' - e) (e'. - e.) */
-static void spread(const ambulo__event_map *map, const ambulo__events *events, int event,
+static void spread(const ambulo__event_map *map, const ambulo__events *events, const mover *moves,
                    const double *times, int count, double *rates) {
   double duration = map->problem->definition.duration;
   for (int k = 0, last = -1; k < count; k++) {
     while (last + 1 < events->count && events->time[last + 1] <= times[k] + AMBULO__INSTANT) last++;
     double begin = last < 0 ? 0.0 : events->time[last];
     double end = last + 1 < events->count ? events->time[last + 1] : duration;
-    double first = rate_of(map, events, last, event);
-    double second = rate_of(map, events, last + 1, event);
+    double first = rate_of(map, events, last, moves);
+    double second = rate_of(map, events, last + 1, moves);
     rates[k] = first + (times[k] - begin) / (end - begin) * (second - first);
   }
 }
 
 void ambulo__event_node_rates(const ambulo__event_map *map, int event, double *rates) {
-  spread(map, &map->rows, event, map->problem->times, map->problem->nodes, rates);
+  const mover moves = {.event = event};
+  spread(map, &map->rows, &moves, map->problem->times, map->problem->nodes, rates);
 }
 
 void ambulo__event_knot_rates(const ambulo__event_map *map, int event, double *rates) {
   const ambulo__basis *basis = map->problem->basis;
+  const mover moves = {.event = event};
   int count = ambulo__basis_intervals(basis) + 1;
   memset(rates, 0, (size_t)count * sizeof *rates);
   if (map->problem->definition.knots == AMBULO_GRID_EVENTS)
-    spread(map, &map->knots, event, ambulo__basis_breakpoints(basis), count, rates);
+    spread(map, &map->knots, &moves, ambulo__basis_breakpoints(basis), count, rates);
+}
+
+/* ------------------------------------------------------------ what hands hold */
+
+static int is_at(double a, double b) {
+  return fabs(a - b) <= AMBULO__INSTANT;
+}
+
+/* 1 if a time of a hold's window is all that is there */
+static int is_alone(const ambulo__event_map *map, double time) {
+  const ambulo_problem_definition *d = &map->problem->definition;
+  int row = ambulo__event_at(&map->rows, time), there = 0;
+  if (row < 0 || map->source[2 * row] >= 0 || map->source[2 * row + 1] >= 0) return 0;
+  for (int i = 0; i < d->reach_count; i++)
+    there += is_at(time, d->reaches[i].from) || is_at(time, d->reaches[i].to);
+  for (int i = 0; i < d->hold_count; i++) {
+    double own[4];
+    int count = ambulo__hold_events(&d->holds[i], d->duration, own);
+    for (int k = 0; k < count; k++) there += is_at(time, own[k]);
+  }
+  return there == 1;
+}
+
+/* (S.22) both ends of a ramp go along with it, or the inner ones with its length */
+int ambulo__event_hold_rates(const ambulo__event_map *map, int hold, ambulo__hold_time which,
+                             double *rates) {
+  const ambulo_hold *h = &map->problem->definition.holds[hold];
+  double duration = map->problem->definition.duration;
+  mover moves = {.event = -1};
+  if (ambulo__hold_rises(h) && which != AMBULO__TIME_TO) {
+    moves.time[moves.count] = h->from + h->ramp;
+    moves.rate[moves.count++] = 1.0;
+  }
+  if (ambulo__hold_falls(h, duration) && which != AMBULO__TIME_FROM) {
+    moves.time[moves.count] = h->to - h->ramp;
+    moves.rate[moves.count++] = which == AMBULO__TIME_RAMP ? -1.0 : 1.0;
+  }
+  if (which != AMBULO__TIME_RAMP && moves.count > 0) {
+    moves.time[moves.count] = which == AMBULO__TIME_FROM ? h->from : h->to;
+    moves.rate[moves.count++] = 1.0;
+  }
+  for (int k = 0; k < moves.count; k++)
+    if (!is_alone(map, moves.time[k])) return 0;
+  spread(map, &map->rows, &moves, map->problem->times, map->problem->nodes, rates);
+  return 1;
 }

@@ -28,4 +28,14 @@ ambulo_status ambulo__event_map_create(const ambulo_problem *problem, ambulo__po
 void ambulo__event_node_rates(const ambulo__event_map *map, int event, double *rates);
 void ambulo__event_knot_rates(const ambulo__event_map *map, int event, double *rates);
 
+/* A time of what hands hold, on a grid on events. */
+typedef enum ambulo__hold_time {
+  AMBULO__TIME_FROM,
+  AMBULO__TIME_TO,
+  AMBULO__TIME_RAMP
+} ambulo__hold_time;
+/* Rates of nodes when it moves; no knot goes along. 0: something else is there too. */
+int ambulo__event_hold_rates(const ambulo__event_map *map, int hold, ambulo__hold_time which,
+                             double *rates);
+
 #endif

@@ -7,6 +7,8 @@
  *           + sum_k dL/dt_k t_k. + sum over contacts that begin or end there of dL/dfrom, dL/dto
  *           - sum over matching ends of lambda (c + shift) s_o. / s_o
  *
+ * Likewise a time of what hands hold, with dL/dfrom, .. of its window (holds.c).
+ *
  * L_q .. are adjoints with the mechanics' reverse sweep in them; dL/dt_k, dL/dfrom, dL/dto what
  * terms.c, place_rows.c, force_rows.c and contact_times.c say of quadrature, heights due in the
  * swing, boxes that roll and shares of the load; s_o = 1 / max_c |D^o B_c(0)| (gait/ends.c).
@@ -18,6 +20,7 @@
 #include "gait/loading.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct moving_event {
   const ambulo__stationary *s;
@@ -110,6 +113,22 @@ static double pull_of_event(const moving_event *m, int event, const ambulo__part
 }
 
 /* `s` without a solution, only its problem: derivatives that there are become 0 */
+/* adds to times of what hands hold what goes along with them; NaN: there is none */
+static void add_holds(const moving_event *m, int solved, ambulo__partials *partials) {
+  const ambulo_problem *p = m->s->problem;
+  static const int numbers[] = {AMBULO__HOLD_FROM, AMBULO__HOLD_TO, AMBULO__HOLD_RAMP};
+  static const ambulo__hold_time times[] = {AMBULO__TIME_FROM, AMBULO__TIME_TO, AMBULO__TIME_RAMP};
+  size_t knots = (size_t)ambulo__basis_intervals(p->basis) + 1;
+  memset(m->knot_rate, 0, knots * sizeof *m->knot_rate);
+  for (int at = 0; at < 3 * p->definition.hold_count; at++) {
+    double *by = partials->hold + (size_t)(at / 3) * AMBULO__HOLD_NUMBERS + numbers[at % 3];
+    if (!ambulo__event_hold_rates(m->map, at / 3, times[at % 3], m->node_rate) || passes_a_knot(m))
+      *by = (double)NAN;
+    for (int node = 0; solved && node < p->nodes; node++)
+      *by += pull_of_node(m, node) + partials->node_time[node] * m->node_rate[node];
+  }
+}
+
 static ambulo_status fill_events(const ambulo__stationary *s, int solved, ambulo__pool *pool,
                                  ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
@@ -132,6 +151,7 @@ static ambulo_status fill_events(const ambulo__stationary *s, int solved, ambulo
     else if (map.unclear[event] || passes_a_knot(&m))
       partials->event[event] = (double)NAN;
   }
+  add_holds(&m, solved, partials);
   return AMBULO_OK;
 }
 

@@ -6,7 +6,8 @@
  *
  *     load m_l at p       force per kg a - g at p,  dc/dm_l = (p - c) / m
  *     all masses alike    dy/d ln m = y of torques, wrench, forces and free moments; c stays. Of
- *                         torques without devices, which do not grow with the body (devices.c)
+ *                         torques without devices and what hands hold, which do not grow with
+ *                         the body (devices.c, holds.c)
  *     bodies alone        d/d ln m_b = d/d ln m - m_l d/dm_l, and likewise of m in rows and terms
  *     slope               force -m_b dg/ds on the centre of each body,
  *                         dg/ds = |g| (sin s n - cos s f)
@@ -98,8 +99,7 @@ static void add_ground(ambulo__node_forces *f, ambulo__partials *partials) {
   add_footholds(f, partials);
 }
 
-/* dg/ds */
-static void turn_of_gravity(const ambulo_model *model, double turn[3]) {
+void ambulo__turn_of_gravity(const ambulo_model *model, double turn[3]) {
   const double *g = model->gravity;
   double up = 0.0, forward = 0.0;
   for (int i = 0; i < 3; i++) {
@@ -134,10 +134,10 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
   const ambulo_problem *p = s->problem;
   ambulo__node_forces f;
   ambulo_status status = ambulo__node_forces_create(s, pool, &f);
-  double turn[3], all = partials->of_devices, mass = p->model->mass;
+  double turn[3], all = partials->of_others, mass = p->model->mass;
   const ambulo_model *m = p->model;
   if (status) return status;
-  turn_of_gravity(p->model, turn);
+  ambulo__turn_of_gravity(p->model, turn);
   for (int node = 0; node < p->nodes; node++) {
     ambulo__node_forces_at(&f, node);
     all += pull_of_all(&f);

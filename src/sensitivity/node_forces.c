@@ -123,15 +123,24 @@ double ambulo__node_forces_joint(const ambulo__node_forces *f, int i, const doub
   return sum;
 }
 
+static void add_wrench(ambulo__node_forces *f, int link, const double wrench[6]) {
+  for (int k = 0; k < 6; k++) f->wrench[k] += wrench[k];
+  for (; link >= 0; link = f->s->problem->model->links[link].parent) {
+    int i = f->s->problem->model->links[link].coordinate;
+    if (i >= 0) f->torque[i] += ambulo__node_forces_joint(f, i, wrench);
+  }
+}
+
 /* (S.7) S_i . (p x F, F) of the joints that carry it */
 void ambulo__node_forces_add(ambulo__node_forces *f, int link, const double place[3],
                              const double force[3]) {
   double wrench[6];
   ambulo__cross(place, force, wrench);
   memcpy(wrench + 3, force, 3 * sizeof *force);
-  for (int k = 0; k < 6; k++) f->wrench[k] += wrench[k];
-  for (; link >= 0; link = f->s->problem->model->links[link].parent) {
-    int i = f->s->problem->model->links[link].coordinate;
-    if (i >= 0) f->torque[i] += ambulo__node_forces_joint(f, i, wrench);
-  }
+  add_wrench(f, link, wrench);
+}
+
+void ambulo__node_forces_turn(ambulo__node_forces *f, int link, const double moment[3]) {
+  const double wrench[6] = {moment[0], moment[1], moment[2], 0.0, 0.0, 0.0};
+  add_wrench(f, link, wrench);
 }

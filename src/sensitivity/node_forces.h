@@ -45,9 +45,14 @@ void ambulo__node_forces_clear(ambulo__node_forces *forces);
  */
 void ambulo__node_forces_add(ambulo__node_forces *forces, int link, const double place[3],
                              const double force[3]);
+/* Adds the tangent `moment` on what asks for it, a link. */
+void ambulo__node_forces_turn(ambulo__node_forces *forces, int link, const double moment[3]);
 /* sum w dy/dp over the node's torques, root wrench, feet and centre of mass, with the ground's
  * part: node_pull.c. */
 double ambulo__node_forces_pull(const ambulo__node_forces *forces);
+
+/* dg/ds of a slope s: |g| (sin s n - cos s f), m/s^2. */
+void ambulo__turn_of_gravity(const ambulo_model *model, double turn[3]);
 
 /* The ground's part. */
 double ambulo__ground_split_pull(const ambulo__node_forces *forces);

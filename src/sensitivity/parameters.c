@@ -16,7 +16,7 @@
 
 static void add_clearance(ambulo__parameters *p) {
   const ambulo_clearance *c = &p->problem->definition.clearance, *by = &p->partials->clearance;
-  if (c->height < 0.0) return;
+  if (isnan(c->height)) return;
   ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->height, by->height, "clearance",
                         "constraints.clearance.height");
   ambulo__parameter_add(p, AMBULO__STEP_LENGTH, c->ceiling, by->ceiling,
@@ -27,7 +27,7 @@ static void add_clearance(ambulo__parameters *p) {
                         "outward room of swinging feet", "constraints.clearance.outward");
   ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->inward, by->inward,
                         "inward room of swinging feet", "constraints.clearance.inward");
-  if (c->feet < 0.0) return;
+  if (isnan(c->feet)) return;
   ambulo__parameter_add(p, AMBULO__SHORT_LENGTH, c->feet, by->feet, "gap between the feet",
                         "constraints.clearance.feet");
 }
@@ -158,7 +158,7 @@ static double by_strength(const ambulo_problem *problem, const ambulo__partials 
   for (int i = 0; moment != 0.0 && moment != 1.0 && i < problem->coordinates; i++) {
     for (int side = 0; side < 2; side++) {
       double limit = model->coordinates[i].torque[side];
-      int at = 2 * (AMBULO_LIMITED_TORQUE * problem->coordinates + i) + side;
+      int at = 2 * (ambulo__limited_place(AMBULO_LIMITED_TORQUE) * problem->coordinates + i) + side;
       if (isfinite(limit)) sum += limit * partials->limit[at];
     }
   }
@@ -219,8 +219,12 @@ static void add_loads(ambulo__parameters *p) {
     (void)snprintf(label, sizeof label, "load on %s%s", model->links[model->loads[i].link].name,
                    partner != i ? AMBULO__BOTH_OF_A_PAIR : "");
     double by = p->partials->load[i] + (partner != i ? p->partials->load[partner] : 0.0);
-    ambulo__parameter_add(p, AMBULO__MASS, mass, by, label, "load[%d].mass", i);
-    if (partner != i) ambulo__parameter_with(p, 1.0, "load[%d].mass", partner);
+    const int *item = p->problem->keys.load_item; /* hands hold others */
+    ambulo__parameter_add(p, AMBULO__MASS, mass, by, label, "load[%d].mass",
+                          p->problem->keys.loads ? item[i] : i);
+    if (partner != i)
+      ambulo__parameter_with(p, 1.0, "load[%d].mass",
+                             p->problem->keys.loads ? item[partner] : partner);
   }
 }
 
@@ -242,21 +246,22 @@ static void add_body(ambulo__parameters *p) {
                           "ground.slope");
 }
 
-static int has_rows(const ambulo_problem *problem, int what) {
+static int has_rows(const ambulo_problem *problem, ambulo_limited what) {
   const ambulo_problem_definition *d = &problem->definition;
   if (what == AMBULO_LIMITED_POSITION) return d->joint_limits != AMBULO_LIMIT_OFF;
   return what == AMBULO_LIMITED_SPEED ? d->speed_limits : d->torque_limits;
 }
 
 /* one limit, or those of both sides, which hold in each other's half of the stride */
-static void add_limit(ambulo__parameters *p, int what, int i, int side) {
+static void add_limit(ambulo__parameters *p, ambulo_limited what, int i, int side) {
   static const char *const keys[] = {"range", "speed", "torque"};
   static const char *const words[] = {"limit", "speed limit", "torque limit"};
   static const ambulo__quantity turning[] = {AMBULO__ANGLE, AMBULO__TURNING_SPEED, AMBULO__TORQUE};
   static const ambulo__quantity sliding[] = {AMBULO__STEP_LENGTH, AMBULO__SPEED, AMBULO__FORCE};
   const ambulo_model *model = p->problem->model;
   const ambulo_coordinate *c = &model->coordinates[i];
-  const double *limit = p->partials->limit + 2 * what * p->problem->coordinates;
+  int k = ambulo__limited_place(what);
+  const double *limit = p->partials->limit + 2 * k * p->problem->coordinates;
   double sign, by = limit[2 * i + side];
   int m = ambulo__parameter_partner(p->problem, i, &sign), other = sign < 0.0 ? !side : side;
   if (m >= 0) by += sign * limit[2 * m + other];
@@ -264,15 +269,15 @@ static void add_limit(ambulo__parameters *p, int what, int i, int side) {
       (m >= 0 && (m < i || (m == i && !side))))
     return; /* no use, or said before */
   char label[AMBULO__PARAMETER_TEXT];
-  (void)snprintf(label, sizeof label, "%s %s of %s%s", side ? "upper" : "lower", words[what],
-                 c->name, m >= 0 ? AMBULO__BOTH_OF_A_PAIR : "");
-  ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? turning[what] : sliding[what],
-                        ambulo__limits_of(c, (ambulo_limited)what)[side], by, label,
+  (void)snprintf(label, sizeof label, "%s %s of %s%s", side ? "upper" : "lower", words[k], c->name,
+                 m >= 0 ? AMBULO__BOTH_OF_A_PAIR : "");
+  ambulo__parameter_add(p, c->type == AMBULO_REVOLUTE ? turning[k] : sliding[k],
+                        ambulo__limits_of(c, what)[side], by, label,
                         "model.links[%s].coordinate.%s[%d]",
-                        model->links[model->coordinate_written[i]].name, keys[what], side);
+                        model->links[model->coordinate_written[i]].name, keys[k], side);
   if (m >= 0)
     ambulo__parameter_with(p, sign, "model.links[%s].coordinate.%s[%d]",
-                           model->links[model->coordinate_written[m]].name, keys[what], other);
+                           model->links[model->coordinate_written[m]].name, keys[k], other);
 }
 
 static void add_ends(ambulo__parameters *p) {
@@ -314,6 +319,7 @@ ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   ambulo__parameters_of_events(p);
   add_body(p);
   ambulo__parameters_of_devices(p);
+  ambulo__parameters_of_holds(p);
   ambulo__parameters_of_terms(p);
   add_contact_rows(p);
   add_tubes(p);
@@ -321,8 +327,8 @@ ambulo_status ambulo__parameters_collect(ambulo__parameters *p) {
   add_ends(p);
   for (int what = AMBULO_LIMITED_POSITION; what <= AMBULO_LIMITED_TORQUE; what++) {
     for (int i = 0; i < p->problem->coordinates; i++) {
-      add_limit(p, what, i, 0);
-      add_limit(p, what, i, 1);
+      add_limit(p, (ambulo_limited)what, i, 0);
+      add_limit(p, (ambulo_limited)what, i, 1);
     }
   }
   return p->failed ? AMBULO_E_MEMORY : AMBULO_OK;

@@ -23,6 +23,8 @@ typedef enum ambulo__quantity {
   AMBULO__LOADING_RATE,  /* body weights/s: 1 */
   AMBULO__STRIDE_SHARE,  /* 1 % of the stride, of an event */
   AMBULO__EVENT_TIME,    /* s: 10 ms, of an event */
+  AMBULO__TURNING_STIFF, /* N m/rad: 1, of a spring that has none yet */
+  AMBULO__STIFF,         /* N/m: 10 */
   AMBULO__RATIO          /* any: 1 % of the value */
 } ambulo__quantity;
 
@@ -75,7 +77,7 @@ ambulo_status ambulo__parameters_name(ambulo__parameters *parameters);
 /* SI and rad per unit that the problem's file has for it; 0: its unit of angle is not stated. */
 double ambulo__parameter_unit(const ambulo_problem *problem, const ambulo__parameter *parameter);
 /* The pieces: lengths, times, speed, travel; margins, obstacles, reaches; footholds of listed
- * contacts; their events; devices; terms of the objective. */
+ * contacts; their events; devices; what hands hold; terms of the objective. */
 void ambulo__parameters_of_walk(ambulo__parameters *parameters);
 void ambulo__parameters_of_bodies(ambulo__parameters *parameters);
 void ambulo__parameters_of_footholds(ambulo__parameters *parameters);
@@ -86,6 +88,7 @@ void ambulo__parameters_of_events(ambulo__parameters *parameters);
 /* dL/dv through phases that are functions of the speed v; 0: none is; NaN: they have none. */
 double ambulo__phases_by_speed(const ambulo__parameters *parameters);
 void ambulo__parameters_of_devices(ambulo__parameters *parameters);
+void ambulo__parameters_of_holds(ambulo__parameters *parameters);
 void ambulo__parameters_of_terms(ambulo__parameters *parameters);
 
 /* ambulo_sensitivities of a point that may not be optimal: as good as it is. */

@@ -21,6 +21,7 @@ ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__poo
   partials->strength = ambulo__pool_doubles(pool, 2 * terms * n);
   partials->price = ambulo__pool_doubles(pool, 2 * terms * n);
   partials->device = ambulo__pool_doubles(pool, (size_t)d->device_count * AMBULO__DEVICE_NUMBERS);
+  partials->hold = ambulo__pool_doubles(pool, (size_t)d->hold_count * AMBULO__HOLD_NUMBERS);
   partials->node_time = ambulo__pool_doubles(pool, (size_t)problem->nodes);
   partials->contact_time = ambulo__pool_doubles(pool, 2 * (size_t)d->contact_count);
   partials->obstacle_margin = ambulo__pool_doubles(pool, (size_t)d->obstacle_count);
@@ -58,6 +59,7 @@ ambulo_status ambulo__partials_at(const ambulo_problem *problem, ambulo_workspac
   status = ambulo__partials_of_forces(&s, partials);
   if (!status) status = take_adjoints(&s, pool);
   if (!status) status = ambulo__partials_of_devices(&s, pool, partials);
+  if (!status) status = ambulo__partials_of_holds(&s, pool, partials);
   if (!status) status = ambulo__partials_of_inertia(&s, pool, partials);
   if (!status) ambulo__partials_of_duration(&s, partials);
   if (!status) status = ambulo__partials_of_events(&s, pool, partials);

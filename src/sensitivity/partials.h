@@ -16,11 +16,12 @@
  * problem's definition; parameters.c makes of them what a file's keys say. All by hand.
  *
  * Reading order: partials.h, partials.c; surface.h, surface.c, step_rows.h, step_rows.c,
- * place_rows.c; force_rows.c, support_side.c; devices.c; contact_pull.h, contact_times.c,
+ * place_rows.c; force_rows.c, support_side.c; devices.c, holds.c; contact_pull.h, contact_times.c,
  * sharing_rows.c; bound_rows.c; body_rows.c; terms.c; node_forces.h, node_forces.c, inertia.c,
  * ground_split.c, contact_split.h, contact_forces.c, contact_told.c, node_pull.c; duration.c;
  * event_rates.h, event_rates.c, event_times.c; parameters.h, parameter_list.c, parameters.c,
- * walk_parameters.c, time_parameters.c, device_parameters.c, term_parameters.c, words.c,
+ * walk_parameters.c, time_parameters.c, device_parameters.c, hold_parameters.c,
+ * term_parameters.c, words.c,
  * sensitivities.c.
  */
 #ifndef AMBULO_SENSITIVITY_PARTIALS_H
@@ -44,15 +45,27 @@ enum {
   AMBULO__DEVICE_NUMBERS
 };
 
+/* Numbers of what hands hold, in this order. */
+enum {
+  AMBULO__HOLD_MASS,
+  AMBULO__HOLD_INERTIA,
+  AMBULO__HOLD_CENTER,    /* along forward, left and up */
+  AMBULO__HOLD_FORCE = 5, /* likewise */
+  AMBULO__HOLD_FROM = 8,
+  AMBULO__HOLD_TO,
+  AMBULO__HOLD_RAMP,
+  AMBULO__HOLD_NUMBERS
+};
+
 /* dL/dp of the members of a definition of the same names, per their SI units (those of J and of a
  * row's multiplier in it). Members that are no numbers are unused. */
 typedef struct ambulo__partials {
-  double *place;           /* [contacts][2]: footholds, along forward and left */
-  double *rise, *heading;  /* [contacts]: of the place along up, m; rad */
-  double *normal;          /* [contacts][3]: of a normal that is given */
-  double *limit;           /* [3][d][2]: by ambulo_limited, of a coordinate that is not fixed */
-  double *end_value;       /* [end_value_count] */
-  double *half_width;      /* [tubes][d] */
+  double *place;          /* [contacts][2]: footholds, along forward and left */
+  double *rise, *heading; /* [contacts]: of the place along up, m; rad */
+  double *normal;         /* [contacts][3]: of a normal that is given */
+  double *limit;      /* [3][d][2]: by ambulo__limited_place, of a coordinate that is not fixed */
+  double *end_value;  /* [end_value_count] */
+  double *half_width; /* [tubes][d] */
   double *weight, *height; /* [terms] */
   double *scale, *offset;  /* [terms][d] */
   double *strength;        /* [terms][d][2]: of the peaks */
@@ -71,8 +84,11 @@ typedef struct ambulo__partials {
   double *event_time;   /* [events], s: where contacts begin and end, inside (0, T) */
   double *event;        /* [events]: of an event, with all contacts, nodes and knots that go along;
                            NaN where something else is there at the same time */
-  double of_devices;    /* dL/d ln of the torques that devices have taken over from the person */
+  double of_others;     /* dL/d ln of what torques and forces would have more of, were all as large
+                           as the bodies' masses: what devices do for the person, less what is
+                           held */
   double *device;       /* [devices][AMBULO__DEVICE_NUMBERS] */
+  double *hold;         /* [holds][AMBULO__HOLD_NUMBERS]; NaN: a time that has none */
   double log_mass;      /* of the mass m wherever it stands in rows and terms, torques left out:
                            dL/d ln m */
   double body;          /* dL/d ln of the mass of all bodies but the loads, in every place */
@@ -82,6 +98,10 @@ typedef struct ambulo__partials {
   double *reach_place, *reach_tolerance; /* [reaches][3], [reaches] */
   double load[AMBULO__MOST_LOADS];       /* kg: of ambulo_model.loads */
 } ambulo__partials;
+
+static inline int ambulo__limited_place(ambulo_limited what) {
+  return (int)what - (int)AMBULO_LIMITED_POSITION;
+}
 
 /* A solution: x* is the point that the workspace holds. */
 typedef struct ambulo__stationary {
@@ -113,6 +133,9 @@ ambulo_status ambulo__partials_of_inertia(const ambulo__stationary *s, ambulo__p
 /* Through efforts and torques; needs the adjoints of the channels. E_MEMORY. */
 ambulo_status ambulo__partials_of_devices(const ambulo__stationary *s, ambulo__pool *pool,
                                           ambulo__partials *partials);
+/* Through forces of hands; needs the adjoints of the channels. E_MEMORY. */
+ambulo_status ambulo__partials_of_holds(const ambulo__stationary *s, ambulo__pool *pool,
+                                        ambulo__partials *partials);
 /* After the others: leaves the adjoints of q, qd, qdd with the mechanics' part in them. */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials);
 

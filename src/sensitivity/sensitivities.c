@@ -67,13 +67,11 @@ static ambulo_status collect(const ambulo_problem *problem, const ambulo_result 
   return status;
 }
 
-static const char none_of_holds[] = "there are none yet for what hands hold";
 static const char none_of_patches[] = "there are none yet for contacts of patches";
 
 static const char *reason_against(const ambulo_problem *problem, const ambulo_result *result) {
   if (problem->definition.term_count == 0) return "there is no objective";
   if (ambulo__holds_patches(&problem->definition)) return none_of_patches;
-  if (problem->definition.hold_count > 0) return none_of_holds;
   if (ambulo_result_verdict(result) != AMBULO_OPTIMAL)
     return "the point is not shown to be optimal";
   return "";
@@ -108,6 +106,5 @@ ambulo_status ambulo__sensitivities_nearly(const ambulo_problem *problem,
                                            const ambulo_allocator *allocator,
                                            ambulo_sensitivity_list **list) {
   const char *reason = ambulo__holds_patches(&problem->definition) ? none_of_patches : "";
-  if (problem->definition.hold_count > 0) reason = none_of_holds;
   return list_of(problem, result, reason, allocator, list);
 }

@@ -104,7 +104,7 @@ static void strength_form(const term_sum *t, int i, const ambulo__form *form, do
   double peak = t->term->strength[6 * i + 3 * down];
   if (!(peak > 0.0)) return;
   if (t->term->strength_is_limits) {
-    int limit = AMBULO_LIMITED_TORQUE * t->s->problem->coordinates + i;
+    int limit = ambulo__limited_place(AMBULO_LIMITED_TORQUE) * t->s->problem->coordinates + i;
     double price = t->term->price ? t->term->price[2 * i + !down] : 1.0;
     t->partials->limit[2 * limit + !down] -= (down ? -1.0 : 1.0) * slope * form->u / (peak * price);
     t->partials->price[2 * at + (size_t)!down] += slope * form->u / price;

@@ -17,12 +17,16 @@
  * v = x_steps / T: dv/dp = (dx_steps/dp - v dT/dp) / T; without those dL/dv it is left out.
  *
  * T has no partial where other times stay in seconds: contacts that are listed, breakpoints, steps
- * of two times, references, functions of the caller.
+ * of two times, references, functions of the caller, times of reaches, and on a grid on events
+ * those of what hands hold.
  */
 #include "sensitivity/parameters.h"
 
 #include "gait/contact_frame.h"
 #include "gait/gait.h"
+#include "gait/hold_times.h"
+
+#include "base/instant.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -61,10 +65,24 @@ static void by_lengths(const ambulo__parameters *p, double by[2]) {
   for (int k = 0; k < 2 && !p->problem->keys.travel; k++) by[k] += count[k] * p->partials->travel;
 }
 
+/* a time in seconds that the motion comes to: where rows are asked for, or where the grid has the
+ * ramps of what hands hold; one at its end would be inside, were it longer */
+static int has_times(const ambulo_problem_definition *d, int on_events) {
+  double time[4], end = d->duration + AMBULO__INSTANT;
+  int count = 0;
+  for (int i = 0; i < d->reach_count; i++)
+    count += d->reaches[i].from > AMBULO__INSTANT || d->reaches[i].to < end;
+  for (int i = 0; i < d->hold_count; i++) {
+    int at_end = d->holds[i].to < end && !ambulo__hold_falls(&d->holds[i], d->duration);
+    count += at_end || (on_events && ambulo__hold_events(&d->holds[i], d->duration, time) > 0);
+  }
+  return count > 0;
+}
+
 static int moves_with_duration(const ambulo_problem *problem) {
   const ambulo_problem_definition *d = &problem->definition;
   int follows = d->user_row_count > 0 || d->breakpoints || d->node_times || d->tube_count > 0 ||
-                d->reach_count > 0;
+                has_times(d, problem->before != NULL);
   for (int t = 0; t < d->term_count; t++) follows |= d->terms[t].function || d->terms[t].reference;
   if (d->contact_count > 0) follows |= !problem->keys.gait || problem->keys.times;
   return !follows;

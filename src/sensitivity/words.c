@@ -31,6 +31,8 @@ static const quantity_entry quantities[] = {
     {"body weights/s", 1.0, "1 body weight/s more"},
     {"", 0.01, "1 % of the stride later"},
     {"s", 0.01, "10 ms later"},
+    {"N m/rad", 1.0, "1 N m/rad more"},
+    {"N/m", 10.0, "10 N/m more"},
     {"", 0.01, "1 % more"},
 };
 

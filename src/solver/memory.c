@@ -73,7 +73,7 @@ ambulo_status ambulo__solve_check_memory(const ambulo_problem *p, const ambulo_o
                                          ambulo_diagnostics *diagnostics) {
   double most = o->maximum_memory, bytes = ambulo_problem_memory(p).solve;
   const char *what = "solver.maximum_memory";
-  if (most == 0.0) {
+  if (isnan(most)) {
     most = 1048576.0 * ambulo__free_megabytes();
     what = "free";
   }

@@ -1,33 +1,52 @@
 /* solver/options.c - the defaults of a solve, and the check of what a caller hands in. */
 #include "solver/options.h"
+#include "base/sized.h"
 #include "nlp/nlp.h"
 
 #include <math.h>
 
 static const double least_tolerance = 1e-14, most_tolerance = 1.0; /* as in problem files */
 
-enum { OPTIONS_COOKIE = 0x616d6273, DEFAULT_EVALUATIONS = 20000, DEFAULT_ITERATIONS = 150 };
+enum { DEFAULT_EVALUATIONS = 20000, DEFAULT_ITERATIONS = 150 };
 
-ambulo_options ambulo_options_default(void) {
-  ambulo_options options = {
-      .cookie = OPTIONS_COOKIE,
+void ambulo_options_fill(ambulo_options *filled, size_t size) {
+  const ambulo_options usual = {
+      .size = size,
       .algorithm = AMBULO_AUTO,
       .presolve = 1,
       .maximum_evaluations = DEFAULT_EVALUATIONS,
       .maximum_iterations = DEFAULT_ITERATIONS,
-      .time_limit = 0.0,
+      .time_limit = AMBULO_OFF,
+      .maximum_memory = AMBULO_OFF,
       .feasibility_tolerance = 1e-6,
       .optimality_tolerance = 1e-3,
       .continuation = 1,
       .starts = 1,
       .dense_samples = 10,
+      .finisher = AMBULO_FINISHER_NONE,
+      .equalities = AMBULO_EQUALITIES_HELD,
   };
-  return options;
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
 }
 
-ambulo_options ambulo_problem_options(const ambulo_problem *problem) {
-  int from_file = problem->file_options.cookie != 0;
-  return from_file ? problem->file_options : ambulo_options_default();
+void ambulo_problem_options_fill(const ambulo_problem *problem, ambulo_options *filled,
+                                 size_t size) {
+  ambulo_options usual =
+      problem->file_options.size != 0 ? problem->file_options : ambulo_options_default();
+  usual.size = size;
+  ambulo__sized_fill(filled, size, &usual, sizeof usual);
+}
+
+static ambulo_status refuse_size(ambulo_diagnostics *diagnostics) {
+  return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
+                       "solver options did not come from ambulo_options_default()");
+}
+
+ambulo_status ambulo__options_own(const ambulo_problem *problem, const ambulo_options *given,
+                                  ambulo_diagnostics *diagnostics, ambulo_options *own) {
+  *own = given ? ambulo_options_default() : ambulo_problem_options(problem);
+  if (!ambulo__sized_take(own, sizeof *own, given)) return refuse_size(diagnostics);
+  return ambulo__options_check(own, diagnostics);
 }
 
 /* below: less than doubles can tell; above: anything would pass */
@@ -41,9 +60,7 @@ static ambulo_status check_tolerance(const char *name, double value,
 
 ambulo_status ambulo__options_check(const ambulo_options *options,
                                     ambulo_diagnostics *diagnostics) {
-  if (options->cookie != OPTIONS_COOKIE)
-    return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "solver options did not come from ambulo_options_default()");
+  if (options->size != sizeof *options) return refuse_size(diagnostics);
   if (options->algorithm < AMBULO_AUTO || options->algorithm > AMBULO_AUGLAG)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "unknown solver algorithm %d", (int)options->algorithm);
@@ -52,7 +69,8 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
                          "unknown solver finisher %d", (int)options->finisher);
   if (options->equalities < AMBULO_EQUALITIES_HELD || options->equalities > AMBULO_EQUALITIES_NLOPT)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "unknown solver equalities %d", (int)options->equalities);
+                         "solver equalities are %s (got %d); expected held or nlopt",
+                         options->equalities ? "unknown" : "not set", (int)options->equalities);
   if (options->maximum_evaluations < 1)
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.maximum_evaluations is %d; expected at least 1",
@@ -61,13 +79,13 @@ ambulo_status ambulo__options_check(const ambulo_options *options,
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
                          "solver.maximum_iterations is %d; expected at least 1",
                          options->maximum_iterations);
-  if (!(options->time_limit >= 0.0))
+  if (!isnan(options->time_limit) && !(options->time_limit > 0.0))
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "solver.time_limit is %g s; expected 0 (none) or more",
+                         "solver.time_limit is %g s; expected more than 0, or AMBULO_OFF",
                          options->time_limit);
-  if (!(options->maximum_memory >= 0.0))
+  if (!isnan(options->maximum_memory) && !(options->maximum_memory > 0.0))
     return ambulo__error(diagnostics, AMBULO_E_ARGUMENT, ambulo__nowhere, NULL,
-                         "solver.maximum_memory is %g bytes; expected 0 (what is free) or more",
+                         "solver.maximum_memory is %g bytes; expected more than 0, or AMBULO_OFF",
                          options->maximum_memory);
   ambulo_status status =
       check_tolerance("feasibility_tolerance", options->feasibility_tolerance, diagnostics);

@@ -11,6 +11,7 @@
 #include "judge/explain.h"
 #include "judge/verdict.h"
 #include "method/pipeline.h"
+#include "nlp/problem.h"
 #include "solver/memory.h"
 #include "solver/options.h"
 
@@ -100,6 +101,20 @@ static ambulo_status finish_unsolved(ambulo__session *s) {
   return status;
 }
 
+/* the point that is returned ends what the solver passed through */
+static void end_history(ambulo__session *s) {
+  const ambulo_result *r = s->result;
+  const ambulo_violation *worst = &r->audit.violation;
+  ambulo_iteration end = {.iteration = s->run.iterations,
+                          .evaluations = s->run.evaluations,
+                          .intervals = s->problem->definition.intervals,
+                          .objective = r->objective,
+                          .violation = worst->worst / worst->size,
+                          .gradient = NAN,
+                          .seconds = ambulo__seconds_now() - s->run.started};
+  if (r->history->shown.count > 0) ambulo__history_add(r->history, &end);
+}
+
 static ambulo_status look_between(ambulo__session *s) {
   int in_time = !ambulo__run_late(&s->run);
   ambulo_status status = ambulo__dense_audit(s->problem, s->run.options->dense_samples, in_time,
@@ -113,7 +128,9 @@ ambulo_status ambulo__session_finish(ambulo__session *s) {
   ambulo_result *r = s->result;
   ambulo_status status = judge(s);
   if (!status && s->explains) status = look_again(s);
-  if (!status) status = look_between(s);
+  if (status) return status;
+  end_history(s);
+  status = look_between(s);
   if (status) return status;
   r->iterations = s->run.iterations;
   r->evaluations = s->run.evaluations;
@@ -148,6 +165,9 @@ ambulo_status ambulo__session_begin(ambulo__session *s, const ambulo_options *op
   s->note = "";
   status = ambulo__result_create(s->problem, s->allocator, &s->result);
   if (status) return status;
+  s->run.history = s->result->history;
+  s->run.history->shown.tolerance = options->feasibility_tolerance;
+  ambulo__start_pose(s->problem, s->result->x);
   if (start) memcpy(s->result->x, start, (size_t)s->problem->variables * sizeof *start);
   status = check_start(s);
   if (status) return status;

@@ -16,8 +16,7 @@ static ambulo_status solve_from_starts(const ambulo_problem *problem, const ambu
   ambulo_options last = *options;
   ambulo__valleys *valleys = NULL;
   double *start = NULL, begin = ambulo__seconds_now();
-  ambulo_status status = ambulo__options_check(options, diagnostics);
-  if (!status) status = ambulo__starts(problem, options, allocator, &start, &valleys);
+  ambulo_status status = ambulo__starts(problem, options, allocator, &start, &valleys);
   if (last.time_limit > 0.0)
     last.time_limit = fmax(1e-3, last.time_limit - (ambulo__seconds_now() - begin));
   if (!status)
@@ -36,7 +35,9 @@ ambulo_status ambulo_solve(const ambulo_problem *problem, const ambulo_options *
                            const double *start, const ambulo_allocator *allocator,
                            ambulo_diagnostics *diagnostics, ambulo_result **result) {
   if (!problem || !result) return AMBULO_E_ARGUMENT;
-  ambulo_options own = options ? *options : ambulo_problem_options(problem);
+  ambulo_options own;
+  ambulo_status status = ambulo__options_own(problem, options, diagnostics, &own);
+  if (status) return status;
   if (!start && own.starts > 1)
     return solve_from_starts(problem, &own, allocator, diagnostics, result);
   return ambulo__solve_once(problem, &own, start, 1, allocator, diagnostics, result);

@@ -20,6 +20,7 @@
 #include "method/pipeline.h"
 #include "method/refine.h"
 #include "method/smooth.h"
+#include "nlp/problem.h"
 
 #include <limits.h>
 #include <math.h>
@@ -40,6 +41,7 @@ static ambulo_status solve_again(ambulo__session *s, double *x) {
   size_t n = (size_t)s->problem->variables;
   double *other = ambulo__alloc(&a, n, sizeof *other);
   if (!other) return AMBULO_E_MEMORY;
+  ambulo__start_pose(s->problem, other);
   ambulo_ending before = s->run.ending;
   double violation = ambulo__violation_at(s->engine, x);
   ambulo_status status = ambulo__pipeline(s->engine, AMBULO__FAR, other);
@@ -143,7 +145,6 @@ static ambulo_status attempt(ambulo__session *s) {
 /* from zero; or from the caller's start, and from zero when that leads nowhere */
 static ambulo_status search(ambulo__session *s) {
   double *x = s->result->x;
-  size_t bytes = (size_t)s->problem->variables * sizeof *x;
   ambulo_status status = ambulo__candidates_create(&s->candidates, s->engine);
   if (status) return status;
   if (s->start) {
@@ -154,7 +155,7 @@ static ambulo_status search(ambulo__session *s) {
   if (!status) status = attempt(s);
   if (status) return status;
   if (s->start && !ambulo__candidates_solved(&s->candidates) && !ambulo__run_over(&s->run)) {
-    memset(x, 0, bytes);
+    ambulo__start_pose(s->problem, x);
     s->from_zero = 1;
     s->note = "; from zero, since the given start led to no solution";
     status = attempt(s);

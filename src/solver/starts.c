@@ -1,9 +1,9 @@
 /* solver/starts.c - see starts.h.
  *
- * Start 0 is zero. Start k > 0 has, for each coordinate that is not a translation of the root, the
- * curve over s = t/T
+ * Start 0 is the start pose, at rest. Start k > 0 has, for each coordinate that is not a
+ * translation of the root, the curve over s = t/T
  *
- *     q(s) = A (r_0 + r_1 cos 2 pi s + r_2 sin 2 pi s),   r uniform in [-1, 1],
+ *     q(s) = q_0 + A (r_0 + r_1 cos 2 pi s + r_2 sin 2 pi s),   r uniform in [-1, 1],
  *     A = .15 of the coordinate's range, at most .3 rad or m
  *
  * cut to the range: motions as slow as a stride, since what is faster is smoothed away before a
@@ -50,14 +50,15 @@ static void fill_start(const ambulo_problem *p, int k, double *x) {
   const double turn = 6.28318530717958647692;
   for (int i = 0; i < p->coordinates; i++) {
     const double *range = p->model->coordinates[i].range;
+    double pose = p->model->coordinates[i].default_value;
     uint64_t state = ((uint64_t)k << 32) + (uint64_t)i;
     double a = fmin(most_amplitude, amplitude * (range[1] - range[0])), r[3];
     for (int j = 0; j < 3; j++) r[j] = uniform(&state);
     int still = k == 0 || ambulo__is_root_translation(p->model, i) || !isfinite(a);
     for (int c = 0; c < p->control_points; c++) {
       double angle = turn * c / fmax(1.0, p->control_points - 1.0);
-      double q = a * (r[0] + r[1] * cos(angle) + r[2] * sin(angle));
-      x[c * p->coordinates + i] = still ? 0.0 : fmin(range[1], fmax(range[0], q));
+      double q = pose + a * (r[0] + r[1] * cos(angle) + r[2] * sin(angle));
+      x[c * p->coordinates + i] = still ? pose : fmin(range[1], fmax(range[0], q));
     }
   }
 }
@@ -118,9 +119,9 @@ static void sort(search *s) {
 
 /* ------------------------------------------------------------------- the search */
 
-/* seconds left of the limit, at least one poll; 0: there is no limit */
+/* seconds left of the limit, at least one poll; off: there is no limit */
 static double time_left(const search *s) {
-  if (!(s->options.time_limit > 0.0)) return 0.0;
+  if (isnan(s->options.time_limit)) return AMBULO_OFF;
   return fmax(1e-3, s->options.time_limit - (ambulo__seconds_now() - s->begin));
 }
 

@@ -100,7 +100,7 @@ static ambulo_status integrate(const ambulo_problem *p, ambulo_workspace *worksp
     const double *end = s->ends + k / AMBULO__GAUSS_POINTS;
     s->times[k] = ambulo__gauss_time(k % AMBULO__GAUSS_POINTS, end[0], end[1], &s->weights[k]);
   }
-  ambulo_motion motion = {.grf = s->feet, .patch_force = s->patches};
+  ambulo_motion motion = {.size = sizeof motion, .grf = s->feet, .patch_force = s->patches};
   ambulo_status status = ambulo_problem_motion(p, workspace, x, count, s->times, &motion);
   for (int k = 0; k < count; k++) {
     add_sample(s->weights[k], s->feet + (size_t)k * (size_t)feet, feet, s->step);

@@ -107,7 +107,8 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
   if (!status) status = ambulo__workspace_create_for_values(problem, allocator, &workspace);
   if (!status) {
     choose_times(&s, samples, &sample);
-    ambulo_motion motion = {.q = s.q,
+    ambulo_motion motion = {.size = sizeof motion,
+                            .q = s.q,
                             .qd = s.qd,
                             .qdd = s.qdd,
                             .tau = s.tau,
@@ -115,9 +116,11 @@ ambulo_status ambulo__stride_create(const ambulo_problem *problem, const double 
                             .grf = s.grf,
                             .cop = s.cop,
                             .free_moment = s.free_moment,
+                            .grf_moment = s.grf_moment,
                             .patch_force = s.patch_force,
                             .patch_cop = s.patch_cop,
                             .patch_free_moment = s.patch_free_moment,
+                            .patch_moment = s.patch_moment,
                             .device_effort = s.effort,
                             .device_along = s.along,
                             .device_power = s.power,
@@ -151,9 +154,11 @@ void ambulo__stride_free(ambulo__stride *s) {
   ambulo__free(&s->allocator, s->grf);
   ambulo__free(&s->allocator, s->cop);
   ambulo__free(&s->allocator, s->free_moment);
+  ambulo__free(&s->allocator, s->grf_moment);
   ambulo__free(&s->allocator, s->patch_force);
   ambulo__free(&s->allocator, s->patch_cop);
   ambulo__free(&s->allocator, s->patch_free_moment);
+  ambulo__free(&s->allocator, s->patch_moment);
   ambulo__free(&s->allocator, s->effort);
   ambulo__free(&s->allocator, s->along);
   ambulo__free(&s->allocator, s->power);

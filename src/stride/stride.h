@@ -27,8 +27,10 @@ typedef struct ambulo__stride {
   int feet;                   /* 0 without ground reaction */
   double *grf, *cop;          /* [samples][feet][3], N, m; no centre of pressure (NaN) in the air */
   double *free_moment;        /* [samples][feet], about the normal, N m */
+  double *grf_moment;         /* [samples][feet][3], about the world's origin, N m */
   int patches;                /* of the model; 0 unless contacts share the load */
-  double *patch_force, *patch_cop, *patch_free_moment; /* likewise, [samples][patches] */
+  double *patch_force, *patch_cop, *patch_free_moment,
+      *patch_moment; /* likewise, [samples][patches] */
   int devices;
   double *effort, *along, *power; /* [samples][devices]: N m or N; rad or m; W on the body */
   int holds;

@@ -1,5 +1,7 @@
-/* sweep/sweep_outputs.c - what is collected, and how drawings call it. */
+/* sweep/sweep_outputs.c - what is collected, and how the table and drawings call it. */
 #include "sweep/sweep.h"
+
+#include <string.h>
 
 ambulo_status ambulo__sweep_copy(ambulo_sweep *s, const ambulo__yaml_node *node, char **copy) {
   if (!node) return AMBULO_OK;
@@ -27,6 +29,40 @@ static ambulo_status read_output(ambulo_sweep *s, const ambulo__yaml_node *node,
   return ambulo__sweep_close(node, status);
 }
 
+static const char *title_of(const ambulo__sweep_output *output) {
+  return output->label ? output->label : output->path;
+}
+
+/* whether another column of the table has this title */
+static int is_taken(const ambulo_sweep *s, const char *label, int own) {
+  static const char *const words[] = {"id", "name", "state", "front", "place", "better"};
+  for (size_t i = 0; i < (s->front.terms > 0 ? 6 : 3); i++)
+    if (strcmp(words[i], label) == 0) return 1;
+  for (int i = 0; i < s->axes; i++)
+    if (strcmp(s->axis[i].name, label) == 0) return 1;
+  for (int i = 0; i < s->front.terms; i++)
+    if (strcmp(s->front.name[i], label) == 0) return 1;
+  for (int i = 0; i < s->outputs; i++) {
+    const ambulo__sweep_output *other = &s->output[i];
+    if (i != own && (strcmp(title_of(other), label) == 0 || strcmp(other->path, label) == 0))
+      return 1;
+  }
+  return 0;
+}
+
+static ambulo_status check_label(ambulo_sweep *s, const ambulo__yaml_node *node, int i) {
+  const char *label = s->output[i].label;
+  if (!label) return AMBULO_OK;
+  const ambulo__yaml_node *at = ambulo__yaml_get(node, "label");
+  if (!label[0])
+    return ambulo__yaml_error(at, AMBULO_E_SCHEMA, NULL, "the label is empty; expected a text");
+  if (!is_taken(s, label, i)) return AMBULO_OK;
+  return ambulo__yaml_error(at, AMBULO_E_SCHEMA, NULL,
+                            "the label '%s' is that of another column of the table; expected "
+                            "another one",
+                            label);
+}
+
 ambulo_status ambulo__sweep_read_outputs(ambulo_sweep *s, const ambulo__yaml_node *node) {
   int items = ambulo__yaml_items(node);
   ambulo_status status = AMBULO_OK;
@@ -34,5 +70,6 @@ ambulo_status ambulo__sweep_read_outputs(ambulo_sweep *s, const ambulo__yaml_nod
   if (!s->output) return AMBULO_E_MEMORY;
   for (int i = 0; i < items && !status; i++)
     status = read_output(s, ambulo__yaml_item(node, i), &s->output[s->outputs++]);
+  for (int i = 0; i < items && !status; i++) status = check_label(s, ambulo__yaml_item(node, i), i);
   return status;
 }

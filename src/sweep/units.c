@@ -34,8 +34,8 @@ static const char *unit_of_coordinate(const char *column, const ambulo_model *mo
 }
 
 static const char *unit_of_column(const char *column, const ambulo_model *model) {
-  static const pair kinds[] = {
-      {"time", "s"}, {"zmp", "m"}, {"cop", "m"}, {"grf", "N"}, {"free_moment", "N m"}};
+  static const pair kinds[] = {{"time", "s"}, {"zmp", "m"},           {"cop", "m"},
+                               {"grf", "N"},  {"free_moment", "N m"}, {"moment", "N m"}};
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
     if (begins(column, kinds[i].name)) return kinds[i].unit;
   return unit_of_coordinate(column, model);

@@ -102,7 +102,7 @@ check 'solve_walk: no folder twice' eval '! run_program solve_walk models/walk_n
 check 'inverse_motion runs' run_program inverse_motion
 # noise of 2 mrad at 100 Hz is of no use without a filter
 check 'inverse_motion: the filter serves' awk_says \
-  '/^cut-off/ { off[NR] = $7 } END { exit !(off[1] > 20 && off[2] > 0 && off[2] < 1) }'
+  '/torque off by/ { sub(/.* by /, ""); off[++n] = $1 } END { exit !(off[1] > 20 && off[2] > 0 && off[2] < 1) }'
 check 'own_term runs' run_program own_term models/walk_normal.yaml
 check 'own_term: right gradients' awk_says \
   '/^gradient/ { n++; if ($NF > 1e-7) bad = 1 } END { exit bad || n != 2 }'

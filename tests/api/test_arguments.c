@@ -65,7 +65,11 @@ static void objects_are_not_made_of_nothing(void **state) {
   REFUSED(ambulo_problem_load(NULL, NULL, 0, NULL, NULL, &problem));
   REFUSED(ambulo_problem_load("x", NULL, 2, NULL, NULL, &problem));
   REFUSED(ambulo_problem_load("x", NULL, -1, NULL, NULL, &problem));
-  REFUSED(ambulo_problem_load_text(NULL, 0, NULL, NULL, NULL, 0, NULL, NULL, &problem));
+  REFUSED(ambulo_problem_load_text(
+      &(ambulo_problem_text){
+          .size = sizeof(ambulo_problem_text),
+      },
+      NULL, NULL, &problem));
   REFUSED(ambulo_problem_create(NULL, NULL, NULL, &problem));
   REFUSED(ambulo_problem_create(&d, NULL, NULL, NULL));
   d.model = NULL;
@@ -138,7 +142,8 @@ static void points_and_outputs_are_needed(void **state) {
   REFUSED(ambulo_problem_limits(NULL, 0, AMBULO_LIMITED_POSITION, &limits));
   REFUSED(ambulo_problem_limits(p, -1, AMBULO_LIMITED_POSITION, &limits));
   REFUSED(ambulo_problem_limits(p, 1 << 20, AMBULO_LIMITED_POSITION, &limits));
-  REFUSED(ambulo_problem_limits(p, 0, (ambulo_limited)3, &limits));
+  REFUSED(ambulo_problem_limits(p, 0, (ambulo_limited)4, &limits));
+  REFUSED(ambulo_problem_limits(p, 0, AMBULO_LIMITED_NOT_SET, &limits));
   REFUSED(ambulo_problem_limits(p, 0, AMBULO_LIMITED_POSITION, NULL));
   assert_int_equal(limits.low_of, 77);
   assert_untouched(o);
@@ -150,7 +155,7 @@ static void motions_end_with_the_problem(void **state) {
   objects *o = *state;
   double last = ambulo_problem_duration(o->problem);
   double wrong[] = {-0.01, 1.01 * last, (double)NAN, (double)INFINITY};
-  ambulo_motion motion = {.q = o->out};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = o->out};
   const ambulo_problem *p = o->problem;
   for (int i = 0; i < 4; i++)
     REFUSED(ambulo_problem_motion(p, o->workspace, o->x, 1, &wrong[i], &motion));
@@ -173,15 +178,19 @@ static void values_that_are_not_finite(void **state) {
                    AMBULO_E_NUMERIC);
   assert_int_equal(ambulo_problem_row_gradient(p, o->workspace, o->x, 0, out), AMBULO_E_NUMERIC);
   assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(o->mechanics, 2, o->x, o->x, o->x, out, out, out),
+      ambulo_mechanics_inverse_dynamics(
+          o->mechanics, 2, o->x, o->x, o->x,
+          &(ambulo_outputs){
+              .size = sizeof(ambulo_outputs), .tau = out, .wrench = out, .points = out}),
       AMBULO_E_NUMERIC);
-  assert_int_equal(ambulo_mechanics_gradient(o->mechanics, 1, o->x, o->x, o->x,
-                                             &(ambulo_output_weights){.tau = o->x},
-                                             &(ambulo_motion_gradient){out, out, out}),
+  assert_int_equal(ambulo_mechanics_gradient(
+                       o->mechanics, 1, o->x, o->x, o->x,
+                       &(ambulo_output_weights){.size = sizeof(ambulo_output_weights), .tau = o->x},
+                       &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), out, out, out}),
                    AMBULO_E_NUMERIC);
   assert_untouched(o);
   double q[2] = {untouched, untouched};
-  ambulo_motion motion = {.q = q};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q};
   assert_int_equal(ambulo_problem_motion(p, o->workspace, o->x, 1, &half, &motion),
                    AMBULO_E_NUMERIC);
   assert_true(isnan(q[0]));
@@ -205,9 +214,9 @@ static void files_need_names(void **state) {
   REFUSED(ambulo_inverse_dynamics_file(o->model, NULL, NULL, NULL, NULL, &text));
   REFUSED(ambulo_inverse_dynamics_file(NULL, "x", NULL, NULL, NULL, &text));
   REFUSED(ambulo_inverse_dynamics_file(o->model, "x", NULL, NULL, NULL, NULL));
-  REFUSED(ambulo_inverse_dynamics_motion(NULL, "x", "y", NULL, NULL, NULL, NULL, NULL));
-  REFUSED(ambulo_inverse_dynamics_motion(o->model, NULL, "y", NULL, NULL, NULL, NULL, NULL));
-  REFUSED(ambulo_inverse_dynamics_motion(o->model, "x", NULL, NULL, NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_inverse_dynamics_motion(NULL, "x", "y", NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_inverse_dynamics_motion(o->model, NULL, "y", NULL, NULL, NULL, NULL));
+  REFUSED(ambulo_inverse_dynamics_motion(o->model, "x", NULL, NULL, NULL, NULL, NULL));
   REFUSED(ambulo_compare(NULL, "x", NULL, NULL, NULL, &comparison));
   REFUSED(ambulo_compare("x", NULL, NULL, NULL, NULL, &comparison));
   REFUSED(ambulo_file_kind_of(NULL, NULL, NULL, &kind));

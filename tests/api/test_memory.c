@@ -130,7 +130,12 @@ static ambulo_status load_problem_text(const ambulo_allocator *a, ambulo_diagnos
       "objective:\n  - {term: torque_squared, weight: 1, scale: {swing: 2}}\n";
   ambulo_problem *problem = NULL;
   ambulo_status status =
-      ambulo_problem_load_text(text, sizeof text - 1, "p", MODEL, NULL, 0, a, list, &problem);
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = sizeof text - 1,
+                                                      .name = "p",
+                                                      .directory = MODEL},
+                               a, list, &problem);
   ambulo_problem_free(problem);
   return status;
 }
@@ -234,9 +239,9 @@ static ambulo_status audit(const ambulo_allocator *a, ambulo_diagnostics *list) 
 
 static ambulo_status inverse(const ambulo_allocator *a, ambulo_diagnostics *list) {
   char *text = NULL;
-  ambulo_status status = ambulo_inverse_dynamics_motion(ambulo_problem_model(w.walk.problem),
-                                                        scratch_path(w.state, "result/motion.csv"),
-                                                        NULL, NULL, a, list, NULL, &text);
+  ambulo_status status = ambulo_inverse_dynamics_motion(
+      ambulo_problem_model(w.walk.problem), scratch_path(w.state, "result/motion.csv"), NULL, NULL,
+      a, list, &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text});
   ambulo_text_free(text, a);
   return status;
 }

@@ -55,7 +55,11 @@ static void files_that_are_read(void **state) {
   refused(&o, ambulo_solution_start("", o.problem, NULL, o.list, o.x), says);
   refused(&o, ambulo_inverse_dynamics_file(o.model, "", NULL, NULL, o.list, &text),
           "the name of the motion is empty");
-  refused(&o, ambulo_inverse_dynamics_loaded(o.model, "x", "", NULL, NULL, o.list, NULL, &text),
+  ambulo_inverse_options nameless = ambulo_inverse_options_default();
+  ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
+  nameless.forces = "";
+  outputs.text = &text;
+  refused(&o, ambulo_inverse_dynamics_motion(o.model, "x", NULL, &nameless, NULL, o.list, &outputs),
           "the name of the file of forces is empty");
   assert_true(!model && !problem && !sweep && !text);
   close_objects(&o);

@@ -144,8 +144,13 @@ static void models(void **state) {
 
 static ambulo_status read_problem(reading *r, const mutation *m, ambulo_diagnostics *list) {
   ambulo_problem *problem = NULL;
-  ambulo_status status = ambulo_problem_load_text(
-      m->text, m->length, r->name, AMBULO_SOURCE_DIR "/models/", NULL, 0, NULL, list, &problem);
+  ambulo_status status =
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = m->text,
+                                                      .length = m->length,
+                                                      .name = r->name,
+                                                      .directory = AMBULO_SOURCE_DIR "/models/"},
+                               NULL, list, &problem);
   assert_true((problem != NULL) == (status == AMBULO_OK));
   ambulo_problem_free(problem);
   return status;
@@ -306,9 +311,14 @@ static ambulo_status read_solution(reading *r, const mutation *m, ambulo_diagnos
 
 static void solutions(void **state) {
   ambulo_problem *problem = NULL;
-  assert_int_equal(ambulo_problem_load_text(swing, strlen(swing), "p", AMBULO_SOURCE_DIR "/models/",
-                                            NULL, 0, NULL, NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = swing,
+                                                      .length = strlen(swing),
+                                                      .name = "p",
+                                                      .directory = AMBULO_SOURCE_DIR "/models/"},
+                               NULL, NULL, &problem),
+      AMBULO_OK);
   reading r = {.name = scratch_path(state, "m.yaml"), .read = read_solution, .user = problem};
   r.path = r.name;
   mutation_places places = {.most = 3};

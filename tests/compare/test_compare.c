@@ -138,7 +138,7 @@ static void refusals(void **state) {
   options = ambulo_compare_options_default();
   options.foot = "third";
   assert_int_equal(ambulo_compare(*state, path, &options, NULL, list, &c), AMBULO_E_ARGUMENT);
-  options.cookie = 0;
+  options.size = 0;
   assert_int_equal(ambulo_compare(*state, path, &options, NULL, list, &c), AMBULO_E_ARGUMENT);
   ambulo_diagnostics_free(list);
 }

@@ -28,12 +28,12 @@ typedef struct device_case {
 
 static inline void random_device(random_source *source, const ambulo_model *m,
                                  ambulo_device *device) {
-  *device = ambulo_device_default((ambulo_device_kind)random_below(source, 3));
+  *device = ambulo_device_default((ambulo_device_kind)(1 + random_below(source, 3)));
   device->name = "device";
   device->stiffness = random_between(source, 1, 300);
   device->rest = random_between(source, -0.3, 0.6);
   device->pretension = random_between(source, -10, 10);
-  device->side = (ambulo_device_side)random_below(source, 3);
+  device->side = (ambulo_device_side)(1 + random_below(source, 3));
   device->smoothing = random_between(source, 0.01, 2);
   device->damping = random_between(source, 0, 20);
   device->amount = random_between(source, -30, 30);

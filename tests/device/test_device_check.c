@@ -47,16 +47,20 @@ static void refuses(const ambulo_device *device, ambulo_ends ends, const char *w
 static void test_numbers(void **state) {
   (void)state;
   REFUSES(NULL, (void)v);
-  REFUSES("devices[0].stiffness of 'spring' is -5; expected 1e-09 to 1e+09", v.stiffness = -5);
-  REFUSES("stiffness of 'spring' is 0", v.stiffness = 0);
+  REFUSES("devices[0].stiffness of 'spring' is -5; expected 0 to 1e+09", v.stiffness = -5);
+  REFUSES(NULL, v.stiffness = 0);
   REFUSES("rest of 'spring' is nan", v.rest = NAN);
   REFUSES("pretension of 'spring' is inf", v.pretension = INFINITY);
   REFUSES("smoothing of 'spring' is 0", v.side = AMBULO_DEVICE_ABOVE; v.smoothing = 0);
   REFUSES(NULL, v.smoothing = 0);
-  REFUSES("side 7 of 'spring'", v.side = (ambulo_device_side)7);
+  REFUSES("the side of 'spring' is unknown (got 7)", v.side = (ambulo_device_side)7);
   REFUSES("damping of 'spring' is -1", v.kind = AMBULO_DEVICE_DAMPER; v.damping = -1);
   REFUSES("amount of 'spring' is nan", v.kind = AMBULO_DEVICE_ACTUATOR; v.amount = NAN);
-  REFUSES("unknown kind 9", v.kind = (ambulo_device_kind)9);
+  REFUSES("is unknown (got 9); expected an ambulo_device_kind", v.kind = (ambulo_device_kind)9);
+  REFUSES("the side of 'spring' is not set (got 0)", v.side = AMBULO_DEVICE_SIDE_NOT_SET);
+  REFUSES("the kind of 'spring' is not set (got 0)", v.kind = AMBULO_DEVICE_KIND_NOT_SET);
+  REFUSES("the clock of 'spring' is not set (got 0)", v.kind = AMBULO_DEVICE_ACTUATOR;
+          v.clock = AMBULO_DEVICE_CLOCK_NOT_SET);
   REFUSES("has no name", v.name = "");
 }
 
@@ -79,7 +83,8 @@ static void test_profiles(void **state) {
           v.clock = AMBULO_DEVICE_BY_STRIDE; v.points = whole);
   REFUSES("has no points", v.kind = AMBULO_DEVICE_ACTUATOR; v.clock = AMBULO_DEVICE_BY_TIME;
           v.points = NULL);
-  REFUSES("unknown clock 5", v.kind = AMBULO_DEVICE_ACTUATOR; v.clock = (ambulo_device_clock)5);
+  REFUSES("is unknown (got 5); expected one of its three", v.kind = AMBULO_DEVICE_ACTUATOR;
+          v.clock = (ambulo_device_clock)5);
 }
 
 static void test_clutches(void **state) {

@@ -86,8 +86,37 @@ static void test_one_side(void **state) {
   }
 }
 
+/* Everything at stiffness 0 is what it tends to: where the pull is straight in the stiffness, its
+ * difference from there. */
+static void test_no_stiffness(void **state) {
+  (void)state;
+  const double k = 1e-6, f = 0.7;
+  for (int i = 0; i < 2 * 3 * 3 * 9; i++) {
+    ambulo_device v = ambulo_device_default(AMBULO_DEVICE_SPRING);
+    v.coordinate = i % 2 ? 3 : -1;
+    v.side = (ambulo_device_side)(1 + i / 2 % 3);
+    v.pretension = 8.0 * (i / 6 % 3 - 1);
+    v.rest = 0.3;
+    v.smoothing = 0.2;
+    double s = 0.3 + 0.04 * (i / 18 - 4), g = v.coordinate >= 0 ? 1 : -1;
+    ambulo__effort none = ambulo__effort_of(&v, s, 0, f);
+    int pulls = v.side == AMBULO_DEVICE_BOTH ||
+                (v.side == AMBULO_DEVICE_ABOVE ? v.pretension > 0 : v.pretension < 0);
+    assert_close(none.value, pulls ? -g * f * v.pretension : 0.0, 1e-15);
+    assert_true(none.by_along == 0.0 && none.by_rest == 0.0 && none.by_smoothing == 0.0);
+    assert_close(none.by_factor * f, none.value, 1e-15);
+    if (v.pretension != 0) assert_close(none.by_pretension, pulls ? -g * f : 0.0, 1e-15);
+    v.stiffness = k;
+    ambulo__effort some = ambulo__effort_of(&v, s, 0, f);
+    assert_close(none.by_stiffness, (some.value - none.value) / k, 1e-8);
+    assert_close(none.by_stiffness, some.by_stiffness, 1e-12);
+    assert_close(none.by_pretension, some.by_pretension, 1e-12);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_laws_and_their_derivatives),
-                                     cmocka_unit_test(test_one_side)};
+                                     cmocka_unit_test(test_one_side),
+                                     cmocka_unit_test(test_no_stiffness)};
   return cmocka_run_group_tests_name("device/law", tests, NULL, NULL);
 }

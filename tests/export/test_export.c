@@ -4,23 +4,17 @@
 
 #include <sys/stat.h>
 
-#include "ambulo/import.h"
 #include "support/fail_alloc.h"
-#include "support/messages.h"
+#include "support/import_case.h"
 #include "support/random_model.h"
 #include "support/scratch.h"
+#include "support/still_walker.h"
 
 static ambulo_export_options options_of(ambulo_export_format format) {
   ambulo_export_options o = ambulo_export_options_default();
   o.format = format;
   o.overwrite = 1;
   return o;
-}
-
-static void skip_without_expat(void) {
-  if (ambulo_import_available()) return;
-  print_message("skipped: built without expat\n");
-  skip();
 }
 
 /* ---------------------------------------------------------------------- round trips */
@@ -37,9 +31,10 @@ static void torques(const ambulo_model *model, const ambulo_model *order, const 
     for (int k = 0; k < 3; k++) q[k][at] = state[k * d + i];
   }
   void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
-  assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(model, q[0], q[1], q[2], own, NULL, NULL, scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo_lagrangian_inverse_dynamics(
+                       model, q[0], q[1], q[2],
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = own}, scratch),
+                   AMBULO_OK);
   free(scratch);
   for (int i = 0; i < d; i++)
     tau[i] = own[ambulo_model_find_coordinate(model, ambulo_model_coordinate(order, i)->name)];
@@ -47,7 +42,7 @@ static void torques(const ambulo_model *model, const ambulo_model *order, const 
 
 static void compare_models(const ambulo_model *a, const ambulo_model *b, random_source *source) {
   enum { MOST = 64 };
-  double state[3 * MOST], one[MOST], two[MOST], size = 1.0;
+  double state[3 * MOST] = {0}, one[MOST], two[MOST], size = 1.0;
   int d = ambulo_model_coordinate_count(a);
   assert_int_equal(ambulo_model_coordinate_count(b), d);
   for (int i = 0; i < 3 * d; i++) state[i] = random_between(source, -2, 2);
@@ -60,10 +55,9 @@ static void compare_models(const ambulo_model *a, const ambulo_model *b, random_
 static void there_and_back(void **state, uint64_t seed, ambulo_export_format format) {
   random_tree *tree = malloc(sizeof *tree);
   random_source source = {seed};
-  ambulo_model *model = NULL, *back = NULL;
+  ambulo_model *model = NULL;
   ambulo_export_options o = options_of(format);
-  ambulo_import_options in = ambulo_import_options_default();
-  const char *file = scratch_path(state, "m.xml"), *yaml = scratch_path(state, "m.yaml");
+  const char *file = scratch_path(state, "m.xml");
   random_tree_make(tree, seed, 1 + (int)(seed % 9));
   if (seed % 3 == 0) random_tree_put_on_root(tree, seed);
   /* a URDF's gravity is its reader's */
@@ -72,19 +66,14 @@ static void there_and_back(void **state, uint64_t seed, ambulo_export_format for
     tree->coordinates[i].actuated = (int)(seed + (uint64_t)i) % 2;
   assert_int_equal(ambulo_model_create(&tree->definition, NULL, NULL, &model), AMBULO_OK);
   assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
-  in.overwrite = 1;
-  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_status status = ambulo_import_model(file, yaml, &in, NULL, list, NULL);
-  for (size_t i = 0; status && i < ambulo_diagnostics_count(list); i++) {
-    char text[400];
-    ambulo_diagnostics_format(list, i, text, sizeof text);
-    print_error("seed %d: %s\n", (int)seed, text);
+  import_case back = import_file(file, NULL);
+  if (back.status) {
+    print_error("seed %d\n", (int)seed);
+    import_print(&back);
   }
-  assert_int_equal(status, AMBULO_OK);
-  assert_int_equal(ambulo_model_load(yaml, NULL, NULL, NULL, &back), AMBULO_OK);
-  for (int pose = 0; pose < 3; pose++) compare_models(model, back, &source);
-  ambulo_diagnostics_free(list);
-  ambulo_model_free(back);
+  assert_int_equal(back.status, AMBULO_OK);
+  for (int pose = 0; pose < 3; pose++) compare_models(model, back.model, &source);
+  import_shut(&back);
   ambulo_model_free(model);
   free(tree);
 }
@@ -102,18 +91,18 @@ static void opensim_comes_back(void **state) {
 /* ranges, limits of torques, names; sliders of the root with their offset */
 static void limits_come_back(void **state) {
   skip_without_expat();
-  ambulo_model *model = NULL, *back = NULL;
+  ambulo_model *model = NULL;
   ambulo_export_options o = options_of(AMBULO_EXPORT_OPENSIM);
-  const char *file = scratch_path(state, "m.osim"), *yaml = scratch_path(state, "m.yaml");
+  const char *file = scratch_path(state, "m.osim");
   assert_int_equal(ambulo_model_load("models/lower_body_21.yaml", NULL, NULL, NULL, &model),
                    AMBULO_OK);
   assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_OK);
-  assert_int_equal(ambulo_import_model(file, yaml, NULL, NULL, NULL, NULL), AMBULO_OK);
-  assert_int_equal(ambulo_model_load(yaml, NULL, NULL, NULL, &back), AMBULO_OK);
+  import_case back = import_file(file, NULL);
+  assert_int_equal(back.status, AMBULO_OK);
   for (int i = 0; i < ambulo_model_coordinate_count(model); i++) {
     const ambulo_coordinate *a = ambulo_model_coordinate(model, i);
     const ambulo_coordinate *b =
-        ambulo_model_coordinate(back, ambulo_model_find_coordinate(back, a->name));
+        ambulo_model_coordinate(back.model, ambulo_model_find_coordinate(back.model, a->name));
     double offset = strcmp(a->name, "pelvis_ty") == 0 ? 0.534643 * 1.75 : 0.0;
     assert_non_null(b);
     for (int k = 0; k < 2; k++) {
@@ -121,7 +110,7 @@ static void limits_come_back(void **state) {
       if (a->actuated) assert_close(b->torque[k], a->torque[k], 1e-12 * fabs(a->torque[k]));
     }
   }
-  ambulo_model_free(back);
+  import_shut(&back);
   ambulo_model_free(model);
 }
 
@@ -160,67 +149,6 @@ static void markers(void **state) {
 }
 
 /* -------------------------------------------------------------------------- motions */
-
-/* a walker that hangs still, its right foot pressed from 0.2 s on */
-static const char motion_text[] =
-    "time,q.pelvis_ty,q.knee_angle_r,grf.right.x,grf.right.y,grf.right.z,cop.right.x,cop.right.y,"
-    "cop.right.z,free_moment.right,grf.left.x,grf.left.y,grf.left.z,cop.left.x,cop.left.y,"
-    "cop.left.z,free_moment.left\n"
-    "0,0.1,0.5,0,0,0,nan,nan,nan,0,0,0,0,nan,nan,nan,0\n"
-    "0.1,0.1,0.5,0,0,0,nan,nan,nan,0,0,0,0,nan,nan,nan,0\n"
-    "0.2,0.1,0.5,10,700,20,0.1,0,0.05,3,0,0,0,nan,nan,nan,0\n"
-    "0.3,0.1,0.5,10,700,20,0.2,0,0.05,3,0,0,0,nan,nan,nan,0\n"
-    "0.4,0.1,0.5,10,700,20,0.2,0,0.05,3,0,0,0,nan,nan,nan,0\n";
-
-static ambulo_model *walker(void) {
-  ambulo_model *model = NULL;
-  assert_int_equal(ambulo_model_load("models/walker_2d.yaml", NULL, NULL, NULL, &model), AMBULO_OK);
-  return model;
-}
-
-/* cell of a table behind endheader */
-static double cell(const char *text, const char *column, int row) {
-  const char *head = strstr(text, "endheader\n") + 10, *at = head;
-  int index = 0;
-  for (; strncmp(at, column, strlen(column)) != 0 || !strchr("\t\n", at[strlen(column)]); index++) {
-    at = strpbrk(at, "\t\n");
-    assert_non_null(at);
-    assert_true(*at++ == '\t');
-  }
-  for (at = head; row >= 0; row--) at = strchr(at, '\n') + 1;
-  for (; index > 0; index--) at = strchr(at, '\t') + 1;
-  return strtod(at, NULL);
-}
-
-static char *folder_text(const char *folder, const char *name) {
-  char path[600];
-  (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-  return read_whole(path);
-}
-
-static void a_folder_for_opensim(void **state) {
-  ambulo_model *model = walker();
-  const char *motion = scratch_path(state, "m.csv"), *folder = scratch_path(state, "out");
-  scratch_write(motion, motion_text);
-  assert_int_equal(ambulo_export(model, motion, folder, NULL, NULL, NULL), AMBULO_OK);
-  assert_int_equal(entries_in(folder), 4);
-  char *mot = folder_text(folder, "motion.mot"), *grf = folder_text(folder, "grf.mot"),
-       *loads = folder_text(folder, "external_loads.xml");
-  assert_non_null(strstr(mot, "inDegrees=yes\n"));
-  assert_close(cell(mot, "knee_angle_r", 1), 0.5 * 180 / acos(-1), 1e-13);
-  assert_close(cell(mot, "pelvis_ty", 1), 0.1 + 0.534643 * 1.75, 1e-12);
-  assert_close(cell(grf, "ground_force_right_vy", 3), 700, 1e-12);
-  assert_close(cell(grf, "ground_force_right_px", 4), 0.2, 1e-12);
-  assert_close(cell(grf, "ground_force_right_px", 1), 0.1, 1e-12); /* in the air: the next one */
-  assert_close(cell(grf, "ground_torque_right_y", 3), 3, 1e-12);
-  assert_close(cell(grf, "ground_force_left_px", 3), 0, 0); /* never down */
-  assert_non_null(strstr(loads, "<applied_to_body>foot_r</applied_to_body>"));
-  assert_non_null(strstr(loads, "<torque_identifier>ground_torque_right_</torque_identifier>"));
-  free(mot);
-  free(grf);
-  free(loads);
-  ambulo_model_free(model);
-}
 
 /* element `index` of an array of an archive, whose bytes are not machine's but little-endian */
 static double element(const char *archive, size_t length, const char *name, const char *shape,
@@ -287,7 +215,7 @@ static void arguments(void **state) {
   assert_int_equal(ambulo_export(model, NULL, "", &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_export(model, "", file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_export(model, NULL, file, &none, NULL, NULL), AMBULO_E_ARGUMENT);
-  o.format = (ambulo_export_format)3;
+  o.format = AMBULO_EXPORT_FORMAT_NOT_SET;
   assert_int_equal(ambulo_export(model, NULL, file, &o, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_int_equal(entries_in(*state), 0);
   ambulo_model_free(model);
@@ -387,7 +315,6 @@ int main(void) {
       cmocka_unit_test_setup_teardown(opensim_comes_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(limits_come_back, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(markers, scratch_open, scratch_close),
-      cmocka_unit_test_setup_teardown(a_folder_for_opensim, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(an_archive, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(arguments, scratch_open, scratch_close),
       cmocka_unit_test_setup_teardown(refusals, scratch_open, scratch_close),

@@ -79,8 +79,11 @@ static ambulo_fit_options usual(int workers) {
 
 static ambulo_status run(const ambulo_fit *fit, const char *directory, const ambulo_fit_options *o,
                          ambulo_fit_progress *end, ambulo_fit_ending *ending, char **report) {
+  ambulo_fit_progress own = {.ending = AMBULO_FIT_NOT_RUN};
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  ambulo_status status = ambulo_fit_run(fit, directory, o, NULL, list, end, ending, report);
+  ambulo_status status = ambulo_fit_run(fit, directory, o, NULL, list, &own, report);
+  if (end) *end = own;
+  if (ending && !status) *ending = own.ending;
   char buffer[1024] = "";
   ambulo_diagnostics_format(list, 0, buffer, sizeof buffer);
   if (status) print_error("%s\n", buffer);
@@ -229,9 +232,8 @@ static void first_solves_that_fail(void **state) {
   ambulo_fit_options o = usual(2);
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   o.program = "/bin/false";
-  assert_int_equal(
-      ambulo_fit_run(fit, scratch_path(state, "out"), &o, NULL, list, NULL, NULL, NULL),
-      AMBULO_E_PROBLEM);
+  assert_int_equal(ambulo_fit_run(fit, scratch_path(state, "out"), &o, NULL, list, NULL, NULL),
+                   AMBULO_E_PROBLEM);
   assert_message(list, 0,
                  "no condition could be solved where the parameters stand; 'slow' is "
                  "error");
@@ -249,9 +251,8 @@ static void a_motion_without_the_curve(void **state) {
       fit_load_text(state, FIT_HEAD FIT_PARAMETERS FIT_CONDITIONS FIT_DISTANCE, list, &fit),
       AMBULO_OK);
   ambulo_fit_options o = usual(2);
-  assert_int_equal(
-      ambulo_fit_run(fit, scratch_path(state, "out"), &o, NULL, list, NULL, NULL, NULL),
-      AMBULO_E_PROBLEM);
+  assert_int_equal(ambulo_fit_run(fit, scratch_path(state, "out"), &o, NULL, list, NULL, NULL),
+                   AMBULO_E_PROBLEM);
   assert_message(list, 0, "condition 'slow': the motion has no curve 'pin' (from 'q.pen')");
   ambulo_diagnostics_free(list);
   ambulo_fit_free(fit);
@@ -261,13 +262,13 @@ static void arguments(void **state) {
   ambulo_fit *fit = truth_fit(state, "");
   ambulo_fit_options o = usual(1);
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  assert_int_equal(ambulo_fit_run(NULL, "x", &o, NULL, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_fit_run(fit, "", &o, NULL, list, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_fit_run(NULL, "x", &o, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_fit_run(fit, "", &o, NULL, list, NULL, NULL), AMBULO_E_ARGUMENT);
   assert_message(list, 0, "the name of the folder is empty");
   o.grace = -1.0;
-  assert_int_equal(ambulo_fit_run(fit, "x", &o, NULL, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_fit_run(fit, "x", &o, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
   memset(&o, 0, sizeof o);
-  assert_int_equal(ambulo_fit_run(fit, "x", &o, NULL, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_fit_run(fit, "x", &o, NULL, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
   ambulo_diagnostics_free(list);
   ambulo_fit_free(fit);
 }

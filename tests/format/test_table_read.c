@@ -112,6 +112,10 @@ static const struct {
     {"a.sto", "title\nendheader\n", AMBULO_E_PARSE, "no column names"},
     {"a.sto", "t\nnRows=3\nendheader\ntime\tq\n0\t1\n1\t1\n", AMBULO_E_PARSE,
      "2 rows; expected 3 (nRows)"},
+    {"a.sto", "t\nendheader\ntime\tq\n0\t1\n1\t1\n1\t2\n", AMBULO_E_SCHEMA,
+     "a.sto:6:1: error[E_SCHEMA]: time does not increase"},
+    {"a.csv", "time,q\n0,1\n1,1\n1,1\n", AMBULO_E_SCHEMA,
+     "a.csv:4:1: error[E_SCHEMA]: time does not increase"},
     {"a.sto", "t\nnRows=many\nendheader\ntime\tq\n0\t1\n", AMBULO_E_SCHEMA,
      "a.sto:2:7: error[E_SCHEMA]: not a count (got 'many')"},
     {"a.sto", "t\ninDegrees=\nendheader\ntime\tq\n0\t1\n", AMBULO_E_SCHEMA, "inDegrees is ''"},
@@ -131,6 +135,24 @@ static void faults_are_named_with_line_and_column(void **state) {
     assert_null(motion);
     ambulo_diagnostics_free(list);
   }
+}
+
+/* OpenSim's tools repeat rows where their runs end */
+static void repeated_rows_are_left_out(void **state) {
+  (void)state;
+  static const char text[] =
+      "t\nnRows=5\nendheader\ntime\tq\n0\t1\n0\t1\n1\t2\n1\t2.00000001\n1\t2\n";
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  ambulo__motion *motion = NULL;
+  assert_int_equal(
+      motion_read_text(text, strlen(text), "x.sto", AMBULO__MOTION_AUTO, NULL, list, &motion),
+      AMBULO_OK);
+  assert_int_equal(motion->rows, 2);
+  assert_close(motion->time[1], 1, 0);
+  assert_close(motion->values[1], 2, 0);
+  assert_message(list, 0, "3 rows say the same as the row before, time and all: they are left out");
+  ambulo__motion_free(motion);
+  ambulo_diagnostics_free(list);
 }
 
 static void one_run_reports_all_faults(void **state) {
@@ -249,6 +271,7 @@ int main(void) {
       cmocka_unit_test(tables_are_read_in_every_dress),
       cmocka_unit_test(degrees_are_noticed),
       cmocka_unit_test(faults_are_named_with_line_and_column),
+      cmocka_unit_test(repeated_rows_are_left_out),
       cmocka_unit_test(one_run_reports_all_faults),
       cmocka_unit_test(sizes_are_limited_and_nul_bytes_refused),
       cmocka_unit_test(texts_cut_anywhere_never_crash),

@@ -37,8 +37,11 @@ static void open_fixture(fixture *f) {
                                   ambulo_model_find_capsule(f->model, "shank_r")};
   f->definition.collision =
       (ambulo_collision){AMBULO_COLLISION_PAIRS, &f->pair, .pair_count = 1, .margin = 0.01};
-  f->fence = (ambulo_obstacle){
-      .name = "fence", .center = {1.0, 0.0, 0.5}, .half = {0.1, 1.0, 0.5}, .margin = 0.02};
+  f->fence = (ambulo_obstacle){.shape = AMBULO_OBSTACLE_BOX,
+                               .name = "fence",
+                               .center = {1.0, 0.0, 0.5},
+                               .half = {0.1, 1.0, 0.5},
+                               .margin = 0.02};
   f->reach = (ambulo_reach){.point = point(f, "knee_r"),
                             .is_relative = 1,
                             .about = point(f, "knee_l"),
@@ -98,7 +101,9 @@ static void every_number_is_looked_at(void **state) {
   HOLDS("out of range", FENCED, f.fence.heading = INFINITY);
   HOLDS("out of range", FENCED, f.fence.shape = AMBULO_OBSTACLE_CAPSULE); /* of no radius */
   HOLDS("margin is nan m", FENCED, f.fence.margin = NAN);
-  HOLDS("unknown shape 5", FENCED, f.fence.shape = (ambulo_obstacle_shape)5);
+  HOLDS("its shape is unknown (got 5)", FENCED, f.fence.shape = (ambulo_obstacle_shape)5);
+  HOLDS("its shape is not set (got 0); expected box or capsule", FENCED,
+        f.fence.shape = AMBULO_OBSTACLE_SHAPE_NOT_SET);
   HOLDS("has no name", FENCED, f.fence.name = "");
 }
 

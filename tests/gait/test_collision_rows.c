@@ -30,9 +30,15 @@ typedef struct fixture {
 } fixture;
 
 static void open_settings(fixture *f, const char *const *settings, int settings_count) {
-  assert_int_equal(ambulo_problem_load_text(task, sizeof task - 1, "task", NULL, settings,
-                                            settings_count, NULL, NULL, &f->p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = task,
+                                                      .length = sizeof task - 1,
+                                                      .name = "task",
+                                                      .overrides = settings,
+                                                      .override_count = settings_count},
+                               NULL, NULL, &f->p),
+      AMBULO_OK);
   assert_int_equal(ambulo_workspace_create(f->p, NULL, &f->workspace), AMBULO_OK);
   f->x = calloc((size_t)f->p->variables, sizeof *f->x);
 }

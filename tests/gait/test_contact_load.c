@@ -15,14 +15,18 @@ typedef struct fixture {
 
 static void open_with(fixture *f, ambulo_model *model, int steps) {
   f->model = model;
-  ambulo_gait gait = {.steps = steps,
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = steps,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,
                       .step_time = 0.5,
                       .step_width = 0.18,
                       .foot_flat = 0.1,
                       .heel_off = 0.4,
-                      .toe_off = 0.6};
+                      .toe_off = 0.6,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
   f->definition = ambulo_problem_definition_default();
   f->definition.model = f->model;
   f->definition.duration = 0.5 * steps;
@@ -210,7 +214,7 @@ static void the_load_comes_and_goes_at_a_rate(void **state) {
     double more = 15.0 * (longer - 0.0065 * (1.0 - exp(-longer / 0.0065)));
     assert_close(load.most_by_time, (more - load.most) / h, 1e-5);
   }
-  f.definition.ground_reaction.loading_rate = -1.0;
+  f.definition.ground_reaction.loading_rate = AMBULO_OFF;
   assert_true(isinf(load_at(&f, WALKER_LEFT, 0.03).most));
   close_it(&f);
 }

@@ -3,7 +3,9 @@
 #include "support/walker_fixture.h"
 
 static ambulo_gait two_steps(void) {
-  ambulo_gait gait = {.steps = 2,
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = 2,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,
                       .step_time = 0.7,
@@ -12,7 +14,9 @@ static ambulo_gait two_steps(void) {
                       .heel_strike = -1.0 / 14.0,
                       .foot_flat = 1.0 / 14.0,
                       .heel_off = 6.0 / 14.0,
-                      .toe_off = 8.0 / 14.0};
+                      .toe_off = 8.0 / 14.0,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
   return gait;
 }
 

@@ -82,7 +82,7 @@ static void others_have_none(void **state) {
   for (int which = 0; which < 3; which++) {
     row_fixture f;
     open_with(&f, which == 0);
-    if (which == 1) f.definition.clearance.feet = -1.0;
+    if (which == 1) f.definition.clearance.feet = AMBULO_OFF;
     if (which == 2) f.active[2 + WALKER_RIGHT] = f.active[4 + WALKER_RIGHT] = 0;
     ambulo__feet_apart_rows(&f.context, &f.table);
     assert_int_equal(f.table.row_count, 0);

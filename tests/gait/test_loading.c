@@ -12,7 +12,9 @@ typedef struct fixture {
 
 static void open_with(fixture *f, double heel_strike) {
   f->model = walker_create(0);
-  ambulo_gait gait = {.steps = 1,
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = 1,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,
                       .step_time = 0.5,
@@ -20,7 +22,9 @@ static void open_with(fixture *f, double heel_strike) {
                       .heel_strike = heel_strike,
                       .foot_flat = 0.1 + heel_strike,
                       .heel_off = 0.4 + heel_strike,
-                      .toe_off = 0.6 + heel_strike};
+                      .toe_off = 0.6 + heel_strike,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
   f->definition = ambulo_problem_definition_default();
   f->definition.model = f->model;
   f->definition.duration = 0.5;

@@ -81,7 +81,7 @@ static void tips_that_need_not_clear_make_no_event(void **state) {
   dense_fixture f;
   ambulo__events events;
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
-  p->definition.clearance.height = -1.0;
+  p->definition.clearance.height = AMBULO_OFF;
   assert_int_equal(ambulo__events_create(&p->definition, AMBULO__EVENTS_OF_ROWS, &a, &events),
                    AMBULO_OK);
   assert_int_equal(events.count, 3);
@@ -270,7 +270,7 @@ static void contacts_need_not_be_legal(void **state) {
   for (int k = 0; k < 25; k++) assert_true(times[k + 1] > times[k]);
   d.intervals = 5;
   assert_int_equal(ambulo_node_times(&d, times), AMBULO_E_PROBLEM);
-  d.cookie = 0;
+  d.size = 0;
   assert_int_equal(ambulo_node_times(&d, times), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_node_times(NULL, times), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_node_times(&p->definition, NULL), AMBULO_E_ARGUMENT);

@@ -68,8 +68,10 @@ static void contradictions_are_named(void **state) {
   bad.foot = 5;
   expect_refusal(&bad, 1, "contacts[0]: no foot 5; the model 'walker' has 2");
   bad = good;
-  bad.mode = (ambulo_contact_mode)4;
-  expect_refusal(&bad, 1, "contacts[0]: foot 'left' in unknown mode 4");
+  bad.mode = (ambulo_contact_mode)5;
+  expect_refusal(&bad, 1, "contacts[0]: the mode of foot 'left' is unknown (got 5)");
+  bad.mode = AMBULO_CONTACT_MODE_NOT_SET;
+  expect_refusal(&bad, 1, "contacts[0]: the mode of foot 'left' is not set (got 0); expected heel");
   bad = good;
   bad.place[1] = NAN;
   expect_refusal(&bad, 1, "expected finite lengths");

@@ -41,14 +41,18 @@ static void expect(fixture *f, const char *phrase) {
 }
 
 static ambulo_gait walk(int steps) {
-  ambulo_gait gait = {.steps = steps,
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = steps,
                       .first_foot = 1,
                       .step_length = 0.6,
                       .step_time = 0.5,
                       .step_width = 0.1,
                       .foot_flat = 0.08,
                       .heel_off = 0.38,
-                      .toe_off = 0.62};
+                      .toe_off = 0.62,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
   return gait;
 }
 

@@ -208,8 +208,8 @@ static void bounds_can_be_off(void **state) {
   (void)state;
   row_fixture f;
   prepare(&f, 0, level, 2);
-  f.definition.ground_reaction.friction = f.definition.ground_reaction.free_moment = -1.0;
-  f.definition.ground_reaction.loading_rate = -1.0;
+  f.definition.ground_reaction.friction = f.definition.ground_reaction.free_moment = AMBULO_OFF;
+  f.definition.ground_reaction.loading_rate = AMBULO_OFF;
   f.definition.ground_reaction.pressure = 0;
   ambulo__sharing_rows(&f.context, &f.table);
   for (int r = 0; r < f.table.row_count; r++) assert_string_equal(f.table.rows[r].detail, "pulls");

@@ -11,14 +11,18 @@ typedef struct fixture {
 /* left strikes at 0, flat at 0.1, heel off at 0.4, toe off at 0.6 of the stride of 1 s */
 static void open_walk(fixture *f, int steps, ambulo_ends ends) {
   f->model = walker_create(0);
-  ambulo_gait gait = {.steps = steps,
+  ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                      .contact_size = sizeof(ambulo_contact),
+                      .steps = steps,
                       .first_foot = WALKER_LEFT,
                       .step_length = 0.6,
                       .step_time = 0.5,
                       .step_width = 0.18,
                       .foot_flat = 0.1,
                       .heel_off = 0.4,
-                      .toe_off = 0.6};
+                      .toe_off = 0.6,
+                      .other_step_length = AMBULO_OFF,
+                      .other_step_time = AMBULO_OFF};
   f->definition = ambulo_problem_definition_default();
   f->definition.model = f->model;
   f->definition.duration = 0.5 * steps;

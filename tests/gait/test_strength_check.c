@@ -22,8 +22,13 @@ static size_t warnings(const char *folder, const char *model, const char *phrase
   ambulo_problem *problem = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   (void)snprintf(problem_text, sizeof problem_text, text, model);
-  ambulo_status status = ambulo_problem_load_text(problem_text, strlen(problem_text), "standing",
-                                                  folder, NULL, 0, NULL, list, &problem);
+  ambulo_status status =
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = problem_text,
+                                                      .length = strlen(problem_text),
+                                                      .name = "standing",
+                                                      .directory = folder},
+                               NULL, list, &problem);
   if (status) assert_message(list, 0, "no error");
   assert_int_equal(status, AMBULO_OK);
   size_t count = ambulo_diagnostics_count(list);

@@ -25,7 +25,10 @@ static void torques(const ambulo_model *model, const states *s, int reference, d
   if (reference) {
     void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
     assert_int_equal(
-        ambulo_lagrangian_inverse_dynamics(model, s->q, s->qd, s->qdd, tau, wrench, NULL, scratch),
+        ambulo_lagrangian_inverse_dynamics(
+            model, s->q, s->qd, s->qdd,
+            &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench},
+            scratch),
         AMBULO_OK);
     free(scratch);
     return;
@@ -33,7 +36,9 @@ static void torques(const ambulo_model *model, const states *s, int reference, d
   ambulo_mechanics *mechanics = NULL;
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
   assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, s->q, s->qd, s->qdd, tau, wrench, NULL),
+      ambulo_mechanics_inverse_dynamics(
+          mechanics, 1, s->q, s->qd, s->qdd,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench}),
       AMBULO_OK);
   ambulo_mechanics_free(mechanics);
 }

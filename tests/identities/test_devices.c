@@ -38,7 +38,8 @@ static void move(worn *w, const double *x) {
   double times[SAMPLES];
   for (int k = 0; k < SAMPLES; k++)
     times[k] = ambulo_problem_duration(w->problem) * k / (SAMPLES - 1);
-  const ambulo_motion motion = {.qd = w->qd,
+  const ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                                .qd = w->qd,
                                 .tau = w->tau,
                                 .wrench = w->wrench,
                                 .grf = w->grf,

@@ -34,18 +34,25 @@ static void take_sample(const ambulo_model *model, double time, int reference, s
   if (reference) {
     void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
     for (int k = 0; k < stencil; k++)
-      assert_int_equal(ambulo_lagrangian_inverse_dynamics(model, s->q[k], s->qd[k], s->qdd[k],
-                                                          s->tau[k], s->wrench[k],
-                                                          &s->points[k][0][0], scratch),
-                       AMBULO_OK);
+      assert_int_equal(
+          ambulo_lagrangian_inverse_dynamics(model, s->q[k], s->qd[k], s->qdd[k],
+                                             &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                               .tau = s->tau[k],
+                                                               .wrench = s->wrench[k],
+                                                               .points = &s->points[k][0][0]},
+                                             scratch),
+          AMBULO_OK);
     free(scratch);
     return;
   }
   ambulo_mechanics *mechanics = NULL;
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, stencil, &s->q[0][0], &s->qd[0][0],
-                                                     &s->qdd[0][0], &s->tau[0][0], &s->wrench[0][0],
-                                                     &s->points[0][0][0]),
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, stencil, &s->q[0][0], &s->qd[0][0], &s->qdd[0][0],
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                         .tau = &s->tau[0][0],
+                                         .wrench = &s->wrench[0][0],
+                                         .points = &s->points[0][0][0]}),
                    AMBULO_OK);
   ambulo_mechanics_free(mechanics);
 }
@@ -124,8 +131,10 @@ static void energy_function_balances_work(void **state) {
       energy[k] = kinetic + potential;
     }
     masses_motion(time, q, qd, qdd);
-    assert_int_equal(
-        ambulo_lagrangian_inverse_dynamics(model, q, qd, qdd, tau, NULL, NULL, scratch), 0);
+    assert_int_equal(ambulo_lagrangian_inverse_dynamics(
+                         model, q, qd, qdd,
+                         &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, scratch),
+                     0);
     for (int i = 0; i < masses_joints; i++) work += qd[i] * tau[i];
     assert_close(work, first_derivative(energy, 1), 1e-8);
   }

@@ -35,7 +35,8 @@ static void zero_moment_point_is_below_the_center_of_mass(void **state) {
   for (int k = 0; k < poses; k++) {
     for (int c = 0; c < control_points; c++) pose(k, x + c * masses_joints);
     double points[3 * masses_ends], zmp[3], wrench[6], center[3], time = 0.43;
-    ambulo_motion motion = {.points = points, .zmp = zmp, .wrench = wrench};
+    ambulo_motion motion = {
+        .size = sizeof(ambulo_motion), .points = points, .zmp = zmp, .wrench = wrench};
     assert_int_equal(ambulo_problem_motion(problem, workspace, x, 1, &time, &motion), AMBULO_OK);
     center_of_mass(points, center);
     double height = up[0] * center[0] + up[1] * center[1] + up[2] * center[2];
@@ -75,7 +76,7 @@ static void mass_matrix_is_symmetric_positive_and_gives_the_energy(void **state)
     pose(k, q);
     pose(k + 3, qd);
     pose(k + 5, qdd);
-    ambulo_jacobians jacobians = {.tau_qdd = m};
+    ambulo_jacobians jacobians = {.size = sizeof(ambulo_jacobians), .tau_qdd = m};
     assert_int_equal(ambulo_mechanics_jacobians(mechanics, 1, q, qd, qdd, &jacobians), AMBULO_OK);
     assert_int_equal(ambulo_lagrangian_energy(model, q, qd, &kinetic, &potential, scratch), 0);
     for (int i = 0; i < n; i++) {

@@ -104,36 +104,39 @@ static void what_is_as_good_as_none(void **state) {
 }
 
 static void what_is_wrong(void **state) {
-  import_bad(
-      state, HINGE("type='screw'"), AMBULO_E_SCHEMA,
-      "t.xml:4:1: error[E_SCHEMA]: unknown type of joint (got 'screw'); expected one of free, "
-      "ball, slide, hinge");
-  import_bad(state, HINGE("axis='0 0 0'"), AMBULO_E_MODEL,
-             "the axis of joint 'j' has no direction");
-  import_bad(state, HINGE("range='10 -10'"), AMBULO_E_MODEL,
-             "range of joint 'j' contradicts itself");
-  import_bad(state, HINGE("pos='0 0'"), AMBULO_E_SCHEMA,
-             "pos of <joint> has 2 numbers; expected 3");
-  import_bad(state, HINGE("limited='maybe'"), AMBULO_E_SCHEMA, "unknown limited (got 'maybe')");
-  import_bad(state, MODEL("<body><joint/>\n<geom type='mesh' mesh='m'/></body>"), AMBULO_E_MODEL,
-             "t.xml:4:1: error[E_MODEL]: the mass of a body comes from a mesh");
-  import_bad(state, MODEL("<body><joint/><geom size='-1'/></body>"), AMBULO_E_MODEL,
-             "a size of <geom> is not positive");
-  import_bad(state, MODEL("<body><joint/><geom type='box' size='1 1'/></body>"), AMBULO_E_SCHEMA,
-             "size of <geom> has 2 numbers; expected 3");
-  import_bad(state, MODEL("<body><joint/><geom size='1' mass='-1'/></body>"), AMBULO_E_MODEL,
-             "the mass of <geom> is negative");
-  import_bad(state, MODEL("<body><joint/><inertial pos='0 0 0' mass='1'/></body>"), AMBULO_E_SCHEMA,
-             "has a mass but no inertia; expected diaginertia or fullinertia");
-  import_bad(state, MODEL("<body quat='0 0 0 0'><joint/></body>"), AMBULO_E_MODEL,
-             "the orientation of <body> has no direction");
-  import_bad(state, MODEL("<replicate count='3'/>"), AMBULO_E_SCHEMA,
-             "<replicate> makes bodies of its own");
-  import_bad(state, "<mujoco><compiler eulerseq='xyw'/></mujoco>", AMBULO_E_SCHEMA,
-             "eulerseq of <compiler> is 'xyw'");
-  import_bad(state, "<mujoco><worldbody><body>" BODY "</body></worldbody></mujoco>", AMBULO_E_MODEL,
-             "the model cannot move (got 1 links, none with a coordinate)");
-  import_bad(state, MODEL("<body><joint/></body>"), AMBULO_E_MODEL, "the model has no mass");
+  static const struct {
+    const char *xml;
+    ambulo_status status;
+    const char *said;
+  } wrong[] = {
+      {HINGE("type='screw'"), AMBULO_E_SCHEMA,
+       "t.xml:4:1: error[E_SCHEMA]: unknown type of joint (got 'screw'); expected one of free, "
+       "ball, slide, hinge"},
+      {HINGE("axis='0 0 0'"), AMBULO_E_MODEL, "the axis of joint 'j' has no direction"},
+      {HINGE("range='10 -10'"), AMBULO_E_MODEL, "range of joint 'j' contradicts itself"},
+      {HINGE("pos='0 0'"), AMBULO_E_SCHEMA, "pos of <joint> has 2 numbers; expected 3"},
+      {HINGE("limited='maybe'"), AMBULO_E_SCHEMA, "unknown limited (got 'maybe')"},
+      {MODEL("<body><joint/>\n<geom type='mesh' mesh='m'/></body>"), AMBULO_E_MODEL,
+       "t.xml:4:1: error[E_MODEL]: the mass of a body comes from a mesh"},
+      {MODEL("<body><joint/><geom size='-1'/></body>"), AMBULO_E_MODEL,
+       "a size of <geom> is not positive"},
+      {MODEL("<body><joint/><geom type='box' size='1 1'/></body>"), AMBULO_E_SCHEMA,
+       "size of <geom> has 2 numbers; expected 3"},
+      {MODEL("<body><joint/><geom size='1' mass='-1'/></body>"), AMBULO_E_MODEL,
+       "the mass of <geom> is negative"},
+      {MODEL("<body><joint/><inertial pos='0 0 0' mass='1'/></body>"), AMBULO_E_SCHEMA,
+       "has a mass but no inertia; expected diaginertia or fullinertia"},
+      {MODEL("<body quat='0 0 0 0'><joint/></body>"), AMBULO_E_MODEL,
+       "the orientation of <body> has no direction"},
+      {MODEL("<replicate count='3'/>"), AMBULO_E_SCHEMA, "<replicate> makes bodies of its own"},
+      {"<mujoco><compiler eulerseq='xyw'/></mujoco>", AMBULO_E_SCHEMA,
+       "eulerseq of <compiler> is 'xyw'"},
+      {"<mujoco><worldbody><body>" BODY "</body></worldbody></mujoco>", AMBULO_E_MODEL,
+       "the model cannot move (got 1 links, none with a coordinate)"},
+      {MODEL("<body><joint/></body>"), AMBULO_E_MODEL, "the model has no mass"},
+  };
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+    import_bad(state, wrong[i].xml, wrong[i].status, wrong[i].said);
 }
 
 static void included_files(void **state) {

@@ -187,12 +187,13 @@ static void compare_at(const ambulo_model *model, int seed) {
   }
   differentiate(q);
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
-  ambulo_jacobians jacobians = {.tau_qdd = mass};
+  ambulo_jacobians jacobians = {.size = sizeof(ambulo_jacobians), .tau_qdd = mass};
   assert_int_equal(ambulo_mechanics_jacobians(mechanics, 1, ours, zero, zero, &jacobians),
                    AMBULO_OK);
-  assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, ours, zero, zero, tau, NULL, NULL),
-      AMBULO_OK);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, ours, zero, zero,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
+                   AMBULO_OK);
   for (int k = 0; k < COORDINATES; k++) {
     double weight = 0.0;
     for (int b = 0; b <= BODIES; b++) weight += bodies[b].mass * 9.80665 * jv[b][k][1];

@@ -66,9 +66,10 @@ static void planar_and_floating(void **state) {
   double zero[9] = {0}, tau[9];
   ambulo_mechanics *mechanics = NULL;
   assert_int_equal(ambulo_mechanics_create(c.model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, zero, zero, zero, tau, NULL, NULL),
-      AMBULO_OK);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, zero, zero, zero,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
+                   AMBULO_OK);
   assert_close(tau[0], 0, 1e-12);
   assert_close(fabs(tau[1]), 2 * 9.81, 1e-12);
   assert_close(tau[5], 9.81, 1e-12);

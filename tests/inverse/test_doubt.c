@@ -6,7 +6,7 @@
 static void strictness_decides(void **state) {
   (void)state;
   for (int strict = 0; strict < 2; strict++) {
-    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), strict, 0};
+    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), strict, 0, 0};
     assert_int_equal(ambulo__doubts_status(&doubts), AMBULO_OK);
     ambulo__doubt(&doubts, "m.csv", "--angles degrees", "the knee is at %g rad", 65.0);
     assert_int_equal(doubts.count, 1);
@@ -27,7 +27,7 @@ static void headers_that_count_wrongly(void **state) {
                                       "t\nendheader\ntime\tq\n0\t1\n"};
   for (int i = 0; i < 3; i++) {
     ambulo__motion *motion = NULL;
-    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
+    ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0, 0};
     assert_int_equal(motion_read_text(texts[i], strlen(texts[i]), "m.sto", AMBULO__MOTION_STO, NULL,
                                       NULL, &motion),
                      AMBULO_OK);

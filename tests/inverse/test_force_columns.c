@@ -78,7 +78,8 @@ static void letter_case_does_not_part_a_group(void **state) {
 static void own_columns_have_a_free_moment(void **state) {
   (void)state;
   ambulo__motion *motion = table("q.hip,grf.left.x,grf.left.y,grf.left.z,cop.left.x,cop.left.y,"
-                                 "cop.left.z,free_moment.left,grf.my.foot.y,zmp.x,wrench.force.x");
+                                 "cop.left.z,free_moment.left,grf.my.foot.y,zmp.x,wrench.force.x,"
+                                 "moment.left.x,moment.left.z,moment.disc.y");
   ambulo__force_columns c;
   assert_int_equal(ambulo__force_columns_find(motion, "f.csv", NULL, NULL, &c), AMBULO_OK);
   assert_int_equal(c.count, 2);
@@ -89,6 +90,10 @@ static void own_columns_have_a_free_moment(void **state) {
   assert_int_equal(c.groups[0].free_moment, 7);
   assert_int_equal(c.groups[0].torque[1], -1);
   assert_int_equal(c.groups[1].force[1], 8);
+  assert_int_equal(c.groups[0].moment[0], 11);
+  assert_int_equal(c.groups[0].moment[1], -1);
+  assert_int_equal(c.groups[0].moment[2], 12);
+  assert_int_equal(c.groups[1].moment[2], -1);
   ambulo__force_columns_free(&c);
   ambulo__motion_free(motion);
 }

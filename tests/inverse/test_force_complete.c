@@ -16,7 +16,7 @@ static ambulo_diagnostics *messages_of(const ambulo_model *model, const char *na
   snprintf(text + used, sizeof text - used, "\n");
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
-  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
+  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0, 0};
   assert_int_equal(
       motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
       AMBULO_OK);
@@ -71,6 +71,14 @@ static void a_spatial_model_feels_all(void **state) {
   check(model, F "x," F "y," F "z," P "x," P "y," P "z," T "y", (const char *[]){NULL});
   check(model, F "y," P "x," P "y," P "z," T "y",
         (const char *[]){"lacks the x, z of its force; it is taken as 0", NULL});
+  check(model, "grf.right.x,grf.right.y,grf.right.z,moment.right.x,moment.right.y,moment.right.z",
+        (const char *[]){NULL});
+  check(model,
+        "grf.right.x,grf.right.y,grf.right.z,cop.right.x,cop.right.y,cop.right.z,"
+        "free_moment.right,moment.right.z",
+        (const char *[]){"warning: 'grf.right' of foot 'right' lacks the x, y of its moment; the "
+                         "others are left out",
+                         NULL});
   check(model, F "x," F "y," F "z," P "x," T "y",
         (const char *[]){"note: 'ground_force_r' of foot 'right' has no y of its points; they are "
                          "taken to be on the ground",

@@ -77,7 +77,7 @@ static void try_one(const ambulo_model *model, const attempt *a) {
   strcat(text, "\n");
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
-  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
+  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0, 0};
   assert_int_equal(
       motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),
       AMBULO_OK);
@@ -248,7 +248,7 @@ static void a_file_without_forces(void **state) {
   ambulo_model *model = model_of(two, two_links, 2);
   ambulo__motion *motion = NULL;
   ambulo__force_columns c;
-  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0};
+  ambulo__doubts doubts = {ambulo_diagnostics_create(NULL), 0, 0, 0};
   static const char text[] = "time,FP1.Fx,FP1.Fy\n0,1,2\n";
   assert_int_equal(
       motion_read_text(text, strlen(text), "f.csv", AMBULO__MOTION_CSV, NULL, NULL, &motion),

@@ -44,7 +44,7 @@ static ambulo_status read_with(void **state, fixture *f, const char *text,
 /* reads; the messages must be `messages`, in order, separated by newlines (NULL: none) */
 static ambulo_status read_text_of(void **state, fixture *f, const char *text,
                                   const char *const *messages, int count) {
-  f->doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0};
+  f->doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0, 0};
   ambulo_status status = read_with(state, f, text, NULL);
   if ((int)ambulo_diagnostics_count(f->doubts.diagnostics) != count) {
     print_error("%s\n", text);
@@ -196,6 +196,32 @@ static void forces_without_points(void **state) {
   close_fixture(&f);
 }
 
+#define WHOLE                                                                                      \
+  "time,grf.right.x,grf.right.y,cop.right.x,cop.right.y,free_moment.right,moment.right.x,"         \
+  "moment.right.y,moment.right.z\n"
+
+/* a force without a place has the moment that the file says; what contradicts its place is doubted;
+ * rows without one have that of their place */
+static void moments_of_the_file_are_whole(void **state) {
+  fixture f = open_fixture();
+  GOOD(WHOLE "0,2,-1e-5,nan,nan,0,0,0,0.25\n0.5,2,800,0.5,0,0,0,0,400\n1,2,0,nan,nan,0,0,0,7\n",
+       NOTHING_LEFT, NULL);
+  expect(&f, 0, 2.0, -1e-5, 0.25);
+  expect(&f, 1, 2.0, 800.0, 400.0);
+  expect(&f, 2, 2.0, 0.0, 7.0);
+  assert_int_equal(f.load.is_loose[f.right], 0);
+  ambulo__ground_load_free(&f.load);
+  GOOD(WHOLE "0,0,800,0.5,0,0,0,0,400\n0.5,0,400,0.5,0,0,0,0,400\n1,0,400,0.5,0,0,nan,nan,nan\n",
+       NOTHING_LEFT,
+       "the moment of 'grf.right' is 200 N m from that of its force at its point at "
+       "t = 0.5 s; the moment is taken",
+       NULL);
+  expect(&f, 1, 0.0, 400.0, 400.0);
+  expect(&f, 2, 0.0, 400.0, 200.0);
+  ambulo__ground_load_free(&f.load);
+  close_fixture(&f);
+}
+
 /* plates in millimetres and milliseconds, two of them under one foot */
 static void units_and_several_plates(void **state) {
   fixture f = open_fixture();
@@ -291,7 +317,7 @@ static void milliseconds_are_recognized(void **state) {
     const char *path = scratch_path(state, "forces.csv");
     snprintf(text, sizeof text, HEAD "%s", cases[i].rows);
     scratch_write(path, text);
-    f.doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0};
+    f.doubts = (ambulo__doubts){ambulo_diagnostics_create(NULL), 0, 0, 0};
     ambulo__load_source source = {.model = f.model,
                                   .file = path,
                                   .options = &f.options,
@@ -311,10 +337,11 @@ static void milliseconds_are_recognized(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      SCRATCH_TEST(rows_are_joined_by_lines),       SCRATCH_TEST(no_point_is_taken_from_the_air),
-      SCRATCH_TEST(light_rows_lend_a_point),        SCRATCH_TEST(what_is_missing_is_said),
-      SCRATCH_TEST(forces_without_points),          SCRATCH_TEST(units_and_several_plates),
-      SCRATCH_TEST(times_must_be_covered),          SCRATCH_TEST(milliseconds_are_recognized),
-      SCRATCH_TEST(forces_are_filtered_as_moments), SCRATCH_TEST(every_allocation_may_fail)};
+      SCRATCH_TEST(rows_are_joined_by_lines),    SCRATCH_TEST(no_point_is_taken_from_the_air),
+      SCRATCH_TEST(light_rows_lend_a_point),     SCRATCH_TEST(what_is_missing_is_said),
+      SCRATCH_TEST(forces_without_points),       SCRATCH_TEST(moments_of_the_file_are_whole),
+      SCRATCH_TEST(units_and_several_plates),    SCRATCH_TEST(times_must_be_covered),
+      SCRATCH_TEST(milliseconds_are_recognized), SCRATCH_TEST(forces_are_filtered_as_moments),
+      SCRATCH_TEST(every_allocation_may_fail)};
   return cmocka_run_group_tests_name("inverse/ground_load", tests, NULL, NULL);
 }

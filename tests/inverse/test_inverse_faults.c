@@ -44,7 +44,7 @@ static ambulo_status run(const files *f, const ambulo_allocator *allocator,
   *loaded = status == AMBULO_OK;
   if (!status)
     status = ambulo_inverse_dynamics_motion(model, f->motion, f->output, &options, allocator, list,
-                                            NULL, NULL);
+                                            NULL);
   ambulo_model_free(model);
   return status;
 }

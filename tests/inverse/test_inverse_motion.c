@@ -59,7 +59,9 @@ static void check(const ambulo_model *model, const ambulo__motion *m, double rat
       qd[i] += rate_off;
       qdd[i] += acceleration_off;
     }
-    assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, NULL, NULL),
+    assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                         mechanics, 1, q, qd, qdd,
+                         &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
                      0);
     assert_close(m->time[k], 0.1 * k, 1e-12);
     for (int i = 0; i < 2; i++) {

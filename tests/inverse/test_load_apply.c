@@ -43,8 +43,10 @@ static void virtual_work(void **state) {
   row_of(&r);
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
   for (int i = 0; i < d; i++) q[i] = 0.1 * (i + 1);
-  assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, q, zero, zero, NULL, NULL, points), 0);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, q, zero, zero,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = points}),
+                   0);
   for (int foot = 0; foot < 2; foot++) {
     int at = ambulo_model_foot(model, foot)->toe[0];
     for (int i = 0; i < 3; i++)
@@ -52,10 +54,12 @@ static void virtual_work(void **state) {
     cross(points + 3 * at, r.force + 3 * foot, r.moment + 3 * foot);
   }
   assert_int_equal(ambulo__ground_load_apply(&r.load, model, q, tau), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_gradient(mechanics, 1, q, zero, zero,
-                                             &(ambulo_output_weights){.points = weights},
-                                             &(ambulo_motion_gradient){work, rest, rest + MOST}),
-                   0);
+  assert_int_equal(
+      ambulo_mechanics_gradient(
+          mechanics, 1, q, zero, zero,
+          &(ambulo_output_weights){.size = sizeof(ambulo_output_weights), .points = weights},
+          &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), work, rest, rest + MOST}),
+      0);
   for (int i = 0; i < d; i++) assert_close(tau[i], -work[i], 1e-12);
   ambulo_mechanics_free(mechanics);
   ambulo_model_free(model);
@@ -80,8 +84,11 @@ static void the_forces_that_are_needed_leave_nothing(void **state) {
     qd[i] = 0.3 - 0.1 * i;
     qdd[i] = 0.2 * i - 0.5;
   }
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, wrench, NULL),
-                   0);
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(
+          mechanics, 1, q, qd, qdd,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench}),
+      0);
   assert_int_equal(ambulo__load_poses_fill(model, q, 1, NULL, &poses), AMBULO_OK);
   zmp[0] = wrench[2] / wrench[4];
   zmp[1] = zmp[2] = 0.0;
@@ -134,7 +141,10 @@ static void poses_and_places(void **state) {
   for (int i = 0; i < d; i++) q[i] = 0.3 - 0.07 * i;
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
   assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, q, zero, zero, NULL, wrench, points), 0);
+      ambulo_mechanics_inverse_dynamics(
+          mechanics, 1, q, zero, zero,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .wrench = wrench, .points = points}),
+      0);
   assert_int_equal(ambulo__load_poses_fill(model, q, 1, NULL, &poses), AMBULO_OK);
   assert_close(center[0], wrench[2] / weight, 1e-12); /* at rest it stands above the ZMP */
   for (int foot = 0; foot < 2; foot++) {

@@ -13,7 +13,12 @@ static ambulo_problem *task(void) {
       "constraints: {collision: {pairs: [[shank_l, shank_r]], margin: 0.01}}\n";
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load_text(text, sizeof text - 1, "t", NULL, NULL, 0, NULL, NULL, &p), 0);
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = sizeof text - 1,
+                                                      .name = "t"},
+                               NULL, NULL, &p),
+      0);
   return p;
 }
 

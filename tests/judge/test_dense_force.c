@@ -70,7 +70,7 @@ static void compare_feet(const ambulo_problem *p) {
   double *grf = calloc((size_t)nodes * FEET * 3, sizeof *grf);
   for (int i = 0; i < p->variables; i++) x[i] = 0.02 * random_number(&seed);
   for (int j = 0; j < nodes; j++) times[j] = p->definition.duration * j / (nodes - 1);
-  ambulo_motion motion = {.grf = grf};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .grf = grf};
   assert_int_equal(ambulo_workspace_create(p, NULL, &w), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(p, w, x, nodes, times, &motion), AMBULO_OK);
   assert_int_equal(ambulo__dense_open(p, x, SAMPLES, 0.0, NULL, NULL, &dense), AMBULO_OK);

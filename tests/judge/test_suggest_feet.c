@@ -269,13 +269,17 @@ static void a_step_between_toes_and_a_heel_is_shortened(void **state) {
   ambulo_contact contacts[12];
   ambulo_model *model = toed_body();
   ambulo_problem *p = NULL;
-  const ambulo_gait gait = {.steps = 1,
+  const ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                            .contact_size = sizeof(ambulo_contact),
+                            .steps = 1,
                             .step_length = 0.68,
                             .step_time = 0.54,
                             .step_width = 0.1,
                             .foot_flat = 0.08,
                             .heel_off = 0.38,
-                            .toe_off = 0.62};
+                            .toe_off = 0.62,
+                            .other_step_length = AMBULO_OFF,
+                            .other_step_time = AMBULO_OFF};
   assert_int_equal(ambulo_gait_expand(model, &gait, contacts, 12, &d.contact_count), AMBULO_OK);
   d.model = model;
   d.duration = 0.54;

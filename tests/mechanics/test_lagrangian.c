@@ -39,7 +39,10 @@ static void fill(rig *r, double *values, double size) {
 static void inverse(rig *r, const double *q, const double *qd, const double *qdd, double *tau,
                     double *wrench) {
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(r->model, q, qd, qdd, tau, wrench, NULL, r->scratch),
+      ambulo_lagrangian_inverse_dynamics(
+          r->model, q, qd, qdd,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench},
+          r->scratch),
       AMBULO_OK);
 }
 
@@ -230,9 +233,12 @@ static void complex_form_extends_the_real_one(void **state) {
     z[2 * i + 1] = 0;
   }
   inverse(&r, x, x + r.d, x + 2 * r.d, tau, wrench);
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics_complex(r.model, z, z + 2 * r.d, z + 4 * r.d,
-                                                              complex_tau, pairs, NULL, r.scratch),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics_complex(
+          r.model, z, z + 2 * r.d, z + 4 * r.d,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = complex_tau, .wrench = pairs},
+          r.scratch),
+      AMBULO_OK);
   for (int i = 0; i < r.d; i++) {
     assert_close(complex_tau[2 * i], tau[i], 0);
     assert_close(complex_tau[2 * i + 1], 0, 0);
@@ -247,15 +253,23 @@ static void refuses_without_touching(void **state) {
   rig_open(&r, 3, 4);
   double q[4] = {0}, bad[4] = {0, NAN, 0, 0}, tau[4] = {7, 7, 7, 7}, t = 7, v = 7;
   const ambulo_model *m = r.model;
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(m, q, bad, q, tau, NULL, NULL, r.scratch),
-                   AMBULO_E_NUMERIC);
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(
+          m, q, bad, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, r.scratch),
+      AMBULO_E_NUMERIC);
   assert_int_equal(ambulo_lagrangian_energy(m, q, bad, &t, &v, r.scratch), AMBULO_E_NUMERIC);
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(m, NULL, q, q, tau, NULL, NULL, r.scratch),
-                   AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(NULL, q, q, q, tau, NULL, NULL, r.scratch),
-                   AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(m, q, q, q, tau, NULL, NULL, NULL),
-                   AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(
+          m, NULL, q, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, r.scratch),
+      AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(
+          NULL, q, q, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, r.scratch),
+      AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(
+          m, q, q, q, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}, NULL),
+      AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_lagrangian_energy(NULL, q, q, &t, &v, r.scratch), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_lagrangian_scratch_size(NULL), 0);
   for (int i = 0; i < 4; i++) assert_true(tau[i] == 7);

@@ -55,9 +55,12 @@ static void outputs_at_every_length(void **state) {
            *points = lane_array((size_t)((nodes + 1) * p));
     double wrench[6 * (most_nodes + 1)];
     tau[nodes * d] = wrench[6 * nodes] = points[nodes * p] = 7;
-    assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, nodes, b.q, b.qd, b.qdd, tau,
-                                                       wrench, points),
-                     AMBULO_OK);
+    assert_int_equal(
+        ambulo_mechanics_inverse_dynamics(
+            b.mechanics, nodes, b.q, b.qd, b.qdd,
+            &(ambulo_outputs){
+                .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points}),
+        AMBULO_OK);
     for (int node = 0; node < nodes; node++) {
       double x[3 * max_d], want[max_rows];
       node_state(&b, node, x);
@@ -67,9 +70,8 @@ static void outputs_at_every_length(void **state) {
       assert_true(difference(points + node * p, 1, want + d + 6, p, &where) < 1e-10);
     }
     assert_true(tau[nodes * d] == 7 && wrench[6 * nodes] == 7 && points[nodes * p] == 7);
-    assert_int_equal(
-        ambulo_mechanics_inverse_dynamics(b.mechanics, nodes, b.q, b.qd, b.qdd, NULL, NULL, NULL),
-        AMBULO_OK);
+    assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, nodes, b.q, b.qd, b.qdd, NULL),
+                     AMBULO_OK);
     free(tau);
     free(points);
   }
@@ -92,7 +94,8 @@ static void check_jacobians_by_the_gradient(int number, int followers) {
   assert_int_equal(follower_count(b.c.plan), followers);
   int d = b.c.d, p = b.c.rows - d - 6, nodes = 11, where = 0;
   size_t block = (size_t)(nodes * d * d), w = (size_t)(nodes * 6 * d), n = (size_t)(nodes * d);
-  ambulo_jacobians j = {lane_array(block),
+  ambulo_jacobians j = {sizeof(ambulo_jacobians),
+                        lane_array(block),
                         lane_array(block),
                         lane_array(block),
                         lane_array(w),
@@ -104,10 +107,12 @@ static void check_jacobians_by_the_gradient(int number, int followers) {
   for (int i = 0; i < nodes * b.c.rows; i++) y[i] = random_between(&source, -1, 1);
   const double *yw = y + n, *yp = yw + 6 * nodes;
   assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, nodes, b.q, b.qd, b.qdd, &j), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd,
-                                             &(ambulo_output_weights){y, yw, yp},
-                                             &(ambulo_motion_gradient){g, g + n, g + 2 * n}),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_mechanics_gradient(
+          b.mechanics, nodes, b.q, b.qd, b.qdd,
+          &(ambulo_output_weights){sizeof(ambulo_output_weights), y, yw, yp},
+          &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), g, g + n, g + 2 * n}),
+      AMBULO_OK);
   const double *const tau[] = {j.tau_q, j.tau_qd, j.tau_qdd};
   const double *const wrench[] = {j.wrench_q, j.wrench_qd, j.wrench_qdd};
   for (int k = 0; k < 3 * nodes; k++) {
@@ -124,10 +129,12 @@ static void check_jacobians_by_the_gradient(int number, int followers) {
     }
     assert_true(difference(g + group * (int)n + node * d, 1, want, d, &where) < 1e-10);
   }
-  assert_int_equal(ambulo_mechanics_gradient(b.mechanics, nodes, b.q, b.qd, b.qdd,
-                                             &(ambulo_output_weights){NULL, NULL, NULL},
-                                             &(ambulo_motion_gradient){g, g + n, g + 2 * n}),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_mechanics_gradient(
+          b.mechanics, nodes, b.q, b.qd, b.qdd,
+          &(ambulo_output_weights){sizeof(ambulo_output_weights), NULL, NULL, NULL},
+          &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), g, g + n, g + 2 * n}),
+      AMBULO_OK);
   for (size_t i = 0; i < 3 * n; i++) assert_true(g[i] == 0);
   double *const owned[] = {j.tau_q,      j.tau_qd,   j.tau_qdd, j.wrench_q, j.wrench_qd,
                            j.wrench_qdd, j.points_q, y,         g};
@@ -146,19 +153,22 @@ static void check_refused(batch *b, double *input, int at, double bad) {
   int d = b->c.d;
   double *tau = lane_array((size_t)(most_nodes * d)), *g = lane_array((size_t)(3 * most_nodes * d));
   double good = input[at];
-  ambulo_jacobians j = {.tau_q = tau};
+  ambulo_jacobians j = {.size = sizeof(ambulo_jacobians), .tau_q = tau};
   input[at] = bad;
   tau[0] = g[0] = 7;
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(b->mechanics, most_nodes, b->q, b->qd, b->qdd,
-                                                     tau, NULL, NULL),
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       b->mechanics, most_nodes, b->q, b->qd, b->qdd,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
                    AMBULO_E_NUMERIC);
   assert_int_equal(ambulo_mechanics_jacobians(b->mechanics, most_nodes, b->q, b->qd, b->qdd, &j),
                    AMBULO_E_NUMERIC);
-  assert_int_equal(ambulo_mechanics_gradient(
-                       b->mechanics, most_nodes, b->q, b->qd, b->qdd,
-                       &(ambulo_output_weights){.tau = b->qdd},
-                       &(ambulo_motion_gradient){g, g + most_nodes * d, g + 2 * most_nodes * d}),
-                   AMBULO_E_NUMERIC);
+  assert_int_equal(
+      ambulo_mechanics_gradient(
+          b->mechanics, most_nodes, b->q, b->qd, b->qdd,
+          &(ambulo_output_weights){.size = sizeof(ambulo_output_weights), .tau = b->qdd},
+          &(ambulo_motion_gradient){sizeof(ambulo_motion_gradient), g, g + most_nodes * d,
+                                    g + 2 * most_nodes * d}),
+      AMBULO_E_NUMERIC);
   assert_true(tau[0] == 7 && g[0] == 7);
   input[at] = good;
   free(tau);
@@ -217,15 +227,18 @@ static void large_angles_use_libm(void **state) {
   batch_open_without_link_angles(&b, 22);
   int d = b.c.d;
   double *tau = lane_array((size_t)(nodes * d)), *all = lane_array((size_t)(3 * nodes * d * d));
-  ambulo_jacobians j = {
-      .tau_q = all, .tau_qd = all + nodes * d * d, .tau_qdd = all + 2 * nodes * d * d};
+  ambulo_jacobians j = {.size = sizeof(ambulo_jacobians),
+                        .tau_q = all,
+                        .tau_qd = all + nodes * d * d,
+                        .tau_qdd = all + 2 * nodes * d * d};
   for (int i = 0; i < d; i++) {
     double *angle = &b.q[large * d + i], was = *angle;
     if (ambulo_model_coordinate(b.c.model, i)->type != AMBULO_REVOLUTE) continue;
     *angle = sizes[i % (int)(sizeof sizes / sizeof *sizes)];
-    assert_int_equal(
-        ambulo_mechanics_inverse_dynamics(b.mechanics, nodes, b.q, b.qd, b.qdd, tau, NULL, NULL),
-        AMBULO_OK);
+    assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                         b.mechanics, nodes, b.q, b.qd, b.qdd,
+                         &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
+                     AMBULO_OK);
     assert_int_equal(ambulo_mechanics_jacobians(b.mechanics, nodes, b.q, b.qd, b.qdd, &j),
                      AMBULO_OK);
     for (int node = 0; node < nodes; node++) check_node(&b, node, tau, &j);
@@ -244,14 +257,21 @@ static void arguments_are_checked(void **state) {
   ambulo_mechanics *none = NULL;
   assert_int_equal(ambulo_mechanics_create(NULL, NULL, &none), AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_mechanics_create(b.c.model, NULL, NULL), AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(NULL, 1, x, x, x, x, NULL, NULL),
-                   AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, -1, x, x, x, x, NULL, NULL),
-                   AMBULO_E_ARGUMENT);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(b.mechanics, 1, x, NULL, x, x, NULL, NULL),
-                   AMBULO_E_ARGUMENT);
-  const ambulo_output_weights weights = {.tau = x};
-  const ambulo_motion_gradient whole = {x, x, x}, part = {x, NULL, x};
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(
+          NULL, 1, x, x, x, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = x}),
+      AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(
+          b.mechanics, -1, x, x, x, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = x}),
+      AMBULO_E_ARGUMENT);
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(
+          b.mechanics, 1, x, NULL, x, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = x}),
+      AMBULO_E_ARGUMENT);
+  const ambulo_output_weights weights = {.size = sizeof(ambulo_output_weights), .tau = x};
+  const ambulo_motion_gradient whole = {sizeof(ambulo_motion_gradient), x, x, x},
+                               part = {sizeof(ambulo_motion_gradient), x, NULL, x};
   assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, &weights, &part),
                    AMBULO_E_ARGUMENT);
   assert_int_equal(ambulo_mechanics_gradient(b.mechanics, 1, x, x, x, &weights, NULL),

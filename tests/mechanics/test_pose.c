@@ -12,9 +12,10 @@ static void test_points_agree_with_the_mechanics(void **state) {
   assert_int_equal(ambulo__pose_create(model, NULL, &pose), AMBULO_OK);
   double q[WALKER_COORDINATES], zero[WALKER_COORDINATES] = {0.0}, points[3 * WALKER_POINTS];
   for (int i = 0; i < WALKER_COORDINATES; i++) q[i] = sin(1.0 + 1.3 * i);
-  assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, q, zero, zero, NULL, NULL, points),
-      AMBULO_OK);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, q, zero, zero,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = points}),
+                   AMBULO_OK);
   ambulo__pose_at(&pose, q);
   for (int p = 0; p < WALKER_POINTS; p++) {
     const ambulo_point *point = ambulo_model_point(model, p);

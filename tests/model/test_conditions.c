@@ -100,10 +100,8 @@ static void what_is_refused(void **state) {
   wrong[2].load_link = 1000;
   wrong[3].load_link = -2;
   wrong[4].load_link = 0; /* no mass */
-  wrong[5] = (ambulo_conditions){.cookie = wrong[0].cookie,
-                                 .load_link = 0,
-                                 .load_mass = 1.0,
-                                 .load_position = {(double)INFINITY}};
+  wrong[5] = (ambulo_conditions){
+      .size = wrong[0].size, .load_link = 0, .load_mass = 1.0, .load_position = {(double)INFINITY}};
   for (int i = 0; i < 6; i++) {
     ambulo_diagnostics_clear(list);
     assert_int_equal(ambulo_model_adapt(model, &wrong[i], NULL, list, &untouched),

@@ -25,9 +25,10 @@ static ambulo_model *create(const symmetric_body *b) {
 static void torques(const ambulo_model *model, double (*state)[MOST], double *tau) {
   double wrench[6], points[3 * symmetric_points + 3 * 32];
   void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(model, state[0], state[1], state[2], tau,
-                                                      wrench, points, scratch),
-                   AMBULO_OK);
+  const ambulo_outputs out = {sizeof out, tau, wrench, points};
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(model, state[0], state[1], state[2], &out, scratch),
+      AMBULO_OK);
   free(scratch);
 }
 
@@ -208,8 +209,11 @@ static void shipped_bodies_are_symmetric_at_any_size(void **state) {
   (void)state;
   static const char *const names[] = {"lower_body_18", "lower_body_21", "walker_2d",
                                       "opensim_2d_gait10", "yardstick_body"};
-  static const ambulo_subject subjects[] = {
-      {0}, {50, 1.52, AMBULO_FEMALE}, {117, 1.97, AMBULO_MALE}, {1, 0.31, AMBULO_MALE}};
+  const size_t size = sizeof(ambulo_subject);
+  const ambulo_subject subjects[] = {ambulo_subject_default(),
+                                     {size, 50, 1.52, AMBULO_FEMALE},
+                                     {size, 117, 1.97, AMBULO_MALE},
+                                     {size, 1, 0.31, AMBULO_MALE}};
   char message[1024];
   for (int i = 0; i < 5; i++) {
     for (int s = 0; s < (i < 3 ? 4 : 1); s++) {

@@ -8,7 +8,7 @@ static void arguments(void **state) {
   assert_int_equal(ambulo_model_create(NULL, NULL, NULL, &model), AMBULO_E_ARGUMENT);
   chain_make(&c);
   assert_int_equal(ambulo_model_create(&c.definition, NULL, NULL, NULL), AMBULO_E_ARGUMENT);
-  c.definition.cookie = 0;
+  c.definition.size = 0;
   chain_bad(&c, AMBULO_E_ARGUMENT, NULL);
   chain_make(&c);
   c.definition.links = NULL;
@@ -147,7 +147,8 @@ static void absurd_numbers(void **state) {
                              &coordinate->torque[1]};
   const size_t limits = 12;
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-    for (size_t k = 0; k < (i < limits ? 5 : 3); k++) {
+    size_t first = numbers[i] == &c.definition.stature; /* of which NaN is unknown */
+    for (size_t k = first; k < (i < limits ? 5 : 3); k++) {
       double kept = *numbers[i];
       ambulo_model *model = NULL;
       *numbers[i] = absurd[k];

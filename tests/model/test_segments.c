@@ -28,7 +28,11 @@ static void places_and_centres_agree_with_the_mechanics(void **state) {
     double tau[6], wrench[6], points[3 * random_max_points], r[3] = {0}, place[3];
     void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
     assert_int_equal(
-        ambulo_lagrangian_inverse_dynamics(model, zero, zero, zero, tau, wrench, points, scratch),
+        ambulo_lagrangian_inverse_dynamics(
+            model, zero, zero, zero,
+            &(ambulo_outputs){
+                .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
+            scratch),
         AMBULO_OK);
     ambulo__segments s;
     assert_int_equal(ambulo__segments_create(model, NULL, &s), AMBULO_OK);

@@ -22,9 +22,11 @@ static void heels(const ambulo_model *model, const double *q, double heel[2][3])
   static const double zero[COORDINATES];
   double points[POINTS][3];
   void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
-  assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(model, q, zero, zero, NULL, NULL, points[0], scratch),
-      AMBULO_OK);
+  assert_int_equal(ambulo_lagrangian_inverse_dynamics(
+                       model, q, zero, zero,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = points[0]},
+                       scratch),
+                   AMBULO_OK);
   free(scratch);
   memcpy(heel[0], points[ambulo_model_find_point(model, "heel_r")], sizeof heel[0]);
   memcpy(heel[1], points[ambulo_model_find_point(model, "heel_l")], sizeof heel[1]);
@@ -59,8 +61,12 @@ static void the_published_motion_needs_the_published_forces(void **state) {
     skip();
   ambulo_model *model = load();
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  assert_int_equal(ambulo_inverse_dynamics_loaded(
-                       model, motion, forces, scratch_path(state, "out.csv"), NULL, list, &r, NULL),
+  ambulo_inverse_options options = ambulo_inverse_options_default();
+  ambulo_inverse_outputs outputs = ambulo_inverse_outputs_default();
+  options.forces = forces;
+  outputs.residual = &r;
+  assert_int_equal(ambulo_inverse_dynamics_motion(model, motion, scratch_path(state, "out.csv"),
+                                                  &options, NULL, list, &outputs),
                    AMBULO_OK);
   assert_message(list, 0, "have no points; they are applied at the zero-moment point");
   assert_message(list, 2, "note: left over at the root");

@@ -33,7 +33,12 @@ static pose evaluate(const ambulo_model *model, const double *q, const double *q
   pose p;
   void *scratch = malloc(ambulo_lagrangian_scratch_size(model));
   assert_int_equal(
-      ambulo_lagrangian_inverse_dynamics(model, q, qd, qdd, p.tau, p.wrench, p.points[0], scratch),
+      ambulo_lagrangian_inverse_dynamics(model, q, qd, qdd,
+                                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                           .tau = p.tau,
+                                                           .wrench = p.wrench,
+                                                           .points = p.points[0]},
+                                         scratch),
       AMBULO_OK);
   free(scratch);
   return p;
@@ -134,8 +139,9 @@ static void standing(const char *name, ambulo_subject subject) {
 
 static void subjects_stand(void **state) {
   (void)state;
-  static const ambulo_subject subjects[] = {
-      {75, 1.75, AMBULO_MALE}, {60, 1.65, AMBULO_FEMALE}, {95, 1.95, AMBULO_MALE}};
+  static const ambulo_subject subjects[] = {{sizeof(ambulo_subject), 75, 1.75, AMBULO_MALE},
+                                            {sizeof(ambulo_subject), 60, 1.65, AMBULO_FEMALE},
+                                            {sizeof(ambulo_subject), 95, 1.95, AMBULO_MALE}};
   for (int i = 0; i < 3; i++) {
     standing("lower_body_18", subjects[i]);
     standing("lower_body_18_rigid", subjects[i]);

@@ -19,8 +19,10 @@ typedef struct body {
 static void open_body(body *b, const char *name, const char *sex) {
   char path[512];
   *b = (body){.model = NULL};
-  ambulo_subject subject = {
-      .mass = 70.0, .stature = 1.7, .sex = sex[0] == 'f' ? AMBULO_FEMALE : AMBULO_MALE};
+  ambulo_subject subject = {.size = sizeof(ambulo_subject),
+                            .mass = 70.0,
+                            .stature = 1.7,
+                            .sex = sex[0] == 'f' ? AMBULO_FEMALE : AMBULO_MALE};
   (void)snprintf(path, sizeof path, "%s/models/%s.yaml", AMBULO_SOURCE_DIR, name);
   assert_int_equal(ambulo_model_load(path, &subject, NULL, NULL, &b->model), AMBULO_OK);
   assert_true(ambulo_model_coordinate_count(b->model) <= MOST);
@@ -35,9 +37,14 @@ static void close_body(body *b) {
 }
 
 static void evaluate(body *b) {
-  assert_int_equal(ambulo_lagrangian_inverse_dynamics(b->model, b->q, b->qd, b->qdd, b->tau,
-                                                      b->wrench, b->points[0], b->scratch),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_lagrangian_inverse_dynamics(b->model, b->q, b->qd, b->qdd,
+                                         &(ambulo_outputs){.size = sizeof(ambulo_outputs),
+                                                           .tau = b->tau,
+                                                           .wrench = b->wrench,
+                                                           .points = b->points[0]},
+                                         b->scratch),
+      AMBULO_OK);
 }
 
 static int coordinate(const body *b, const char *name) {

@@ -38,6 +38,8 @@ static void build(built *b) {
   b->row = (ambulo_user_row){"row", "m", AMBULO_NOT_NEGATIVE, 0.0, 1.0, zero, NULL};
   b->tube = (ambulo_tube){3, b->samples, b->width};
   b->end = (ambulo_end_value){0, 0, 0, 0.1};
+  b->d.strike_pitch[0] = 0.1;
+  b->d.strike_pitch[1] = 0.3;
   b->d.terms = b->terms;
   b->d.term_count = 3;
   b->d.user_rows = &b->row;
@@ -81,9 +83,11 @@ static void what_is_built_is_legal(void **state) {
   ambulo_model_free(b.model);
 }
 
-static void expect_range(built *b, double *number, const char *name, int may_be_infinite) {
-  expect_refused(b, number, NAN, name);
-  if (may_be_infinite) return;
+enum { MAY_BE_INFINITE = 1, MAY_BE_OFF };
+
+static void expect_range(built *b, double *number, const char *name, int what) {
+  expect_refused(b, number, what == MAY_BE_OFF ? -1.0 : NAN, name);
+  if (what == MAY_BE_INFINITE) return;
   expect_refused(b, number, INFINITY, name);
   expect_refused(b, number, -INFINITY, name);
   expect_refused(b, number, 1e300, name);
@@ -98,28 +102,29 @@ static void numbers_have_ranges(void **state) {
   const struct {
     double *number;
     const char *name;
-    int may_be_infinite;
+    int what; /* MAY_BE_... */
   } all[] = {
       {&b.d.duration, "time.duration", 0},
       {&b.d.ground_height, "ground_height", 0},
       {&b.d.support_margin, "zmp_margin", 0},
-      {&b.d.minimum_force, "minimum_force", 0},
+      {&b.d.minimum_force, "minimum_force", MAY_BE_OFF},
       {&b.d.contact_tolerance, "contact_tolerance", 0},
       {&b.d.orientation_tolerance, "orientation_tolerance", 0},
       {&b.d.strike_pitch[0], "strike_pitch[0]", 0},
       {&b.d.strike_pitch[1], "strike_pitch[1]", 0},
       {&b.d.travel, "ends.travel", 0},
-      {&c->height, "clearance.height", 0},
+      {&c->height, "clearance.height", MAY_BE_OFF},
       {&c->tip_from, "clearance.tip_from", 0},
       {&c->ceiling, "clearance.ceiling", 1},
       {&c->turn, "clearance.turn", 1},
       {&c->outward, "clearance.outward", 1},
       {&c->inward, "clearance.inward", 1},
-      {&c->feet, "clearance.feet", 0},
+      {&c->feet, "clearance.feet", MAY_BE_OFF},
       {&r->exponent, "ground_reaction.exponent", 0},
       {&r->shear, "ground_reaction.shear", 0},
-      {&r->friction, "ground_reaction.friction", 0},
-      {&r->free_moment, "ground_reaction.free_moment", 0},
+      {&r->friction, "ground_reaction.friction", MAY_BE_OFF},
+      {&r->free_moment, "ground_reaction.free_moment", MAY_BE_OFF},
+      {&r->loading_rate, "ground_reaction.loading_rate", MAY_BE_OFF},
       {&r->heel_pressure[0], "heel_pressure[0]", 0},
       {&r->heel_pressure[1], "heel_pressure[1]", 0},
       {&r->heel_roll, "heel_roll", 0},
@@ -143,7 +148,7 @@ static void numbers_have_ranges(void **state) {
       {&b.row.to, "user row 0", 1},
   };
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-    expect_range(&b, all[i].number, all[i].name, all[i].may_be_infinite);
+    expect_range(&b, all[i].number, all[i].name, all[i].what);
   }
   ambulo_model_free(b.model);
 }
@@ -246,8 +251,8 @@ static void grids_are_checked(void **state) {
   b.d.discretization = AMBULO_HERMITE;
   expect_grid_refused(&b, "a grid on events with basis hermite; expected bspline");
   b.d.discretization = AMBULO_BSPLINE;
-  b.d.grid = (ambulo_grid)2;
-  expect_grid_refused(&b, "unknown grid 2, knots 0; expected uniform or events");
+  b.d.grid = (ambulo_grid)3;
+  expect_grid_refused(&b, "time.grid is unknown (got 3); expected AMBULO_GRID_UNIFORM or _EVENTS");
   b.d.grid = AMBULO_GRID_UNIFORM;
   b.d.knots = AMBULO_GRID_EVENTS;
   b.d.breakpoints = breaks;
@@ -256,7 +261,7 @@ static void grids_are_checked(void **state) {
   b.d.breakpoints = NULL;
   assert_int_equal(create(&b, NULL), AMBULO_OK);
   b.d.knots = (ambulo_grid)-1;
-  expect_grid_refused(&b, "unknown grid 0, knots -1");
+  expect_grid_refused(&b, "trajectory.knots is unknown (got -1)");
   ambulo_model_free(b.model);
 }
 

@@ -99,7 +99,7 @@ static void row_binds_at_the_solution(void **state) {
   ambulo_workspace *workspace = NULL;
   assert_int_equal(ambulo_workspace_create(base, NULL, &workspace), AMBULO_OK);
   double most = 0.0, qd[2], half = 0.4;
-  const ambulo_motion motion = {.qd = qd};
+  const ambulo_motion motion = {.size = sizeof(ambulo_motion), .qd = qd};
   for (half = 0.0; half <= 0.8; half += 0.04) {
     assert_int_equal(
         ambulo_problem_motion(base, workspace, ambulo_result_x(fast), 1, &half, &motion),
@@ -146,7 +146,7 @@ static void free_parameters_are_found_with_it(void **state) {
   ambulo_problem *base = load(REACH, alone, 1);
   own.problem = extend(base, NULL);
   assert_int_equal(
-      ambulo_solve_parameters(own.problem, NULL, NULL, NULL, NULL, NULL, &own.best, &own.result),
+      ambulo_solve_parameters(own.problem, NULL, NULL, NULL, NULL, &own.best, &own.result),
       AMBULO_OK);
   own.outcome = ambulo_result_parameters(own.result);
   assert_int_equal(ambulo_problem_term_count(own.best), 3);

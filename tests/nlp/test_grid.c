@@ -17,7 +17,8 @@ static void transfer_to_a_finer_spline_keeps_the_motion(void **state) {
   assert_int_equal(ambulo_workspace_create(fine, NULL, &workspace), AMBULO_OK);
   double times[7], coarse_tau[14], fine_tau[14];
   for (int i = 0; i < 7; i++) times[i] = 0.01 + 0.14 * i;
-  ambulo_motion a = {.tau = coarse_tau}, b = {.tau = fine_tau};
+  ambulo_motion a = {.size = sizeof(ambulo_motion), .tau = coarse_tau},
+                b = {.size = sizeof(ambulo_motion), .tau = fine_tau};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 7, times, &a), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(fine, workspace, x, 7, times, &b), AMBULO_OK);
   for (int i = 0; i < 14; i++) assert_close(fine_tau[i], coarse_tau[i], 1e-9);

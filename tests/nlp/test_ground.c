@@ -35,8 +35,12 @@ static void feet_supply_the_root_wrench(void **state) {
   double *tau = calloc(n * (size_t)f.d, sizeof(double)), *wrench = calloc(6 * n, sizeof(double));
   double *grf = calloc(6 * n, sizeof(double)), *cop = calloc(6 * n, sizeof(double));
   double *twist = calloc(2 * n, sizeof(double));
-  ambulo_motion motion = {
-      .tau = tau, .wrench = wrench, .grf = grf, .cop = cop, .free_moment = twist};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .tau = tau,
+                          .wrench = wrench,
+                          .grf = grf,
+                          .cop = cop,
+                          .free_moment = twist};
   assert_int_equal(
       ambulo_problem_motion(f.problem, f.workspace, f.x, f.nodes, f.problem->times, &motion),
       AMBULO_OK);
@@ -132,11 +136,15 @@ static void other_problems_have_no_forces_on_feet(void **state) {
   (void)state;
   fixture f;
   fixture_open(&f, "models/walk_without_reaction.yaml");
-  double grf[6], cop[6], twist[2], time = 0.1;
-  ambulo_motion motion = {.grf = grf, .cop = cop, .free_moment = twist};
+  double grf[6], cop[6], twist[2], moment[6], time = 0.1;
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .grf = grf,
+                          .cop = cop,
+                          .free_moment = twist,
+                          .grf_moment = moment};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 1, &time, &motion),
                    AMBULO_OK);
-  for (int i = 0; i < 6; i++) assert_true(isnan(grf[i]) && isnan(cop[i]));
+  for (int i = 0; i < 6; i++) assert_true(isnan(grf[i]) && isnan(cop[i]) && isnan(moment[i]));
   assert_true(isnan(twist[0]) && isnan(twist[1]));
   assert_close(ambulo_problem_load_share(f.problem, 0, 0.1), 0.0, 0.0);
   assert_int_equal(ambulo_problem_ground_reaction(f.problem)->kind, AMBULO_REACTION_NONE);

@@ -175,8 +175,11 @@ static void test_momentum(void **state) {
   double times[TIMES], wrench[TIMES][6], bare[TIMES][6], force[TIMES][COUNT][2][3];
   double grf[TIMES][2][3];
   for (int k = 0; k < TIMES; k++) times[k] = f.p->definition.duration * k / (TIMES - 1);
-  ambulo_motion a = {.wrench = wrench[0], .hold_force = force[0][0][0], .grf = grf[0][0]};
-  ambulo_motion b = {.wrench = bare[0]};
+  ambulo_motion a = {.size = sizeof(ambulo_motion),
+                     .wrench = wrench[0],
+                     .hold_force = force[0][0][0],
+                     .grf = grf[0][0]};
+  ambulo_motion b = {.size = sizeof(ambulo_motion), .wrench = bare[0]};
   assert_int_equal(ambulo_problem_motion(f.p, f.w, f.x, TIMES, times, &a), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(g.p, g.w, f.x, TIMES, times, &b), AMBULO_OK);
   for (int k = 0; k < TIMES; k++) {
@@ -193,47 +196,11 @@ static void test_momentum(void **state) {
   close_held(&g);
 }
 
-static ambulo_status no_problem(void *user, const double *values, const ambulo_allocator *allocator,
-                                ambulo_diagnostics *diagnostics, ambulo_problem **problem) {
-  (void)user, (void)values, (void)allocator, (void)diagnostics, (void)problem;
-  return AMBULO_E_INTERNAL;
-}
-
-/* no sensitivities yet, and so nothing that is chosen by them */
-static void test_no_sensitivities_yet(void **state) {
-  (void)state;
-  held_fixture f;
-  open_held(&f, "lift", shared, 5);
-  ambulo_options options = ambulo_problem_options(f.p);
-  ambulo_problem *best = NULL;
-  ambulo_result *result = NULL;
-  ambulo_sensitivity_list *list = NULL;
-  assert_int_equal(ambulo_audit_point(f.p, &options, f.x, NULL, NULL, &result), AMBULO_OK);
-  assert_int_equal(ambulo_sensitivities(f.p, result, NULL, &list), AMBULO_OK);
-  assert_int_equal(list->count, 0);
-  assert_string_equal(list->reason, "there are none yet for what hands hold");
-  ambulo_sensitivities_free(list);
-  ambulo_result_free(result);
-  ambulo_parameter item = {.name = "subject.mass", .lower = 50.0, .upper = 90.0};
-  ambulo_parameters free_ones = ambulo_parameters_default();
-  free_ones.items = &item;
-  free_ones.count = 1;
-  free_ones.problem_at = no_problem;
-  ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
-  assert_int_equal(
-      ambulo_solve_parameters(f.p, &free_ones, NULL, NULL, NULL, messages, &best, &result),
-      AMBULO_E_ARGUMENT);
-  assert_message(messages, 0, "which what hands hold does not have yet");
-  ambulo_diagnostics_free(messages);
-  close_held(&f);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_gradients),
       cmocka_unit_test(test_a_mass_in_a_hand_is_a_mass_on_its_link),
       cmocka_unit_test(test_momentum),
-      cmocka_unit_test(test_no_sensitivities_yet),
   };
   return cmocka_run_group_tests_name("nlp/held", tests, NULL, NULL);
 }

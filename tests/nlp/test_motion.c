@@ -9,7 +9,7 @@ static void nodes_agree_with_the_evaluation(void **state) {
   fixture_open(&f, &definition);
   int nodes = ambulo_problem_node_count(f.problem);
   double q[22], tau[22], points[66];
-  ambulo_motion motion = {.q = q, .tau = tau, .points = points};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q, .tau = tau, .points = points};
   assert_int_equal(
       ambulo_problem_motion(f.problem, f.workspace, f.x, nodes, f.problem->times, &motion),
       AMBULO_OK);
@@ -40,7 +40,7 @@ static void rates_are_the_derivatives_of_the_motion(void **state) {
   fixture_open(&f, &definition);
   double h = 1e-5, times[3] = {0.437 - h, 0.437, 0.437 + h};
   double q[6], qd[6], qdd[6];
-  ambulo_motion motion = {.q = q, .qd = qd, .qdd = qdd};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q, .qd = qd, .qdd = qdd};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 3, times, &motion),
                    AMBULO_OK);
   for (int i = 0; i < 2; i++) {
@@ -58,7 +58,7 @@ static void zmp_lies_on_the_ground_plane(void **state) {
   fixture_open(&f, &definition);
   memset(f.x, 0, (size_t)f.n * sizeof *f.x);
   double time = 0.5, zmp[3];
-  ambulo_motion motion = {.zmp = zmp};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .zmp = zmp};
   assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 1, &time, &motion), 0);
   /* at rest the ZMP is the projection of the centre of mass, on the plane y = h */
   double com = (2.0 * 0.14 + 1.5 * 0.43) / 3.5;

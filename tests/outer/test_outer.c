@@ -91,13 +91,24 @@ static void a_duration(void **state) {
   compare(&c, "free={time.duration: [0.9, 1.35]}", 1.15, 1.3, 1.0);
 }
 
+/* what a hand holds on to, pushed down so that the arm is carried */
+static void a_push(void **state) {
+  (void)state;
+  static const search c = {
+      REACH,
+      "load.force[2]",
+      {"load={hands: [hand], mass: 1.5, force: [3, 0, -30], from: 0.21, to: 0.69, ramp: 0.12}"},
+      1};
+  compare(&c, "free={\"load.force[2]\": [-44, -24]}", -42.0, -28.0, 1.0);
+}
+
 /* several at once are no worse than one, and every number with a sensitivity can be among them */
 static void several_at_once(void **state) {
   (void)state;
   static const char *const one[] = {AT_A_SPEED, "free={gait.step_time: [0.3, 0.8]}"};
   static const char *const three[] = {
-      AT_A_SPEED, "free={gait.step_time: [0.3, 0.8], gait.step_width: [0.05, 0.2], ground.slope: "
-                  "[-8, 5]}"};
+      AT_A_SPEED, ("free={gait.step_time: [0.3, 0.8], gait.step_width: [0.05, 0.2], ground.slope: "
+                   "[-8, 5]}")};
   solved a = solve("tests/two_step/walk_normal.yaml", one, 5, NULL);
   solved b = solve("tests/two_step/walk_normal.yaml", three, 5, NULL);
   assert_true(b.outcome->objective < 0.99 * a.outcome->objective);
@@ -242,7 +253,7 @@ static void a_function_says_what_the_problem_is(void **state) {
     parameters.problem_at = reach_at;
     parameters.user = &r;
     assert_int_equal(
-        ambulo_solve_parameters(s.problem, &parameters, NULL, NULL, NULL, NULL, &s.best, &s.result),
+        ambulo_solve_parameters(s.problem, &parameters, NULL, NULL, NULL, &s.best, &s.result),
         AMBULO_OK);
     s.outcome = ambulo_result_parameters(s.result);
     assert_int_equal(r.asked, s.outcome->solves);
@@ -258,9 +269,8 @@ static void expect_refused(const char *file, const ambulo_parameters *parameters
   ambulo_problem *problem = load(file, NULL, 0), *best = NULL;
   ambulo_result *result = NULL;
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-  assert_int_equal(
-      ambulo_solve_parameters(problem, parameters, NULL, NULL, NULL, list, &best, &result),
-      AMBULO_E_ARGUMENT);
+  assert_int_equal(ambulo_solve_parameters(problem, parameters, NULL, NULL, list, &best, &result),
+                   AMBULO_E_ARGUMENT);
   assert_message(list, 0, message);
   assert_null(best);
   assert_null(result);
@@ -297,7 +307,7 @@ static void arguments_are_checked(void **state) {
   p.per = AMBULO_PER_NONE;
   p.maximum_solves = 0;
   expect_refused(PLANAR, &p, "at most 0 solves");
-  p.cookie = 0;
+  p.size = 0;
   expect_refused(PLANAR, &p, "ambulo_parameters_default()");
   assert_int_equal(r.asked, 0);
 }
@@ -308,6 +318,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_cadence_at_a_speed),
                                      cmocka_unit_test(a_step_at_a_speed),
                                      cmocka_unit_test(a_duration),
+                                     cmocka_unit_test(a_push),
                                      cmocka_unit_test(several_at_once),
                                      cmocka_unit_test(a_phase_of_shared_contacts),
                                      cmocka_unit_test(a_kink_is_given_up),

@@ -72,7 +72,7 @@ static void every_allocation_may_fail(void **state) {
     ambulo_problem *best = NULL;
     ambulo_result *result = NULL;
     ambulo_status status =
-        ambulo_solve_parameters(problem, NULL, NULL, NULL, &allocator, NULL, &best, &result);
+        ambulo_solve_parameters(problem, NULL, NULL, &allocator, NULL, &best, &result);
     if (status == AMBULO_OK) {
       ambulo_result_free(result);
       ambulo_problem_free(best);

@@ -51,7 +51,11 @@ for name in failed study; do
   check "ambulo report $name" "$AMBULO" report $name -o $name.html >/dev/null
 done
 check "ambulo report of two" "$AMBULO" report walk "brisk<b>" -o walk.html >/dev/null
-for name in walk failed study; do
+# eight of the largest that are shipped
+"$AMBULO" solve "$models/walk_whole_body_45.yaml" -o large -q 2>/dev/null
+check "ambulo report of eight" "$AMBULO" report large large large large large large large large \
+  -o eight.html >/dev/null
+for name in walk failed study eight; do
   check "$name.html: $(wc -c <$name.html) bytes, expected at most 1200000" \
     [ "$(wc -c <$name.html)" -le 1200000 ]
 done

@@ -2,6 +2,7 @@
 #include "ambulo/ambulo.h"
 #include "page/viewer.h"
 #include "support/fail_alloc.h"
+#include "support/inflate.h"
 #include "support/messages.h"
 #include "support/scene_reading.h"
 #include "support/scratch.h"
@@ -43,6 +44,16 @@ static char *data_of(const char *page) {
   return data;
 }
 
+/* what is packed in an item of "results"; to be freed */
+static char *text_packed_in(const ambulo__yaml_node *item) {
+  size_t bytes, size;
+  char *packed = unbase64(ambulo__yaml_text(ambulo__yaml_get(item, "packed")), &bytes);
+  char *text = (char *)unpacked(packed, bytes, &size);
+  free(packed);
+  assert_int_equal(strlen(text), size);
+  return text;
+}
+
 /* the viewer that is built in is the page of the sources, with its licences and one place for data
  */
 static void the_viewer_is_whole(void **state) {
@@ -73,13 +84,16 @@ static void a_page_of_a_result(void **state) {
   const ambulo__yaml_node *one = ambulo__yaml_item(list, 0);
   assert_int_equal(ambulo__yaml_items(list), 1);
   assert_string_equal(ambulo__yaml_text(ambulo__yaml_get(one, "name")), "walk");
-  char *summary = read_whole(inside(folder, "summary.json"));
+  char *summary = read_whole(inside(folder, "summary.json")), *packed = text_packed_in(one);
+  yaml_case p = yaml_open(packed);
+  assert_int_equal(p.status, AMBULO_OK);
   assert_non_null(strstr(summary, ambulo__yaml_text(ambulo__yaml_get(
-                                      ambulo__yaml_get(one, "summary"), "input_hash"))));
-  assert_int_equal(strncmp(ambulo__yaml_text(ambulo__yaml_get(one, "strip")), "<svg", 4) == 0 ||
-                       strncmp(ambulo__yaml_text(ambulo__yaml_get(one, "strip")), "<?xml", 5) == 0,
-                   1);
+                                      ambulo__yaml_get(p.root, "summary"), "input_hash"))));
+  const char *picture = ambulo__yaml_text(ambulo__yaml_get(p.root, "strip"));
+  assert_int_equal(strncmp(picture, "<svg", 4) == 0 || strncmp(picture, "<?xml", 5) == 0, 1);
   free(summary);
+  yaml_shut(&p);
+  free(packed);
   yaml_shut(&c);
   free(data);
   free(text);
@@ -113,12 +127,18 @@ static void two_results_and_a_measured_motion(void **state) {
   assert_int_equal(c.status, AMBULO_OK);
   const ambulo__yaml_node *list = ambulo__yaml_get(c.root, "results");
   assert_int_equal(ambulo__yaml_items(list), 3);
-  const ambulo__yaml_node *motion = ambulo__yaml_get(ambulo__yaml_item(list, 2), "scene");
+  char *packed[2] = {text_packed_in(ambulo__yaml_item(list, 2)), text_packed_in(ambulo__yaml_item(list, 0))};
+  yaml_case two[2] = {yaml_open(packed[0]), yaml_open(packed[1])};
+  const ambulo__yaml_node *motion = ambulo__yaml_get(two[0].root, "scene");
   assert_close(ambulo__yaml_number(ambulo__yaml_get(motion, "duration"), 0), 0.25, 1e-12);
   /* the same body at the same times: the measured motion begins where the result does */
-  const ambulo__yaml_node *own = ambulo__yaml_get(ambulo__yaml_item(list, 0), "scene");
+  const ambulo__yaml_node *own = ambulo__yaml_get(two[1].root, "scene");
   for (int axis = 0; axis < 3; axis++)
     assert_close(scene_point(motion, 0, axis, 0), scene_point(own, 0, axis, 0), 1.01e-4);
+  for (int i = 0; i < 2; i++) {
+    yaml_shut(&two[i]);
+    free(packed[i]);
+  }
   yaml_shut(&c);
   free(data);
   free(text);
@@ -180,7 +200,7 @@ static void what_stands_there(void **state) {
   options.motion = "x.csv"; /* without a body */
   assert_int_equal(ambulo_page_write(&folder, 1, page, &options, NULL, NULL), AMBULO_E_ARGUMENT);
   options = ambulo_page_options_default();
-  options.cookie = 0;
+  options.size = 0;
   assert_int_equal(ambulo_page_write(&folder, 1, page, &options, NULL, NULL), AMBULO_E_ARGUMENT);
 }
 

@@ -29,7 +29,7 @@ static void middle_at(const ambulo_problem *p, const double *x, double time, dou
                       double *q) {
   ambulo_workspace *workspace = NULL;
   double *points = calloc(3 * (size_t)p->model->point_count, sizeof *points);
-  const ambulo_motion motion = {.points = points, .q = q};
+  const ambulo_motion motion = {.size = sizeof(ambulo_motion), .points = points, .q = q};
   const ambulo_hold *hold = &p->definition.holds[0];
   assert_int_equal(ambulo_workspace_create(p, NULL, &workspace), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(p, workspace, x, 1, &time, &motion), AMBULO_OK);

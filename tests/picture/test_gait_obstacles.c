@@ -20,7 +20,12 @@ static ambulo_problem *task(void) {
       "  reach: [{point: head_top, place: [1, 0, 1.5], at: 0.5}]\n";
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load_text(text, sizeof text - 1, "t", NULL, NULL, 0, NULL, NULL, &p), 0);
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = sizeof text - 1,
+                                                      .name = "t"},
+                               NULL, NULL, &p),
+      0);
   return p;
 }
 
@@ -78,8 +83,29 @@ static void only_what_is_beside_a_figure_is_drawn(void **state) {
   ambulo_problem_free(p);
 }
 
+static void wider(const ambulo_problem *p, double origin, double half, const double want[2]) {
+  double left = -0.1, right = 0.1;
+  int is_wider = want[0] < left || want[1] > right;
+  assert_int_equal(ambulo__obstacles_widen(p, origin, half, &left, &right), is_wider);
+  assert_close(left, want[0], 1e-12);
+  assert_close(right, want[1], 1e-12);
+}
+
+/* by what is beside, to its far side or as far as things are drawn */
+static void what_stands_beside_takes_room(void **state) {
+  (void)state;
+  ambulo_problem *p = task();
+  wider(p, 0.0, 0.5, (const double[]){-0.1, 0.1});
+  wider(p, 0.5, 0.45, (const double[]){-0.1, 0.45});
+  wider(p, 0.5, 1.0, (const double[]){-0.1, 0.7});
+  wider(p, 1.5, 0.6, (const double[]){-0.6, 0.55});
+  wider(p, 1.0, 0.5, (const double[]){-0.2, 0.2});
+  ambulo_problem_free(p);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(outlines),
-                                     cmocka_unit_test(only_what_is_beside_a_figure_is_drawn)};
+                                     cmocka_unit_test(only_what_is_beside_a_figure_is_drawn),
+                                     cmocka_unit_test(what_stands_beside_takes_room)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -113,9 +113,48 @@ static void test_stairs(void **state) {
   }
 }
 
+/* each figure has its wall, all of them within the margins */
+static void walls_stay_on_the_page(void **state) {
+  (void)state;
+  static const char mark[] = "<rect class=\"obstacle\" x=\"";
+  static const char *const nearer[] = {"obstacles[wall].center=[0.8, 0, 0.9]"};
+  ambulo_problem *problem = NULL;
+  ambulo_result *result = NULL;
+  assert_int_equal(ambulo_problem_load("models/push_wall.yaml", nearer, 1, NULL, NULL, &problem),
+                   AMBULO_OK);
+  assert_int_equal(ambulo__result_create(problem, NULL, &result), AMBULO_OK);
+  const ambulo_model *model = ambulo_problem_model(problem); /* an arm stretched out to it */
+  int count = ambulo_model_coordinate_count(model);
+  int shoulder = ambulo_model_find_coordinate(model, "arm_flex_r");
+  assert_true(shoulder >= 0);
+  for (int i = shoulder; i < result->variables; i += count) result->x[i] = 1.57;
+  ambulo__text_buffer text;
+  ambulo__text_init(&text, NULL);
+  assert_int_equal(ambulo__gait_svg(problem, result, NULL, &text), AMBULO_OK);
+  const char *svg = ambulo__text_data(&text);
+  int walls = 0;
+  double before = 0.0;
+  for (const char *at = strstr(svg, mark); at; at = strstr(at + 1, mark), walls++) {
+    double x = strtod(at + sizeof mark - 1, NULL);
+    double width = strtod(strstr(at, "width=\"") + 7, NULL);
+    if (x + width > 1160.0) print_error("a wall from %g to %g\n", x, x + width);
+    assert_true(x >= 40.0 && x + width <= 1160.0);
+    assert_true(walls == 0 || x > before);
+    before = x + width;
+  }
+  assert_int_equal(walls, occurrences(svg, "<g class=\"figure\">"));
+  assert_true(walls >= 7);
+  ambulo__text_free(&text);
+  ambulo_result_free(result);
+  ambulo_problem_free(problem);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_walk), cmocka_unit_test(test_slope),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(walls_stay_on_the_page),
+                                     cmocka_unit_test(test_walk),
+                                     cmocka_unit_test(test_slope),
                                      cmocka_unit_test(test_stairs),
-                                     cmocka_unit_test(test_not_finite), cmocka_unit_test(test_arm)};
+                                     cmocka_unit_test(test_not_finite),
+                                     cmocka_unit_test(test_arm)};
   return cmocka_run_group_tests_name("picture/gait_svg", tests, NULL, NULL);
 }

@@ -51,6 +51,23 @@ class Motions(Case):
     def test_of_a_body_on_patches(self):
         self.columns_are_those_of_the_file(solution(ambulo.MODELS / "sit_to_stand.yaml"))
 
+    def test_of_a_body_that_lifts_a_box(self):
+        result = solution(ambulo.MODELS / "lift.yaml")
+        self.columns_are_those_of_the_file(result)
+        motion, (box,) = result.motion(60), result.problem.holds
+        self.assertEqual((motion.holds, motion.hold_hands), (["box"], [["hand_r", "hand_l"]]))
+        self.assertEqual(motion.hold_force.shape, (60, 1, 2, 3))
+        # before and after it is held nothing, in between what carries it
+        apart = (motion.time < box.from_) | (motion.time > box.to)
+        self.assertTrue(apart.any())
+        self.close(motion.hold_force[apart], numpy.zeros((apart.sum(), 1, 2, 3)))
+        whole = (motion.time > box.from_ + box.ramp) & (motion.time < box.to - box.ramp)
+        upward = motion.hold_force[whole, 0].sum(axis=1)[:, 1]
+        self.close(upward.mean() / (box.mass * 9.81), 1.0, 0.1)
+        hand = result.summary()["held"]["box"]["hands"]["hand_r"]
+        size = numpy.linalg.norm(result.motion(2001).hold_force[:, 0, 0], axis=1)
+        self.close(size.max() / hand["peak_force"], 1.0, 0.02)
+
     def test_times_of_ones_own(self):
         result = solution(REACH)
         motion = result.motion([0.0, 0.1, 0.8])
@@ -105,6 +122,9 @@ class Motions(Case):
         figure = ambulo.plots.sensitivities(items, most=3)
         widths = [bar.get_width() for bar in figure.axes[0].patches]
         self.close(widths[::-1], [100 * item.share for item in items[:3]])
+        figure = ambulo.plots.convergence(result)
+        self.close(figure.axes[0].get_lines()[0].get_ydata(), result.history["objective"])
+        self.assertEqual(figure.axes[1].get_yscale(), "log")
         figure.savefig(self.folder / "x.svg")
         pyplot.close("all")
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import tempfile
 import unittest
 import warnings
 from pathlib import Path
@@ -11,11 +12,22 @@ import ambulo
 from support import TOP, Case, optional
 
 NOTEBOOKS = sorted((TOP / "docs" / "examples").glob("*.ipynb"))
+# one folder: the second run of a study finds it solved
+STUDY = tempfile.TemporaryDirectory(prefix="ambulo-study-")
 WANTED = optional("pandas") and optional("matplotlib")
 
 
 @unittest.skipUnless(WANTED, "no pandas or no matplotlib")
 class Notebooks(Case):
+    @classmethod
+    def setUpClass(cls):
+        os.environ["AMBULO_STUDY"] = STUDY.name
+
+    @classmethod
+    def tearDownClass(cls):
+        del os.environ["AMBULO_STUDY"]
+        STUDY.cleanup()
+
     def test_as_plain_scripts(self):
         import matplotlib
 

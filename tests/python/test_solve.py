@@ -41,6 +41,26 @@ class Results(Case):
             self.assertIsNone(result.parameters)
             self.assertIn("optimal, objective", repr(result))
 
+    def test_the_way_of_a_solve(self):
+        with ambulo.Problem.load(YARDSTICK) as problem:
+            result, again = problem.solve(), problem.solve()
+            way, other, told = result.history, again.history, result.summary()["convergence"]
+            given = problem.audit(result.x)
+        self.assertEqual(way["iteration"][-1], result.iterations)
+        self.assertEqual(way["evaluations"][-1], result.evaluations)
+        self.assertEqual(way["objective"][-1], result.objective)
+        worst = result.audit.violation
+        self.assertEqual(way["violation"][-1], worst.worst / worst.size)
+        self.assertTrue((numpy.diff(way["seconds"]) >= 0).all())
+        self.assertTrue((numpy.diff(way["iteration"]) >= 0).all())
+        for name, column in way.items():
+            self.assertEqual(len(column), len(told[name]))
+            if name != "seconds":
+                numpy.testing.assert_array_equal(column, other[name])
+                numpy.testing.assert_array_equal(column, [numpy.nan if v is None else v
+                                                          for v in told[name]])
+        self.assertEqual(len(given.history["iteration"]), 0)
+
     def test_between_the_nodes(self):
         with ambulo.Problem.load(REACH) as problem:
             with warnings.catch_warnings(record=True) as told:

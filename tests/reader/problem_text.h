@@ -12,8 +12,12 @@
 static inline ambulo_status load_text(const char *text, ambulo_diagnostics *list,
                                       ambulo_problem **problem) {
   *problem = NULL;
-  return ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0, NULL, list,
-                                  problem);
+  return ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                         .text = text,
+                                                         .length = strlen(text),
+                                                         .name = "p.yaml",
+                                                         .directory = "models"},
+                                  NULL, list, problem);
 }
 
 /* a problem that must load; prints what it says otherwise */

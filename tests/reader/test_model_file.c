@@ -111,7 +111,7 @@ static void values_are_replaced(void **state) {
   static const char *const bad[] = {"gravity", "=1", "gravty=[0, 0, 0]", "gravity=[0, 0]",
                                     "links[nowhere].body.mass=4"};
   ambulo_model *model = NULL;
-  ambulo_subject subject = {.mass = 60.0};
+  ambulo_subject subject = {.size = sizeof(ambulo_subject), .mass = 60.0, .stature = AMBULO_OFF};
   assert_int_equal(ambulo_model_load_with(file, good, 2, &subject, NULL, NULL, &model), AMBULO_OK);
   assert_close(ambulo_model_gravity(model)[1], -1.62, 0.0);
   assert_string_equal(ambulo_model_name(model), "lunar");

@@ -30,8 +30,11 @@ static void the_same_body(void **state) {
   for (int i = 0; i < 2; i++) {
     ambulo_mechanics *m = NULL;
     assert_int_equal(ambulo_mechanics_create(c[i].model, NULL, &m), AMBULO_OK);
-    assert_int_equal(ambulo_mechanics_inverse_dynamics(m, 1, q, qd, qdd, tau[i], NULL, point[i]),
-                     AMBULO_OK);
+    assert_int_equal(
+        ambulo_mechanics_inverse_dynamics(
+            m, 1, q, qd, qdd,
+            &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau[i], .points = point[i]}),
+        AMBULO_OK);
     ambulo_mechanics_free(m);
   }
   for (int k = 0; k < 2; k++) assert_close(tau[1][k], tau[0][k], 1e-14);

@@ -41,14 +41,14 @@ static void subject_of_the_file(void **state) {
 /* the caller's subject counts, each number by itself */
 static void subject_of_the_caller(void **state) {
   (void)state;
-  ambulo_subject subject = {.mass = 60, .stature = 1.6};
+  ambulo_subject subject = {.size = sizeof(ambulo_subject), .mass = 60, .stature = 1.6};
   model_case c = model_open_as(SCALED("subject: {mass: 80, stature: 1.8}\n"), &subject);
   check_scaled(c.model, 60, 1.6);
   model_shut(&c);
   c = model_open_as(SCALED(""), &subject);
   check_scaled(c.model, 60, 1.6);
   model_shut(&c);
-  subject.stature = 0;
+  subject.stature = AMBULO_OFF;
   c = model_open_as(SCALED("subject: {mass: 80, stature: 1.8}\n"), &subject);
   check_scaled(c.model, 60, 1.8);
   model_shut(&c);
@@ -69,7 +69,12 @@ static void absent_subject(void **state) {
 
 static void bad_subjects(void **state) {
   (void)state;
-  static const ambulo_subject bad[] = {{-1, 0, 0}, {0, -1, 0}, {0, 20, 0}, {1e5, 0, 0}, {0, 0, 7}};
+  const double off = AMBULO_OFF;
+  const size_t size = sizeof(ambulo_subject);
+  const ambulo_subject bad[] = {{size, -1, off, AMBULO_MALE},   {size, off, -1, AMBULO_MALE},
+                                {size, 0, off, AMBULO_MALE},    {size, off, 0, AMBULO_MALE},
+                                {size, off, 20, AMBULO_MALE},   {size, 1e5, off, AMBULO_MALE},
+                                {size, off, off, (ambulo_sex)7}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     model_case c = model_open_as(MODEL_HEAD MODEL_ROD, &bad[i]);
     assert_int_equal(c.status, AMBULO_E_ARGUMENT);
@@ -87,7 +92,7 @@ static void bad_subjects(void **state) {
 /* scaling a model in metres and kilograms would do nothing: the caller is told */
 static void unused_subject(void **state) {
   (void)state;
-  ambulo_subject subject = {.mass = 60, .stature = 1.6};
+  ambulo_subject subject = {.size = sizeof(ambulo_subject), .mass = 60, .stature = 1.6};
   model_case c = model_open_as(MODEL_HEAD MODEL_ROD, &subject);
   assert_int_equal(c.status, AMBULO_OK);
   assert_int_equal(ambulo_diagnostics_count(c.list), 2);

@@ -116,7 +116,13 @@ static void overrides_come_first(void **state) {
                               "solver.presolve=off"};
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load_text(text, strlen(text), NULL, "models/", good, 4, NULL, NULL, &p),
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = strlen(text),
+                                                      .directory = "models/",
+                                                      .overrides = good,
+                                                      .override_count = 4},
+                               NULL, NULL, &p),
       AMBULO_OK);
   assert_int_equal(ambulo_problem_node_count(p), 37);
   assert_close(ambulo_problem_duration(p), 2.5, 0.0);
@@ -134,8 +140,14 @@ static void overrides_come_first(void **state) {
              {"time.interval=3", AMBULO_E_SCHEMA}};
   for (int i = 0; i < 5; i++) {
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
-    ambulo_status status = ambulo_problem_load_text(text, strlen(text), NULL, "models",
-                                                    &bad[i].text, 1, NULL, list, &p);
+    ambulo_status status =
+        ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                        .text = text,
+                                                        .length = strlen(text),
+                                                        .directory = "models",
+                                                        .overrides = &bad[i].text,
+                                                        .override_count = 1},
+                                 NULL, list, &p);
     if (status != bad[i].status) print_error("override %s\n", bad[i].text);
     assert_int_equal(status, bad[i].status);
     assert_null(p);
@@ -166,7 +178,11 @@ static void damaged_files_are_survived(void **state) {
   for (size_t cut = 0; cut < length; cut++) {
     ambulo_problem *p = NULL;
     ambulo_status status =
-        ambulo_problem_load_text(text, cut, NULL, "models", NULL, 0, NULL, NULL, &p);
+        ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                        .text = text,
+                                                        .length = cut,
+                                                        .directory = "models"},
+                                 NULL, NULL, &p);
     if (cut + 1 < length) assert_int_not_equal(status, AMBULO_OK);
     assert_true((status == AMBULO_OK) == (p != NULL));
     ambulo_problem_free(p);
@@ -185,8 +201,15 @@ static void memory_may_run_out_anywhere(void **state) {
     ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
     ambulo_problem *p = NULL;
-    ambulo_status status = ambulo_problem_load_text(text, strlen(text), "p", "models", overrides, 1,
-                                                    &allocator, list, &p);
+    ambulo_status status =
+        ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                        .text = text,
+                                                        .length = strlen(text),
+                                                        .name = "p",
+                                                        .directory = "models",
+                                                        .overrides = overrides,
+                                                        .override_count = 1},
+                                 &allocator, list, &p);
     if (memory.failed) assert_int_equal(status, AMBULO_E_MEMORY);
     ambulo_problem_free(p);
     ambulo_diagnostics_free(list);

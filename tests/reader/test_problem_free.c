@@ -83,9 +83,16 @@ static void the_file_is_read_again(void **state) {
   const char *const overrides[] = {override};
   const double values[2] = {0.7, -0.05};
   ambulo_problem *p = NULL, *at = NULL;
-  assert_int_equal(ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", overrides, 1,
-                                            NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = strlen(text),
+                                                      .name = "p.yaml",
+                                                      .directory = "models",
+                                                      .overrides = overrides,
+                                                      .override_count = 1},
+                               NULL, NULL, &p),
+      AMBULO_OK);
   memset(text, '#', strlen(text));
   memset(override, '#', strlen(override));
   assert_int_equal(ambulo_problem_at(p, values, NULL, NULL, &at), AMBULO_OK);
@@ -187,8 +194,13 @@ static void every_allocation_may_fail(void **state) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo_problem *p = NULL;
-    ambulo_status status = ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0,
-                                                    &allocator, NULL, &p);
+    ambulo_status status =
+        ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                        .text = text,
+                                                        .length = strlen(text),
+                                                        .name = "p.yaml",
+                                                        .directory = "models"},
+                                 &allocator, NULL, &p);
     if (status == AMBULO_OK) {
       ambulo_problem_free(p);
     } else {

@@ -12,7 +12,7 @@ static void expect_reaction(const ambulo_ground_reaction *r) {
   assert_close(r->shear, 0.8, 1e-15);
   assert_close(r->exponent, 1.2, 1e-15);
   assert_close(r->friction, 0.4, 1e-15);
-  assert_close(r->free_moment, -1.0, 1e-15);
+  assert_true(isnan(r->free_moment));
   assert_close(r->heel_pressure[0], -0.01, 1e-15);
   assert_close(r->heel_pressure[1], 0.02, 1e-15);
   assert_close(r->heel_roll, 0.05, 1e-15);
@@ -61,8 +61,8 @@ static void defaults(void **state) {
   assert_int_equal(r->kind, AMBULO_REACTION_TWO_STEP);
   assert_int_equal(r->pressure, 0);
   assert_close(p->definition.minimum_force, 0.2, 0.0);
-  assert_true(p->definition.clearance.height < 0.0);
-  assert_true(p->definition.clearance.feet < 0.0);
+  assert_true(isnan(p->definition.clearance.height));
+  assert_true(isnan(p->definition.clearance.feet));
   assert_close(p->definition.contact_tolerance, 0.0, 0.0);
   ambulo_problem_free(p);
   p = problem_of(HEAD REST);

@@ -1,4 +1,5 @@
 /* `load` with `hands` in a problem file: every key, defaults, beside loads on links, refusals. */
+#include "ambulo/parameters.h"
 #include "reader/problem_text.h"
 
 #define HEAD WALKER "time: {duration: 1, intervals: 4}\nobjective: none\n"
@@ -82,16 +83,22 @@ static void refusals(void **state) {
           "taken up and set down over 0.1 s each");
 }
 
-static void nothing_is_free_with_them(void **state) {
+/* by the name of the load, or where it stands in the list, beside loads on links */
+static void they_may_be_free(void **state) {
   (void)state;
-  expect_refusal(HEAD "load: {hands: [heel_r], mass: 2}\nfree: {\"load.mass\": [1, 3]}\n",
-                 AMBULO_E_PROBLEM,
-                 "free numbers are chosen by sensitivities, which what hands hold does not have");
+  ambulo_problem *p = problem_of(
+      WALKER
+      "time: {duration: 1, intervals: 4}\nobjective: [{term: torque_squared}]\nload: [{name: "
+      "box, hands: [heel_r], mass: 2}, {link: pelvis, mass: 4, position: [0, 0.1, 0]}, "
+      "{hands: [heel_l], mass: 3, force: [0, 1, 0]}]\nfree: {\"load[box].mass\": [1, 3], "
+      "\"load[1].mass\": [1, 5], \"load[2].force[0]\": [-1, 1]}\n");
+  assert_int_equal(ambulo_problem_parameters(p).count, 3);
+  ambulo_problem_free(p);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_key), cmocka_unit_test(the_hash_knows),
                                      cmocka_unit_test(refusals),
-                                     cmocka_unit_test(nothing_is_free_with_them)};
+                                     cmocka_unit_test(they_may_be_free)};
   return cmocka_run_group_tests_name("reader/problem_holds", tests, NULL, NULL);
 }

@@ -115,8 +115,13 @@ static void every_allocation_may_fail(void **state) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
     ambulo_problem *p = NULL;
-    ambulo_status status = ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0,
-                                                    &allocator, NULL, &p);
+    ambulo_status status =
+        ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                        .text = text,
+                                                        .length = strlen(text),
+                                                        .name = "p.yaml",
+                                                        .directory = "models"},
+                                 &allocator, NULL, &p);
     if (status)
       assert_int_equal(status, AMBULO_E_MEMORY);
     else

@@ -122,9 +122,16 @@ static void the_number_is_by_gravity(void **state) {
                              "gait: {steps: 1, first_foot: left, speed: 1, phases: by_speed}\n";
   const char *overrides[] = {"model.gravity=[0, -1.62, 0]"};
   ambulo_problem *p = NULL;
-  assert_int_equal(ambulo_problem_load_text(moon, strlen(moon), "p.yaml", "models", overrides, 1,
-                                            NULL, NULL, &p),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = moon,
+                                                      .length = strlen(moon),
+                                                      .name = "p.yaml",
+                                                      .directory = "models",
+                                                      .overrides = overrides,
+                                                      .override_count = 1},
+                               NULL, NULL, &p),
+      AMBULO_OK);
   assert_close(p->keys.walk.toe_off, 0.62 - 0.145 * (1.0 / sqrt(1.62 * 1.75) - 0.31), 1e-14);
   ambulo_problem_free(p);
 }

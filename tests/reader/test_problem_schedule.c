@@ -110,9 +110,14 @@ static void the_width_defaults_to_the_hips(void **state) {
 static void expect_only(const char *text, const char *message) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_problem *problem = NULL;
-  assert_int_not_equal(ambulo_problem_load_text(text, strlen(text), "p.yaml", "models", NULL, 0,
-                                                NULL, list, &problem),
-                       AMBULO_OK);
+  assert_int_not_equal(
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = strlen(text),
+                                                      .name = "p.yaml",
+                                                      .directory = "models"},
+                               NULL, list, &problem),
+      AMBULO_OK);
   assert_int_equal(ambulo_diagnostics_error_count(list), 1);
   assert_non_null(strstr(ambulo_diagnostics_get(list, 0)->message, message));
   ambulo_diagnostics_free(list);

@@ -8,7 +8,7 @@ static void absent_means_defaults(void **state) {
   (void)state;
   ambulo_problem *p = problem_of(HEAD);
   ambulo_options got = ambulo_problem_options(p), want = ambulo_options_default();
-  assert_int_equal(got.cookie, want.cookie);
+  assert_int_equal(got.size, want.size);
   assert_int_equal(got.algorithm, want.algorithm);
   assert_int_equal(got.presolve, want.presolve);
   assert_int_equal(got.finisher, AMBULO_FINISHER_NONE);
@@ -24,7 +24,7 @@ static void without_a_file_all_are_defaults(void **state) {
   ambulo_problem *p = NULL;
   assert_int_equal(ambulo_problem_create(&definition, NULL, NULL, &p), AMBULO_OK);
   ambulo_options got = ambulo_problem_options(p), want = ambulo_options_default();
-  assert_int_equal(got.cookie, want.cookie);
+  assert_int_equal(got.size, want.size);
   assert_int_equal(got.maximum_iterations, want.maximum_iterations);
   assert_int_equal(got.dense_samples, want.dense_samples);
   ambulo_problem_free(p);

@@ -251,7 +251,14 @@ static void faults_are_named(void **state) {
   ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
   ambulo_problem *p = NULL;
   assert_int_equal(
-      ambulo_problem_load_text(own, strlen(own), "p.yaml", "models", overrides, 1, NULL, list, &p),
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = own,
+                                                      .length = strlen(own),
+                                                      .name = "p.yaml",
+                                                      .directory = "models",
+                                                      .overrides = overrides,
+                                                      .override_count = 1},
+                               NULL, list, &p),
       AMBULO_E_PROBLEM);
   assert_message(list, 0, "a model that has its own size");
   ambulo_diagnostics_free(list);

@@ -42,7 +42,8 @@ static void test_finer_grid(void **state) {
   assert_int_equal(ambulo_workspace_create(fine.problem, NULL, &b), AMBULO_OK);
   double times[7], q[2][7 * WALKER_COORDINATES];
   for (int k = 0; k < 7; k++) times[k] = walker_step_time * k / 6.5;
-  ambulo_motion first = {.q = q[0]}, second = {.q = q[1]};
+  ambulo_motion first = {.size = sizeof(ambulo_motion), .q = q[0]},
+                second = {.size = sizeof(ambulo_motion), .q = q[1]};
   assert_int_equal(ambulo_problem_motion(coarse.problem, a, coarse.result->x, 7, times, &first), 0);
   assert_int_equal(ambulo_problem_motion(fine.problem, b, fine.result->x, 7, times, &second), 0);
   for (int i = 0; i < 7 * WALKER_COORDINATES; i++) assert_close(q[1][i], q[0][i], 1e-11);
@@ -83,7 +84,7 @@ static void test_repeated(void **state) {
     assert_int_equal(ambulo_workspace_create(many, NULL, &w), AMBULO_OK);
     double times[PERIODS], q[PERIODS][D];
     for (int k = 0; k < PERIODS; k++) times[k] = walker_step_time * (k + 0.3);
-    ambulo_motion motion = {.q = q[0]};
+    ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q[0]};
     assert_int_equal(ambulo_problem_motion(many, w, x, PERIODS, times, &motion), AMBULO_OK);
     for (int k = 0; k + 1 < PERIODS; k++) {
       for (int i = 0; i < D; i++) {

@@ -128,7 +128,7 @@ static void test_bad_places(void **state) {
   assert_int_equal(ambulo_report_check(scratch_path(state, "file/below"), &options, NULL),
                    AMBULO_E_IO);
   assert_int_equal(ambulo_report_check("/proc/result", &options, NULL), AMBULO_E_IO);
-  options.cookie = 0;
+  options.size = 0;
   assert_int_equal(ambulo_report_check(scratch_path(state, "r"), &options, NULL),
                    AMBULO_E_ARGUMENT);
 }

@@ -57,8 +57,9 @@ static void soles_are_where_the_mechanics_has_them(void **state) {
   double *place = calloc((size_t)samples * (size_t)points * 3, sizeof *place);
   ambulo_mechanics *mechanics = NULL;
   assert_int_equal(ambulo_mechanics_create(m, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, samples, s.stride.q, s.stride.qd,
-                                                     s.stride.qdd, NULL, NULL, place),
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, samples, s.stride.q, s.stride.qd, s.stride.qdd,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = place}),
                    AMBULO_OK);
   const ambulo__yaml_node *feet = ambulo__yaml_get(s.read.root, "feet");
   assert_int_equal(ambulo__yaml_items(feet), 2);

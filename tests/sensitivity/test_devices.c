@@ -90,9 +90,49 @@ static void strikes_that_move(void **state) {
   check(&c, NULL);
 }
 
+/* Springs that have no stiffness: what the first of it would save, against differences to one side
+ * over 0, h and 2 h, since a file has none below 0. */
+static void springs_of_no_stiffness(void **state) {
+  (void)state;
+  static const setting c = {
+      "models/walk_normal.yaml",
+      {"time.intervals=24", "trajectory.intervals=9",
+       "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 0, rest: 1, "
+       "side: above, smoothing: 4, mirror: true}, "
+       "{name: band, kind: spring, between: [{point: heel_r}, {point: heel_l}], stiffness: 0, "
+       "rest: 0.3, pretension: 2}]"},
+      {NULL}};
+  static const struct {
+    const char *name, *unit, *words;
+  } wanted[2] = {{"devices[exo_r].stiffness", "N m/rad", "1 N m/rad more stiffness of exo_r (both"},
+                 {"devices[band].stiffness", "N/m", "10 N/m more stiffness of band "}};
+  listed l = list_open(&c);
+  for (int k = 0; k < 2; k++) {
+    const ambulo_sensitivity *s = NULL;
+    double value[3], by = 1e-3;
+    for (int i = 0; i < l.list->count; i++)
+      if (strcmp(l.list->items[i].name, wanted[k].name) == 0) s = &l.list->items[i];
+    assert_non_null(s);
+    assert_string_equal(s->unit, wanted[k].unit);
+    assert_memory_equal(s->words, wanted[k].words, strlen(wanted[k].words));
+    for (int i = 0; i < 3; i++) {
+      ambulo_problem *moved = moved_problem(c.file, c.overrides, l.count, l.problem, s, i * by);
+      assert_non_null(moved);
+      value[i] = lagrangian_at(moved, l.result->x, l.result->multiplier, l.result->rows);
+      ambulo_problem_free(moved);
+    }
+    double difference = (4.0 * value[1] - 3.0 * value[0] - value[2]) / (2.0 * by);
+    assert_true(fabs(s->derivative) > 1e-6);
+    assert_true(fabs(s->derivative - difference) <=
+                1e-7 * fabs(s->derivative) + 1e-14 * (fabs(value[0]) + 1.0) / by);
+  }
+  list_close(&l);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(springs_on_four_steps), cmocka_unit_test(a_mirrored_step_on_events),
-      cmocka_unit_test(several_loads), cmocka_unit_test(strikes_that_move)};
+      cmocka_unit_test(several_loads), cmocka_unit_test(strikes_that_move),
+      cmocka_unit_test(springs_of_no_stiffness)};
   return cmocka_run_group_tests_name("sensitivity/devices", tests, NULL, NULL);
 }

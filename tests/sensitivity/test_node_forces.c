@@ -21,9 +21,11 @@ static void dynamics(const ambulo_model *model, const double *motion, double *ou
   ambulo_mechanics *mechanics = NULL;
   int d = ambulo_model_coordinate_count(model);
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, motion, motion + d,
-                                                     motion + 2 * d, out, out + d, NULL),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(
+          mechanics, 1, motion, motion + d, motion + 2 * d,
+          &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = out, .wrench = out + d}),
+      AMBULO_OK);
   ambulo_mechanics_free(mechanics);
 }
 

@@ -82,6 +82,38 @@ static void an_arm_solved_anew(void **state) {
   compare("models/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
 }
 
+/* what a hand holds for a while; its times lie between nodes */
+static void a_load_solved_anew(void **state) {
+  (void)state;
+  static const char *const base[] = {
+      "load={hands: [hand], mass: 1.5, force: [3, 0, -2], from: 0.21, to: 0.69, ramp: 0.12}"};
+  static const char *const names[] = {"load.mass", "load.force[0]", "load.force[2]", "load.from",
+                                      "load.to",   "load.ramp",     "time.duration", NULL};
+  compare("models/two_link_reach.yaml", base, 1, names, 1e-3, 1e-6);
+}
+
+/* on grids on events, whose nodes go along; multipliers of the second are not known as well */
+static void a_load_on_events_solved_anew(void **state) {
+  (void)state;
+  static const char *const arm[] = {
+      "load={hands: [hand], mass: 1.5, force: [3, 0, -2], from: 0.21, to: 0.69, ramp: 0.12}",
+      "time.grid=events", "trajectory.degree=5"};
+  static const char *const step[] = {
+      "gait=null",
+      "ends=null",
+      "time.duration=0.5",
+      "angles=degrees",
+      "contacts=[{foot: right, mode: flat, from: 0, to: 0.4, place: [0, 0]}, {foot: left, mode: "
+      "heel, from: 0.3, to: 0.5, place: [0.4, 0]}]",
+      "load={hands: [head_top], mass: 5, force: [20, 0, -30], from: 0.11, to: 0.45, ramp: 0.07}",
+      "time.grid=events",
+      "trajectory.degree=5"};
+  static const char *const names[] = {"load.mass", "load.force[2]", NULL};
+  static const char *const times[] = {"load.from", "load.to", "load.ramp", "load.mass", NULL};
+  compare("models/two_link_reach.yaml", arm, 3, times, 1e-3, 1e-5);
+  compare("models/walker_2d_step.yaml", step, 8, names, 3e-2, 1e-4);
+}
+
 static void a_planar_step_solved_anew(void **state) {
   (void)state;
   static const char *const base[] = {"angles=degrees", "constraints.zmp_margin=0.005"};
@@ -289,6 +321,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(an_arm_solved_anew),       cmocka_unit_test(a_planar_step_solved_anew),
+      cmocka_unit_test(a_load_solved_anew),       cmocka_unit_test(a_load_on_events_solved_anew),
       cmocka_unit_test(four_steps_solved_anew),   cmocka_unit_test(phases_solved_anew),
       cmocka_unit_test(the_dearest_stands_first), cmocka_unit_test(no_optimum_has_none),
       cmocka_unit_test(arguments_are_checked),    cmocka_unit_test(contacts_that_share_solved_anew),

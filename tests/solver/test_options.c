@@ -28,8 +28,11 @@ static void each_fault_is_named(void **state) {
   o.maximum_evaluations = 0;
   refuse(o, "maximum_evaluations");
   o = ambulo_options_default();
-  o.time_limit = NAN;
-  refuse(o, "time_limit");
+  o.time_limit = 0.0;
+  refuse(o, "solver.time_limit is 0 s; expected more than 0, or AMBULO_OFF");
+  o = ambulo_options_default();
+  o.maximum_memory = -1.0;
+  refuse(o, "solver.maximum_memory is -1 bytes; expected more than 0, or AMBULO_OFF");
   o = ambulo_options_default();
   static const double no_tolerance[] = {0.0, -1e-6, 1e-300, 1e-15, 1.1, 1e300, INFINITY, NAN};
   for (size_t i = 0; i < sizeof no_tolerance / sizeof *no_tolerance; i++) {
@@ -44,8 +47,10 @@ static void each_fault_is_named(void **state) {
   o.finisher = (ambulo_finisher)7;
   refuse(o, "finisher");
   o = ambulo_options_default();
-  o.equalities = (ambulo_equalities)2;
-  refuse(o, "equalities");
+  o.equalities = (ambulo_equalities)3;
+  refuse(o, "solver equalities are unknown (got 3)");
+  o.equalities = AMBULO_EQUALITIES_NOT_SET;
+  refuse(o, "solver equalities are not set (got 0); expected held or nlopt");
   o = ambulo_options_default();
   o.dense_samples = 0;
   refuse(o, "dense_samples");

@@ -37,6 +37,39 @@ static void grids_continue_from_coarser_ones(void **state) {
   ambulo_problem_free(problem);
 }
 
+/* as many items as iterations, grid by grid, the same in two runs; the last is what is returned */
+static void the_way_is_told(void **state) {
+  (void)state;
+  ambulo_problem *problem = load_problem("yardstick_36");
+  ambulo_result *r[2] = {solve(problem, ambulo_options_default()),
+                         solve(problem, ambulo_options_default())};
+  const ambulo_history *way = ambulo_result_history(r[0]), *again = ambulo_result_history(r[1]);
+  const ambulo_violation *worst = &ambulo_result_audit(r[0])->violation;
+  assert_true(way->count >= 3);
+  assert_int_equal(way->count, ambulo_result_iterations(r[0]) + 1);
+  assert_int_equal(way->count, again->count);
+  assert_int_equal(way->every, 1);
+  assert_close(way->tolerance, 1e-6, 0);
+  for (int i = 0; i < way->count; i++) {
+    const ambulo_iteration *now = &way->items[i], *other = &again->items[i];
+    assert_int_equal(now->iteration, i + 1 < way->count ? i + 1 : i);
+    assert_int_equal(now->evaluations, other->evaluations);
+    assert_true(now->objective == other->objective && now->violation == other->violation);
+    if (i == 0) continue;
+    assert_true(now->intervals >= now[-1].intervals && now->evaluations >= now[-1].evaluations);
+    assert_true(now->seconds >= now[-1].seconds && now->seconds > 0.0);
+  }
+  assert_true(way->items[0].intervals < 36);
+  const ambulo_iteration *end = &way->items[way->count - 1];
+  assert_int_equal(end->intervals, 36);
+  assert_true(end->objective == ambulo_result_objective(r[0]));
+  assert_true(end->violation == worst->worst / worst->size && isnan(end->gradient));
+  assert_true(end[-1].gradient >= 0.0 && end[-1].gradient < 1.0);
+  for (int i = 0; i < 2; i++) ambulo_result_free(r[i]);
+  ambulo_problem_free(problem);
+  assert_null(ambulo_result_history(NULL));
+}
+
 static void feasibility_alone_is_enough(void **state) {
   (void)state;
   ambulo_problem *problem = load_problem("fig5a_feasible");
@@ -187,6 +220,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(yardstick_is_solved_from_zero),
       cmocka_unit_test(grids_continue_from_coarser_ones),
+      cmocka_unit_test(the_way_is_told),
       cmocka_unit_test(feasibility_alone_is_enough),
       cmocka_unit_test(cancelled_solve_returns_its_point),
       cmocka_unit_test(limits_end_the_solve),

@@ -31,7 +31,11 @@ static void gaps_by_hand(void **state) {
   int count = 0;
   own = ambulo__allocator_or_default(NULL);
   assert_int_equal(
-      ambulo_problem_load_text(text, sizeof text - 1, "t", NULL, NULL, 0, NULL, NULL, &p),
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = text,
+                                                      .length = sizeof text - 1,
+                                                      .name = "t"},
+                               NULL, NULL, &p),
       AMBULO_OK);
   double *x = calloc((size_t)p->variables, sizeof *x);
   assert_int_equal(ambulo__approaches(p, x, 21, &own, &list, &count), AMBULO_OK);

@@ -154,9 +154,10 @@ static void test_the_second_half_obeys_the_same_equations(void **state) {
   assert_int_equal(ambulo__stride_create(w.problem, w.result->x, 0, NULL, &s), AMBULO_OK);
   assert_int_equal(ambulo_mechanics_create(s.model, NULL, &mechanics), AMBULO_OK);
   double *tau = calloc((size_t)(s.samples * D), sizeof *tau);
-  assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, s.samples, s.q, s.qd, s.qdd, tau, NULL, NULL),
-      AMBULO_OK);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, s.samples, s.q, s.qd, s.qdd,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
+                   AMBULO_OK);
   for (int j = 0; j < s.samples * D; j++) assert_close(s.tau[j], tau[j], 1e-11);
   free(tau);
   ambulo_mechanics_free(mechanics);

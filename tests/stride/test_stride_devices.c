@@ -1,27 +1,19 @@
 /* Devices over a stride: the mirrored step, and work that a spring gives back. */
-#include "stride/stride.h"
+#include "stride/waving_stride.h"
 
-#include "ambulo/ambulo.h"
-#include "support/test.h"
-
-static const char *const overrides[] = {
-    "time.intervals=30", "trajectory.intervals=9",
+static const char *const worn =
     "devices=[{name: exo_r, kind: spring, coordinate: ankle_angle_r, stiffness: 150, rest: -60, "
     "side: above, mirror: true}, {name: twist, kind: spring, coordinate: lumbar_rotation, "
     "stiffness: 30, rest: 0}, {name: band, kind: spring, between: [{link: foot_r, position: [0.04, "
-    "0, 0]}, {link: foot_l, position: [0.04, 0, 0]}], stiffness: 120, rest: 0.2}]"};
+    "0, 0]}, {link: foot_l, position: [0.04, 0, 0]}], stiffness: 120, rest: 0.2}]";
 
 /* the state of the spring at each sample: what it holds is what went in */
 static void test_a_mirrored_stride(void **state) {
   (void)state;
-  ambulo_problem *p = NULL;
-  ambulo__stride s;
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", overrides, 3, NULL, NULL, &p),
-                   AMBULO_OK);
-  double *x = calloc((size_t)p->variables, sizeof *x);
-  for (int j = 0; j < p->variables; j++)
-    x[j] = 0.2 * sin(1.3 * (j % p->coordinates) + 0.7 * (j / p->coordinates));
-  assert_int_equal(ambulo__stride_create(p, x, 2001, NULL, &s), AMBULO_OK);
+  waving_stride waving;
+  open_waving_stride(&waving, worn, 2001);
+  const ambulo_problem *p = waving.problem;
+  const ambulo__stride s = waving.stride;
   int d = s.coordinates, n = s.devices;
   int ankle[2] = {ambulo_model_find_coordinate(p->model, "ankle_angle_r"),
                   ambulo_model_find_coordinate(p->model, "ankle_angle_l")};
@@ -52,24 +44,16 @@ static void test_a_mirrored_stride(void **state) {
     double jump = 0.5 * stiffness[v] * (after * after - middle * middle);
     assert_close((work.positive + work.negative + stored - jump) / work.positive, 0, 0.02);
   }
-  ambulo__stride_free(&s);
-  free(x);
-  ambulo_problem_free(p);
+  close_waving_stride(&waving);
 }
 
 static void test_no_devices_no_arrays(void **state) {
   (void)state;
-  ambulo_problem *p = NULL;
-  ambulo__stride s;
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", overrides, 2, NULL, NULL, &p),
-                   AMBULO_OK);
-  double *x = calloc((size_t)p->variables, sizeof *x);
-  assert_int_equal(ambulo__stride_create(p, x, 0, NULL, &s), AMBULO_OK);
-  assert_int_equal(s.devices, 0);
-  assert_null(s.effort);
-  ambulo__stride_free(&s);
-  free(x);
-  ambulo_problem_free(p);
+  waving_stride still;
+  open_waving_stride(&still, NULL, 0);
+  assert_int_equal(still.stride.devices, 0);
+  assert_null(still.stride.effort);
+  close_waving_stride(&still);
 }
 
 int main(void) {

@@ -30,6 +30,17 @@ static void fixture_close(fixture *f) {
   ambulo_problem_free(f->problem);
 }
 
+/* about the origin: of the force at its centre of pressure, with what turns about the normal */
+static void expect_moment(const ambulo__stride *s, int at) {
+  const double *f = s->grf + 3 * at, *p = s->cop + 3 * at;
+  if (!isfinite(p[0])) return;
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    double twist = i == 1 ? s->free_moment[at] : 0.0;
+    assert_close(s->grf_moment[3 * at + i], p[j] * f[k] - p[k] * f[j] + twist, 1e-9);
+  }
+}
+
 /* node 25 + k is node k with the feet exchanged; z is to the right, x forward */
 static void feet_change_sides(void **state) {
   (void)state;
@@ -47,6 +58,8 @@ static void feet_change_sides(void **state) {
           assert_close(s->cop[3 * here + i], sign * s->cop[3 * there + i] + shift, 1e-12);
       }
       assert_close(s->free_moment[here], -s->free_moment[there], 1e-9);
+      expect_moment(s, here);
+      expect_moment(s, there);
     }
   }
   fixture_close(&f);
@@ -119,21 +132,24 @@ static void the_table_has_their_columns(void **state) {
                                 .feet = s->feet,
                                 .grf = s->grf,
                                 .cop = s->cop,
-                                .free_moment = s->free_moment};
+                                .free_moment = s->free_moment,
+                                .grf_moment = s->grf_moment};
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
   ambulo__motion_csv(&table, &text);
   const char *csv = ambulo__text_data(&text);
   const char *expected = ",zmp.x,zmp.y,zmp.z,grf.right.x,grf.right.y,grf.right.z,cop.right.x,"
-                         "cop.right.y,cop.right.z,free_moment.right,grf.left.x,grf.left.y,"
-                         "grf.left.z,cop.left.x,cop.left.y,cop.left.z,free_moment.left\n";
+                         "cop.right.y,cop.right.z,free_moment.right,moment.right.x,"
+                         "moment.right.y,moment.right.z,grf.left.x,grf.left.y,"
+                         "grf.left.z,cop.left.x,cop.left.y,cop.left.z,free_moment.left,"
+                         "moment.left.x,moment.left.y,moment.left.z\n";
   assert_non_null(strstr(csv, expected));
   /* as many numbers as names */
   const char *header = strstr(csv, "\ntime") + 1, *row = strchr(header, '\n') + 1;
   int names = 0, numbers = 0;
   for (const char *c = header; *c != '\n'; c++) names += *c == ',';
   for (const char *c = row; *c != '\n'; c++) numbers += *c == ',';
-  assert_int_equal(names, 4 * 18 + 3 + 14);
+  assert_int_equal(names, 4 * 18 + 3 + 20);
   assert_int_equal(numbers, names);
   ambulo__text_free(&text);
   fixture_close(&f);

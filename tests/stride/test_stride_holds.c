@@ -1,14 +1,9 @@
 /* What hands hold over a stride: the mirrored step, peaks, work. */
-#include "stride/stride.h"
+#include "stride/waving_stride.h"
 
-#include "ambulo/ambulo.h"
-#include "support/test.h"
-
-#define BOX                                                                                        \
-  "load={name: box, hands: [hip_r, hip_l], mass: 10, inertia: 0.3, center: [0.1, 0, -0.1], "       \
-  "force: [30, 0, 5]}"
-
-static const char *const overrides[] = {"time.intervals=30", "trajectory.intervals=9", BOX};
+static const char *const box =
+    "load={name: box, hands: [hip_r, hip_l], mass: 10, inertia: 0.3, center: [0.1, 0, -0.1], "
+    "force: [30, 0, 5]}";
 
 static const double *force_of(const ambulo__stride *s, int k, int hand) {
   return s->hold_force + 6 * k + 3 * hand;
@@ -17,14 +12,10 @@ static const double *force_of(const ambulo__stride *s, int k, int hand) {
 /* at a phase of the second step hands have what the others had at that of the first */
 static void test_a_mirrored_stride(void **state) {
   (void)state;
-  ambulo_problem *p = NULL;
-  ambulo__stride s;
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", overrides, 3, NULL, NULL, &p),
-                   AMBULO_OK);
-  double *x = calloc((size_t)p->variables, sizeof *x), work[2], sum = 0, most = 0, least = 0;
-  for (int j = 0; j < p->variables; j++)
-    x[j] = 0.2 * sin(1.3 * (j % p->coordinates) + 0.7 * (j / p->coordinates));
-  assert_int_equal(ambulo__stride_create(p, x, 401, NULL, &s), AMBULO_OK);
+  waving_stride waving;
+  double work[2], sum = 0, most = 0, least = 0;
+  open_waving_stride(&waving, box, 401);
+  const ambulo__stride s = waving.stride;
   assert_int_equal(s.holds, 1);
   for (int k = 0; k <= 200; k++) {
     /* axes of the model: forward, up, to the right */
@@ -55,23 +46,15 @@ static void test_a_mirrored_stride(void **state) {
   ambulo__stride_hold_work(&s, 0, work);
   assert_true(work[0] > 0 && work[1] < 0);
   assert_close(work[0] + work[1], sum, 1e-9);
-  ambulo__stride_free(&s);
-  free(x);
-  ambulo_problem_free(p);
+  close_waving_stride(&waving);
 }
 
 static void test_nothing_held(void **state) {
   (void)state;
-  ambulo_problem *p = NULL;
-  ambulo__stride s;
-  assert_int_equal(ambulo_problem_load("models/walk.yaml", overrides, 2, NULL, NULL, &p),
-                   AMBULO_OK);
-  double *x = calloc((size_t)p->variables, sizeof *x);
-  assert_int_equal(ambulo__stride_create(p, x, 0, NULL, &s), AMBULO_OK);
-  assert_true(s.holds == 0 && !s.hold_force && !s.hold_power);
-  ambulo__stride_free(&s);
-  free(x);
-  ambulo_problem_free(p);
+  waving_stride still;
+  open_waving_stride(&still, NULL, 0);
+  assert_true(still.stride.holds == 0 && !still.stride.hold_force && !still.stride.hold_power);
+  close_waving_stride(&still);
 }
 
 int main(void) {

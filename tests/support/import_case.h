@@ -98,8 +98,10 @@ static inline void assert_torques(const ambulo_model *model, const double *want,
     qdd[i] = 1.1 * sin(3.0 + 2.0 * i);
   }
   assert_int_equal(ambulo_mechanics_create(model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, q, qd, qdd, tau, NULL, NULL),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_mechanics_inverse_dynamics(
+          mechanics, 1, q, qd, qdd, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .tau = tau}),
+      AMBULO_OK);
   for (int i = 0; i < count; i++) assert_close(tau[i], want[i], tolerance);
   ambulo_mechanics_free(mechanics);
 }

@@ -27,8 +27,9 @@ static inline ambulo__motion *inverse_of(const ambulo_model *model, const char *
                                          const ambulo_inverse_options *options,
                                          ambulo_diagnostics *list, ambulo_status expected) {
   char *text = NULL;
-  ambulo_status status =
-      ambulo_inverse_dynamics_motion(model, path, NULL, options, NULL, list, NULL, &text);
+  ambulo_status status = ambulo_inverse_dynamics_motion(
+      model, path, NULL, options, NULL, list,
+      &(ambulo_inverse_outputs){.size = sizeof(ambulo_inverse_outputs), .text = &text});
   if (status != expected && ambulo_diagnostics_count(list)) assert_message(list, 0, "(no message)");
   assert_int_equal(status, expected);
   if (status) {

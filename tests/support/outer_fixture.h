@@ -32,8 +32,7 @@ static inline solved solve(const char *file, const char *const *overrides, int c
                            const ambulo_options *options) {
   solved s = {.problem = load(file, overrides, count)};
   assert_int_equal(
-      ambulo_solve_parameters(s.problem, NULL, options, NULL, NULL, NULL, &s.best, &s.result),
-      AMBULO_OK);
+      ambulo_solve_parameters(s.problem, NULL, options, NULL, NULL, &s.best, &s.result), AMBULO_OK);
   s.outcome = ambulo_result_parameters(s.result);
   assert_non_null(s.outcome);
   return s;

@@ -83,12 +83,16 @@ static inline ambulo_model *walker_create(void) {
 /* One mirrored step with contact rows; NULL if it is refused. */
 static inline ambulo_problem *walker_problem_on(const ambulo_model *model, int intervals,
                                                 ambulo_grid grid) {
-  const ambulo_gait gait = {.steps = 1,
+  const ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                            .contact_size = sizeof(ambulo_contact),
+                            .steps = 1,
                             .step_length = walker_step_length,
                             .step_time = walker_step_time,
                             .foot_flat = 0.08,
                             .heel_off = 0.38,
-                            .toe_off = 0.62};
+                            .toe_off = 0.62,
+                            .other_step_length = AMBULO_OFF,
+                            .other_step_time = AMBULO_OFF};
   ambulo_contact contacts[12];
   ambulo_problem_definition definition = ambulo_problem_definition_default();
   ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);

@@ -37,10 +37,11 @@ static inline ambulo_result *scattered(const ambulo_problem *problem) {
   return result;
 }
 
-/* of phases and of times of contacts */
+/* of phases, of times of contacts and of what hands hold */
 static inline int moves_nodes(const ambulo_sensitivity *s) {
   int of_contact = strncmp(s->name, "contacts[", 9) == 0 && strcmp(s->unit, "s") == 0;
-  return of_contact || strncmp(s->name, "gait.phases.", 12) == 0;
+  int of_hold = strncmp(s->name, "load", 4) == 0 && strcmp(s->unit, "s") == 0;
+  return of_contact || of_hold || strncmp(s->name, "gait.phases.", 12) == 0;
 }
 
 static inline double step_of(const ambulo_sensitivity *s) {

@@ -22,13 +22,17 @@ typedef struct fixture {
 /* a mirrored step of 0.54 s */
 static inline int regular(const ambulo_model *model, ambulo_problem_definition *d,
                           ambulo_contact *contacts) {
-  const ambulo_gait gait = {.steps = 1,
+  const ambulo_gait gait = {.size = sizeof(ambulo_gait),
+                            .contact_size = sizeof(ambulo_contact),
+                            .steps = 1,
                             .step_length = 0.68,
                             .step_time = 0.54,
                             .step_width = 0.1,
                             .foot_flat = 0.08,
                             .heel_off = 0.38,
-                            .toe_off = 0.62};
+                            .toe_off = 0.62,
+                            .other_step_length = AMBULO_OFF,
+                            .other_step_time = AMBULO_OFF};
   d->duration = 0.54;
   d->ends = AMBULO_ENDS_MIRRORED;
   d->travel = 0.68;
@@ -160,7 +164,8 @@ static inline void effectors_at(const fixture *f, const double *times, int count
   const ambulo_model *m = f->model;
   size_t n = (size_t)count, feet = (size_t)m->foot_count, patches = (size_t)m->patch_count;
   double *block = calloc(7 * n * (feet + patches), sizeof *block);
-  ambulo_motion motion = {.wrench = wrench,
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .wrench = wrench,
                           .grf = block,
                           .cop = block + 3 * n * feet,
                           .free_moment = block + 6 * n * feet};

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Four ways of four kinds of users, from what they have to what they want to see:
+# Ways of four kinds of users, from what they have to what they want to see:
 #
 #   opensim  a model of OpenSim to a walk, beside a measured motion, and back into OpenSim
-#   study    subjects times a device: a batch, its table in pandas, its page
+#   measured a walk that was measured, beside that of its model; its torques, beside OpenSim's
+#   study    subjects times a device: a batch, its table in pandas, its page, its notebook
 #   urdf     a humanoid robot to a trajectory, replayed in Pinocchio
 #   tasks    lift, stairs, run: each solved, and its page used in a browser
 #
@@ -10,7 +11,7 @@
 # AMBULO_PYTHON names another Python, AMBULO_OSIM a model with the coordinates of Rajagopal's (one
 # named so is taken of several, separated by ':'), AMBULO_MOTION a motion measured with it (STO, MOT, CSV),
 # AMBULO_URDF a humanoid on its feet of boxes; without it the G1 of example-robot-data, if it is there.
-# AMBULO_SUBJECTS=500 makes the study that large (3). Prints "N passed, N failed".
+# AMBULO_SUBJECTS=500 makes the study as large as it is shipped (3). Prints "N passed, N failed".
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
@@ -72,8 +73,13 @@ imports() {
 
 # --------------------------------------------------------------- OpenSim
 
-# a measured motion, made up: three strides of another body at another speed, pelvis above the ground
-measured() { # FILE
+import_walker() { # OSIM FILE
+  "$AMBULO" import "$1" -o "$2" \
+    --heel right=calcn_r:0,0,-0.03:0,0,0.03 --toe right=calcn_r:0.18,0,-0.04:0.18,0,0.04 \
+    --heel left=calcn_l:0,0,-0.03:0,0,0.03 --toe left=calcn_l:0.18,0,-0.04:0.18,0,0.04
+}
+# a stand-in for a measured motion (measured.sh has a real one): three strides of another body at another speed, pelvis above the ground
+as_measured() { # FILE
   "$AMBULO" solve "$models/walk_normal.yaml" -o other --samples 65 -q || return 1
   awk -F '\t' -f "$here/measured.awk" other/motion.sto >"$1"
 }
@@ -85,15 +91,13 @@ opensim() {
   imports 'a model of OpenSim to a walk' || return
   local deviation=0.0001 # m: scene.json has places to 0.1 mm
   [ "$osim" = "$here/walker.osim" ] || deviation=0.003 # knees whose splines are frozen
-  check 'import' "$AMBULO" import "$osim" -o walker.yaml \
-    --heel right=calcn_r:0,0,-0.03:0,0,0.03 --toe right=calcn_r:0.18,0,-0.04:0.18,0,0.04 \
-    --heel left=calcn_l:0,0,-0.03:0,0,0.03 --toe left=calcn_l:0.18,0,-0.04:0.18,0,0.04
+  check 'import' import_walker "$osim" walker.yaml
   problem_of tutorial-opensim-model walk.yaml
   check 'check' "$AMBULO" check walk.yaml
   "$AMBULO" solve walk.yaml -o walk --samples 161 >said 2>&1
   check 'an imported model walks, from zero' optimal walk
   check 'and between the nodes too' between_too said
-  if [ -n "$motion" ]; then cp "$motion" measured.sto; else check 'a motion' measured measured.sto; fi
+  if [ -n "$motion" ]; then cp "$motion" measured.sto; else check 'a motion' as_measured measured.sto; fi
   check 'the motion as curves' "$AMBULO" compare measured.sto --cycles cycles.csv
   check 'the walk beside it' sh -c "'$AMBULO' compare walk cycles.csv --json >compared.json"
   check 'hips go alike' alike hip_flexion 0.9
@@ -108,29 +112,33 @@ opensim() {
 
 study() {
   local subjects=${AMBULO_SUBJECTS:-3}
-  "$AMBULO" new device -o exo.yaml
-  cat >study.yaml <<END
-ambulo: 1
-kind: sweep
-name: springs
-base: exo.yaml
-latin_hypercube:
-  samples: $subjects
-  seed: 7
-  axes:
-    - {key: subject.stature, name: stature, range: [1.5, 1.95]}
-    - {key: subject.mass, name: mass, range: [50, 100]}
-axes:
-  - {key: "devices[ankle_spring_r].stiffness", name: stiffness, values: [1, 180]}
-outputs: [objective, min(tau.ankle_angle_r)]
-END
+  head -n $((subjects + 1)) "$models/sweep_exoskeleton_subjects.csv" >sweep_exoskeleton_subjects.csv
+  sed "s|^base: |&$models/|" "$models/sweep_exoskeleton.yaml" >study.yaml
   check 'the list of cases' "$AMBULO" batch study.yaml --dry-run
-  check 'the batch' "$AMBULO" batch study.yaml -o study -q
+  "$AMBULO" batch study.yaml -o study -q >said 2>&1 # its table says what has no solution
   check 'the table' "$AMBULO" collect study
   check 'the page' "$AMBULO" report study
-  check 'a line for each case' test "$(grep -vc '^#' study/results.csv)" = $((2 * subjects + 1))
-  check 'every case in the page' test "$(grep -o '"state": *"optimal"' study/report.html | wc -l)" -ge 1
-  ! has pandas 'the table in pandas' || counted "$python" "$here/table.py" study/results.csv "$subjects"
+  check 'a line for each case' test "$(grep -vc '^#' study/results.csv)" = $((3 * subjects + 1))
+  check 'every case in the page' every_case study
+  if has pandas 'the table in pandas'; then
+    counted "$python" "$here/table.py" study/results.csv "$subjects"
+    ! has cffi 'the notebook of the study' || ! has matplotlib 'the notebook of the study' ||
+      check 'the notebook of the study' notebook "$subjects"
+  fi
+}
+every_case() { # FOLDER: of each name in the table
+  local id
+  cut -d , -f 1 "$1/results.csv" | tail -n +2 | while read -r id; do
+    grep -q "\"$id\"" "$1/report.html" || return 1
+  done
+}
+notebook() { # SUBJECTS: with the package as it is built, on what was solved before
+  local solved
+  solved=$(cat study/cases/*/*.json | cksum)
+  "$python" "$top/src/python/package.py" stage "$(dirname "$AMBULO")/libambulo.so" python &&
+    MPLBACKEND=Agg PYTHONPATH=python AMBULO_SUBJECTS=$1 AMBULO_STUDY=. \
+      "$python" "$here/notebook.py" "$top/docs/examples/exoskeleton_study.ipynb" &&
+    [ "$solved" = "$(cat study/cases/*/*.json | cksum)" ]
 }
 
 # ------------------------------------------------------------------ urdf
@@ -198,7 +206,9 @@ tasks() {
 
 # shellcheck source=tests/users/browser.sh
 . "$here/browser.sh"
-[ $# -gt 0 ] || set -- opensim study urdf tasks
+# shellcheck source=tests/users/measured.sh
+. "$here/measured.sh"
+[ $# -gt 0 ] || set -- opensim measured study urdf tasks
 for way; do
   mkdir "$work/$way" && cd "$work/$way" || exit 1
   "$way"

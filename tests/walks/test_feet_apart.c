@@ -28,7 +28,7 @@ static double nearest(const ambulo_problem *problem, const double *x) {
   assert_true(times && points);
   for (size_t k = 0; k < samples; k++)
     times[k] = ambulo_problem_duration(problem) * (double)k / (double)(samples - 1);
-  ambulo_motion motion = {.points = points};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .points = points};
   assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
   assert_int_equal(ambulo_problem_motion(problem, workspace, x, (int)samples, times, &motion),
                    AMBULO_OK);

@@ -66,7 +66,8 @@ static void open_walk(walk *w, const char *path, const char *const *settings, in
   w->grf = room(3 * FEET);
   w->cop = room(3 * FEET);
   w->moment = room(FEET);
-  ambulo_motion motion = {.q = w->q,
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .q = w->q,
                           .qd = w->qd,
                           .tau = w->tau,
                           .points = w->points,
@@ -237,11 +238,13 @@ static void momentum(const walk *w, int k, double out[3]) {
   ambulo_mechanics *mechanics = NULL;
   assert_true(d <= SAMPLES);
   assert_int_equal(ambulo_mechanics_create(w->model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, w->q + k * d, still,
-                                                     w->qd + k * d, NULL, with, NULL),
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, w->q + k * d, still, w->qd + k * d,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .wrench = with}),
                    AMBULO_OK);
-  assert_int_equal(ambulo_mechanics_inverse_dynamics(mechanics, 1, w->q + k * d, still, still, NULL,
-                                                     without, NULL),
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, w->q + k * d, still, still,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .wrench = without}),
                    AMBULO_OK);
   for (int i = 0; i < 3; i++) out[i] = with[3 + i] - without[3 + i];
   ambulo_mechanics_free(mechanics);

@@ -71,7 +71,7 @@ static void four_legs_carry_a_quarter_each(void **state) {
     ambulo_problem_definition d = definition_of(model, contacts, LEGS);
     posed p = pose(&d, 0.0, 0.0);
     double force[3 * LEGS], cop[3 * LEGS], tau[8], time = 0.4;
-    ambulo_motion motion = {.tau = tau};
+    ambulo_motion motion = {.size = sizeof(ambulo_motion), .tau = tau};
     *(on_feet ? &motion.grf : &motion.patch_force) = force;
     *(on_feet ? &motion.cop : &motion.patch_cop) = cop;
     read_motion(&p, 1, &time, &motion);
@@ -148,7 +148,7 @@ static double smooth(double u) {
 static void center_of_mass(const posed *p, double time, double center[3]) {
   const ambulo_model *model = ambulo_problem_model(p->problem);
   double q[7], place[3];
-  ambulo_motion motion = {.q = q};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q};
   ambulo_allocator a = ambulo__allocator_or_default(NULL);
   ambulo__pose links;
   read_motion(p, 1, &time, &motion);
@@ -170,8 +170,12 @@ static void a_hand_on_a_rail_takes_what_the_law_says(void **state) {
   posed at_rail = pose(&d, 0.03, 0.4);
   static const double times[] = {0.25, 0.35, 0.5, 0.7};
   double feet[4 * 6], hands[4 * PATCHES * 3], cop[4 * PATCHES * 3], wrench[4 * 6], tau[4 * 7];
-  ambulo_motion motion = {
-      .tau = tau, .wrench = wrench, .grf = feet, .patch_force = hands, .patch_cop = cop};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .tau = tau,
+                          .wrench = wrench,
+                          .grf = feet,
+                          .patch_force = hands,
+                          .patch_cop = cop};
   read_motion(&at_rail, 4, times, &motion);
   for (int k = 0; k < 4; k++) {
     double t = times[k], out[HELD][6], center[3];
@@ -289,7 +293,7 @@ static void there_are_no_sensitivities_yet(void **state) {
   free_ones.problem_at = no_problem;
   ambulo_diagnostics *messages = ambulo_diagnostics_create(NULL);
   assert_int_equal(
-      ambulo_solve_parameters(problem, &free_ones, NULL, NULL, NULL, messages, &best, &result),
+      ambulo_solve_parameters(problem, &free_ones, NULL, NULL, messages, &best, &result),
       AMBULO_E_ARGUMENT);
   assert_message(messages, 0, "which contacts of patches do not have yet");
   ambulo_diagnostics_free(messages);

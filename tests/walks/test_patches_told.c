@@ -34,11 +34,13 @@ static void expect_columns(const ambulo__stride *s) {
                                 .grf = s->grf,
                                 .cop = s->cop,
                                 .free_moment = s->free_moment,
+                                .grf_moment = s->grf_moment,
                                 .patches = 2,
                                 .patch = hands,
                                 .patch_force = s->patch_force,
                                 .patch_cop = s->patch_cop,
-                                .patch_free_moment = s->patch_free_moment};
+                                .patch_free_moment = s->patch_free_moment,
+                                .patch_moment = s->patch_moment};
   ambulo__text_buffer text;
   ambulo__text_init(&text, NULL);
   ambulo__motion_csv(&table, &text);
@@ -51,6 +53,8 @@ static void expect_columns(const ambulo__stride *s) {
       assert_close(strtod(field(csv, heading, k), NULL), s->patch_force[3 * at + 1], 0.0);
       snprintf(heading, sizeof heading, "free_moment.%s", s->model->patches[hands[i]].name);
       assert_close(strtod(field(csv, heading, k), NULL), s->patch_free_moment[at], 0.0);
+      snprintf(heading, sizeof heading, "moment.%s.z", s->model->patches[hands[i]].name);
+      assert_close(strtod(field(csv, heading, k), NULL), s->patch_moment[3 * at + 2], 0.0);
       snprintf(heading, sizeof heading, "cop.%s.x", s->model->patches[hands[i]].name);
       double place = strtod(field(csv, heading, k), NULL);
       assert_true(place == s->patch_cop[3 * at] || (isnan(place) && isnan(s->patch_cop[3 * at])));
@@ -135,7 +139,7 @@ static void sample_hand(const posed *p, int count, sampled *out) {
   double *place = calloc((size_t)(3 * points * count), sizeof *place);
   double *force = calloc((size_t)(3 * PATCHES * count), sizeof *force);
   for (int k = 0; k < count; k++) times[k] = (double)k / (count - 1);
-  ambulo_motion motion = {.points = place, .patch_force = force};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .points = place, .patch_force = force};
   read_motion(p, count, times, &motion);
   for (int k = 0; k < count; k++)
     for (int i = 0; i < 3; i++) {

@@ -121,7 +121,7 @@ static void momenta_are_those_of_a_body_in_flight(run *r) {
     }
   const int n = m->coordinate_count;
   assert_true(count > 100 && count < MOST && n <= COORDINATES);
-  ambulo_motion motion = {.q = q, .qd = qd};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q, .qd = qd};
   assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result),
                                          count, times, &motion),
                    AMBULO_OK);
@@ -166,7 +166,7 @@ static force_curve forces_of(run *r) {
                  ambulo_model_find_coordinate(m, "knee_angle_r")};
   force_curve f = {.peak = 0.0};
   for (int k = 0; k < SAMPLES; k++) times[k] = duration * k / (SAMPLES - 1.0);
-  ambulo_motion motion = {.grf = grf, .q = q};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .grf = grf, .q = q};
   assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result),
                                          SAMPLES, times, &motion),
                    AMBULO_OK);
@@ -277,7 +277,7 @@ static void leg_curve(run *r, const char *joint, double angle[101]) {
   double duration = ambulo_problem_duration(r->problem);
   char name[40];
   for (int k = 0; k < 101; k++) times[k] = duration * (k <= 50 ? k : k - 50) / 50.0;
-  ambulo_motion motion = {.q = q};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q};
   assert_int_equal(ambulo_problem_motion(r->problem, r->workspace, ambulo_result_x(r->result), 101,
                                          times, &motion),
                    AMBULO_OK);

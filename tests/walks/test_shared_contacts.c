@@ -109,7 +109,11 @@ static void torques_are_those_of_a_body_that_is_pushed_there(void **state) {
         qdd[i] = channel(&f, node, ambulo__channel_qdd(c, i));
       }
       assert_int_equal(
-          ambulo_lagrangian_inverse_dynamics(f.model, q, qd, qdd, tau, wrench, points, scratch),
+          ambulo_lagrangian_inverse_dynamics(
+              f.model, q, qd, qdd,
+              &(ambulo_outputs){
+                  .size = sizeof(ambulo_outputs), .tau = tau, .wrench = wrench, .points = points},
+              scratch),
           AMBULO_OK);
       for (int slot = 0; slot < c->slots; slot++) {
         contact of = contact_at(&f, node, slot);
@@ -173,6 +177,50 @@ static void what_results_say_of_contacts_is_all_there_is(void **state) {
   }
 }
 
+/* moments about the origin add up to the root's, whether or not each force has a place, or pulls */
+static void what_results_say_of_moments_is_all_there_is(void **state) {
+  (void)state;
+  int placeless = 0;
+  for (int kind = 0; kind < KINDS; kind++) {
+    fixture f;
+    fixture_open(&f, kind);
+    enum { TIMES = 23 };
+    double times[TIMES], wrench[6 * TIMES];
+    size_t n = 3 * TIMES * EFFECTORS;
+    double *feet = calloc(n, sizeof *feet), *patches = calloc(n, sizeof *patches);
+    double *cop = calloc(n, sizeof *cop), *force = calloc(n, sizeof *force);
+    for (int k = 0; k < TIMES; k++)
+      times[k] = f.problem->definition.duration * (k + 0.5) / (TIMES + 1);
+    ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                            .wrench = wrench,
+                            .grf_moment = feet,
+                            .patch_moment = patches,
+                            .grf = force,
+                            .cop = cop};
+    assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, TIMES, times, &motion),
+                     AMBULO_OK);
+    int of[2] = {f.model->foot_count, f.model->patch_count};
+    for (int k = 0; k < TIMES; k++) {
+      double sum[3] = {0.0};
+      for (int i = 0; i < 3 * (of[0] + of[1]); i++)
+        sum[i % 3] +=
+            i < 3 * of[0] ? feet[3 * of[0] * k + i] : patches[3 * of[1] * k + i - 3 * of[0]];
+      for (int i = 0; i < 3; i++)
+        assert_close(sum[i] / f.weight, wrench[6 * k + i] / f.weight, 1e-11);
+      for (int foot = 0; foot < of[0]; foot++) {
+        int at = 3 * (of[0] * k + foot);
+        placeless += isnan(cop[at]) && force[at] != 0.0;
+      }
+    }
+    free(feet);
+    free(patches);
+    free(cop);
+    free(force);
+    fixture_close(&f);
+  }
+  assert_true(placeless > 0);
+}
+
 /* force on a foot or a patch at its contacts' first and last instants, beside another one */
 static void a_force_begins_and_ends_at_zero(void **state) {
   (void)state;
@@ -213,7 +261,7 @@ static void forces_are_continuous(void **state) {
       double force[6 * EFFECTORS], cop[6 * EFFECTORS], twist[2 * EFFECTORS];
       double tau[2 * TOED_COORDINATES], times[2] = {c->from - 1e-8, c->from + 1e-8};
       if (times[0] < 0.0 || times[1] > f.problem->definition.duration) continue;
-      ambulo_motion motion = {.tau = tau};
+      ambulo_motion motion = {.size = sizeof(ambulo_motion), .tau = tau};
       effectors_at(&f, times, 2, force, cop, twist, NULL);
       assert_int_equal(ambulo_problem_motion(f.problem, f.workspace, f.x, 2, times, &motion),
                        AMBULO_OK);
@@ -305,6 +353,7 @@ int main(void) {
       cmocka_unit_test(contacts_carry_the_body),
       cmocka_unit_test(torques_are_those_of_a_body_that_is_pushed_there),
       cmocka_unit_test(what_results_say_of_contacts_is_all_there_is),
+      cmocka_unit_test(what_results_say_of_moments_is_all_there_is),
       cmocka_unit_test(a_force_begins_and_ends_at_zero),
       cmocka_unit_test(forces_are_continuous),
       cmocka_unit_test(momentum_is_balanced),

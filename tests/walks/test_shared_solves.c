@@ -22,16 +22,21 @@ static void standing_feet_carry_half_each(void **state) {
   ambulo_problem *problem = NULL;
   ambulo_result *result = NULL;
   ambulo_workspace *workspace = NULL;
-  assert_int_equal(ambulo_problem_load_text(STANDING, strlen(STANDING), "stand", ".", NULL, 0, NULL,
-                                            NULL, &problem),
-                   AMBULO_OK);
+  assert_int_equal(
+      ambulo_problem_load_text(&(ambulo_problem_text){.size = sizeof(ambulo_problem_text),
+                                                      .text = STANDING,
+                                                      .length = strlen(STANDING),
+                                                      .name = "stand",
+                                                      .directory = "."},
+                               NULL, NULL, &problem),
+      AMBULO_OK);
   assert_int_equal(ambulo_solve(problem, NULL, NULL, NULL, NULL, &result), AMBULO_OK);
   assert_int_equal(ambulo_result_verdict(result), AMBULO_OPTIMAL);
   assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
   enum { TIMES = 9 };
   double times[TIMES], grf[6 * TIMES], cop[6 * TIMES], weight = 75.0 * 9.81;
   for (int k = 0; k < TIMES; k++) times[k] = k / (TIMES - 1.0);
-  ambulo_motion motion = {.grf = grf, .cop = cop};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .grf = grf, .cop = cop};
   assert_int_equal(
       ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
       AMBULO_OK);
@@ -71,7 +76,7 @@ static void a_solved_walk_loads_its_feet_in_time(void **state) {
   enum { TIMES = 26 };
   double times[TIMES], grf[6 * TIMES], weight = 75.0 * 9.81, last = 0.0;
   for (int k = 0; k < TIMES; k++) times[k] = 0.005 * k;
-  ambulo_motion motion = {.grf = grf};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .grf = grf};
   assert_int_equal(
       ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
       AMBULO_OK);

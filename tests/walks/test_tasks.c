@@ -59,7 +59,12 @@ static void open_task(task *k, const char *name) {
   }
   ambulo_workspace *workspace = NULL;
   assert_int_equal(ambulo_workspace_create(k->problem, NULL, &workspace), AMBULO_OK);
-  ambulo_motion motion = {.q = k->q, .qd = k->qd, .points = k->point, .grf = k->grf, .zmp = k->zmp};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion),
+                          .q = k->q,
+                          .qd = k->qd,
+                          .points = k->point,
+                          .grf = k->grf,
+                          .zmp = k->zmp};
   assert_int_equal(ambulo_problem_motion(k->problem, workspace, ambulo_result_x(k->result),
                                          k->count, k->t, &motion),
                    AMBULO_OK);
@@ -132,6 +137,24 @@ static void a_squat_goes_down_and_up_on_both_legs(void **state) {
   close_task(&k);
 }
 
+/* with arms that go ahead of the body and a trunk that leans over the feet */
+static void a_whole_body_squats_with_its_arms_ahead(void **state) {
+  (void)state;
+  task k;
+  open_task(&k, "squat_whole_body");
+  int bottom = (k.count - 1) / 2;
+  for (int i = 0; i < k.count; i++) {
+    assert_close(share(&k, i, "left"), 0.5, 0.01);
+    assert_close(degrees(&k, i, "knee_angle_l"), degrees(&k, i, "knee_angle_r"), 0.5);
+    assert_close(degrees(&k, i, "arm_flex_l"), degrees(&k, i, "arm_flex_r"), 1.0);
+  }
+  assert_true(value(&k, k.q, bottom, "pelvis_ty") < -0.315);
+  assert_true(degrees(&k, bottom, "knee_angle_l") > 90.0);
+  assert_true(degrees(&k, bottom, "arm_flex_l") > degrees(&k, 0, "arm_flex_l") + 30.0);
+  assert_true(degrees(&k, bottom, "pelvis_tilt") < degrees(&k, 0, "pelvis_tilt") - 10.0);
+  close_task(&k);
+}
+
 /* Sits on the seat and the feet, leans forward with back and pelvis as it leaves the seat, stands
  * on both feet in the end. */
 static void a_body_rises_from_its_seat(void **state) {
@@ -148,12 +171,14 @@ static void a_body_rises_from_its_seat(void **state) {
   assert_int_equal(ambulo_result_dense_audit(result)->failing, 0);
   assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
   const ambulo_model *model = ambulo_problem_model(problem);
-  enum { TIMES = 81, MOST = 32 };
-  double times[TIMES], q[TIMES * MOST], tau[TIMES * MOST], seat[TIMES * AXES];
+  enum { TIMES = 81, MOST = 32, PATCHES = 3 }; /* the seat is the first */
+  double times[TIMES], q[TIMES * MOST], tau[TIMES * MOST], seat[TIMES * PATCHES * AXES];
   double grf[TIMES * 2 * AXES], knee_moment = 0.0, hip_moment = 0.0;
   int n = ambulo_model_coordinate_count(model), tilt, knee, back, hip;
+  assert_int_equal(ambulo_model_patch_count(model), PATCHES);
   for (int i = 0; i < TIMES; i++) times[i] = 1.75 * i / (TIMES - 1);
-  ambulo_motion motion = {.q = q, .tau = tau, .grf = grf, .patch_force = seat};
+  ambulo_motion motion = {
+      .size = sizeof(ambulo_motion), .q = q, .tau = tau, .grf = grf, .patch_force = seat};
   assert_int_equal(
       ambulo_problem_motion(problem, workspace, ambulo_result_x(result), TIMES, times, &motion),
       AMBULO_OK);
@@ -168,7 +193,7 @@ static void a_body_rises_from_its_seat(void **state) {
     lean = fmin(lean, q[i * n + tilt] + q[i * n + back]);
     knee_moment = fmin(knee_moment, tau[i * n + knee]);
     hip_moment = fmin(hip_moment, tau[i * n + hip]);
-    if (times[i] >= 0.55) assert_close(seat[AXES * i + 1], 0.0, 0.0);
+    if (times[i] >= 0.55) assert_close(seat[PATCHES * AXES * i + 1], 0.0, 0.0);
     assert_close(grf[6 * i + 1], grf[6 * i + 4], 1e-3 * weighs);
   }
   assert_true(lean < -0.7 && lean > -1.05); /* 40 to 60 degrees forward */
@@ -327,6 +352,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(two_feet_carry_half_each),
       cmocka_unit_test(a_squat_goes_down_and_up_on_both_legs),
+      cmocka_unit_test(a_whole_body_squats_with_its_arms_ahead),
       cmocka_unit_test(a_body_rises_from_its_seat),
       cmocka_unit_test(a_start_pushes_off_the_foot_that_will_swing),
       cmocka_unit_test(a_stop_ends_at_rest_on_both_feet),

@@ -61,7 +61,7 @@ static void measured_curves_are_followed(void **state) {
   assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);
   double times[ROWS], q[ROWS * COORDINATES], given[1 + ANGLES], sum = 0.0;
   for (int k = 0; k < ROWS; k++) times[k] = 0.02 * k;
-  ambulo_motion motion = {.q = q};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .q = q};
   assert_int_equal(
       ambulo_problem_motion(problem, workspace, ambulo_result_x(result), ROWS, times, &motion),
       AMBULO_OK);
@@ -201,7 +201,7 @@ static void the_front_foot_takes_over_as_peoples_does(void **state) {
   double times[TIMES], force[TIMES * 2 * 3];
   ambulo_problem *problem = load_walk("walk_normal");
   ambulo_result *result = solve_from_zero(problem);
-  ambulo_motion motion = {.grf = force};
+  ambulo_motion motion = {.size = sizeof(ambulo_motion), .grf = force};
   for (int i = 0; i < TIMES; i++) times[i] = 0.02 * i * 2.0 * 0.54;
   ambulo_workspace *workspace = NULL;
   assert_int_equal(ambulo_workspace_create(problem, NULL, &workspace), AMBULO_OK);

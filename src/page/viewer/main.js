@@ -1,6 +1,7 @@
 // The page: reads the data that stand in it, sets up view, clock, curves and text.
 import { css, el, seconds } from "./dom.js";
 import { spoken, unpack } from "./decode.js";
+import { inflated } from "./inflated.js";
 import { Charts } from "./charts.js";
 import { failure, panels } from "./panels.js";
 import { Stage, hasWebGL } from "./stage.js";
@@ -12,8 +13,11 @@ const byId = (id) => document.getElementById(id);
 const hash = new URLSearchParams(location.hash.slice(1));
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
+// {name, summary, scene, strip} of {name, packed}
+const opened = (packed) => Object.assign(packed, JSON.parse(inflated(packed.packed)));
+
 const page = {
-  results: data.results ?? [], // {name, summary, scene, strip}
+  results: (data.results ?? []).map(opened),
   main: 0, ghost: -1, stage: null, charts: null,
   time: 0, period: 0, playing: false, speed: 1,
 };
@@ -118,14 +122,17 @@ function step(frames) {
 
 function lanes(scene) {
   const box = byId("lanes"), names = [...new Set(scene.contacts.map((c) => c.name))];
+  const longest = Math.max(0, ...names.map((name) => spoken(name).length));
+  box.parentElement.style.setProperty("--names", longest ? `${Math.min(0.9 + 0.42 * longest, 7)}rem` : "0rem");
   box.replaceChildren(...names.map((name) => {
     const side = scene.feet.find((f) => f.name === name)?.side
       ?? scene.forces.find((f) => f.name === name)?.side ?? "middle";
     const spans = scene.contacts.filter((c) => c.name === name);
     return el("div", { class: "lane", title: `${spoken(name)}: on the ground` },
-      el("span", { class: "lane-name" }, spoken(name)), spans.map((c) => el("span", {
-        class: `span ${side} ${c.mode}`, style: `left:${(100 * c.from) / scene.duration}%;`
-          + `width:${(100 * (c.to - c.from)) / scene.duration}%` })));
+      el("span", { class: `lane-name ${side}` }, spoken(name)), el("div", { class: "lane-bar" },
+        spans.map((c) => el("span", { class: `span ${side} ${c.mode}`,
+          style: `left:${(100 * c.from) / scene.duration}%;`
+            + `width:${(100 * (c.to - c.from)) / scene.duration}%` }))));
   }));
 }
 
@@ -270,7 +277,7 @@ function show(main, ghost) {
 // a case of a batch becomes a result; the one watched before stays as its ghost to choose
 function watch(index) {
   const row = data.study.cases[index];
-  if (!row.scene) {
+  if (!row.packed) {
     byId("failure").replaceChildren(el("section", { class: "failure" }, el("h2", {}, row.name),
       el("p", {}, row.picture ? "Its motion is not in this page: " : "It has no motion.",
         row.picture ? el("a", { href: row.picture }, "its picture") : "")));
@@ -278,8 +285,8 @@ function watch(index) {
   }
   const playing = page.playing;
   const known = page.results.findIndex((r) => r.index === index);
-  const at = known >= 0 ? known : page.results.push({ name: row.name, state: row.state, index,
-    summary: row.summary, scene: row.scene }) - 1;
+  const at = known >= 0 ? known : page.results.push(opened({ name: row.name, state: row.state, index,
+    packed: row.packed })) - 1;
   show(at, page.ghost === at ? -1 : page.ghost);
   if (playing) play(true);
 }
@@ -313,7 +320,7 @@ function begin() {
   if (data.study) {
     byId("study").hidden = false;
     const study = new Study(byId("study"), data.study, watch);
-    const index = data.study.cases.findIndex((c) => c.scene);
+    const index = data.study.cases.findIndex((c) => c.packed);
     if (index >= 0) study.choose(index);
     else {
       byId("title").textContent = data.study.name.replace(/_/g, " ");

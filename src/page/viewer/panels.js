@@ -1,5 +1,6 @@
 // Verdict, audit, sensitivities, objective, convergence, versions: text and bars.
 import { el, seconds, short } from "./dom.js";
+import { Convergence, wayWords } from "./convergence.js";
 import { spoken } from "./decode.js";
 import { amount, familyWords, rowWords, termWords, verdictOf, violationWords } from "./words.js";
 
@@ -94,7 +95,9 @@ function objective(summary) {
   const total = summary.objective?.total ?? 0;
   if (!terms.length) return null;
   terms.sort((a, b) => b[1] - a[1]);
-  return el("div", {}, el("p", {}, `The motion makes the sum of these least: ${short(total, 4)}.`),
+  const solved = verdictOf(summary)[0] === "good";
+  return el("div", {}, el("p", {}, solved ? `The motion makes the sum of these least: ${short(total, 4)}.`
+    : `What this motion would cost, which is no solution: ${short(total, 4)}.`),
     bars(terms.map(([name, v]) => ({ words: termWords(name), share: v,
       value: `${short(v)} · ${total ? percent(v / total) : ""}` })), "Objective by term"));
 }
@@ -117,7 +120,9 @@ function sensitivities(summary) {
 
 function convergence(summary) {
   const items = [];
-  if (summary.ending) items.push(el("p", {}, summary.ending));
+  const way = summary.convergence;
+  if (way) items.push(el("p", {}, wayWords(way)), new Convergence(way).node);
+  if (summary.ending) items.push(el("p", { class: "note" }, `${summary.ending}.`));
   const numbers = [];
   const add = (name, value) => numbers.push(el("div", {}, el("dt", {}, name), el("dd", {}, value)));
   const s = summary.seconds, a = summary.audit;
@@ -169,7 +174,7 @@ export function panels(summary, onTime) {
   ["Numbers that were free", true, freeParameters(summary)],
   ["What costs what", true, sensitivities(summary)],
   ["Objective by term", true, objective(summary)],
-  ["How the solve went", false, summary.seconds || summary.ending ? convergence(summary) : null],
+  ["How the solve went", true, summary.seconds || summary.ending ? convergence(summary) : null],
   ["Versions", false, versions(summary)]];
   return parts.filter(([, , body]) => body).map(([title, open, body]) => section(title, open, body));
 }

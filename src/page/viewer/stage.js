@@ -211,8 +211,11 @@ export class Stage {
     const target = new Vector3(hangs ? center : mass.x, middle, mass.z);
     const aspect = this.camera.aspect || 1.4;
     const tall = Math.max(rises ? Math.min(height, 2.1) : height, hangs ? 0.4 : 1.0);
-    const far = (0.62 * tall + 0.12) / Math.tan((this.camera.fov * Math.PI) / 360) *
-      Math.max(1, 0.95 / aspect);
+    // the buttons lie over the upper edge: the body stands below them
+    const above = view === "top" ? 0 : Math.min(46 / (this.renderer.domElement.clientHeight || 600), 0.2);
+    const slope = Math.tan((this.camera.fov * Math.PI) / 360);
+    const far = (0.58 * tall + 0.12) / (slope * (1 - above)) * Math.max(1, 0.95 / aspect);
+    target.y += above * slope * far;
     const ways = { free: [0.52, 0.2, 1], side: [0, 0.04, 1], front: [1, 0.06, 0.0001],
       top: [0.0001, 1, 0.0002], back: [-1, 0.1, 0.12] };
     const way = new Vector3(...ways[view]).normalize();

@@ -58,6 +58,10 @@ export class Study {
       el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "Table of cases" },
         el("table", { class: "cases" }, el("thead", {}, this.head), this.body)));
     this.draw();
+    if (!this.numeric.length) return;
+    new ResizeObserver(() => { // letters keep their size on any screen
+      if (Math.abs(this.plot.clientWidth - this.width) > 40) this.drawPlot(this.rows());
+    }).observe(this.plot);
   }
 
   // "speed > 1.2" of the column whose name has "speed" in it, or a word that any cell has
@@ -117,7 +121,8 @@ export class Study {
   }
 
   drawPlot(rows) {
-    const width = 520, height = 250, pad = { left: 58, right: 14, top: 12, bottom: 40 };
+    const width = this.width = Math.min(Math.max(this.plot.clientWidth, 260), 700);
+    const height = 250, pad = { left: 58, right: 14, top: 12, bottom: 40 };
     const points = rows.map(({ row, index }) => ({ row, index, x: this.cell(row, this.x), y: this.cell(row, this.y) }))
       .filter((p) => isNumber(p.x) && isNumber(p.y));
     const range = (key) => {
@@ -139,7 +144,7 @@ export class Study {
     for (const y of ticks(y0, y1))
       picture.append(svg("line", { class: "rule", x1: pad.left, x2: width - pad.right, y1: Y(y), y2: Y(y) }),
         svg("text", { x: pad.left - 6, y: Y(y) + 4, "text-anchor": "end" }, short(y)));
-    for (const x of ticks(x0, x1))
+    for (const x of ticks(x0, x1).filter((_, i, all) => all.length * 46 < width || i % 2 === 0))
       picture.append(svg("text", { x: X(x), y: height - pad.bottom + 16, "text-anchor": "middle" }, short(x)));
     picture.append(svg("text", { class: "name", x: (width + pad.left) / 2, y: height - 6,
       "text-anchor": "middle" }, this.columns[this.x]),

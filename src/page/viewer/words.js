@@ -96,5 +96,5 @@ export function taskWords(summary, scene) {
   parts.push(`${short(scene.duration)} s shown`);
   if (scene.mass) parts.push(`${short(scene.mass)} kg`);
   if (scene.stature) parts.push(`${short(scene.stature)} m tall`);
-  return parts.join(" · ");
+  return parts.map((part) => part.replace(/ /g, "\u00a0")).join("\u00a0· "); // breaks between them
 }

@@ -72,11 +72,11 @@ export class World {
     floor.rotation.x = -Math.PI / 2;
     floor.position.y = lowest - 0.002;
     this.floor = this.add(floor);
-    const lines = [];
-    for (let i = -60; i <= 60; i++) {
-      const x = 0.5 * i;
-      lines.push(x, 0, -30, x, 0, 30, -30, 0, x, 30, 0, x);
-    }
+    // in short pieces: some renderers drop a line of which one end is behind the eye
+    const lines = [], half = 15;
+    for (let i = -2 * half; i <= 2 * half; i++)
+      for (let k = -half; k < half; k++)
+        lines.push(0.5 * i, 0, k, 0.5 * i, 0, k + 1, k, 0, 0.5 * i, k + 1, 0, 0.5 * i);
     const grid = new BufferGeometry();
     grid.setAttribute("position", new BufferAttribute(new Float32Array(lines), 3));
     this.grid = new LineSegments(grid, new LineBasicMaterial({ color: this.colors.grid }));
@@ -252,9 +252,10 @@ export class Arrow {
     if (!this.group.visible) return;
     this.group.position.copy(at);
     this.group.quaternion.setFromUnitVectors(up, this.way.copy(force).normalize());
-    const shaft = Math.max(length - 0.1, 0.001);
+    const head = Math.min(0.11, 0.5 * length), shaft = length - head;
+    this.head.scale.setScalar(head / 0.11);
     this.shaft.scale.y = shaft;
     this.shaft.position.y = shaft / 2;
-    this.head.position.y = shaft + 0.05;
+    this.head.position.y = shaft + head / 2;
   }
 }

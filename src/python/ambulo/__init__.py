@@ -15,6 +15,8 @@
 ``Motion``               arrays, a table, a picture
 ``inverse_of_file``      inverse dynamics of a measured motion
 ``compare``              a result or a measured motion against people
+``Batch``, ``Study``     many problems at once, on all cores; the folder that this leaves
+``Fit``, ``FitReport``   numbers of a problem from curves of people
 ``plots``                pictures
 ``AmbuloError``          every call that fails
 =======================  ===================================================================
@@ -31,12 +33,15 @@ from . import _records, callbacks, plots
 from ._native import FOLDER, ffi, lib
 from ._records import *  # noqa: F401,F403 - the structures of the interface
 from ._records import __all__ as _record_names
+from .batch import Batch, Study, StudyCase, Verified
 from .errors import AmbuloError, AmbuloWarning, Message
 from .files import InverseOfFile, compare, inverse_of_file
+from .fit import Fit, FitReport
 from .mechanics import Gradient, Jacobians, Mechanics
 from .model import InverseDynamics, Model
 from .motion import Motion
 from .problem import Evaluation, Problem
+from .processes import program
 from .records import Enumeration, Record, from_c
 from .result import Result
 from .tables import to_pandas
@@ -54,7 +59,8 @@ def versions() -> dict:
 
 
 __all__ = [
-    "AmbuloError", "AmbuloWarning", "Enumeration", "Evaluation", "Gradient", "InverseDynamics",
-    "InverseOfFile", "Jacobians", "MODELS", "Mechanics", "Message", "Model", "Motion", "Problem",
-    "Record", "Result", "callbacks", "compare", "inverse_of_file", "plots", "to_pandas", "versions",
+    "AmbuloError", "AmbuloWarning", "Batch", "Enumeration", "Evaluation", "Fit", "FitReport",
+    "Gradient", "InverseDynamics", "InverseOfFile", "Jacobians", "MODELS", "Mechanics", "Message",
+    "Model", "Motion", "Problem", "Record", "Result", "Study", "StudyCase", "Verified", "callbacks",
+    "compare", "inverse_of_file", "plots", "program", "to_pandas", "versions",
 ] + _record_names

@@ -126,7 +126,7 @@ class Call:
             text = ffi.new("char[]", size)
             lib.ambulo_diagnostics_format(self.messages, i, text, size)
             found.append(Message(
-                ("note", "warning", "error")[one.severity], text_of(one.message),
+                ("", "note", "warning", "error")[one.severity], text_of(one.message),
                 text_of(one.file), one.line, one.column, text_of(one.path), text_of(one.hint),
                 text_of(text)))
         return found

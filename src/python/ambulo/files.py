@@ -8,7 +8,7 @@ import numpy
 from . import _records as records
 from ._native import FOLDER, Call, ffi, lib, path_of, text_of
 from .model import Model
-from .records import Carrier, from_c
+from .records import Carrier, from_c, usual_struct
 
 NULL = ffi.NULL
 
@@ -50,9 +50,11 @@ def inverse_of_file(model: Model, motion, **options) -> InverseOfFile:
     struct = carrier.new(records.InverseOptions(**options))
     residual, out = ffi.new("ambulo_ground_residual *"), ffi.new("char **")
     residual.moment_rms = -1.0  # untouched without forces
+    outputs = usual_struct("ambulo_inverse_outputs")
+    outputs.residual, outputs.text = residual, out
     with Call() as call:
         call(lib.ambulo_inverse_dynamics_motion(model._pointer, path_of(motion), NULL, struct, NULL,
-                                                call.messages, residual, out))
+                                                call.messages, outputs))
     text = text_of(out[0])
     lib.ambulo_text_free(out[0], NULL)
     known = None if residual.moment_rms == -1.0 else from_c(records.GroundResidual, residual)

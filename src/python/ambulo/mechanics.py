@@ -6,6 +6,7 @@ import numpy
 
 from ._native import Call, Handle, Owner, ffi, lib
 from .model import InverseDynamics, Model
+from .records import usual_struct
 
 NULL = ffi.NULL
 
@@ -47,6 +48,14 @@ def doubles(array: Optional[numpy.ndarray]):
     return NULL if array is None else ffi.from_buffer("double[]", array)
 
 
+def _struct(name, memory):
+    """A structure of pointers; `memory` has to live as long."""
+    struct = usual_struct(name)
+    for field, pointer in memory.items():
+        setattr(struct, field, pointer)
+    return struct
+
+
 class Mechanics(Owner):
     """Inverse dynamics of a model, with its scratch memory: for one thread at a time.
 
@@ -81,10 +90,12 @@ class Mechanics(Owner):
         n = len(q)
         tau, wrench = numpy.empty_like(q), numpy.empty((n, 6))
         points = numpy.empty((n, self._points, 3))
+        memory = {name: doubles(array) for name, array in
+                  (("tau", tau), ("wrench", wrench), ("points", points))}
         with Call() as call:
             call(lib.ambulo_mechanics_inverse_dynamics(
-                self._pointer, n, doubles(q), doubles(qd), doubles(qdd), doubles(tau),
-                doubles(wrench), doubles(points)))
+                self._pointer, n, doubles(q), doubles(qd), doubles(qdd),
+                _struct("ambulo_outputs", memory)))
         return InverseDynamics(tau, wrench, points)
 
     def gradient(self, q, qd=None, qdd=None, *, tau_weights=None, wrench_weights=None,
@@ -103,8 +114,8 @@ class Mechanics(Owner):
         with Call() as call:
             call(lib.ambulo_mechanics_gradient(
                 self._pointer, n, doubles(q), doubles(qd), doubles(qdd),
-                ffi.new("ambulo_output_weights *", memory[:3]),
-                ffi.new("ambulo_motion_gradient *", memory[3:])))
+                _struct("ambulo_output_weights", dict(zip(("tau", "wrench", "points"), memory))),
+                _struct("ambulo_motion_gradient", dict(zip(Gradient._fields, memory[3:])))))
         return found
 
     def jacobians(self, q, qd=None, qdd=None) -> Jacobians:
@@ -113,10 +124,8 @@ class Mechanics(Owner):
         n, d = q.shape
         shapes = [(n, d, d)] * 3 + [(n, 6, d)] * 3 + [(n, 3 * self._points, d)]
         found = Jacobians(*(numpy.empty(shape) for shape in shapes))
-        struct = ffi.new("ambulo_jacobians *")
-        memory = [doubles(array) for array in found]
-        for name, pointer in zip(Jacobians._fields, memory):
-            setattr(struct, name, pointer)
+        memory = dict(zip(Jacobians._fields, map(doubles, found)))
+        struct = _struct("ambulo_jacobians", memory)
         with Call() as call:
             call(lib.ambulo_mechanics_jacobians(self._pointer, n, doubles(q), doubles(qd),
                                                 doubles(qdd), struct))

@@ -42,13 +42,13 @@ class Model(Owner):
     # --------------------------------------------------------------- making one
 
     @classmethod
-    def load(cls, path, overrides=None, *, mass: float = 0, stature: float = 0,
-             sex: str = "sex_file") -> "Model":
+    def load(cls, path, overrides=None, *, mass: Optional[float] = None,
+             stature: Optional[float] = None, sex: str = "not_set") -> "Model":
         """Reads a model file (docs/model-format.md).
 
         ``overrides`` replace values of the file before it is read: a dictionary by paths such as
         ``"links[shank_r].body.mass"``. ``mass`` (kg), ``stature`` (m) and ``sex`` ("female",
-        "male") are the person that the model is scaled to; 0 keeps what the file says.
+        "male") are the person that the model is scaled to; None keeps what the file says.
         """
         texts, count, _keep = overrides_of(overrides)
         subject = Carrier().new(records.Subject(mass=mass, stature=stature, sex=sex))
@@ -59,8 +59,8 @@ class Model(Owner):
         return cls(Handle(out[0], lib.ambulo_model_free))
 
     @classmethod
-    def load_text(cls, text: str, name: str = "model", *, mass: float = 0, stature: float = 0,
-                  sex: str = "sex_file") -> "Model":
+    def load_text(cls, text: str, name: str = "model", *, mass: Optional[float] = None,
+                  stature: Optional[float] = None, sex: str = "not_set") -> "Model":
         """The same from text; ``name`` stands for the file in messages."""
         data = text.encode()
         subject = Carrier().new(records.Subject(mass=mass, stature=stature, sex=sex))

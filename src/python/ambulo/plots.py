@@ -32,6 +32,24 @@ def motion(of, coordinates: Optional[Sequence[str]] = None, *, title: Optional[s
     return figure
 
 
+def convergence(of, *, title: Optional[str] = None):
+    """Objective and worst violation over the iterations of a solve; ``of``: a Result. Dotted where
+    another grid begins."""
+    way = of.history
+    figure, axes = _axes(2, 1, (6, 5), title)
+    for axis, name in zip(axes[:, 0], ("objective", "violation")):
+        axis.plot(way["iteration"], way[name])
+        axis.set_ylabel(name)
+        axis.grid(alpha=0.3)
+        for k in numpy.flatnonzero(numpy.diff(way["intervals"])):
+            axis.axvline(0.5 * (way["iteration"][k] + way["iteration"][k + 1]), color="0.5",
+                         linestyle=":")
+    if (way["violation"] > 0).any():
+        axes[1, 0].set_yscale("log")
+    axes[1, 0].set_xlabel("iteration")
+    return figure
+
+
 def ground_force(of, up: int = 1, forward: int = 0, *, title: Optional[str] = None):
     """Force on each foot along up and forward, given as numbers of the world's axes."""
     figure, axes = _axes(2, 1, (6, 5), title)

@@ -12,7 +12,7 @@ from .errors import AmbuloError
 from .mechanics import array_of, doubles
 from .model import Model
 from .motion import Motion, motion_of
-from .records import Carrier, from_c
+from .records import Carrier, from_c, usual_struct
 
 if TYPE_CHECKING:
     from .result import Result
@@ -75,11 +75,15 @@ class Problem(Owner):
         one), ``name`` stands for the file in messages."""
         texts, count, _keep = overrides_of(overrides)
         data = text.encode()
+        kept = [ffi.new("char[]", one) for one in (
+            data, name.encode(), b"" if folder is None else path_of(folder))]
+        struct = usual_struct("ambulo_problem_text")
+        struct.text, struct.name, struct.length = kept[0], kept[1], len(data)
+        struct.directory = NULL if folder is None else kept[2]
+        struct.overrides, struct.override_count = ffi.cast("char **", texts), count
         out = ffi.new("ambulo_problem **")
         with Call() as call:
-            call(lib.ambulo_problem_load_text(
-                data, len(data), name.encode(), NULL if folder is None else path_of(folder), texts,
-                count, NULL, call.messages, out))
+            call(lib.ambulo_problem_load_text(struct, NULL, call.messages, out))
         return cls(Handle(out[0], lib.ambulo_problem_free))
 
     @classmethod
@@ -186,6 +190,13 @@ class Problem(Owner):
         return [from_c(records.Device, lib.ambulo_problem_device(pointer, i))
                 for i in range(lib.ambulo_problem_device_count(pointer))]
 
+    @property
+    def holds(self) -> List[records.Hold]:
+        """What hands hold or push."""
+        pointer = self._pointer
+        return [from_c(records.Hold, lib.ambulo_problem_hold(pointer, i))
+                for i in range(lib.ambulo_problem_hold_count(pointer))]
+
     def rows(self) -> List[records.Row]:
         """What each row is: family, subject, unit, time; in the order of their values."""
         struct, found = ffi.new("ambulo_row *"), []
@@ -217,7 +228,9 @@ class Problem(Owner):
 
     def options(self, **settings) -> records.Options:
         """What the file asks of the solver, or the defaults; changed by ``settings``."""
-        options = from_c(records.Options, lib.ambulo_problem_options(self._pointer))
+        struct = usual_struct("ambulo_options")
+        lib.ambulo_problem_options_fill(self._pointer, struct, ffi.sizeof("ambulo_options"))
+        options = from_c(records.Options, struct)
         for name, value in settings.items():
             setattr(options, name, value)
         return options
@@ -347,7 +360,9 @@ class Problem(Owner):
     @property
     def parameters(self) -> records.Parameters:
         """The free parameters of the problem's file; ``items`` is empty without."""
-        return from_c(records.Parameters, lib.ambulo_problem_parameters(self._pointer))
+        struct = usual_struct("ambulo_parameters")
+        lib.ambulo_problem_parameters_fill(self._pointer, struct)
+        return from_c(records.Parameters, struct)
 
     def solve_parameters(self, parameters=None, *, at: Optional[Callable] = None, start=None,
                          progress=None, interrupt: str = "keep", options=None, **settings) -> "Result":

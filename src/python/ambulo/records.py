@@ -111,26 +111,32 @@ _usual_fields: Dict[type, "Record"] = {}
 
 def _usual(kind, given):
     """What a new record holds before anything is set."""
-    default = getattr(lib, kind._struct + "_default", None)
     if kind._struct in ("ambulo_term", "ambulo_device"):
         if "kind" not in given:
             raise TypeError(f"{kind.__name__} needs its kind")
-        made = default(int(record_class(kind.__name__ + "Kind")(given["kind"])))
-        return dict(from_c(kind, made).__dict__)
+        number = int(record_class(kind.__name__ + "Kind")(given["kind"]))
+        return dict(from_c(kind, usual_struct(kind._struct, number)).__dict__)
     if kind not in _usual_fields:
-        made = default() if default else _part_of_default(kind) or ffi.new(kind._struct + " *")[0]
-        _usual_fields[kind] = from_c(kind, made)
+        _usual_fields[kind] = from_c(kind, usual_struct(kind._struct))
     return {name: list(value) if isinstance(value, list) else value
             for name, value in _usual_fields[kind].__dict__.items()}
 
 
-def _part_of_default(kind):
-    """Parts of a problem whose usual values stand in the definition of a problem."""
-    definition = lib.ambulo_problem_definition_default()
-    for name, field in ffi.typeof("ambulo_problem_definition").fields:
-        if field.type.kind == "struct" and field.type == ffi.typeof(kind._struct):
-            return getattr(definition, name)
-    return None
+def usual_struct(name, *kind):
+    """What ambulo_..._default() is in C: sizes, and what the library fills in."""
+    struct = ffi.new(name + " *")
+    for field, about in ffi.typeof(name).fields:
+        if about.type.kind != "primitive" or about.type.cname not in ("size_t", "unsigned long"):
+            continue
+        if field == "size":
+            struct.size = ffi.sizeof(name)
+        elif field.endswith("_size"):
+            setattr(struct, field, ffi.sizeof("ambulo_" + field[:-len("_size")]))
+    fill = getattr(lib, name + "_fill", None)
+    if fill:
+        arguments = len(ffi.typeof(fill).args)
+        fill(struct, *kind, *(() if arguments == 1 else (ffi.sizeof(name),)))
+    return struct
 
 
 # -------------------------------------------------------------- from the library
@@ -213,12 +219,10 @@ class Carrier:
         return struct
 
     def new(self, record):
-        """A structure with a default's cookie where it has one, filled."""
-        default = getattr(lib, record._struct + "_default", None)
-        struct = ffi.new(record._struct + " *")
+        """A structure with the sizes of these declarations, filled."""
+        kind = (int(record.kind),) if record._struct in ("ambulo_term", "ambulo_device") else ()
+        struct = usual_struct(record._struct, *kind)
         _pointed_to[struct] = self.kept  # lives as long as the structure
-        if default and "cookie" in dict(ffi.typeof(record._struct).fields):
-            struct[0] = default()
         return self.fill(struct, record)
 
     def records(self, kind, values):
@@ -244,7 +248,7 @@ class Carrier:
         if what == "int":
             setattr(struct, field, self.number(named, value))
         elif what == "float":
-            setattr(struct, field, float(value))
+            setattr(struct, field, float("nan") if value is None else float(value))
         elif what == "enum":
             setattr(struct, field, int(value))
         elif what == "text":

@@ -127,6 +127,18 @@ class Result(Owner):
         return from_c(records.NloptWork, lib.ambulo_result_nlopt(self._pointer))
 
     @property
+    def history(self) -> Dict[str, numpy.ndarray]:
+        """The way of the solve, an array for each column: iteration, evaluations, intervals of the
+        grid, objective, violation, gradient, seconds (``ambulo_iteration`` of ambulo/solve.h); the
+        last is the point that was found. ``pandas.DataFrame(result.history)`` makes a table,
+        ``ambulo.plots.convergence(result)`` a picture."""
+        items = from_c(records.History, lib.ambulo_result_history(self._pointer)).items
+        return {name: numpy.array([getattr(item, name) for item in items], kind)
+                for name, kind in (("iteration", int), ("evaluations", int), ("intervals", int),
+                                   ("objective", float), ("violation", float), ("gradient", float),
+                                   ("seconds", float))}
+
+    @property
     def starts(self) -> Optional[records.Starts]:
         """Valleys that several starts ended in; None for one start."""
         return self._optional(lib.ambulo_result_starts(self._pointer), records.Starts)

@@ -8,7 +8,7 @@ from . import _records as records
 from ._native import Call, Handle, ffi, keep_exception, lib, pending, take_pending, warn
 from .errors import AmbuloError
 from .mechanics import array_of, doubles
-from .records import Carrier, from_c
+from .records import Carrier, from_c, usual_struct
 
 NULL = ffi.NULL
 
@@ -140,7 +140,9 @@ def solve_parameters(problem, parameters, at, start, progress, interrupt, option
     from .problem import Problem
     from .result import Result
 
-    run, kept, struct = Run(problem, options, settings, progress, interrupt), [], NULL
+    run, kept = Run(problem, options, settings, progress, interrupt), []
+    struct = usual_struct("ambulo_parameters")
+    lib.ambulo_problem_parameters_fill(problem._pointer, struct)
     if parameters is not None or at is not None:
         parameters = problem.parameters if parameters is None else parameters
         if hasattr(parameters, "items") and callable(parameters.items):  # a dictionary
@@ -150,13 +152,13 @@ def solve_parameters(problem, parameters, at, start, progress, interrupt, option
         if at is not None:
             struct.problem_at = run.carrier.keep(problem_at(at, len(parameters.items), kept))
     out, best = ffi.new("ambulo_result **"), ffi.new("ambulo_problem **")
-    first = start_of(problem, start)
+    struct.start = first = start_of(problem, start)
 
     def make(call):
         handle = Handle(best[0], lib.ambulo_problem_free, problem._handle, kept)
         return Result(Problem(handle), out[0], call.list())
 
     with Call() as call:
-        status = lib.ambulo_solve_parameters(problem._pointer, struct, run.options, first, NULL,
+        status = lib.ambulo_solve_parameters(problem._pointer, struct, run.options, NULL,
                                              call.messages, best, out)
         return run.finish(call, status, make)
