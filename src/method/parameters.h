@@ -197,7 +197,7 @@
  * T: stopping, pipeline. */
 #define AMBULO__NEAR_VIOLATION 1e-5
 /* relative change of f + lambda.v, and whitened gradient, of max(1, |f|), that let the rest be
- * polished. 0 (never): +10 % iterations, whole bodies +16 to +42 %. A gradient of 3e-4: a body with
+ * polished. 0 (never): +9 % iterations, whole bodies +16 to +42 %. A gradient of 3e-4: a body with
  * arms that nothing but torques holds ends 0.16 % higher. T: stopping, both. */
 #define AMBULO__FORESEEN_CHANGE 3e-5
 #define AMBULO__FORESEEN_GRADIENT 1e-4

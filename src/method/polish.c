@@ -9,12 +9,12 @@
  *
  * is a few Newton steps from a feasible point; the objective moves by multiplier * excess.
  * Solved by the model of model_step.c with a large penalty and the multipliers, by which rows with
- * a force pull both ways. The gradient of the objective is its own, nearly - J' lambda - J_e' l: what
- * is left of that the same steps take away, and the KKT residual falls. Where nothing but the rows
- * can be had (`anyhow`) it is - J' lambda, which balances them, and the point is the nearest. The
- * penalty is relative to what the metric opposes to each row: on fine grids rows on accelerations
- * are so much longer than rows on places that a common one either lets go of these or drowns the
- * metric in the rounding of its factor.
+ * a force pull both ways. The gradient of the objective is its own, nearly - J' lambda - J_e' l:
+ * what is left of that the same steps take away, and the KKT residual falls. Where nothing but the
+ * rows can be had (`anyhow`) it is - J' lambda, which balances them, and the point is the nearest.
+ * The penalty is relative to what the metric opposes to each row: on fine grids rows on
+ * accelerations are so much longer than rows on places that a common one either lets go of these or
+ * drowns the metric in the rounding of its factor.
  */
 #include "method/polish.h"
 #include "method/engine_point.h"

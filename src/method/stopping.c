@@ -29,8 +29,7 @@ static int is_foreseen(ambulo__stopping *s, const ambulo__engine *e, double tole
   double part = fmin(1.0, AMBULO__FORESEEN_SHARE * e->run->options->optimality_tolerance);
   double reach = fmin(AMBULO__FORESEEN_VIOLATION, AMBULO__VIOLATION_HALVED * s->refused);
   double value = point->objective;
-  for (int i = 0; i < e->setup->inequalities; i++)
-    value += point->multiplier[i] * point->excess[i];
+  for (int i = 0; i < e->setup->inequalities; i++) value += point->multiplier[i] * point->excess[i];
   double change = fabs(value - s->lagrangian);
   s->lagrangian = value;
   if (s->loose || point->violation <= tolerance || point->violation > reach) return 0;

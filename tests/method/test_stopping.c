@@ -262,7 +262,7 @@ static void a_run_that_is_cut_is_polished(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(rows_value_and_gradient_have_to_be_right),
                                      cmocka_unit_test(what_is_foreseen_ends_it),
-      cmocka_unit_test(a_value_that_stays_ends_it),
+                                     cmocka_unit_test(a_value_that_stays_ends_it),
                                      cmocka_unit_test(coarse_grids_are_content_with_less),
                                      cmocka_unit_test(what_vanishes_ends_it),
                                      cmocka_unit_test(stalls_raise_the_bound),
