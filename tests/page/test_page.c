@@ -127,7 +127,8 @@ static void two_results_and_a_measured_motion(void **state) {
   assert_int_equal(c.status, AMBULO_OK);
   const ambulo__yaml_node *list = ambulo__yaml_get(c.root, "results");
   assert_int_equal(ambulo__yaml_items(list), 3);
-  char *packed[2] = {text_packed_in(ambulo__yaml_item(list, 2)), text_packed_in(ambulo__yaml_item(list, 0))};
+  char *packed[2] = {text_packed_in(ambulo__yaml_item(list, 2)),
+                     text_packed_in(ambulo__yaml_item(list, 0))};
   yaml_case two[2] = {yaml_open(packed[0]), yaml_open(packed[1])};
   const ambulo__yaml_node *motion = ambulo__yaml_get(two[0].root, "scene");
   assert_close(ambulo__yaml_number(ambulo__yaml_get(motion, "duration"), 0), 0.25, 1e-12);
