@@ -31,9 +31,10 @@ static void heights(const import_case *c, double height[2]) {
   for (int i = 0; i < ambulo_model_coordinate_count(c->model); i++)
     q[i] = ambulo_model_coordinate(c->model, i)->default_value;
   assert_int_equal(ambulo_mechanics_create(c->model, NULL, &mechanics), AMBULO_OK);
-  assert_int_equal(
-      ambulo_mechanics_inverse_dynamics(mechanics, 1, q, zero, zero, &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = places}),
-      AMBULO_OK);
+  assert_int_equal(ambulo_mechanics_inverse_dynamics(
+                       mechanics, 1, q, zero, zero,
+                       &(ambulo_outputs){.size = sizeof(ambulo_outputs), .points = places}),
+                   AMBULO_OK);
   const ambulo_foot *foot = ambulo_model_foot(c->model, 0);
   const int ends[2] = {foot->heel[0], foot->toe[0]};
   const double *up = ambulo_model_up(c->model);
