@@ -31,7 +31,7 @@ struct ambulo_result {
   struct ambulo__dense_report *dense;      /* NULL: not audited */
   struct ambulo__valleys *valleys;         /* of several starts; NULL: there was one */
   struct ambulo__history *history;
-  struct ambulo__outcome *outcome;         /* of free parameters; NULL: there were none */
+  struct ambulo__outcome *outcome; /* of free parameters; NULL: there were none */
   char ending[AMBULO__ENDING_SIZE];
 };
 

@@ -55,8 +55,9 @@ typedef struct ambulo__sweep_case {
 
 /* A column of the table. */
 typedef struct ambulo__sweep_output {
-  char *path;         /* "objective", "max(tau.knee_angle_r)" */
-  char *label, *unit; /* title of the column, in drawings too; NULL: the path, what is known of it */
+  char *path; /* "objective", "max(tau.knee_angle_r)" */
+  char *label,
+      *unit; /* title of the column, in drawings too; NULL: the path, what is known of it */
   const char *known_unit;
 } ambulo__sweep_output;
 
