@@ -196,18 +196,7 @@
  * 0: walk_normal with a tolerance of 1e-9 takes 14 to 39 iterations.
  * T: stopping, pipeline. */
 #define AMBULO__NEAR_VIOLATION 1e-5
-/* relative change of f + lambda.v, and whitened gradient, of max(1, |f|), that let the rest be
- * polished. 0 (never): +9 % iterations, whole bodies +16 to +42 %. A gradient of 3e-4: a body with
- * arms that nothing but torques holds ends 0.16 % higher. T: stopping, both. */
-#define AMBULO__FORESEEN_CHANGE 3e-5
-#define AMBULO__FORESEEN_GRADIENT 1e-4
-/* times an optimality tolerance, up to 1: both are as much smaller as that is tighter than usual.
- * T: stopping. */
-#define AMBULO__FORESEEN_SHARE 1e3
-/* violation, relative to the rows' sizes, that is polished then. 1e-4: yardstick_12 is left with a
- * KKT residual of 1.4e-4, not 5e-5. T: stopping. */
-#define AMBULO__FORESEEN_VIOLATION 3e-5
-/* violation where nothing else helps: at a stall and at a limit. 0: no change where there is time.
+/* the same, where nothing else helps: at a stall and at a limit. 0: no change where there is time.
  * T: stopping, pipeline. */
 #define AMBULO__POLISH_LAST_REACH 1e-2
 /* of the first f: an objective that goes to zero (besides engine.c's measure). T: stopping. */

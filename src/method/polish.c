@@ -8,13 +8,11 @@
  *                                         = 0 where the multiplier is positive
  *
  * is a few Newton steps from a feasible point; the objective moves by multiplier * excess.
- * Solved by the model of model_step.c with a large penalty and the multipliers, by which rows with
- * a force pull both ways. The gradient of the objective is its own, nearly - J' lambda - J_e' l:
- * what is left of that the same steps take away, and the KKT residual falls. Where nothing but the
- * rows can be had (`anyhow`) it is - J' lambda, which balances them, and the point is the nearest.
- * The penalty is relative to what the metric opposes to each row: on fine grids rows on
- * accelerations are so much longer than rows on places that a common one either lets go of these or
- * drowns the metric in the rounding of its factor.
+ * Solved by the model of model_step.c with a large penalty, the multipliers, and an
+ * objective gradient - J' lambda that balances them: rows with a force then pull both ways. The
+ * penalty is relative to what the metric opposes to each row: on fine grids rows on accelerations
+ * are so much longer than rows on places that a common one either lets go of these or drowns the
+ * metric in the rounding of its factor.
  */
 #include "method/polish.h"
 #include "method/engine_point.h"
@@ -53,7 +51,7 @@ static void normalize(ambulo__engine *e) {
 }
 
 /* one step from the iterate, whose excesses are in the model, to x; 0 on success */
-static int step(ambulo__engine *e, double rho, int nearest, double *x) {
+static int step(ambulo__engine *e, double rho, double *x) {
   ambulo__linearized *at = &e->linearized;
   ambulo__quadratic *q = e->quadratic;
   double decrease;
@@ -61,12 +59,8 @@ static int step(ambulo__engine *e, double rho, int nearest, double *x) {
       ambulo__sparse_rows_fill(&at->rows.inequality, e->workspace, 0))
     return 1;
   if (ambulo__engine_fill_metric(e, AMBULO__POLISH_DAMPING * e->iterate.mu)) return 1;
-  if (nearest) {
-    memset(q->gradient, 0, (size_t)e->setup->n * sizeof *q->gradient);
-    ambulo__sparse_rows_add_transpose(&at->rows.inequality, -1.0, e->iterate.lambda, q->gradient);
-  } else if (ambulo__engine_gradient(e, e->setup->objective_scale, NULL, NULL, q->gradient)) {
-    return 1;
-  }
+  memset(q->gradient, 0, (size_t)e->setup->n * sizeof *q->gradient);
+  ambulo__sparse_rows_add_transpose(&at->rows.inequality, -1.0, e->iterate.lambda, q->gradient);
   normalize(e);
   int failed = ambulo__model_minimize(e, rho, 0, &decrease);
   for (int i = 0; i < e->setup->inequalities; i++) rescale(e, i, 1.0);
@@ -100,7 +94,7 @@ int ambulo__polish(ambulo__engine *e, int anyhow, double *x) {
     if (ambulo__evaluate_jacobian(e->workspace, iterate->x)) break;
     double worst = ambulo__engine_excess(e, e->quadratic->linear);
     done = worst <= target;
-    if (done ? !anyhow && costs_more(e) : step(e, rho, anyhow, moved)) {
+    if (done ? !anyhow && costs_more(e) : step(e, rho, moved)) {
       done = 0;
       break;
     }

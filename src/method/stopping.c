@@ -10,8 +10,6 @@ ambulo__stopping ambulo__stopping_begin(int loose) {
                             .objective = HUGE_VAL,
                             .least_violation = HUGE_VAL,
                             .halved = HUGE_VAL,
-                            .lagrangian = HUGE_VAL,
-                            .refused = HUGE_VAL,
                             .penalty_limit = AMBULO__PENALTY_LIMIT};
 }
 
@@ -21,21 +19,6 @@ static int has_vanished(const ambulo__engine *e, const ambulo__stopping *s) {
     return objective <= AMBULO__VANISHED_AT_REST * e->setup->objective_scale * e->setup->at_rest;
   return objective <= AMBULO__VANISHED * s->first &&
          objective <= e->setup->objective_scale * e->setup->negligible;
-}
-
-/* follows f + lambda.v; whether it has settled where polishing can take the rest */
-static int is_foreseen(ambulo__stopping *s, const ambulo__engine *e, double tolerance) {
-  const ambulo__trial *point = &e->reached;
-  double part = fmin(1.0, AMBULO__FORESEEN_SHARE * e->run->options->optimality_tolerance);
-  double reach = fmin(AMBULO__FORESEEN_VIOLATION, AMBULO__VIOLATION_HALVED * s->refused);
-  double value = point->objective;
-  for (int i = 0; i < e->setup->inequalities; i++) value += point->multiplier[i] * point->excess[i];
-  double change = fabs(value - s->lagrangian);
-  s->lagrangian = value;
-  if (s->loose || point->violation <= tolerance || point->violation > reach) return 0;
-  return change <= AMBULO__FORESEEN_CHANGE * part * fabs(value) &&
-         point->gradient_norm <=
-             AMBULO__FORESEEN_GRADIENT * part * fmax(1.0, fabs(point->objective));
 }
 
 /* follows the point; whether its objective has settled, and how */
@@ -59,8 +42,7 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
     s->halved = violation;
     s->since_halved = 0;
   }
-  int foreseen = is_foreseen(s, e, tolerance);
-  if (foreseen || (s->settled >= 1 && (small || s->loose))) return AMBULO_ENDING_CONVERGED;
+  if (s->settled >= 1 && (small || s->loose)) return AMBULO_ENDING_CONVERGED;
   if (has_vanished(e, s)) return AMBULO_ENDING_VANISHED;
   return s->settled >= AMBULO__SETTLED ? AMBULO_ENDING_SETTLED : AMBULO_ENDING_NONE;
 }
@@ -81,13 +63,9 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, doub
   int bound = e->iterate.rho >= 0.999 * s->penalty_limit;
   if (violation <= tolerance) return settled;
   int stalled = bound && s->since_better > AMBULO__STALL;
-  double reach = stalled                              ? AMBULO__POLISH_LAST_REACH
-                 : settled == AMBULO_ENDING_CONVERGED ? AMBULO__FORESEEN_VIOLATION
-                                                      : AMBULO__NEAR_VIOLATION;
-  if ((settled || stalled) && violation <= reach) {
-    if (ambulo__polish(e, stalled, x)) return settled ? settled : AMBULO_ENDING_STALLED;
-    s->refused = violation;
-  }
+  double reach = stalled ? AMBULO__POLISH_LAST_REACH : AMBULO__NEAR_VIOLATION;
+  if ((settled || stalled) && violation <= reach && ambulo__polish(e, stalled, x))
+    return settled ? settled : AMBULO_ENDING_STALLED;
   int slow = stalled || (bound && s->since_halved > AMBULO__STALL);
   return slow && raise_limit(s) && stalled ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE;
 }

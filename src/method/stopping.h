@@ -3,10 +3,7 @@
  * Asked after every inner solve, about the point engine->reached:
  *
  *   converged  f has settled, the reduced gradient is small and the rows hold, or hold after a few
- *              Newton steps on them (polish.c). Or f is foreseen: the reduced gradient is small and
- *              f + lambda.v has settled, which is what f comes to where the rows hold; multipliers
- *              approach their limit linearly, f with them, f + lambda.v with the square of that.
- *              Polishing then takes the rest at once
+ *              Newton steps on them (polish.c)
  *   settled    f has not moved for some inner solves, its gradient is not small
  *   vanished   f has fallen to a thousandth of its first value and is negligible: relative tests
  *              never end a solve whose objective goes to zero
@@ -22,8 +19,6 @@ typedef struct ambulo__stopping {
   int loose;                         /* a coarse grid that only starts the next one */
   double objective, least_violation; /* at the last point; so far */
   double first;                      /* f after the first inner solve */
-  double lagrangian;                 /* at the last point */
-  double refused;                    /* violation where polishing was last refused */
   int settled, since_better, points;
   int since_halved;     /* points since the violation had fallen by half */
   double halved;        /* violation then */

@@ -25,54 +25,6 @@ static void rows_value_and_gradient_have_to_be_right(void **state) {
   engine_close(&f);
 }
 
-/* a point whose rows cost `missing`, with multipliers that foretell it: f + lambda.v is `whole` */
-static ambulo_ending lacking(ambulo__stopping *s, engine_fixture *f, double whole, double missing,
-                             double violation, double gradient) {
-  ambulo__trial *point = &f->engine->reached;
-  int dearest = 0;
-  for (int i = 0; i < f->engine->setup->inequalities; i++) {
-    if (point->multiplier[i] > point->multiplier[dearest]) dearest = i;
-    point->excess[i] = 0.0;
-  }
-  assert_true(point->multiplier[dearest] > 0.0);
-  point->excess[dearest] = missing / point->multiplier[dearest];
-  return at(s, f, whole - missing, violation, gradient);
-}
-
-/* f still rises by a ten-thousandth, and f + lambda.v does not: polishing takes the rest, unless it
- * is far, or was refused near here, or more digits are asked for */
-static void what_is_foreseen_ends_it(void **state) {
-  (void)state;
-  engine_fixture f;
-  engine_open(&f, "two_step/walk_normal");
-  assert_int_equal(ambulo__pipeline(f.engine, AMBULO__FAR, f.x), AMBULO_OK);
-  assert_int_equal(ambulo__evaluate(f.engine->workspace, f.x), AMBULO_OK);
-  double whole = f.engine->setup->objective_scale * f.engine->workspace->objective;
-  double big = 2e-4 * whole, small = 1e-4 * whole;
-  f.engine->iterate.rho = 10.0;
-  const struct {
-    double drift, violation, gradient, refused, tolerance;
-    ambulo_ending ending;
-  } cases[] = {{0, 2e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_CONVERGED},
-               {2e-5, 2e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_CONVERGED},
-               {5e-5, 2e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
-               {0, 4e-5, 9e-5, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
-               {0, 2e-5, 2e-4, HUGE_VAL, 1e-3, AMBULO_ENDING_NONE},
-               {0, 2e-5, 9e-5, 3e-5, 1e-3, AMBULO_ENDING_NONE},
-               {0, 2e-5, 9e-5, HUGE_VAL, 1e-4, AMBULO_ENDING_NONE},
-               {2e-5, 2e-5, 1e-6, HUGE_VAL, 1e-4, AMBULO_ENDING_NONE}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    ambulo__stopping s = ambulo__stopping_begin(0);
-    f.options.optimality_tolerance = cases[i].tolerance;
-    s.refused = cases[i].refused;
-    assert_int_equal(lacking(&s, &f, whole, big, 2e-5, 9e-5), AMBULO_ENDING_NONE);
-    assert_int_equal(lacking(&s, &f, whole * (1.0 + cases[i].drift), small, cases[i].violation,
-                             cases[i].gradient),
-                     cases[i].ending);
-  }
-  engine_close(&f);
-}
-
 static void a_value_that_stays_ends_it(void **state) {
   (void)state;
   engine_fixture f;
@@ -261,7 +213,6 @@ static void a_run_that_is_cut_is_polished(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(rows_value_and_gradient_have_to_be_right),
-                                     cmocka_unit_test(what_is_foreseen_ends_it),
                                      cmocka_unit_test(a_value_that_stays_ends_it),
                                      cmocka_unit_test(coarse_grids_are_content_with_less),
                                      cmocka_unit_test(what_vanishes_ends_it),
