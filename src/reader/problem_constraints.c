@@ -5,7 +5,7 @@
 
 /* ---------------------------------------------------------------- constraints */
 
-/* a number, or the word `off` for a negative one: no row */
+/* a number, or the word `off`: no row */
 static double read_minimum_force(const ambulo__yaml_node *node) {
   static const char *const words[] = {"off"};
   const char *text = ambulo__yaml_text(node);

@@ -88,7 +88,7 @@ static void read_load(ambulo__problem_reader *reader, const ambulo__yaml_node *n
 
 /* ------------------------------------------------------------ ground reaction */
 
-/* a number, or the word `off` for a negative one: no rows */
+/* a number, or the word `off`: no rows */
 static double read_bound(const ambulo__yaml_node *node, double most, double fallback) {
   static const char *const words[] = {"off"};
   const char *text = ambulo__yaml_text(node);

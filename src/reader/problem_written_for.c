@@ -68,7 +68,7 @@ static void scale_gaps(ambulo_problem_definition *d, double longer) {
                        &r->pressure_width,
                        &r->arc_pressure};
   for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) *lengths[i] *= longer;
-  r->loading_rate /= sqrt(longer); /* negative ones, which say `off`, stay so */
+  r->loading_rate /= sqrt(longer); /* NaN, which says off, stays so */
 }
 
 /* what one coordinate's scale and offset are multiplied by */
@@ -77,7 +77,8 @@ typedef struct factors {
 } factors;
 
 static factors factors_of(const ambulo_term *term, int turns, double longer, double heavier) {
-  double force = turns ? heavier * longer : heavier, is_price = term->strength_is_limits;
+  double force = turns ? heavier * longer : heavier;
+  int is_price = term->strength_is_limits;
   switch (term->kind) {
   case AMBULO_TORQUE_POWER:
     return (factors){is_price || term->strength ? 1.0 : 1.0 / force, force};

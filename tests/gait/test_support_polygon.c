@@ -46,10 +46,11 @@ typedef struct setting {
 
 /* left foot at (0.6, 0.09) in `left`, right foot at (0, -0.09) in `right` */
 static setting two_feet(ambulo_model *model, ambulo_contact_mode left, ambulo_contact_mode right) {
-  setting s = {.definition = ambulo_problem_definition_default(),
-               .contacts = {{WALKER_LEFT, left, 0, 1, {0.6, 0.09}},
-                            {WALKER_RIGHT, right, 0, 1, {0.0, -0.09}}},
-               .active = {1, 0}};
+  setting s = {
+      .definition = ambulo_problem_definition_default(),
+      .contacts = {{.foot = WALKER_LEFT, .mode = left, .to = 1.0, .place = {0.6, 0.09}},
+                   {.foot = WALKER_RIGHT, .mode = right, .to = 1.0, .place = {0.0, -0.09}}},
+      .active = {1, 0}};
   s.definition.model = model;
   return s;
 }

@@ -50,7 +50,7 @@ static void every_kind_has_a_rule_but_ends_and_own_rows(void **state) {
     const ambulo__row_kind_entry *entry = ambulo__row_kind_entry_of((ambulo__row_kind)kind);
     const ambulo__measure measures[] = {entry->straight, entry->turning};
     for (int i = 0; i < 2; i++) {
-      ambulo__table_row row = {.kind = (ambulo__row_kind)kind, .measure = measures[i]};
+      ambulo__table_row row = {.kind = (unsigned char)kind, .measure = (unsigned char)measures[i]};
       int none = entry->place != AMBULO__AT_TIMES || kind == AMBULO__KIND_USER;
       assert_int_equal(ambulo__dense_rule_of_row(&row) == -1, none);
     }

@@ -22,7 +22,7 @@ static inline void form_open(form_fixture *f) {
       f->lanes[ambulo__lane_index(k, FORM_CHANNELS, c)] = 1.0 + 0.1 * c + 0.01 * k * c;
   static const double times[FORM_NODES] = {0.0, 0.1, 0.2};
   f->context = (ambulo__term_context){.model = f->model,
-                                      .channels = {2, 2, 0},
+                                      .channels = {.coordinates = 2, .points = 2},
                                       .channel_count = FORM_CHANNELS,
                                       .lanes = f->lanes,
                                       .nodes = FORM_NODES,

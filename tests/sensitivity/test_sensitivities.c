@@ -103,8 +103,8 @@ static void a_load_on_events_solved_anew(void **state) {
       "ends=null",
       "time.duration=0.5",
       "angles=degrees",
-      "contacts=[{foot: right, mode: flat, from: 0, to: 0.4, place: [0, 0]}, {foot: left, mode: "
-      "heel, from: 0.3, to: 0.5, place: [0.4, 0]}]",
+      ("contacts=[{foot: right, mode: flat, from: 0, to: 0.4, place: [0, 0]}, {foot: left, mode: "
+       "heel, from: 0.3, to: 0.5, place: [0.4, 0]}]"),
       "load={hands: [head_top], mass: 5, force: [20, 0, -30], from: 0.11, to: 0.45, ramp: 0.07}",
       "time.grid=events",
       "trajectory.degree=5"};
