@@ -265,6 +265,29 @@ static void grids_are_checked(void **state) {
   ambulo_model_free(b.model);
 }
 
+/* 0 of an enumeration says nothing, and where a choice is needed nothing is refused */
+static void choices_that_are_not_set(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  const ambulo_problem_definition good = b.d;
+  b.d.grid = AMBULO_GRID_NOT_SET;
+  expect_grid_refused(&b, "time.grid is not set (got 0)");
+  b.d = good;
+  b.d.knots = AMBULO_GRID_NOT_SET;
+  expect_grid_refused(&b, "trajectory.knots is not set (got 0)");
+  b.d = good;
+  b.d.discretization = AMBULO_DISCRETIZATION_NOT_SET;
+  expect_grid_refused(&b, "not set (got 0)");
+  b.d = good;
+  ambulo_term term = ambulo_term_default(AMBULO_TORQUE_SQUARED);
+  term.kind = AMBULO_TERM_KIND_NOT_SET;
+  b.d.terms = &term;
+  b.d.term_count = 1;
+  expect_grid_refused(&b, "not set (got 0)");
+  ambulo_model_free(b.model);
+}
+
 /* one of strength that is limits, with a price for each direction */
 static void strength_that_is_limits(void **state) {
   (void)state;
@@ -296,9 +319,10 @@ static void strength_that_is_limits(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_built_is_legal),  cmocka_unit_test(strength_that_is_limits),
-      cmocka_unit_test(grids_are_checked),       cmocka_unit_test(numbers_have_ranges),
-      cmocka_unit_test(no_bound_is_a_bound),     cmocka_unit_test(what_is_missing_is_named),
-      cmocka_unit_test(some_weight_is_not_zero), cmocka_unit_test(a_line_has_a_length)};
+      cmocka_unit_test(what_is_built_is_legal),   cmocka_unit_test(strength_that_is_limits),
+      cmocka_unit_test(grids_are_checked),        cmocka_unit_test(choices_that_are_not_set),
+      cmocka_unit_test(numbers_have_ranges),      cmocka_unit_test(no_bound_is_a_bound),
+      cmocka_unit_test(what_is_missing_is_named), cmocka_unit_test(some_weight_is_not_zero),
+      cmocka_unit_test(a_line_has_a_length)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
