@@ -38,6 +38,9 @@ static void sizes(void **state) {
   chain_make(&c);
   c.definition.coordinate_count = 2;
   chain_bad(&c, AMBULO_E_MODEL, "(got 2 coordinates for 3 such links)");
+  chain_make(&c);
+  c.links[1].type = AMBULO_JOINT_TYPE_NOT_SET;
+  chain_bad(&c, AMBULO_E_MODEL, "not set (got 0); expected");
 }
 
 static void names(void **state) {
