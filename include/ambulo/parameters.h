@@ -46,8 +46,9 @@ typedef struct ambulo_parameters {
   const ambulo_parameter *items; /* [count] */
   int count;
   ambulo_per per;
-  int maximum_solves;  /* inner solves; 60 */
-  const double *start; /* [variable_count] where the first inner solve starts; NULL: zero */
+  int maximum_solves; /* inner solves; 60 */
+  const double
+      *start; /* [variable_count] where the first inner solve starts; NULL: as ambulo_solve */
   /* The problem at values [count], with unknowns as many as before; called from the thread of the
    * run. Its model must live as long as the problem; a failure other than E_MEMORY means that there
    * is no such problem, and the values are given up. NULL: the file of the problem says it

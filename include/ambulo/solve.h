@@ -317,10 +317,10 @@ typedef struct ambulo_history {
 
 typedef struct ambulo_result ambulo_result;
 
-/* Solves from `start` [variable_count] (NULL: zero) with `options` (NULL: those of the problem's
- * file, or the defaults). A point is returned whatever
- * the verdict; only E_ARGUMENT, E_PROBLEM (a row is not finite at the start, named
- * in diagnostics), E_LIMIT, E_MEMORY return none. */
+/* Solves from `start` [variable_count] (NULL: the start pose, at rest: each coordinate at its
+ * default_value, ambulo/model.h) with `options` (NULL: those of the problem's file, or the
+ * defaults). A point is returned whatever the verdict; only E_ARGUMENT, E_PROBLEM (a row is not
+ * finite at the start, named in diagnostics), E_LIMIT, E_MEMORY return none. */
 AMBULO_NODISCARD AMBULO_API ambulo_status ambulo_solve(
     const ambulo_problem *problem, const ambulo_options *options, const double *start,
     const ambulo_allocator *allocator, ambulo_diagnostics *diagnostics, ambulo_result **result);

@@ -19,7 +19,9 @@ static void print_objective(const ambulo_problem *problem, const ambulo_result *
 
 /* what was free, where it went, and what it brought */
 static void print_parameters(const ambulo_result *result) {
-  static const char *const bounds[] = {"", ", at its lower bound", "", ", at its upper bound"};
+  static const char *const bounds[] = {[AMBULO_AT_LOWER] = ", at its lower bound",
+                                       [AMBULO_BETWEEN] = "",
+                                       [AMBULO_AT_UPPER] = ", at its upper bound"};
   const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
   if (!o) return;
   printf("free parameters\n");

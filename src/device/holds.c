@@ -65,18 +65,13 @@ static ambulo__hand_motion motion_kept(const held *h, const double *kept, int ha
 
 AMBULO__FILL(ambulo_hold, {.hand = {-1, -1}, .to = INFINITY, .ramp = 0.1})
 
-static void to_world(const ambulo_model *m, const double along[3], double world[3]) {
-  for (int k = 0; k < 3; k++)
-    world[k] = along[0] * m->forward[k] + along[1] * m->left[k] + along[2] * m->up[k];
-}
-
 static ambulo_status compile(const ambulo_model *model, const ambulo_hold *hold,
                              const ambulo_allocator *a, held *h) {
   ambulo_status status = AMBULO_OK;
   h->hold = hold;
   h->hands = hold->hand[1] >= 0 ? 2 : 1;
-  to_world(model, hold->center, h->center);
-  to_world(model, hold->force, h->push);
+  ambulo__along_axes(model, hold->center, h->center);
+  ambulo__along_axes(model, hold->force, h->push);
   for (int k = 0; k < h->hands && !status; k++) {
     const ambulo_point *point = &model->points[hold->hand[k]];
     status = ambulo__path_create(model, -1, point->link, point->position, a, &h->path[k]);

@@ -45,8 +45,9 @@ static void mirror_point(const ambulo_model *m, int *link, double position[3]) {
 }
 
 static ambulo_device turned(ambulo_device device) {
-  static const ambulo_device_side sides[] = {AMBULO_DEVICE_SIDE_NOT_SET, AMBULO_DEVICE_BOTH,
-                                             AMBULO_DEVICE_BELOW, AMBULO_DEVICE_ABOVE};
+  static const ambulo_device_side sides[] = {[AMBULO_DEVICE_BOTH] = AMBULO_DEVICE_BOTH,
+                                             [AMBULO_DEVICE_ABOVE] = AMBULO_DEVICE_BELOW,
+                                             [AMBULO_DEVICE_BELOW] = AMBULO_DEVICE_ABOVE};
   device.rest = -device.rest;
   device.pretension = -device.pretension;
   device.amount = -device.amount;

@@ -20,9 +20,9 @@ static void give(voidpf allocator, voidpf block) {
 static void pump(z_stream *stream, const char *bytes, size_t length, ambulo__text_buffer *out) {
   char piece[4096];
   int said = Z_OK;
-  while (said != Z_STREAM_END && !out->failed) {
-    uInt next = length < UINT_MAX ? (uInt)length : UINT_MAX;
+  while (said == Z_OK && !out->failed) {
     if (stream->avail_in == 0) {
+      uInt next = length < UINT_MAX ? (uInt)length : UINT_MAX;
       stream->next_in = (const Bytef *)bytes;
       stream->avail_in = next;
       bytes += next;
@@ -33,6 +33,7 @@ static void pump(z_stream *stream, const char *bytes, size_t length, ambulo__tex
     said = deflate(stream, length == 0 ? Z_FINISH : Z_NO_FLUSH);
     ambulo__text_append_bytes(out, piece, sizeof piece - stream->avail_out);
   }
+  if (said != Z_STREAM_END) out->failed = 1;
 }
 
 void ambulo__deflate(ambulo__text_buffer *out, const char *bytes, size_t length) {

@@ -20,7 +20,10 @@ ambulo_contact ambulo__contact_image(const ambulo_problem_definition *definition
                                      int period);
 
 /* Sets of modes: 1 << mode, added. */
-enum { AMBULO__ANY_MODE = 2 * 15 };
+enum {
+  AMBULO__ANY_MODE = 1 << AMBULO_CONTACT_HEEL | 1 << AMBULO_CONTACT_FLAT | 1 << AMBULO_CONTACT_TOE |
+                     1 << AMBULO_CONTACT_PATCH
+};
 
 /* A span of contact of an effector, made as long as contacts in one of `modes` touch it. */
 ambulo__span ambulo__uninterrupted(const ambulo_problem_definition *definition, int effector,

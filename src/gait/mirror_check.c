@@ -22,9 +22,12 @@
 #define REFUSE(list, ...)                                                                          \
   ambulo__error(list, AMBULO_E_PROBLEM, ambulo__nowhere, AMBULO__BOTH_SIDES, __VA_ARGS__)
 
-/* by ambulo_limited */
-static const char *const keys[] = {"", "joint_limits", "speed_limits", "torque_limits"};
-static const char *const words[] = {"", "range", "speed limits", "torque limits"};
+static const char *const keys[] = {[AMBULO_LIMITED_POSITION] = "joint_limits",
+                                   [AMBULO_LIMITED_SPEED] = "speed_limits",
+                                   [AMBULO_LIMITED_TORQUE] = "torque_limits"};
+static const char *const words[] = {[AMBULO_LIMITED_POSITION] = "range",
+                                    [AMBULO_LIMITED_SPEED] = "speed limits",
+                                    [AMBULO_LIMITED_TORQUE] = "torque limits"};
 
 static const char *unit_of(const ambulo_coordinate *c, ambulo_limited what) {
   return ambulo__measure_text(ambulo__row_measure(ambulo__row_kind_of_limit(what), c->type, 0));

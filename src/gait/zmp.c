@@ -53,7 +53,9 @@ static void force_row(const ambulo__gait_context *context, int node, ambulo__row
   }
 }
 
-static const char *const mode_words[] = {"", "on its heel", "flat", "on its toes"};
+static const char *const mode_words[] = {[AMBULO_CONTACT_HEEL] = "on its heel",
+                                         [AMBULO_CONTACT_FLAT] = "flat",
+                                         [AMBULO_CONTACT_TOE] = "on its toes"};
 
 static ambulo_status refuse_empty(const ambulo__gait_context *context, int node, double size,
                                   int planar, ambulo_diagnostics *diagnostics) {

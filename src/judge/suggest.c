@@ -65,8 +65,12 @@ static void set_both(const ambulo__advice *a, const char *key, ambulo_limited wh
 }
 
 static void limit(const ambulo__advice *a, ambulo_limited what) {
-  static const char *const words[] = {"", "end of the range", "speed limit", "torque limit"};
-  static const char *const keys[] = {"", "range", "speed", "torque"};
+  static const char *const words[] = {[AMBULO_LIMITED_POSITION] = "end of the range",
+                                      [AMBULO_LIMITED_SPEED] = "speed limit",
+                                      [AMBULO_LIMITED_TORQUE] = "torque limit"};
+  static const char *const keys[] = {[AMBULO_LIMITED_POSITION] = "range",
+                                     [AMBULO_LIMITED_SPEED] = "speed",
+                                     [AMBULO_LIMITED_TORQUE] = "torque"};
   char from[32], to[32];
   int upper = !strcmp(a->row->detail, "upper");
   double bound = ambulo__limit_given(a->problem->model, a->row);

@@ -49,6 +49,13 @@ struct ambulo_model {
   int capsule_count;
 };
 
+/* What is so long along forward, left and up, along the world's axes. */
+static inline void ambulo__along_axes(const ambulo_model *model, const double along[3],
+                                      double world[3]) {
+  for (int k = 0; k < 3; k++)
+    world[k] = along[0] * model->forward[k] + along[1] * model->left[k] + along[2] * model->up[k];
+}
+
 /* Structural and physical checks of a definition, all of them, each with the
  * name of the link or coordinate it is about. places[i] (may be NULL) is where
  * link i stands in a file. */

@@ -125,7 +125,7 @@ static ambulo_status sensitivities(ambulo__json *json, const ambulo_problem *pro
 
 /* what became of the numbers that were free; nothing where none was */
 static void free_parameters(ambulo__json *json, const ambulo_result *result) {
-  static const char *const bounds[] = {NULL, "lower", NULL, "upper"};
+  static const char *const bounds[] = {[AMBULO_AT_LOWER] = "lower", [AMBULO_AT_UPPER] = "upper"};
   const ambulo_parameters_outcome *o = ambulo_result_parameters(result);
   if (!o) return;
   ambulo__json_open(json, "free", '{');

@@ -15,7 +15,10 @@
 
 enum { CONTACT_SAMPLES = 2400 }; /* of a stride of 1.2 s: .5 ms */
 
-static const char *const mode_words[] = {"", "heel", "flat", "toe", "patch"};
+static const char *const mode_words[] = {[AMBULO_CONTACT_HEEL] = "heel",
+                                         [AMBULO_CONTACT_FLAT] = "flat",
+                                         [AMBULO_CONTACT_TOE] = "toe",
+                                         [AMBULO_CONTACT_PATCH] = "patch"};
 
 /* -------------------------------------------------------------------- ground */
 

@@ -20,6 +20,7 @@
 
 #include "base/vector.h"
 #include "gait/hold_times.h"
+#include "model/model.h"
 
 /* A hold at a node, and what it asks of the hands. */
 typedef struct held {
@@ -29,11 +30,6 @@ typedef struct held {
   double place[2][3], line[3], apart[3], square; /* p_k, d, e, s */
   double drive[3], center[3];                    /* c, o */
 } held;
-
-static void to_world(const ambulo_model *m, const double along[3], double world[3]) {
-  for (int k = 0; k < 3; k++)
-    world[k] = along[0] * m->forward[k] + along[1] * m->left[k] + along[2] * m->up[k];
-}
 
 static held held_at(ambulo__node_forces *f, const ambulo_hold *hold) {
   const ambulo_model *m = f->s->problem->model;
@@ -52,7 +48,7 @@ static held held_at(ambulo__node_forces *f, const ambulo_hold *hold) {
     h.apart[k] = acceleration[1][k] - acceleration[0][k];
   }
   h.square = ambulo__dot(h.line, h.line);
-  to_world(m, hold->center, h.center);
+  ambulo__along_axes(m, hold->center, h.center);
   return h;
 }
 
@@ -97,7 +93,7 @@ static double add_law(const held *h, double window, double *by) {
   by[AMBULO__HOLD_INERTIA] += window * inertia;
   for (int k = 0; k < 3; k++) {
     double unit[3] = {k == 0, k == 1, k == 2}, axis[3], twist[3];
-    to_world(m, unit, axis);
+    ambulo__along_axes(m, unit, axis);
     double push = pull_of(h, axis, none, 0.0);
     sum += hold->force[k] * push;
     by[AMBULO__HOLD_FORCE + k] += window * push;
