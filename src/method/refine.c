@@ -5,6 +5,9 @@
  * a third (72, 36, 12): the ratio that is divisible keeps coarse nodes among the fine ones. The
  * trajectory becomes coarser with them, but keeps a knot interval for two of them where it has so
  * many: one that is too coarse for its contacts is led into other motions.
+ * A grid that has no room for the rows is left early (stopping.h). Its motion is a start, but its
+ * multipliers have been driven up by what cannot be, and would drive the next grid's motion far
+ * away: they are not carried.
  * Grids on events distribute their intervals over the phases anew; one that is too coarse for that
  * is refused and left out.
  */
@@ -75,7 +78,7 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
                                  const ambulo_allocator *a, ambulo__run *run, level *before) {
   level new = {0};
   ambulo__engine *engine = NULL;
-  int useful = 0;
+  int useful = 0, held = 0;
   ambulo_status status = create_level(problem, intervals, spline, a, before, &new);
   if (!status) status = ambulo__engine_create(new.problem, new.x, a, run, NULL, &engine);
   if (status == AMBULO_E_LIMIT && run->stopped) status = AMBULO_OK; /* during set-up */
@@ -83,8 +86,9 @@ static ambulo_status solve_level(const ambulo_problem *problem, int intervals, i
     if (before->problem) ambulo__carry_to(&before->carried, engine);
     status = ambulo__pipeline(engine, AMBULO__COARSE, new.x);
     useful = !status && engine->reached.value < HUGE_VAL;
+    held = engine->reached.violation <= AMBULO__COARSE_VIOLATION;
   }
-  if (useful) status = ambulo__carry_from(engine, a, &new.carried);
+  if (useful && held) status = ambulo__carry_from(engine, a, &new.carried);
   ambulo__engine_free(engine);
   if (useful && !status) {
     free_level(a, before);

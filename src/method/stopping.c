@@ -62,6 +62,10 @@ ambulo_ending ambulo__stopping_test(ambulo__stopping *s, ambulo__engine *e, doub
   double violation = e->reached.violation;
   int bound = e->iterate.rho >= 0.999 * s->penalty_limit;
   if (violation <= tolerance) return settled;
+  if (s->loose) {
+    int idle = s->since_better > s->since_halved ? s->since_better : s->since_halved;
+    return bound && idle > AMBULO__COARSE_STALL ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE;
+  }
   int stalled = bound && s->since_better > AMBULO__STALL;
   double reach = stalled ? AMBULO__POLISH_LAST_REACH : AMBULO__NEAR_VIOLATION;
   if ((settled || stalled) && violation <= reach && ambulo__polish(e, stalled, x))

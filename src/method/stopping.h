@@ -8,7 +8,8 @@
  *   vanished   f has fallen to a thousandth of its first value and is negligible: relative tests
  *              never end a solve whose objective goes to zero
  *   stalled    neither the violation nor f moved for long, at the bound of the penalty, and again
- *              at tenfold and hundredfold bounds
+ *              at tenfold and hundredfold bounds. A coarse grid sooner, and at the first: it has no
+ *              room for what the rows ask
  */
 #ifndef AMBULO_METHOD_STOPPING_H
 #define AMBULO_METHOD_STOPPING_H

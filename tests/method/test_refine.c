@@ -74,6 +74,23 @@ static void coarse_trajectories_keep_what_two_nodes_hold(void **state) {
   engine_close(&f);
 }
 
+/* On 14 intervals feet on their places, head at its own and rest at both ends contradict each other
+ * by 22 mm: that is left, for a start without multipliers. */
+static void a_grid_without_room_is_left_early(void **state) {
+  (void)state;
+  engine_fixture f;
+  int levels = -1;
+  engine_open_with(&f, "reach_standing", "time.intervals=28");
+  for (int i = 0; i < f.engine->setup->inequalities; i++) f.engine->iterate.lambda[i] = -1.0;
+  (void)refine(&f, &levels);
+  assert_int_equal(levels, 1);
+  assert_in_range(f.run.iterations, 7, 25); /* 72 until nothing helps */
+  assert_true(f.engine->iterate.carried_objective < 0.0);
+  for (int i = 0; i < f.engine->setup->inequalities; i++)
+    assert_true(f.engine->iterate.lambda[i] == 0.0);
+  engine_close(&f);
+}
+
 static double height(void *user, const ambulo_node_state *s, ambulo_node_gradient *g) {
   (void)user;
   if (g) g->points[1] += 1.0;
@@ -115,6 +132,7 @@ int main(void) {
       cmocka_unit_test(few_intervals_have_no_coarser_grid),
       cmocka_unit_test(grids_on_events_stop_where_phases_have_too_few),
       cmocka_unit_test(coarse_trajectories_keep_what_two_nodes_hold),
+      cmocka_unit_test(a_grid_without_room_is_left_early),
       cmocka_unit_test(callbacks_have_no_coarser_grid)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -109,6 +109,28 @@ static void slow_rows_raise_the_bound(void **state) {
   engine_close(&f);
 }
 
+/* at the first bound: neither a violation that creeps nor a value that moves keeps a coarse grid */
+static void coarse_grids_stall_sooner(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  for (int run = 0; run < 3; run++) {
+    ambulo__stopping s = ambulo__stopping_begin(1);
+    ambulo_ending ending = AMBULO_ENDING_NONE;
+    double bound = s.penalty_limit, violation = 0.3;
+    int points = 0;
+    f.engine->iterate.rho = run == 2 ? 0.5 * bound : bound;
+    for (; points < 14 && !ending; points++) {
+      ending = at(&s, &f, 2.0 + 0.1 * points, violation, 1.0);
+      if (run == 1) violation *= 0.8;
+    }
+    assert_int_equal(ending, run == 0 ? AMBULO_ENDING_STALLED : AMBULO_ENDING_NONE);
+    assert_int_equal(points, run == 0 ? 8 : 14);
+    assert_true(s.penalty_limit == bound);
+  }
+  engine_close(&f);
+}
+
 /* what settles while rows are violated, or vanishes there, says nothing */
 static void only_points_near_the_rows_count(void **state) {
   (void)state;
@@ -218,6 +240,7 @@ int main(void) {
                                      cmocka_unit_test(what_vanishes_ends_it),
                                      cmocka_unit_test(stalls_raise_the_bound),
                                      cmocka_unit_test(slow_rows_raise_the_bound),
+      cmocka_unit_test(coarse_grids_stall_sooner),
                                      cmocka_unit_test(only_points_near_the_rows_count),
                                      cmocka_unit_test(terms_without_a_measure_vanish_too),
                                      cmocka_unit_test(what_counts_as_progress),
