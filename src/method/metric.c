@@ -110,7 +110,7 @@ static double curvature_of(const ambulo_workspace *workspace, int node, int chan
     if (ambulo__term_channel(term, &p->channels, i) != channel) continue;
     double scale = ambulo__term_scale(term, i);
     double u = scale * (y - ambulo__term_offset(term, p->coordinates, node, i));
-    sum += term->weight * scale * scale * ambulo__term_residual(term, u).curvature;
+    sum += term->weight * scale * scale * ambulo__term_residual_from(term, 0.0, u).curvature;
   }
   return sum * p->quadrature[node];
 }
@@ -146,7 +146,7 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
     ambulo__term_form(term, &context, node, j, &form);
     if (!has_slope(&form)) continue;
     double *row = row_at(metric, count++, width);
-    double root = sqrt(ambulo__worse(0.0, weight * ambulo__term_residual(term, form.u).curvature));
+    double root = sqrt(ambulo__worse(0.0, weight * ambulo__term_residual_from(term, 0.0, form.u).curvature));
     memset(row, 0, (size_t)width * sizeof *row);
     for (int c = 0; c < form.count; c++) {
       int at = node + form.ahead[c];
@@ -328,7 +328,7 @@ static double acceleration_curvature(const ambulo__metric *metric,
     for (int j = 0; j < forms; j++) {
       ambulo__form form;
       ambulo__term_form(term, &context, node, j, &form);
-      double curvature = weight * ambulo__term_residual(term, form.u).curvature;
+      double curvature = weight * ambulo__term_residual_from(term, 0.0, form.u).curvature;
       for (int c = 0; c < form.count; c++)
         sum += curvature * form.slope[c] * form.slope[c] *
                acceleration_slope(workspace, node + form.ahead[c], form.channel[c]);

@@ -114,6 +114,8 @@ struct ambulo_workspace {
   int has_values, has_jacobian; /* channels / channel Jacobians are those of x */
   double *channel;              /* [blocks][channels][8] */
   double *weight;               /* [blocks][channels][8]: adjoint of channel */
+  double *term_slope;           /* [blocks][channels][8]: of the objective's terms, but for those of
+                                   the caller, by channel; with has_values */
   double *gradient_lanes;       /* [3][d][8]: a block's gq, gqd, gqdd */
   double *scratch;              /* kernels' scratch, one block at a time */
   double *jq, *jqd, *jqdd;      /* [blocks][pattern entries][8] */
