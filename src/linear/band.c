@@ -66,6 +66,15 @@ void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride
   }
 }
 
+void ambulo__band_add_form(ambulo__band *band, int first, int count, int stride,
+                           const double *form) {
+  for (int e = 0, at = 0; e < count; e++) {
+    for (int f = 0; f <= e; f++)
+      band->a[(size_t)(first + f * stride) * (size_t)band->ld + (size_t)((e - f) * stride)] +=
+          form[at++];
+  }
+}
+
 static void add_scaled(int count, double factor, const double *restrict from, double *restrict to) {
   for (int k = 0; k < count; k++) to[k] += factor * from[k];
 }

@@ -41,6 +41,10 @@ void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, 
  * `first` on. */
 void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride, double weight,
                             const double *g);
+/* Adds a form of `count` unknowns, `stride` apart from `first` on; its lower triangle row by row.
+ */
+void ambulo__band_add_form(ambulo__band *band, int first, int count, int stride,
+                           const double *form);
 /* Adds weight * g'g of row i of a set of hosted rows. */
 void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
                              double weight);

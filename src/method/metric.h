@@ -11,6 +11,8 @@
 #define AMBULO_METHOD_METRIC_H
 
 #include "linear/band.h"
+#include "method/channel_gradients.h"
+#include "method/joint_squares.h"
 
 typedef struct ambulo__metric {
   const ambulo_problem *problem;
@@ -22,7 +24,9 @@ typedef struct ambulo__metric {
   double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
   double *rows;   /* [row_capacity][stride]: one node's weighted gradients */
   int row_capacity, stride;
-  double *one; /* [widest window]: gradient of one channel */
+  double *one; /* [widest window]: gradient of one channel, a form of one coordinate */
+  ambulo__joint_squares *joint;         /* [coordinates], of one node */
+  ambulo__channel_gradients *gradients; /* of the node and the next */
 } ambulo__metric;
 
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,
@@ -35,6 +39,12 @@ int ambulo__metric_diagonals(const ambulo_problem *problem);
 /* H0 at the point held (ambulo__evaluate_jacobian), without mu. */
 void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
                          double scale, ambulo__band *h);
+
+/* Terms whose residuals stand on several channels, and those of the caller, with a weight. */
+int ambulo__metric_is_composite(const ambulo_term *term);
+int ambulo__metric_is_users(const ambulo_term *term);
+/* Curvature of the simple terms along one channel of one node. */
+double ambulo__metric_curvature(const ambulo_workspace *workspace, int node, int channel);
 
 /* weight * sum_k w_k |qdd_k|^2 in its place. */
 void ambulo__metric_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,

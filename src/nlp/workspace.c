@@ -59,8 +59,8 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
   if (p->devices || p->holds) w->device_scratch = ambulo__alloc_aligned(a, ambulo__room(p), word);
   if ((p->devices || p->holds) && !w->device_scratch) return AMBULO_E_MEMORY;
-  int complete = w->x && w->channel && w->weight && w->term_slope && w->gradient_lanes && w->scratch &&
-                 w->row_value && w->term_value && w->user_gradient && w->user_slot &&
+  int complete = w->x && w->channel && w->weight && w->term_slope && w->gradient_lanes &&
+                 w->scratch && w->row_value && w->term_value && w->user_gradient && w->user_slot &&
                  w->node_state && w->motion_scratch && w->fault_scratch;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }

@@ -70,7 +70,8 @@ double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, i
 }
 
 double ambulo__term_least(const ambulo_term *term) {
-  return term->kind == AMBULO_TORQUE_POWER ? ambulo__power_least(term->power, term->smoothing) : 0.0;
+  return term->kind == AMBULO_TORQUE_POWER ? ambulo__power_least(term->power, term->smoothing)
+                                           : 0.0;
 }
 
 /* (13.c) u of the simple terms */

@@ -1,5 +1,6 @@
 /* The reverse sweep against row gradients, central differences, and a sabotaged callback. */
 #include "nlp/nlp.h"
+#include "support/engine_fixture.h"
 #include "support/problem_fixture.h"
 
 static double hand_height(void *user, const ambulo_node_state *state,
@@ -225,6 +226,36 @@ static void flight_agrees_with_central_differences(void **state) {
   expect_curved_rows("models/run.yaml", settings, "flight", AMBULO__CURVED_SPIN);
 }
 
+/* the slopes that an evaluation leaves behind, against each term's own sweep */
+static void the_objective_is_the_sum_of_its_terms(void **state) {
+  (void)state;
+  static const char *const names[] = {"walk", "walk_normal", "walk_tracking", "fig5b_torque"};
+  for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+    fixture f = {.problem = load_problem(names[n])};
+    int terms = f.problem->definition.term_count;
+    f.n = ambulo_problem_variable_count(f.problem);
+    assert_int_equal(ambulo_workspace_create(f.problem, NULL, &f.workspace), AMBULO_OK);
+    f.x = calloc((size_t)f.n, sizeof(double));
+    f.gradient = calloc(3 * (size_t)f.n, sizeof(double));
+    double *sum = f.gradient + f.n, *one = sum + f.n, largest = 0.0;
+    for (int j = 0; j < f.n; j++) f.x[j] = 0.1 * sin(1.0 + j);
+    assert_int_equal(ambulo__evaluate(f.workspace, f.x), AMBULO_OK);
+    for (int t = 0; t < terms; t++) {
+      assert_int_equal(ambulo__term_gradient(f.workspace, t, one), AMBULO_OK);
+      for (int j = 0; j < f.n; j++) sum[j] += -1.5 * one[j];
+    }
+    assert_int_equal(ambulo__gradient(f.workspace, -1.5, NULL, f.gradient), AMBULO_OK);
+    for (int j = 0; j < f.n; j++) largest = fmax(largest, fabs(sum[j]));
+    for (int j = 0; j < f.n; j++) assert_close(f.gradient[j] / largest, sum[j] / largest, 1e-13);
+    assert_int_equal(ambulo__gradient(f.workspace, 0.0, NULL, f.gradient), AMBULO_OK);
+    for (int j = 0; j < f.n; j++) assert_true(f.gradient[j] == 0.0);
+    free(f.x);
+    free(f.gradient);
+    ambulo_workspace_free(f.workspace);
+    ambulo_problem_free(f.problem);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_family_and_term_agrees_with_central_differences),
@@ -234,6 +265,7 @@ int main(void) {
       cmocka_unit_test(rows_on_unknowns_and_terms_on_one_channel),
       cmocka_unit_test(feet_that_pass_agree_with_central_differences),
       cmocka_unit_test(flight_agrees_with_central_differences),
+      cmocka_unit_test(the_objective_is_the_sum_of_its_terms),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
