@@ -67,6 +67,10 @@ static void mark_channel(const ambulo_problem *p, int node, int channel, double 
     mark_coordinate(p, node, channel % p->coordinates, mark);
     return;
   }
+  if ((p->holds || p->devices) && output < p->coordinates) { /* along both arms, other joints */
+    for (int i = 0; i < p->coordinates; i++) mark_coordinate(p, node, i, mark);
+    return;
+  }
   int parts = ambulo__plan_parts(p->plan, output, part);
   for (int k = 0; k < parts; k++) {
     for (int e = pattern.start[part[k].row]; e < pattern.start[part[k].row + 1]; e++) {
@@ -119,6 +123,19 @@ static int list_columns(const ambulo_problem *p, int host, const double *mark, i
   return count;
 }
 
+/* of a row on its host alone: each of the host's control points with the same columns */
+static int support_of(const ambulo__sparse_rows *s, int i) {
+  const ambulo_problem *p = s->problem;
+  const int *column = s->column + s->start[i], d = p->coordinates;
+  int count = s->start[i + 1] - s->start[i], support = 0;
+  if (!ambulo__row_is_local(p, s->row[i])) return 0;
+  while (support < count && column[support] < ambulo__node_first(p, s->host[i]) + d) support++;
+  for (int e = support; e < count; e++) {
+    if (column[e] != column[e - support] + d) return 0;
+  }
+  return support * point_of(p, s->host[i])->span == count ? support : 0;
+}
+
 void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
   for (int i = 0; i < s->count; i++) {
     int last = s->start[i + 1] - 1, end = last + 1;
@@ -144,7 +161,10 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->host = ambulo__pool_ints(pool, n);
   s->constant = ambulo__pool_ints(pool, n);
   s->start = ambulo__pool_ints(pool, n + 1);
+  s->support = ambulo__pool_ints(pool, n);
   s->scale = ambulo__pool_doubles(pool, n);
+  s->slopes = ambulo__pool_doubles(pool, 3 * (size_t)p->coordinates);
+  s->blocks = NULL;
   size_t widest = (size_t)ambulo__basis_span(p->basis) * (size_t)p->coordinates;
   s->dense = ambulo__pool_doubles(pool, (size_t)p->variables + widest);
   if (pool->failed) return AMBULO_E_MEMORY;
@@ -166,6 +186,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
     if (is_over(poll, i)) return AMBULO_E_LIMIT;
     mark_row(p, &p->table.rows[rows[i]], s->host[i], s->dense);
     list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
+    s->support[i] = support_of(s, i);
   }
   ambulo__sparse_rows_find_runs(s);
   return AMBULO_OK;
@@ -173,9 +194,33 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
 
 /* ------------------------------------------------------------------- values */
 
+/* the gradient of a row on its host, from its slopes */
+static void fill_local(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
+  const ambulo_problem *p = s->problem;
+  const ambulo__basis_point *point = point_of(p, s->host[i]);
+  const int d = p->coordinates, first = ambulo__node_first(p, s->host[i]), width = s->support[i];
+  const int *column = s->column + s->start[i];
+  double *restrict value = s->value + s->start[i], *restrict y = s->dense;
+  ambulo__row_slopes(workspace, s->row[i], s->slopes);
+  if (s->blocks && s->blocks->block_of[i] >= 0) ambulo__row_blocks_keep(s->blocks, i, s->slopes);
+  for (int o = 0; o < 3; o++) {
+    for (int e = 0; e < width; e++)
+      y[o * width + e] = s->scale[i] * s->slopes[o * d + column[e] - first];
+  }
+  for (int c = 0; c < point->span; c++, value += width) {
+    const double b0 = point->weight[0][c], b1 = point->weight[1][c], b2 = point->weight[2][c];
+    for (int e = 0; e < width; e++)
+      value[e] = b0 * y[e] + b1 * y[width + e] + b2 * y[2 * width + e];
+  }
+}
+
 static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
   const ambulo_problem *p = s->problem;
   int from = 0;
+  if (s->support[i] > 0) {
+    fill_local(s, workspace, i);
+    return;
+  }
   if (ambulo__row_is_local(p, s->row[i])) {
     from = ambulo__node_first(p, s->host[i]);
     ambulo__row_local_gradient(workspace, s->row[i], s->dense);
@@ -220,6 +265,35 @@ void ambulo__sparse_rows_values(const ambulo__sparse_rows *s, const ambulo_works
   for (int i = 0; i < s->count; i++) value[i] = s->scale[i] * workspace->row_value[s->row[i]];
 }
 
+/* how much of the motion of its host a row needs; 0: rows that are left to their gradients, few
+ * numbers where they are linear */
+static int orders_of(const ambulo__sparse_rows *s, int i) {
+  const ambulo_problem *p = s->problem;
+  const ambulo__table_row *row = &p->table.rows[s->row[i]];
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
+  int channel[AMBULO__CURVED_CHANNELS], most = 1;
+  if (s->support[i] == 0 || s->constant[i]) return 0;
+  if (row->user >= 0 && !curved) return 3;
+  int count = curved ? ambulo__curved_channels(curved, channel) : row->term_count;
+  for (int k = 0; k < count; k++) {
+    int orders = ambulo__channel_orders(p, curved ? channel[k] : term[k].channel);
+    if (orders > most) most = orders;
+  }
+  return most;
+}
+
+ambulo_status ambulo__sparse_rows_lay_blocks(ambulo__sparse_rows *s, ambulo__pool *pool) {
+  int *orders = ambulo__pool_ints(pool, (size_t)s->count);
+  ambulo__row_blocks *blocks = ambulo__pool_blocks(pool, 1, sizeof *blocks);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < s->count; i++) orders[i] = orders_of(s, i);
+  ambulo_status status =
+      ambulo__row_blocks_create(s->problem, s->count, s->host, orders, pool, blocks);
+  if (!status) s->blocks = blocks;
+  return status;
+}
+
 /* three sums side by side, since one waits for itself */
 static double product(const ambulo__sparse_rows *s, int i, const double *d) {
   const double *value = s->value;
@@ -234,7 +308,10 @@ static double product(const ambulo__sparse_rows *s, int i, const double *d) {
 }
 
 void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d, double *out) {
-  for (int i = 0; i < s->count; i++) out[i] = product(s, i, d);
+  if (s->blocks) ambulo__row_blocks_multiply(s->blocks, s->scale, d, out);
+  for (int i = 0; i < s->count; i++) {
+    if (!s->blocks || s->blocks->block_of[i] < 0) out[i] = product(s, i, d);
+  }
 }
 
 void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor, const double *w,

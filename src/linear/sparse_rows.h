@@ -15,6 +15,7 @@
 
 #include "nlp/nlp.h"
 #include "linear/pool.h"
+#include "linear/row_blocks.h"
 #include "nlp/states.h"
 #include "linear/poll.h"
 
@@ -23,11 +24,15 @@ typedef struct ambulo__sparse_rows {
   int count;
   int *row, *host, *constant;
   double *scale;
-  int *start; /* [count + 1] */
+  int *start;   /* [count + 1] */
+  int *support; /* columns of one control point, where they are those of each of the host's; else 0
+                 */
   int *column;
   int *run_end; /* of each entry: where the run of consecutive columns that it is in ends */
   double *value;
-  double *dense; /* [variables + one window]: scratch for one gradient */
+  double *dense;              /* [variables + one window]: scratch for one gradient */
+  double *slopes;             /* [3][d]: scratch for those of one row */
+  ambulo__row_blocks *blocks; /* for products; NULL: by the gradients */
 } ambulo__sparse_rows;
 
 /* The node whose window holds every unknown that the row depends on; -1: none. */
@@ -38,6 +43,8 @@ int ambulo__row_host(const ambulo_problem *problem, int row);
 ambulo_status ambulo__sparse_rows_create(const ambulo_problem *problem, const int *rows, int count,
                                          const ambulo__poll *poll, ambulo__pool *pool,
                                          ambulo__sparse_rows *out);
+/* Lays out for products what has been created, and is not filled yet. E_MEMORY. */
+ambulo_status ambulo__sparse_rows_lay_blocks(ambulo__sparse_rows *rows, ambulo__pool *pool);
 /* Writes run_end from start and column. */
 void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *rows);
 /* Gradients at the point held (ambulo__evaluate_jacobian); `all` includes constant ones.

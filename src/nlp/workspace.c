@@ -56,12 +56,13 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->user_slot = ambulo__alloc(a, (size_t)p->rows, sizeof *w->user_slot);
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
+  w->other_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
   if (p->devices || p->holds) w->device_scratch = ambulo__alloc_aligned(a, ambulo__room(p), word);
   if ((p->devices || p->holds) && !w->device_scratch) return AMBULO_E_MEMORY;
   int complete = w->x && w->channel && w->weight && w->term_slope && w->gradient_lanes &&
                  w->scratch && w->row_value && w->term_value && w->user_gradient && w->user_slot &&
-                 w->node_state && w->motion_scratch && w->fault_scratch;
+                 w->node_state && w->motion_scratch && w->other_scratch && w->fault_scratch;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
@@ -119,6 +120,7 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->user_gradient,
                        w->node_state,
                        w->motion_scratch,
+                       w->other_scratch,
                        w->fault_scratch,
                        w->wrench[0],
                        w->wrench[1],

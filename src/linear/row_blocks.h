@@ -1,0 +1,46 @@
+/* linear/row_blocks.h - products of the rows of each node by its motion.
+ *
+ * A row on one node k depends on the unknowns through the motion there,
+ *
+ *     J_i d = y_i . m_k,    m_k = (q, qd, qdd)(d) at the node, 3 d numbers, y_i the row's slopes:
+ *
+ * less than the gradient has, span d, and for rows on places alone a third of it. m_k is formed
+ * once for all rows of the node. Slopes stand side by side, [of the motion][of the rows], so that
+ * one vector holds the same slope of eight rows (band_kernels.h).
+ */
+#ifndef AMBULO_LINEAR_ROW_BLOCKS_H
+#define AMBULO_LINEAR_ROW_BLOCKS_H
+
+#include "linear/band_kernels.h"
+#include "linear/pool.h"
+#include "nlp/nlp.h"
+
+/* Rows of one node that depend on as many of q, qd and qdd. */
+typedef struct ambulo__row_block {
+  int node, orders;
+  int count, width; /* rows; whole tiles */
+  int first;        /* in `member` */
+  double *slope;    /* [orders * d][width]; beyond the rows zero */
+} ambulo__row_block;
+
+typedef struct ambulo__row_blocks {
+  const ambulo_problem *problem;
+  const ambulo__band_kernels *kernels; /* NULL: none for this processor */
+  int count;
+  ambulo__row_block *block; /* ascending nodes */
+  int *member;              /* rows, block by block */
+  int *block_of, *place_of; /* [rows]: -1: in none */
+  double *motion, *product; /* [3 d], [widest] */
+} ambulo__row_blocks;
+
+/* orders [rows]: 1 or 3, or 0 of rows that are in no block; host [rows]. E_MEMORY. */
+ambulo_status ambulo__row_blocks_create(const ambulo_problem *problem, int rows, const int *host,
+                                        const int *orders, ambulo__pool *pool,
+                                        ambulo__row_blocks *blocks);
+/* Keeps slopes [3 d] of a row that is in a block. */
+void ambulo__row_blocks_keep(ambulo__row_blocks *blocks, int row, const double *slopes);
+/* out = scale (J d) of all rows that are in blocks; of the others nothing is written. */
+void ambulo__row_blocks_multiply(const ambulo__row_blocks *blocks, const double *scale,
+                                 const double *d, double *out);
+
+#endif
