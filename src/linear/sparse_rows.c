@@ -12,36 +12,6 @@ static const ambulo__basis_point *point_of(const ambulo_problem *p, int node) {
   return &ambulo__lane_map_points(p->map)[node];
 }
 
-/* -------------------------------------------------------------------- hosts */
-
-/* control points [first, last] that a row depends on */
-static void support(const ambulo_problem *p, const ambulo__table_row *row, int *first, int *last) {
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  *first = p->control_points;
-  *last = -1;
-  for (int t = 0; t < row->term_count; t++) {
-    int from = term[t].channel / p->coordinates, to = from;
-    if (term[t].node >= 0) {
-      from = point_of(p, term[t].node)->first;
-      to = from + point_of(p, term[t].node)->span - 1;
-    }
-    if (from < *first) *first = from;
-    if (to > *last) *last = to;
-  }
-}
-
-int ambulo__row_host(const ambulo_problem *p, int row) {
-  const ambulo__table_row *r = &p->table.rows[row];
-  if (r->node >= 0) return r->node;
-  int first, last;
-  support(p, r, &first, &last);
-  for (int k = 0; k < p->nodes; k++) {
-    const ambulo__basis_point *point = point_of(p, k);
-    if (first >= point->first && last < point->first + point->span) return k;
-  }
-  return -1;
-}
-
 /* ------------------------------------------------------------------ pattern */
 
 static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
@@ -51,89 +21,6 @@ static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
     if (term[t].node >= 0 && term[t].channel >= ambulo__channel_outputs(&p->channels)) return 0;
   }
   return 1;
-}
-
-static void mark_coordinate(const ambulo_problem *p, int node, int i, double *mark) {
-  const ambulo__basis_point *point = point_of(p, node);
-  for (int c = 0; c < point->span; c++) mark[(point->first + c) * p->coordinates + i] = 1.0;
-}
-
-/* marks the unknowns through which a channel of a node depends on x */
-static void mark_channel(const ambulo_problem *p, int node, int channel, double *mark) {
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  ambulo__row_part part[AMBULO__MOST_PARTS];
-  int output = channel - ambulo__channel_outputs(&p->channels);
-  if (output < 0) {
-    mark_coordinate(p, node, channel % p->coordinates, mark);
-    return;
-  }
-  if ((p->holds || p->devices) && output < p->coordinates) { /* along both arms, other joints */
-    for (int i = 0; i < p->coordinates; i++) mark_coordinate(p, node, i, mark);
-    return;
-  }
-  int parts = ambulo__plan_parts(p->plan, output, part);
-  for (int k = 0; k < parts; k++) {
-    for (int e = pattern.start[part[k].row]; e < pattern.start[part[k].row + 1]; e++) {
-      mark_coordinate(p, node, pattern.column[e], mark);
-    }
-  }
-}
-
-/* the unknowns among which a row's columns lie: the window of its host, or all */
-static void window_of(const ambulo_problem *p, int host, int *from, int *to) {
-  *from = host < 0 ? 0 : ambulo__node_first(p, host);
-  *to = host < 0 ? p->variables : *from + ambulo__node_width(p, host);
-}
-
-/* marks the unknowns that a row depends on; only its window is written */
-static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, int host,
-                     double *mark) {
-  int from, to;
-  window_of(p, host, &from, &to);
-  memset(mark + from, 0, (size_t)(to - from) * sizeof *mark);
-  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
-  if (curved) {
-    int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(curved, channel);
-    for (int k = 0; k < count; k++) mark_channel(p, row->node, channel[k], mark);
-    return;
-  }
-  if (row->user >= 0) {
-    for (int j = from; j < to; j++) mark[j] = 1.0;
-    return;
-  }
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  for (int t = 0; t < row->term_count; t++) {
-    if (term[t].node < 0) {
-      mark[term[t].channel] = 1.0;
-    } else {
-      mark_channel(p, term[t].node, term[t].channel, mark);
-    }
-  }
-}
-
-/* columns of a row into `column` (NULL: only counted) */
-static int list_columns(const ambulo_problem *p, int host, const double *mark, int *column) {
-  int count = 0, from, to;
-  window_of(p, host, &from, &to);
-  for (int j = from; j < to; j++) {
-    if (mark[j] == 0.0) continue;
-    if (column) column[count] = j;
-    count++;
-  }
-  return count;
-}
-
-/* of a row on its host alone: each of the host's control points with the same columns */
-static int support_of(const ambulo__sparse_rows *s, int i) {
-  const ambulo_problem *p = s->problem;
-  const int *column = s->column + s->start[i], d = p->coordinates;
-  int count = s->start[i + 1] - s->start[i], support = 0;
-  if (!ambulo__row_is_local(p, s->row[i])) return 0;
-  while (support < count && column[support] < ambulo__node_first(p, s->host[i]) + d) support++;
-  for (int e = support; e < count; e++) {
-    if (column[e] != column[e - support] + d) return 0;
-  }
-  return support * point_of(p, s->host[i])->span == count ? support : 0;
 }
 
 void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
@@ -166,27 +53,29 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->slopes = ambulo__pool_doubles(pool, 3 * (size_t)p->coordinates);
   s->blocks = NULL;
   size_t widest = (size_t)ambulo__basis_span(p->basis) * (size_t)p->coordinates;
+  ambulo__row_pattern pattern;
   s->dense = ambulo__pool_doubles(pool, (size_t)p->variables + widest);
-  if (pool->failed) return AMBULO_E_MEMORY;
+  if (ambulo__row_pattern_create(p, pool, &pattern)) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     const ambulo__table_row *row = &p->table.rows[rows[i]];
+    int entries;
     if (is_over(poll, i)) return AMBULO_E_LIMIT;
     s->row[i] = rows[i];
     s->host[i] = ambulo__row_host(p, rows[i]);
     s->constant[i] = is_linear(p, row);
     s->scale[i] = 1.0;
-    mark_row(p, row, s->host[i], s->dense);
-    s->start[i + 1] = s->start[i] + list_columns(p, s->host[i], s->dense, NULL);
+    s->support[i] = ambulo__row_pattern_columns(&pattern, rows[i], s->host[i], NULL, &entries);
+    s->start[i + 1] = s->start[i] + entries;
   }
   s->column = ambulo__pool_ints(pool, (size_t)s->start[count]);
   s->run_end = ambulo__pool_ints(pool, (size_t)s->start[count]);
   s->value = ambulo__pool_doubles(pool, (size_t)s->start[count]);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
+    int entries;
     if (is_over(poll, i)) return AMBULO_E_LIMIT;
-    mark_row(p, &p->table.rows[rows[i]], s->host[i], s->dense);
-    list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
-    s->support[i] = support_of(s, i);
+    (void)ambulo__row_pattern_columns(&pattern, rows[i], s->host[i], s->column + s->start[i],
+                                      &entries);
   }
   ambulo__sparse_rows_find_runs(s);
   return AMBULO_OK;

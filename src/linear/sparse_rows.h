@@ -16,6 +16,7 @@
 #include "nlp/nlp.h"
 #include "linear/pool.h"
 #include "linear/row_blocks.h"
+#include "linear/row_pattern.h"
 #include "nlp/states.h"
 #include "linear/poll.h"
 
@@ -34,9 +35,6 @@ typedef struct ambulo__sparse_rows {
   double *slopes;             /* [3][d]: scratch for those of one row */
   ambulo__row_blocks *blocks; /* for products; NULL: by the gradients */
 } ambulo__sparse_rows;
-
-/* The node whose window holds every unknown that the row depends on; -1: none. */
-int ambulo__row_host(const ambulo_problem *problem, int row);
 
 /* rows[count] with scale 1. Constant gradients are filled by the first fill. `poll` may be NULL.
  * E_MEMORY; E_LIMIT: it said that the work is to end. */
