@@ -3,18 +3,17 @@
 
 enum { KINDS = 2 }; /* of blocks of a node: of q alone, of q, qd and qdd */
 
-static int kind_of(int host, int orders) {
-  return KINDS * host + (orders == 1 ? 0 : 1);
+static int kind_of(const ambulo__row_shape *shape) {
+  return KINDS * shape->host + (shape->orders == 1 ? 0 : 1);
 }
 
 /* counts of the rows of each node and kind into block_at, then the blocks themselves; block_at then
  * has their numbers */
-static void lay_out(ambulo__row_blocks *b, int rows, const int *host, const int *orders,
-                    int *block_at) {
+static void lay_out(ambulo__row_blocks *b, int rows, int *block_at) {
   const int kinds = KINDS * b->problem->nodes;
   int first = 0;
   for (int i = 0; i < rows; i++) {
-    if (orders[i]) block_at[kind_of(host[i], orders[i])]++;
+    if (b->shape[i].orders) block_at[kind_of(&b->shape[i])]++;
   }
   for (int k = 0; k < kinds; k++) {
     int count = block_at[k];
@@ -28,10 +27,9 @@ static void lay_out(ambulo__row_blocks *b, int rows, const int *host, const int 
   }
 }
 
-static void list_members(ambulo__row_blocks *b, int rows, const int *host, const int *orders,
-                         const int *block_at) {
+static void list_members(ambulo__row_blocks *b, int rows, const int *block_at) {
   for (int i = 0; i < rows; i++) {
-    b->block_of[i] = orders[i] ? block_at[kind_of(host[i], orders[i])] : -1;
+    b->block_of[i] = b->shape[i].orders ? block_at[kind_of(&b->shape[i])] : -1;
     if (b->block_of[i] < 0) continue;
     ambulo__row_block *block = &b->block[b->block_of[i]];
     b->place_of[i] = block->count++;
@@ -39,21 +37,45 @@ static void list_members(ambulo__row_blocks *b, int rows, const int *host, const
   }
 }
 
-ambulo_status ambulo__row_blocks_create(const ambulo_problem *p, int rows, const int *host,
-                                        const int *orders, ambulo__pool *pool,
+static int is_limit(const ambulo__row_shape *shape) {
+  return shape->orders == 0 && shape->entry >= 0;
+}
+
+/* by counting: at first limit_first[k + 1] is where those of node k end, then where they begin */
+static void list_limits(ambulo__row_blocks *b, int rows) {
+  const int nodes = b->problem->nodes;
+  int total = 0;
+  for (int i = 0; i < rows; i++) {
+    if (!is_limit(&b->shape[i])) continue;
+    b->limit_first[b->shape[i].host + 1]++;
+    total++;
+  }
+  for (int k = 0; k < nodes; k++) b->limit_first[k + 1] += b->limit_first[k];
+  for (int i = rows - 1; i >= 0; i--) {
+    if (is_limit(&b->shape[i])) b->limit[--b->limit_first[b->shape[i].host + 1]] = i;
+  }
+  for (int k = 0; k < nodes; k++) b->limit_first[k] = b->limit_first[k + 1];
+  b->limit_first[nodes] = total;
+}
+
+ambulo_status ambulo__row_blocks_create(const ambulo_problem *p, int rows,
+                                        const ambulo__row_shape *shape, ambulo__pool *pool,
                                         ambulo__row_blocks *b) {
   size_t n = (size_t)rows, d = (size_t)p->coordinates;
   size_t kinds = KINDS * (size_t)p->nodes, most = n < kinds ? n : kinds;
-  *b = (ambulo__row_blocks){.problem = p, .kernels = ambulo__band_kernels_select()};
+  *b = (ambulo__row_blocks){.problem = p, .shape = shape, .kernels = ambulo__band_kernels_select()};
   int *block_at = ambulo__pool_ints(pool, kinds), widest = 0;
   b->block = ambulo__pool_blocks(pool, most, sizeof *b->block);
   b->member = ambulo__pool_ints(pool, n);
   b->block_of = ambulo__pool_ints(pool, n);
   b->place_of = ambulo__pool_ints(pool, n);
+  b->limit = ambulo__pool_ints(pool, n);
+  b->limit_first = ambulo__pool_ints(pool, (size_t)p->nodes + 1);
   b->motion = ambulo__pool_doubles(pool, 3 * d);
   if (pool->failed) return AMBULO_E_MEMORY;
-  lay_out(b, rows, host, orders, block_at);
-  list_members(b, rows, host, orders, block_at);
+  lay_out(b, rows, block_at);
+  list_members(b, rows, block_at);
+  list_limits(b, rows);
   for (int k = 0; k < b->count; k++) {
     ambulo__row_block *block = &b->block[k];
     block->slope = ambulo__pool_doubles(pool, (size_t)block->orders * d * (size_t)block->width);
@@ -95,19 +117,27 @@ static void gather(int n, int width, const double *w, const double *x, double *r
   }
 }
 
+static void multiply_block(const ambulo__row_blocks *b, const ambulo__row_block *block,
+                           const double *scale, double *out) {
+  const int *member = b->member + block->first, entries = block->orders * b->problem->coordinates;
+  if (b->kernels) {
+    b->kernels->gather(entries, block->width, block->slope, b->motion, b->product);
+  } else {
+    gather(entries, block->width, block->slope, b->motion, b->product);
+  }
+  for (int j = 0; j < block->count; j++) out[member[j]] = scale[member[j]] * b->product[j];
+}
+
 void ambulo__row_blocks_multiply(const ambulo__row_blocks *b, const double *scale, const double *d,
                                  double *out) {
-  int node = -1;
-  for (int k = 0; k < b->count; k++) {
-    const ambulo__row_block *block = &b->block[k];
-    const int *member = b->member + block->first, entries = block->orders * b->problem->coordinates;
-    if (block->node != node) form_motion(b, block->node, d);
-    node = block->node;
-    if (b->kernels) {
-      b->kernels->gather(entries, block->width, block->slope, b->motion, b->product);
-    } else {
-      gather(entries, block->width, block->slope, b->motion, b->product);
+  int k = 0;
+  for (int node = 0; node < b->problem->nodes; node++) {
+    form_motion(b, node, d);
+    for (; k < b->count && b->block[k].node == node; k++)
+      multiply_block(b, &b->block[k], scale, out);
+    for (int l = b->limit_first[node]; l < b->limit_first[node + 1]; l++) {
+      const int i = b->limit[l];
+      out[i] = scale[i] * b->shape[i].coefficient * b->motion[b->shape[i].entry];
     }
-    for (int j = 0; j < block->count; j++) out[member[j]] = scale[member[j]] * b->product[j];
   }
 }

@@ -6,7 +6,8 @@
  *
  * less than the gradient has, span d, and for rows on places alone a third of it. m_k is formed
  * once for all rows of the node. Slopes stand side by side, [of the motion][of the rows], so that
- * one vector holds the same slope of eight rows (band_kernels.h).
+ * one vector holds the same slope of eight rows (band_kernels.h). Of a limit of one coordinate one
+ * number of the motion is left.
  */
 #ifndef AMBULO_LINEAR_ROW_BLOCKS_H
 #define AMBULO_LINEAR_ROW_BLOCKS_H
@@ -14,6 +15,14 @@
 #include "linear/band_kernels.h"
 #include "linear/pool.h"
 #include "nlp/nlp.h"
+
+/* What is known of a row beforehand. */
+typedef struct ambulo__row_shape {
+  int host;
+  int orders; /* 1 of q alone, 3 of q, qd and qdd; 0: of one number of the motion, or none */
+  int entry;  /* that number, 0 .. 3 d - 1; -1: the row is none of these */
+  double coefficient; /* times it */
+} ambulo__row_shape;
 
 /* Rows of one node that depend on as many of q, qd and qdd. */
 typedef struct ambulo__row_block {
@@ -30,16 +39,23 @@ typedef struct ambulo__row_blocks {
   ambulo__row_block *block; /* ascending nodes */
   int *member;              /* rows, block by block */
   int *block_of, *place_of; /* [rows]: -1: in none */
-  double *motion, *product; /* [3 d], [widest] */
+  int *limit_first;         /* [nodes + 1]: the rows of one number of each node, in `limit` */
+  int *limit;
+  const ambulo__row_shape *shape; /* [rows] */
+  double *motion, *product;       /* [3 d], [widest] */
 } ambulo__row_blocks;
 
-/* orders [rows]: 1 or 3, or 0 of rows that are in no block; host [rows]. E_MEMORY. */
-ambulo_status ambulo__row_blocks_create(const ambulo_problem *problem, int rows, const int *host,
-                                        const int *orders, ambulo__pool *pool,
+/* shape [rows] is kept. E_MEMORY. */
+ambulo_status ambulo__row_blocks_create(const ambulo_problem *problem, int rows,
+                                        const ambulo__row_shape *shape, ambulo__pool *pool,
                                         ambulo__row_blocks *blocks);
 /* Keeps slopes [3 d] of a row that is in a block. */
 void ambulo__row_blocks_keep(ambulo__row_blocks *blocks, int row, const double *slopes);
-/* out = scale (J d) of all rows that are in blocks; of the others nothing is written. */
+/* 1 of a row whose product is found here. */
+static inline int ambulo__row_blocks_have(const ambulo__row_blocks *blocks, int row) {
+  return blocks->shape[row].orders > 0 || blocks->shape[row].entry >= 0;
+}
+/* out = scale (J d) of these; of the others nothing is written. */
 void ambulo__row_blocks_multiply(const ambulo__row_blocks *blocks, const double *scale,
                                  const double *d, double *out);
 

@@ -90,13 +90,18 @@ static void fill_local(ambulo__sparse_rows *s, const ambulo_workspace *workspace
   const int d = p->coordinates, first = ambulo__node_first(p, s->host[i]), width = s->support[i];
   const int *column = s->column + s->start[i];
   double *restrict value = s->value + s->start[i], *restrict y = s->dense;
+  int in_block = s->blocks && s->blocks->block_of[i] >= 0;
+  int orders = in_block ? s->blocks->shape[i].orders : 3;
   ambulo__row_slopes(workspace, s->row[i], s->slopes);
-  if (s->blocks && s->blocks->block_of[i] >= 0) ambulo__row_blocks_keep(s->blocks, i, s->slopes);
-  for (int o = 0; o < 3; o++) {
+  if (in_block) ambulo__row_blocks_keep(s->blocks, i, s->slopes);
+  for (int o = 0; o < orders; o++) {
     for (int e = 0; e < width; e++)
       y[o * width + e] = s->scale[i] * s->slopes[o * d + column[e] - first];
   }
-  for (int c = 0; c < point->span; c++, value += width) {
+  for (int c = 0; c < point->span && orders == 1; c++, value += width) {
+    for (int e = 0; e < width; e++) value[e] = point->weight[0][c] * y[e];
+  }
+  for (int c = 0; c < point->span && orders == 3; c++, value += width) {
     const double b0 = point->weight[0][c], b1 = point->weight[1][c], b2 = point->weight[2][c];
     for (int e = 0; e < width; e++)
       value[e] = b0 * y[e] + b1 * y[width + e] + b2 * y[2 * width + e];
@@ -154,15 +159,11 @@ void ambulo__sparse_rows_values(const ambulo__sparse_rows *s, const ambulo_works
   for (int i = 0; i < s->count; i++) value[i] = s->scale[i] * workspace->row_value[s->row[i]];
 }
 
-/* how much of the motion of its host a row needs; 0: rows that are left to their gradients, few
- * numbers where they are linear */
-static int orders_of(const ambulo__sparse_rows *s, int i) {
-  const ambulo_problem *p = s->problem;
-  const ambulo__table_row *row = &p->table.rows[s->row[i]];
+/* how much of the motion of its host a row needs */
+static int orders_of(const ambulo_problem *p, const ambulo__table_row *row) {
   const ambulo__row_term *term = p->table.terms + row->first_term;
   const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
   int channel[AMBULO__CURVED_CHANNELS], most = 1;
-  if (s->support[i] == 0 || s->constant[i]) return 0;
   if (row->user >= 0 && !curved) return 3;
   int count = curved ? ambulo__curved_channels(curved, channel) : row->term_count;
   for (int k = 0; k < count; k++) {
@@ -172,13 +173,28 @@ static int orders_of(const ambulo__sparse_rows *s, int i) {
   return most;
 }
 
+/* others than limits on one number, of linear rows, are left to their gradients, which are short */
+static ambulo__row_shape shape_of(const ambulo__sparse_rows *s, int i) {
+  const ambulo_problem *p = s->problem;
+  const ambulo__table_row *row = &p->table.rows[s->row[i]];
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  ambulo__row_shape shape = {.host = s->host[i], .entry = -1};
+  if (s->support[i] == 0) return shape;
+  if (!s->constant[i]) {
+    shape.orders = orders_of(p, row);
+  } else if (row->term_count == 1) {
+    shape.entry = term->channel;
+    shape.coefficient = term->coefficient;
+  }
+  return shape;
+}
+
 ambulo_status ambulo__sparse_rows_lay_blocks(ambulo__sparse_rows *s, ambulo__pool *pool) {
-  int *orders = ambulo__pool_ints(pool, (size_t)s->count);
+  ambulo__row_shape *shape = ambulo__pool_blocks(pool, (size_t)s->count, sizeof *shape);
   ambulo__row_blocks *blocks = ambulo__pool_blocks(pool, 1, sizeof *blocks);
   if (pool->failed) return AMBULO_E_MEMORY;
-  for (int i = 0; i < s->count; i++) orders[i] = orders_of(s, i);
-  ambulo_status status =
-      ambulo__row_blocks_create(s->problem, s->count, s->host, orders, pool, blocks);
+  for (int i = 0; i < s->count; i++) shape[i] = shape_of(s, i);
+  ambulo_status status = ambulo__row_blocks_create(s->problem, s->count, shape, pool, blocks);
   if (!status) s->blocks = blocks;
   return status;
 }
@@ -199,7 +215,7 @@ static double product(const ambulo__sparse_rows *s, int i, const double *d) {
 void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d, double *out) {
   if (s->blocks) ambulo__row_blocks_multiply(s->blocks, s->scale, d, out);
   for (int i = 0; i < s->count; i++) {
-    if (!s->blocks || s->blocks->block_of[i] < 0) out[i] = product(s, i, d);
+    if (!s->blocks || !ambulo__row_blocks_have(s->blocks, i)) out[i] = product(s, i, d);
   }
 }
 

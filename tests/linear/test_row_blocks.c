@@ -12,7 +12,7 @@ static void compare(const ambulo__sparse_rows *rows, const double *d, int want_b
   assert_non_null(rows->blocks);
   for (size_t i = 0; i < m; i++) {
     got[i] = (double)NAN;
-    in_blocks += rows->blocks->block_of[i] >= 0;
+    in_blocks += ambulo__row_blocks_have(rows->blocks, (int)i);
   }
   ambulo__sparse_rows_multiply(rows, d, got);
   ambulo__sparse_rows_multiply(&plain, d, want);
