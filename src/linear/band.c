@@ -82,13 +82,14 @@ static void add_scaled(int count, double factor, const double *restrict from, do
 void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
                              double weight) {
   int from = rows->start[i], to = rows->start[i + 1];
+  const double *value = ambulo__sparse_rows_gradient(rows, i) - from;
   /* columns ascend: (e, f) with f <= e is the lower triangle */
   for (int f = from; f < to; f++) {
-    double factor = weight * rows->value[f];
+    double factor = weight * value[f];
     if (factor == 0.0) continue;
     double *diagonal = band->a + (size_t)rows->column[f] * (size_t)band->ld;
     for (int e = f; e < to; e = rows->run_end[e]) {
-      add_scaled(rows->run_end[e] - e, factor, rows->value + e,
+      add_scaled(rows->run_end[e] - e, factor, value + e,
                  diagonal + rows->column[e] - rows->column[f]);
     }
   }
@@ -99,9 +100,10 @@ void ambulo__band_raise_diagonal(ambulo__band *band, double share) {
 }
 
 double ambulo__band_row_length(const ambulo__band *band, const ambulo__sparse_rows *rows, int i) {
+  const double *value = ambulo__sparse_rows_gradient(rows, i) - rows->start[i];
   double sum = 0.0;
   for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
-    sum += rows->value[e] * rows->value[e] / band->a[(size_t)rows->column[e] * (size_t)band->ld];
+    sum += value[e] * value[e] / band->a[(size_t)rows->column[e] * (size_t)band->ld];
   return sqrt(sum);
 }
 

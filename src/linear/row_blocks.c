@@ -1,5 +1,8 @@
 /* linear/row_blocks.c - see row_blocks.h. */
 #include "linear/row_blocks.h"
+#include "base/worst.h"
+
+#include <string.h>
 
 enum { KINDS = 2 }; /* of blocks of a node: of q alone, of q, qd and qdd */
 
@@ -37,6 +40,26 @@ static void list_members(ambulo__row_blocks *b, int rows, const int *block_at) {
   }
 }
 
+/* the coordinates of all of a block's rows, and room for their slopes */
+static int lay_slopes(ambulo__row_blocks *b, ambulo__row_block *block, ambulo__pool *pool) {
+  const int d = b->problem->coordinates, first = ambulo__node_first(b->problem, block->node);
+  block->place = ambulo__pool_ints(pool, (size_t)d);
+  block->coordinate = ambulo__pool_ints(pool, (size_t)d);
+  if (pool->failed) return 1;
+  for (int j = 0; j < block->count; j++) {
+    const ambulo__row_shape *shape = &b->shape[b->member[block->first + j]];
+    for (int e = 0; e < shape->support; e++) block->place[shape->column[e] - first] = 1;
+  }
+  for (int i = 0; i < d; i++) {
+    int is = block->place[i];
+    block->place[i] = block->support;
+    if (is) block->coordinate[block->support++] = i;
+  }
+  size_t entries = (size_t)(block->orders * block->support);
+  block->slope = ambulo__pool_doubles(pool, entries * (size_t)block->width);
+  return pool->failed;
+}
+
 static int is_limit(const ambulo__row_shape *shape) {
   return shape->orders == 0 && shape->entry >= 0;
 }
@@ -72,14 +95,14 @@ ambulo_status ambulo__row_blocks_create(const ambulo_problem *p, int rows,
   b->limit = ambulo__pool_ints(pool, n);
   b->limit_first = ambulo__pool_ints(pool, (size_t)p->nodes + 1);
   b->motion = ambulo__pool_doubles(pool, 3 * d);
+  b->part = ambulo__pool_doubles(pool, 3 * d);
   if (pool->failed) return AMBULO_E_MEMORY;
   lay_out(b, rows, block_at);
   list_members(b, rows, block_at);
   list_limits(b, rows);
   for (int k = 0; k < b->count; k++) {
-    ambulo__row_block *block = &b->block[k];
-    block->slope = ambulo__pool_doubles(pool, (size_t)block->orders * d * (size_t)block->width);
-    if (block->width > widest) widest = block->width;
+    if (lay_slopes(b, &b->block[k], pool)) return AMBULO_E_MEMORY;
+    if (b->block[k].width > widest) widest = b->block[k].width;
   }
   b->product = ambulo__pool_doubles(pool, (size_t)widest);
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
@@ -87,9 +110,31 @@ ambulo_status ambulo__row_blocks_create(const ambulo_problem *p, int rows,
 
 void ambulo__row_blocks_keep(ambulo__row_blocks *b, int row, const double *slopes) {
   const ambulo__row_block *block = &b->block[b->block_of[row]];
+  const size_t width = (size_t)block->width;
   double *to = block->slope + b->place_of[row];
-  const size_t entries = (size_t)(block->orders * b->problem->coordinates);
-  for (size_t e = 0; e < entries; e++) to[e * (size_t)block->width] = slopes[e];
+  for (int o = 0; o < block->orders; o++, slopes += b->problem->coordinates) {
+    for (int u = 0; u < block->support; u++, to += width) *to = slopes[block->coordinate[u]];
+  }
+}
+
+void ambulo__row_blocks_recall(const ambulo__row_blocks *b, int row, double *slopes) {
+  const ambulo__row_block *block = &b->block[b->block_of[row]];
+  const ambulo__row_shape *shape = &b->shape[row];
+  const int first = ambulo__node_first(b->problem, block->node), width = block->width;
+  const double *from = block->slope + b->place_of[row];
+  for (int o = 0; o < block->orders; o++, from += block->support * width) {
+    for (int e = 0; e < shape->support; e++)
+      *slopes++ = from[block->place[shape->column[e] - first] * width];
+  }
+}
+
+int ambulo__row_blocks_finite(const ambulo__row_blocks *b) {
+  for (int k = 0; k < b->count; k++) {
+    const ambulo__row_block *block = &b->block[k];
+    size_t entries = (size_t)(block->orders * block->support) * (size_t)block->width;
+    if (!ambulo__all_finite(block->slope, entries)) return 0;
+  }
+  return 1;
 }
 
 /* q, qd and qdd of control points at a node */
@@ -117,13 +162,25 @@ static void gather(int n, int width, const double *w, const double *x, double *r
   }
 }
 
+/* the motion of the block's coordinates */
+static const double *part_of_motion(const ambulo__row_blocks *b, const ambulo__row_block *block) {
+  const int d = b->problem->coordinates;
+  double *to = b->part;
+  if (block->support == d) return b->motion;
+  for (int o = 0; o < block->orders; o++) {
+    for (int u = 0; u < block->support; u++) *to++ = b->motion[o * d + block->coordinate[u]];
+  }
+  return b->part;
+}
+
 static void multiply_block(const ambulo__row_blocks *b, const ambulo__row_block *block,
                            const double *scale, double *out) {
-  const int *member = b->member + block->first, entries = block->orders * b->problem->coordinates;
+  const int *member = b->member + block->first, entries = block->orders * block->support;
+  const double *motion = part_of_motion(b, block);
   if (b->kernels) {
-    b->kernels->gather(entries, block->width, block->slope, b->motion, b->product);
+    b->kernels->gather(entries, block->width, block->slope, motion, b->product);
   } else {
-    gather(entries, block->width, block->slope, b->motion, b->product);
+    gather(entries, block->width, block->slope, motion, b->product);
   }
   for (int j = 0; j < block->count; j++) out[member[j]] = scale[member[j]] * b->product[j];
 }

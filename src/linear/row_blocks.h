@@ -22,6 +22,8 @@ typedef struct ambulo__row_shape {
   int orders; /* 1 of q alone, 3 of q, qd and qdd; 0: of one number of the motion, or none */
   int entry;  /* that number, 0 .. 3 d - 1; -1: the row is none of these */
   double coefficient; /* times it */
+  int support;        /* coordinates that it depends on, */
+  const int *column;  /* and their unknowns at the first control point, ascending */
 } ambulo__row_shape;
 
 /* Rows of one node that depend on as many of q, qd and qdd. */
@@ -29,7 +31,10 @@ typedef struct ambulo__row_block {
   int node, orders;
   int count, width; /* rows; whole tiles */
   int first;        /* in `member` */
-  double *slope;    /* [orders * d][width]; beyond the rows zero */
+  int support;      /* coordinates that any of the rows depends on, */
+  int *coordinate;  /* and which, ascending */
+  int *place;       /* [d]: theirs among these */
+  double *slope;    /* [orders][support][width]; beyond the rows zero */
 } ambulo__row_block;
 
 typedef struct ambulo__row_blocks {
@@ -41,8 +46,8 @@ typedef struct ambulo__row_blocks {
   int *block_of, *place_of; /* [rows]: -1: in none */
   int *limit_first;         /* [nodes + 1]: the rows of one number of each node, in `limit` */
   int *limit;
-  const ambulo__row_shape *shape; /* [rows] */
-  double *motion, *product;       /* [3 d], [widest] */
+  const ambulo__row_shape *shape;  /* [rows] */
+  double *motion, *part, *product; /* [3 d], [3 d] of a block, [widest] */
 } ambulo__row_blocks;
 
 /* shape [rows] is kept. E_MEMORY. */
@@ -51,6 +56,10 @@ ambulo_status ambulo__row_blocks_create(const ambulo_problem *problem, int rows,
                                         ambulo__row_blocks *blocks);
 /* Keeps slopes [3 d] of a row that is in a block. */
 void ambulo__row_blocks_keep(ambulo__row_blocks *blocks, int row, const double *slopes);
+/* Those kept: slopes [orders][support], both of the row. */
+void ambulo__row_blocks_recall(const ambulo__row_blocks *blocks, int row, double *slopes);
+/* Whether all that is kept is finite. */
+int ambulo__row_blocks_finite(const ambulo__row_blocks *blocks);
 /* 1 of a row whose product is found here. */
 static inline int ambulo__row_blocks_have(const ambulo__row_blocks *blocks, int row) {
   return blocks->shape[row].orders > 0 || blocks->shape[row].entry >= 0;

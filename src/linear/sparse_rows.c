@@ -52,6 +52,7 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->scale = ambulo__pool_doubles(pool, n);
   s->slopes = ambulo__pool_doubles(pool, 3 * (size_t)p->coordinates);
   s->blocks = NULL;
+  s->stale = NULL;
   size_t widest = (size_t)ambulo__basis_span(p->basis) * (size_t)p->coordinates;
   ambulo__row_pattern pattern;
   s->dense = ambulo__pool_doubles(pool, (size_t)p->variables + widest);
@@ -83,29 +84,39 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
 
 /* ------------------------------------------------------------------- values */
 
-/* the gradient of a row on its host, from its slopes */
+/* the entries of a row on its host from slopes y [orders][support], times its scale */
+static void spread(const ambulo__sparse_rows *s, int i, int orders, const double *restrict y) {
+  const ambulo__basis_point *point = point_of(s->problem, s->host[i]);
+  const int width = s->support[i];
+  double *restrict value = s->value + s->start[i];
+  for (int c = 0; c < point->span; c++, value += width) {
+    const double b0 = s->scale[i] * point->weight[0][c];
+    for (int e = 0; e < width; e++) value[e] = b0 * y[e];
+    if (orders == 1) continue;
+    const double b1 = s->scale[i] * point->weight[1][c], b2 = s->scale[i] * point->weight[2][c];
+    for (int e = 0; e < width; e++) value[e] += b1 * y[width + e] + b2 * y[2 * width + e];
+  }
+}
+
+void ambulo__sparse_rows_expand(const ambulo__sparse_rows *s, int i) {
+  ambulo__row_blocks_recall(s->blocks, i, s->dense);
+  spread(s, i, s->blocks->shape[i].orders, s->dense);
+  s->stale[i] = 0;
+}
+
 static void fill_local(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
-  const ambulo_problem *p = s->problem;
-  const ambulo__basis_point *point = point_of(p, s->host[i]);
-  const int d = p->coordinates, first = ambulo__node_first(p, s->host[i]), width = s->support[i];
-  const int *column = s->column + s->start[i];
-  double *restrict value = s->value + s->start[i], *restrict y = s->dense;
-  int in_block = s->blocks && s->blocks->block_of[i] >= 0;
-  int orders = in_block ? s->blocks->shape[i].orders : 3;
+  const int d = s->problem->coordinates, width = s->support[i];
+  const int *column = s->column + s->start[i], first = ambulo__node_first(s->problem, s->host[i]);
   ambulo__row_slopes(workspace, s->row[i], s->slopes);
-  if (in_block) ambulo__row_blocks_keep(s->blocks, i, s->slopes);
-  for (int o = 0; o < orders; o++) {
-    for (int e = 0; e < width; e++)
-      y[o * width + e] = s->scale[i] * s->slopes[o * d + column[e] - first];
+  if (s->stale && s->blocks->block_of[i] >= 0) {
+    ambulo__row_blocks_keep(s->blocks, i, s->slopes);
+    s->stale[i] = 1;
+    return;
   }
-  for (int c = 0; c < point->span && orders == 1; c++, value += width) {
-    for (int e = 0; e < width; e++) value[e] = point->weight[0][c] * y[e];
+  for (int o = 0; o < 3; o++) {
+    for (int e = 0; e < width; e++) s->dense[o * width + e] = s->slopes[o * d + column[e] - first];
   }
-  for (int c = 0; c < point->span && orders == 3; c++, value += width) {
-    const double b0 = point->weight[0][c], b1 = point->weight[1][c], b2 = point->weight[2][c];
-    for (int e = 0; e < width; e++)
-      value[e] = b0 * y[e] + b1 * y[width + e] + b2 * y[2 * width + e];
-  }
+  spread(s, i, 3, s->dense);
 }
 
 static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
@@ -127,12 +138,23 @@ static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, 
   }
 }
 
+/* of rows that are stale the slopes are looked at */
+static int is_finite(const ambulo__sparse_rows *s) {
+  if (!s->stale) return ambulo__all_finite(s->value, (size_t)s->start[s->count]);
+  for (int i = 0; i < s->count; i++) {
+    size_t entries = (size_t)(s->start[i + 1] - s->start[i]);
+    if (!s->stale[i] && !ambulo__all_finite(s->value + s->start[i], entries)) return 0;
+  }
+  return ambulo__row_blocks_finite(s->blocks);
+}
+
 /* names the first entry that is not finite */
 static void find_fault(const ambulo__sparse_rows *s, ambulo_workspace *workspace) {
   for (int i = 0; i < s->count; i++) {
-    for (int e = s->start[i]; e < s->start[i + 1]; e++) {
-      if (isfinite(s->value[e])) continue;
-      ambulo__fault_of_row(workspace, s->row[i], s->column[e], s->value[e]);
+    const double *value = ambulo__sparse_rows_gradient(s, i);
+    for (int e = 0; e < s->start[i + 1] - s->start[i]; e++) {
+      if (isfinite(value[e])) continue;
+      ambulo__fault_of_row(workspace, s->row[i], s->column[s->start[i] + e], value[e]);
       return;
     }
   }
@@ -143,14 +165,15 @@ ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *s, ambulo_workspace 
   for (int i = 0; i < s->count; i++) {
     if (all || !s->constant[i]) fill_row(s, workspace, i);
   }
-  if (ambulo__all_finite(s->value, (size_t)s->start[s->count])) return AMBULO_OK;
+  if (is_finite(s)) return AMBULO_OK;
   find_fault(s, workspace);
   return AMBULO_E_NUMERIC;
 }
 
 void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *s, int i, double scale) {
   double ratio = scale / s->scale[i];
-  for (int e = s->start[i]; e < s->start[i + 1]; e++) s->value[e] *= ratio;
+  int stale = s->stale && s->stale[i];
+  for (int e = s->start[i]; e < s->start[i + 1] && !stale; e++) s->value[e] *= ratio;
   s->scale[i] = scale;
 }
 
@@ -180,6 +203,8 @@ static ambulo__row_shape shape_of(const ambulo__sparse_rows *s, int i) {
   const ambulo__row_term *term = p->table.terms + row->first_term;
   ambulo__row_shape shape = {.host = s->host[i], .entry = -1};
   if (s->support[i] == 0) return shape;
+  shape.support = s->support[i];
+  shape.column = s->column + s->start[i];
   if (!s->constant[i]) {
     shape.orders = orders_of(p, row);
   } else if (row->term_count == 1) {
@@ -192,11 +217,14 @@ static ambulo__row_shape shape_of(const ambulo__sparse_rows *s, int i) {
 ambulo_status ambulo__sparse_rows_lay_blocks(ambulo__sparse_rows *s, ambulo__pool *pool) {
   ambulo__row_shape *shape = ambulo__pool_blocks(pool, (size_t)s->count, sizeof *shape);
   ambulo__row_blocks *blocks = ambulo__pool_blocks(pool, 1, sizeof *blocks);
+  int *stale = ambulo__pool_ints(pool, (size_t)s->count);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < s->count; i++) shape[i] = shape_of(s, i);
   ambulo_status status = ambulo__row_blocks_create(s->problem, s->count, shape, pool, blocks);
-  if (!status) s->blocks = blocks;
-  return status;
+  if (status) return status;
+  s->blocks = blocks;
+  s->stale = stale;
+  return AMBULO_OK;
 }
 
 /* three sums side by side, since one waits for itself */
@@ -221,10 +249,10 @@ void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d,
 
 void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor, const double *w,
                                        double *restrict y) {
-  const double *restrict value = s->value;
   for (int i = 0; i < s->count; i++) {
     double f = factor * w[i];
     if (f == 0.0) continue;
+    const double *restrict value = ambulo__sparse_rows_gradient(s, i) - s->start[i];
     for (int e = s->start[i]; e < s->start[i + 1]; e = s->run_end[e]) {
       double *restrict to = y + s->column[e];
       for (int k = 0; k < s->run_end[e] - e; k++) to[k] += f * value[e + k];
@@ -233,7 +261,8 @@ void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double fact
 }
 
 double ambulo__sparse_rows_norm(const ambulo__sparse_rows *s, int i) {
+  const double *value = ambulo__sparse_rows_gradient(s, i);
   double sum = 0.0;
-  for (int e = s->start[i]; e < s->start[i + 1]; e++) sum += s->value[e] * s->value[e];
+  for (int e = 0; e < s->start[i + 1] - s->start[i]; e++) sum += value[e] * value[e];
   return sqrt(sum);
 }

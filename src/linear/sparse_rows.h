@@ -7,6 +7,9 @@
  *     value of row i    s_i c_row[i](x)
  *     gradient          s_i dc/dx, entries start[i] .. start[i + 1) of column and value
  *
+ * Few of the inequalities are ever active. Those on one node keep their slopes by its motion
+ * (row_blocks.h), and have entries when these are asked for: ambulo__sparse_rows_gradient.
+ *
  * The pattern is structural (mechanics/plan.h and the basis), fixed at creation. Rows on
  * q, qd, qdd and unknowns alone have constant gradients and are filled once.
  */
@@ -29,10 +32,11 @@ typedef struct ambulo__sparse_rows {
   int *support; /* columns of one control point, where they are those of each of the host's; else 0
                  */
   int *column;
-  int *run_end; /* of each entry: where the run of consecutive columns that it is in ends */
-  double *value;
-  double *dense;              /* [variables + one window]: scratch for one gradient */
-  double *slopes;             /* [3][d]: scratch for those of one row */
+  int *run_end;   /* of each entry: where the run of consecutive columns that it is in ends */
+  double *value;  /* of row i: ambulo__sparse_rows_gradient */
+  int *stale;     /* 1 of rows whose entries are not those of the slopes kept; NULL: of none */
+  double *dense;  /* [variables + one window]: scratch for one gradient */
+  double *slopes; /* [3][d]: scratch for those of one row */
   ambulo__row_blocks *blocks; /* for products; NULL: by the gradients */
 } ambulo__sparse_rows;
 
@@ -49,6 +53,13 @@ void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *rows);
  * E_NUMERIC: an entry is not finite (workspace->fault). */
 ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *rows, ambulo_workspace *workspace,
                                        int all);
+/* Writes the entries of a row that is stale. */
+void ambulo__sparse_rows_expand(const ambulo__sparse_rows *rows, int i);
+/* The entries of row i: value + start[i]. */
+static inline const double *ambulo__sparse_rows_gradient(const ambulo__sparse_rows *rows, int i) {
+  if (rows->stale && rows->stale[i]) ambulo__sparse_rows_expand(rows, i);
+  return rows->value + rows->start[i];
+}
 /* Sets scale[i] and rescales the gradients held. */
 void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *rows, int i, double scale);
 /* value[count] at the point held. */

@@ -8,6 +8,7 @@ static void compare(const ambulo__sparse_rows *rows, const double *d, int want_b
   double *got = calloc(m, sizeof *got), *want = calloc(m, sizeof *want), largest = 0.0;
   ambulo__sparse_rows plain = *rows;
   int in_blocks = 0;
+  for (int i = 0; i < rows->count; i++) (void)ambulo__sparse_rows_gradient(rows, i);
   plain.blocks = NULL;
   assert_non_null(rows->blocks);
   for (size_t i = 0; i < m; i++) {
