@@ -83,16 +83,18 @@ static void subtract(int n, int width, const double *w, const double *y, double 
   }
 }
 
+/* four sums side by side, since one waits for itself */
 static void gather(int n, int width, const double *w, const double *x, double *y) {
-  size_t stride = (size_t)width, from = 0, end = (size_t)n;
-  for (size_t v = 0; v < stride; v++) y[v] = 0.0;
-  for (; from + T <= end; from += T) {
-    for (size_t v = 0; v < stride; v += W)
-      store(y + v, load(y + v) + product(w + from * stride + v, stride, x + from));
-  }
-  for (; from < end; from++) {
-    for (size_t v = 0; v < stride; v += W)
-      store(y + v, load(y + v) + load(w + from * stride + v) * x[from]);
+  const size_t stride = (size_t)width, end = (size_t)n;
+  for (size_t v = 0; v < stride; v += W) {
+    const double *column = w + v;
+    wide sum[4] = {{0}};
+    size_t k = 0;
+    for (; k + 4 <= end; k += 4, column += 4 * stride) {
+      for (size_t l = 0; l < 4; l++) sum[l] += load(column + l * stride) * x[k + l];
+    }
+    for (; k < end; k++, column += stride) sum[0] += load(column) * x[k];
+    store(y + v, (sum[0] + sum[1]) + (sum[2] + sum[3]));
   }
 }
 
