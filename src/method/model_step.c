@@ -57,44 +57,26 @@ static double square(double x) {
   return x * x;
 }
 
-/* sums side by side, since one waits for itself */
-enum { SUMS = 4 };
-
-static double total_of(const double sum[SUMS]) {
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
 static double dot(const double *a, const double *b, int n) {
-  double sum[SUMS] = {0.0};
-  int j = 0;
-  for (; j + SUMS <= n; j += SUMS) {
-    for (int l = 0; l < SUMS; l++) sum[l] += a[j + l] * b[j + l];
-  }
-  for (; j < n; j++) sum[0] += a[j] * b[j];
-  return total_of(sum);
+  double sum = 0.0;
+  for (int j = 0; j < n; j++) sum += a[j] * b[j];
+  return sum;
 }
 
 /* ---------------------------------------------------------------------- phi */
 
-/* the force of row i at total + t step; not NaN, which is none */
-static inline double force_at(const ambulo__quadratic *q, int i, double t) {
-  double force = q->lambda[i] + q->rho * (q->linear[i] + t * q->along[i]);
-  return force > 0.0 ? force : 0.0;
-}
-
 /* phi at total + t step */
 static double value_at(const ambulo__quadratic *q, double t) {
-  double smooth = 0.0, sum[SUMS] = {0.0};
-  int i = 0;
+  double smooth = 0.0, sum = 0.0;
   for (int j = 0; j < q->n; j++) {
     double d = q->total[j] + t * q->step[j];
     smooth += d * (q->gradient[j] + 0.5 * (q->curved_total[j] + t * q->curved[j]));
   }
-  for (; i + SUMS <= q->inequalities; i += SUMS) {
-    for (int l = 0; l < SUMS; l++) sum[l] += square(force_at(q, i + l, t));
+  for (int i = 0; i < q->inequalities; i++) {
+    double force = q->lambda[i] + q->rho * (q->linear[i] + t * q->along[i]);
+    if (force > 0.0) sum += square(force);
   }
-  for (; i < q->inequalities; i++) sum[0] += square(force_at(q, i, t));
-  return smooth + total_of(sum) / (2.0 * q->rho);
+  return smooth + sum / (2.0 * q->rho);
 }
 
 /* phi' along the step at t, and phi'' */

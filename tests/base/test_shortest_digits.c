@@ -39,7 +39,10 @@ static void numbers_are_those_of_printf(void **state) {
 
 static void edges(void **state) {
   (void)state;
-  static const double values[] = {0.1,
+  static const double values[] = {1e-6,
+                                  1e-7,
+                                  1e-9,
+                                  0.1,
                                   0.3,
                                   1e-4,
                                   9.9999999999999991e-5,

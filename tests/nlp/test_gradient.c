@@ -227,33 +227,56 @@ static void flight_agrees_with_central_differences(void **state) {
 }
 
 /* the slopes that an evaluation leaves behind, against each term's own sweep */
+static void expect_sum_of_terms(fixture *f) {
+  const size_t n = (size_t)f->n;
+  double *sum = calloc(n, sizeof *sum), *one = calloc(n, sizeof *one), largest = 0.0;
+  assert_int_equal(ambulo__evaluate(f->workspace, f->x), AMBULO_OK);
+  for (int t = 0; t < f->problem->definition.term_count; t++) {
+    assert_int_equal(ambulo__term_gradient(f->workspace, t, one), AMBULO_OK);
+    for (size_t j = 0; j < n; j++) sum[j] += -1.5 * one[j];
+  }
+  assert_int_equal(ambulo__gradient(f->workspace, -1.5, NULL, f->gradient), AMBULO_OK);
+  for (size_t j = 0; j < n; j++) largest = fmax(largest, fabs(sum[j]));
+  for (size_t j = 0; j < n; j++) assert_close(f->gradient[j] / largest, sum[j] / largest, 1e-13);
+  assert_int_equal(ambulo__gradient(f->workspace, 0.0, NULL, f->gradient), AMBULO_OK);
+  for (size_t j = 0; j < n; j++) assert_true(f->gradient[j] == 0.0);
+  free(sum);
+  free(one);
+}
+
 static void the_objective_is_the_sum_of_its_terms(void **state) {
   (void)state;
   static const char *const names[] = {"walk", "walk_normal", "walk_tracking", "fig5b_torque"};
   for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
     fixture f = {.problem = load_problem(names[n])};
-    int terms = f.problem->definition.term_count;
     f.n = ambulo_problem_variable_count(f.problem);
     assert_int_equal(ambulo_workspace_create(f.problem, NULL, &f.workspace), AMBULO_OK);
     f.x = calloc((size_t)f.n, sizeof(double));
-    f.gradient = calloc(3 * (size_t)f.n, sizeof(double));
-    double *sum = f.gradient + f.n, *one = sum + f.n, largest = 0.0;
+    f.gradient = calloc((size_t)f.n, sizeof(double));
     for (int j = 0; j < f.n; j++) f.x[j] = 0.1 * sin(1.0 + j);
-    assert_int_equal(ambulo__evaluate(f.workspace, f.x), AMBULO_OK);
-    for (int t = 0; t < terms; t++) {
-      assert_int_equal(ambulo__term_gradient(f.workspace, t, one), AMBULO_OK);
-      for (int j = 0; j < f.n; j++) sum[j] += -1.5 * one[j];
-    }
-    assert_int_equal(ambulo__gradient(f.workspace, -1.5, NULL, f.gradient), AMBULO_OK);
-    for (int j = 0; j < f.n; j++) largest = fmax(largest, fabs(sum[j]));
-    for (int j = 0; j < f.n; j++) assert_close(f.gradient[j] / largest, sum[j] / largest, 1e-13);
-    assert_int_equal(ambulo__gradient(f.workspace, 0.0, NULL, f.gradient), AMBULO_OK);
-    for (int j = 0; j < f.n; j++) assert_true(f.gradient[j] == 0.0);
-    free(f.x);
-    free(f.gradient);
-    ambulo_workspace_free(f.workspace);
-    ambulo_problem_free(f.problem);
+    expect_sum_of_terms(&f);
+    fixture_close(&f);
   }
+}
+
+static void terms_of_the_caller_are_in_the_sum(void **state) {
+  (void)state;
+  static double factor = 0.8;
+  fixture f = {.model = arm_create()};
+  ambulo_term terms[] = {ambulo_term_default(AMBULO_TORQUE_SQUARED),
+                         ambulo_term_default(AMBULO_USER_TERM),
+                         ambulo_term_default(AMBULO_USER_SQUARE)};
+  ambulo_problem_definition definition = arm_definition(f.model);
+  for (int k = 1; k < 3; k++) {
+    terms[k].function = hand_height;
+    terms[k].user = &factor;
+    terms[k].weight = 10.0 * k;
+  }
+  definition.terms = terms;
+  definition.term_count = 3;
+  fixture_open(&f, &definition);
+  expect_sum_of_terms(&f);
+  fixture_close(&f);
 }
 
 int main(void) {
@@ -266,6 +289,7 @@ int main(void) {
       cmocka_unit_test(feet_that_pass_agree_with_central_differences),
       cmocka_unit_test(flight_agrees_with_central_differences),
       cmocka_unit_test(the_objective_is_the_sum_of_its_terms),
+      cmocka_unit_test(terms_of_the_caller_are_in_the_sum),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
