@@ -10,6 +10,8 @@
 #ifndef AMBULO_LINEAR_BAND_KERNELS_H
 #define AMBULO_LINEAR_BAND_KERNELS_H
 
+#include <stddef.h>
+
 enum { AMBULO__TILE = 8, AMBULO__CORNER = 2 * AMBULO__TILE * AMBULO__TILE };
 
 typedef struct ambulo__band_kernels {
@@ -32,6 +34,11 @@ typedef struct ambulo__band_kernels {
   /* a += G'G for the first `width` unknowns of `a` in band storage, which need not be aligned, of
    * `count` rows G, aligned, `stride` whole tiles apart and zero from `width` on */
   void (*add_gram)(int count, int width, int stride, const double *g, int ld, double *a);
+  /* the same, faster where half of G is zero (gram_source.h) */
+  void (*add_sparse_gram)(int count, int width, int stride, const double *g, int ld, double *a);
+  /* a += P'MP, m [3 d][step] with leading dimension step (spread.h); sums [3 d] is scratch */
+  void (*spread)(int d, int span, const double *const b[3], const double *m, size_t step,
+                 double *sums, int ld, double *a);
   /* of X [n][8], aligned: y = W'X, y [width][8], aligned; X -= W y */
   void (*cross)(int n, int width, const double *w, const double *x, double *y);
   void (*subtract)(int n, int width, const double *w, const double *y, double *x);

@@ -316,6 +316,7 @@ static void forward_many(int n, int ld, const double *a, const int *below, const
 }
 
 #include "linear/gram_source.h"
+#include "linear/spread_source.h"
 #include "linear/wing_source.h"
 
 const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_NAME,
@@ -326,6 +327,8 @@ const ambulo__band_kernels AMBULO__BAND_KERNELS = {.name = AMBULO__BAND_KERNELS_
                                                    .multiply = multiply,
                                                    .forward_many = forward_many,
                                                    .add_gram = add_gram,
+                                                   .add_sparse_gram = add_sparse_gram,
+                                                   .spread = spread,
                                                    .cross = cross,
                                                    .subtract = subtract,
                                                    .gather = gather,

@@ -40,6 +40,12 @@ static inline wide product(const double *columns, size_t step, const double x[T]
 #define PICK(a, b, ...) __builtin_shuffle(a, b, (lanes){__VA_ARGS__})
 #endif
 
+#if AMBULO__WIDTH == 8
+static const lanes counting = {0, 1, 2, 3, 4, 5, 6, 7};
+#else
+static const lanes counting = {0, 1, 2, 3};
+#endif
+
 /* the sums of W vectors, by halves: pairs, pairs of these, ... */
 #if AMBULO__WIDTH == 8
 static inline wide sum_of_pairs(wide a, wide b) {

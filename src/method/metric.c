@@ -1,7 +1,8 @@
 /* method/metric.c - see metric.h.
  *
- * Each node adds G'G, G the gradients of its residuals times the square root of their
- * curvature: one symmetric rank-k update straight into the band.
+ * Each node adds G'G, G the gradients of its residuals times the square root of their curvature: by
+ * its q, qd and qdd, from where their Gram matrix is spread over its control points
+ * (linear/spread.h). Rates depend on two nodes, and their rows stand on the unknowns of both.
  *
  * Where no term has curvature (no objective, or linear terms of the caller) a metric of
  * accelerations stands in, sum_k w_k |qdd_k|^2 times a small factor: steps are then measured by how
@@ -86,16 +87,17 @@ ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
     metric->users += is_users(&p->definition.terms[t]);
   }
   size_t widest = (size_t)ambulo__metric_diagonals(p) + 1;
+  size_t motion = (size_t)(AMBULO__ORDERS * p->coordinates);
   int all = ambulo__channel_count(&p->channels);
   metric->row_capacity = metric->channels + forms * (metric->composites + 1);
   if (metric->users > 0) {
     metric->row_capacity += p->coordinates + all + metric->users;
     metric->probe = ambulo__pool_doubles(pool, (size_t)(6 * all));
   }
-  metric->stride = ambulo__whole_tiles((int)widest);
+  metric->stride = ambulo__whole_tiles((int)(widest > motion ? widest : motion));
   metric->rows = ambulo__pool_doubles(pool, (size_t)metric->row_capacity * (size_t)metric->stride);
   metric->one = ambulo__pool_doubles(pool, widest);
-  return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
+  return ambulo__spread_create(pool, p->coordinates, &metric->spread);
 }
 
 /* curvature of the objective along one channel of one node */
@@ -115,11 +117,35 @@ static double curvature_of(const ambulo_workspace *workspace, int node, int chan
   return sum * p->quadrature[node];
 }
 
-/* the place of a row of a node; what lies beyond its width is zero */
+/* the place of a row of a node, zero */
 static double *row_at(const ambulo__metric *metric, int row, int width) {
   double *g = metric->rows + (size_t)row * (size_t)metric->stride;
-  for (int j = width; j < ambulo__whole_tiles(width); j++) g[j] = 0.0;
+  memset(g, 0, (size_t)ambulo__whole_tiles(width) * sizeof *g);
   return g;
+}
+
+/* adds factor times the gradient of a channel by the q, qd and qdd of its node */
+static void add_motion(const ambulo_workspace *workspace, int node, int channel, double factor,
+                       double *row) {
+  const ambulo_problem *p = workspace->problem;
+  int outputs = ambulo__channel_outputs(&p->channels);
+  if (channel < outputs) {
+    row[channel] += factor;
+    return;
+  }
+  const double *slope = workspace->motion_scratch;
+  ambulo__output_gradient(workspace, node, channel - outputs, workspace->motion_scratch);
+  for (int i = 0; i < AMBULO__ORDERS * p->coordinates; i++) row[i] += factor * slope[i];
+}
+
+/* of a rate: by the unknowns from those of `node` on */
+static void add_ahead(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+                      int ahead, int channel, double factor, double *row) {
+  const ambulo_problem *p = metric->problem;
+  int at = node + ahead;
+  double *place = row + ambulo__node_first(p, at) - ambulo__node_first(p, node);
+  ambulo__channel_local_gradient(workspace, at, channel, metric->one);
+  for (int i = 0; i < ambulo__node_width(p, at); i++) place[i] += factor * metric->one[i];
 }
 
 /* whether a form changes with anything: those of coordinates whose scale is zero do not */
@@ -130,8 +156,8 @@ static int has_slope(const ambulo__form *form) {
   return 0;
 }
 
-/* Weighted gradients of one composite term's residuals in `width` unknowns; returns the rows used
- * so far. One over two nodes is kept whole: split, as 2 a^2 + 2 b^2 >= (a + b)^2, the rate of a
+/* Weighted gradients of one composite term's residuals, of `width` numbers; returns the rows used
+ * so far. A rate over two nodes is kept whole: split, as 2 a^2 + 2 b^2 >= (a + b)^2, the rate of a
  * force between nodes that stand close would look as stiff as the force itself over the square of
  * their distance, where what both have in common cancels (walk_normal: 1.5 times the evaluations).
  */
@@ -139,7 +165,7 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
                           const ambulo_term *term, int node, int width, double scale, int count) {
   const ambulo_problem *p = metric->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
-  int forms = ambulo__term_forms(term, &context, node);
+  int forms = ambulo__term_forms(term, &context, node), rates = ambulo__term_is_rate(term->kind);
   double weight = scale * term->weight * ambulo__term_quadrature(p, term, node);
   for (int j = 0; j < forms && count < metric->row_capacity; j++) {
     ambulo__form form;
@@ -147,13 +173,13 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
     if (!has_slope(&form)) continue;
     double *row = row_at(metric, count++, width);
     double root = sqrt(ambulo__worse(0.0, weight * ambulo__term_residual(term, form.u).curvature));
-    memset(row, 0, (size_t)width * sizeof *row);
     for (int c = 0; c < form.count; c++) {
-      int at = node + form.ahead[c];
-      double *place = row + ambulo__node_first(p, at) - ambulo__node_first(p, node);
-      ambulo__channel_local_gradient(workspace, at, form.channel[c], metric->one);
-      for (int i = 0; i < ambulo__node_width(p, at); i++)
-        place[i] += root * form.slope[c] * metric->one[i];
+      double factor = root * form.slope[c];
+      if (rates) {
+        add_ahead(metric, workspace, node, form.ahead[c], form.channel[c], factor, row);
+      } else {
+        add_motion(workspace, node, form.channel[c], factor, row);
+      }
     }
   }
   return count;
@@ -164,7 +190,7 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
 static int user_rows(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                      double scale, int count) {
   const ambulo_problem *p = metric->problem;
-  const int all = workspace->channel_count, width = ambulo__node_width(p, node);
+  const int all = workspace->channel_count, width = AMBULO__ORDERS * p->coordinates;
   double *sum = metric->probe, *one = sum + all, *scratch = one + all;
   memset(sum, 0, (size_t)all * sizeof *sum);
   for (int t = 0; t < p->definition.term_count; t++) {
@@ -176,18 +202,13 @@ static int user_rows(const ambulo__metric *metric, const ambulo_workspace *works
     for (int c = 0; kind > 0 && c < all; c++) sum[c] += weight * one[c];
     if (kind > 0) continue;
     double *row = row_at(metric, count++, width);
-    memset(row, 0, (size_t)width * sizeof *row);
     for (int c = 0; c < all; c++) {
-      if (one[c] == 0.0) continue;
-      ambulo__channel_local_gradient(workspace, node, c, metric->one);
-      for (int j = 0; j < width; j++) row[j] += sqrt(weight) * one[c] * metric->one[j];
+      if (one[c] != 0.0) add_motion(workspace, node, c, sqrt(weight) * one[c], row);
     }
   }
   for (int c = 0; c < all; c++) {
     if (sum[c] == 0.0) continue;
-    double *row = row_at(metric, count++, width), root = sqrt(sum[c]);
-    ambulo__channel_local_gradient(workspace, node, c, row);
-    for (int j = 0; j < width; j++) row[j] *= root;
+    add_motion(workspace, node, c, sqrt(sum[c]), row_at(metric, count++, width));
   }
   return count;
 }
@@ -215,11 +236,10 @@ static int all_composite_rows(const ambulo__metric *metric, const ambulo_workspa
 }
 
 /* returns how many forms have a curvature */
-static int add_node(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+static int add_node(ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                     double scale, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
-  int first = ambulo__node_first(p, node), width = ambulo__node_width(p, node);
-  int count = 0, light = 0, rates = 0;
+  int first = ambulo__node_first(p, node), count = 0, light = 0, rates = 0;
   for (int c = 0; c < metric->channels; c++) {
     double curvature = scale * curvature_of(workspace, node, metric->channel[c]);
     if (curvature <= 0.0) continue; /* not NaN, which the factorization meets */
@@ -228,13 +248,16 @@ static int add_node(const ambulo__metric *metric, const ambulo_workspace *worksp
       light++;
       continue;
     }
-    double *row = row_at(metric, count++, width), root = sqrt(curvature);
-    ambulo__channel_local_gradient(workspace, node, metric->channel[c], row);
-    for (int j = 0; j < width; j++) row[j] *= root;
+    double *row = row_at(metric, count++, AMBULO__ORDERS * p->coordinates);
+    add_motion(workspace, node, metric->channel[c], sqrt(curvature), row);
   }
-  count = all_composite_rows(metric, workspace, node, 0, width, scale, count);
+  count =
+      all_composite_rows(metric, workspace, node, 0, AMBULO__ORDERS * p->coordinates, scale, count);
   if (metric->users > 0) count = user_rows(metric, workspace, node, scale, count);
-  ambulo__band_add_rows(h, first, width, count, metric->stride, metric->rows);
+  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
+  const double *const b[] = {point->weight[0], point->weight[1], point->weight[2]};
+  ambulo__spread_rows(&metric->spread, count, metric->stride, metric->rows, point->span, b, first,
+                      h);
   if (metric->rates) {
     int reach = reach_of(p, node, 1);
     rates = all_composite_rows(metric, workspace, node, 1, reach, scale, 0);
@@ -252,8 +275,8 @@ static void add_accelerations(const ambulo__metric *metric, const ambulo_workspa
 }
 
 /* (GN) (P.2) sum of curvature g g' over nodes and residuals */
-void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                         double scale, ambulo__band *h) {
+void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
+                         ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
   ambulo__band_clear(h);
   int forms = 0;

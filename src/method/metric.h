@@ -10,7 +10,7 @@
 #ifndef AMBULO_METHOD_METRIC_H
 #define AMBULO_METHOD_METRIC_H
 
-#include "linear/band.h"
+#include "linear/spread.h"
 
 typedef struct ambulo__metric {
   const ambulo_problem *problem;
@@ -20,9 +20,10 @@ typedef struct ambulo__metric {
   int users;      /* terms of the caller */
   int rates;      /* 1: some composite is a rate */
   double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
-  double *rows;   /* [row_capacity][stride]: one node's weighted gradients */
-  int row_capacity, stride;
-  double *one; /* [widest window]: gradient of one channel */
+  double *rows;   /* [row_capacity][stride]: one node's weighted gradients by its q, qd and qdd; */
+  int row_capacity, stride; /* those of rates by the unknowns of two nodes */
+  double *one;              /* [widest window]: gradient of one channel */
+  ambulo__spread spread;    /* from the former to the unknowns */
 } ambulo__metric;
 
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,
@@ -33,8 +34,8 @@ ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool 
 int ambulo__metric_diagonals(const ambulo_problem *problem);
 
 /* H0 at the point held (ambulo__evaluate_jacobian), without mu. */
-void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                         double scale, ambulo__band *h);
+void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
+                         ambulo__band *h);
 
 /* weight * sum_k w_k |qdd_k|^2 in its place. */
 void ambulo__metric_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,

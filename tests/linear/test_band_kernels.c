@@ -104,9 +104,10 @@ static double sparse(size_t row, size_t column) {
   return (row * 5 + panel * 3) % 7 < 3 ? 0.0 : sin(1.0 + 0.7 * (double)row + 0.3 * (double)column);
 }
 
+typedef void gram_function(int count, int width, int stride, const double *g, int ld, double *a);
+
 /* A += G'G at unknown `first` of a band of n, by rows of half zeros; nothing else changes */
-static void gram_is_plain_sums(const ambulo__band_kernels *set, int n, int first, int width,
-                               int count) {
+static void gram_is_plain_sums(gram_function *add, int n, int first, int width, int count) {
   ambulo__pool pool;
   ambulo__band band;
   ambulo__pool_init(&pool, NULL);
@@ -118,7 +119,7 @@ static void gram_is_plain_sums(const ambulo__band_kernels *set, int n, int first
     for (size_t j = 0; j < (size_t)width; j++) g[k * stride + j] = sparse(k, j);
   }
   for (size_t e = 0; e < size; e++) band.a[e] = 77.0;
-  set->add_gram(count, width, (int)stride, g, band.ld, band.a + (size_t)first * (size_t)band.ld);
+  add(count, width, (int)stride, g, band.ld, band.a + (size_t)first * (size_t)band.ld);
   for (int j = 0; j < n; j++) {
     for (int i = 0; i < band.ld; i++) {
       double sum = 77.0;
@@ -132,14 +133,14 @@ static void gram_is_plain_sums(const ambulo__band_kernels *set, int n, int first
 }
 
 /* a row without a number is in no tile forgotten */
-static void gram_keeps_what_is_not_finite(const ambulo__band_kernels *set) {
+static void gram_keeps_what_is_not_finite(gram_function *add) {
   ambulo__pool pool;
   ambulo__band band;
   ambulo__pool_init(&pool, NULL);
   double *g = ambulo__pool_doubles(&pool, 24);
   assert_int_equal(ambulo__band_create(&pool, 24, 23, &band), AMBULO_OK);
   g[11] = NAN;
-  set->add_gram(1, 24, 24, g, band.ld, band.a);
+  add(1, 24, 24, g, band.ld, band.a);
   assert_true(isnan(band.a[11 * (size_t)band.ld]));
   ambulo__pool_clear(&pool);
 }
@@ -195,6 +196,15 @@ static void eight_columns_at_once(const ambulo__band_kernels *set, int n, int wi
   ambulo__pool_clear(&pool);
 }
 
+static void test_gram(gram_function *add) {
+  for (int width = 1; width <= LARGEST; width++)
+    gram_is_plain_sums(add, width + 10, width % 11, width, 1 + 3 * (width % 5));
+  gram_is_plain_sums(add, 290, 3, 285, 5); /* more panels than are known at once */
+  gram_is_plain_sums(add, 40, 5, 30, 64);  /* words of rows */
+  gram_is_plain_sums(add, 60, 1, 45, 300); /* more rows than at once */
+  gram_keeps_what_is_not_finite(add);
+}
+
 static void test_set(const ambulo__band_kernels *set, int runs) {
   if (!runs || !set->factor) skip();
   for (int i = 0; i < CASES; i++) equals_lapack(set, cases[i]);
@@ -204,12 +214,8 @@ static void test_set(const ambulo__band_kernels *set, int runs) {
     products_are_plain_sums(set, n, 8 * (1 + n % 7));
     eight_columns_at_once(set, n, 8 * (1 + n % 7));
   }
-  for (int width = 1; width <= LARGEST; width++)
-    gram_is_plain_sums(set, width + 10, width % 11, width, 1 + 3 * (width % 5));
-  gram_is_plain_sums(set, 290, 3, 285, 5); /* more panels than are known at once */
-  gram_is_plain_sums(set, 40, 5, 30, 64);  /* words of rows */
-  gram_is_plain_sums(set, 60, 1, 45, 300); /* more rows than at once */
-  gram_keeps_what_is_not_finite(set);
+  test_gram(set->add_gram);
+  test_gram(set->add_sparse_gram);
 }
 
 static void avx2_equals_lapack(void **state) {
