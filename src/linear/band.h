@@ -20,7 +20,8 @@ typedef struct ambulo__band {
   int n, kd, ld;
   const ambulo__band_kernels *kernels; /* NULL: LAPACK */
   double *a;                           /* [n rounded up to 8][ld] */
-  double *corner;                      /* with kernels: inverses of the factor's corners */
+  double *corner;                      /* with kernels: inverses of the factor's corners, */
+  int *below;                          /* and its tiles below them (band_kernels.h) */
   double *work;                        /* [2][n rounded up to 8]: a right-hand side and a product */
 } ambulo__band;
 

@@ -25,14 +25,6 @@ void ambulo__joint_squares_add(ambulo__joint_squares *s, double tau, const doubl
   add_light(s, rest);
 }
 
-void ambulo__joint_squares_motion(const ambulo__joint_squares *s, const ambulo__basis_point *point,
-                                  double *weight) {
-  for (int c = 0; c < point->span; c++) {
-    weight[c] = 0.0;
-    for (int o = 0; o < ORDERS; o++) weight[c] += s->motion[o] * point->weight[o][c];
-  }
-}
-
 int ambulo__joint_squares_light(const ambulo__joint_squares *s, const ambulo__basis_point *point,
                                 double *form) {
   int any = 0, at = 0;

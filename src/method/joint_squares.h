@@ -25,9 +25,6 @@ typedef struct ambulo__joint_squares {
 
 /* Adds (tau * torque + motion . (q, qd, qdd))^2. */
 void ambulo__joint_squares_add(ambulo__joint_squares *s, double tau, const double motion[3]);
-/* weight [span] of the control points of the coordinate, in motion . (q, qd, qdd). */
-void ambulo__joint_squares_motion(const ambulo__joint_squares *s, const ambulo__basis_point *point,
-                                  double *weight);
 /* Lower triangle of the form `light` by the control points, row by row: form [span (span + 1) / 2].
  * 0: there is none. */
 int ambulo__joint_squares_light(const ambulo__joint_squares *s, const ambulo__basis_point *point,

@@ -1,9 +1,10 @@
 /* method/metric.c - see metric.h.
  *
- * Each node adds G'G, G the gradients of its residuals times the square root of their
- * curvature: one symmetric rank-k update straight into the band. Residuals of one coordinate's
- * torque and motion are first made one for each coordinate, and a form of its own control points
- * (joint_squares.h).
+ * Each node adds G'G, G the gradients of its residuals times the square root of their curvature: by
+ * its q, qd and qdd, from where their Gram matrix is spread over its control points
+ * (linear/spread.h). Residuals of one coordinate's torque and motion are first made one for each
+ * coordinate, and a form of its own control points (joint_squares.h). Rates depend on two nodes,
+ * and their rows stand on the unknowns of both.
  *
  * Where no term has curvature (no objective, or linear terms of the caller) a metric of
  * accelerations stands in, sum_k w_k |qdd_k|^2 times a small factor: steps are then measured by how
@@ -86,20 +87,20 @@ ambulo_status ambulo__metric_create(const ambulo_problem *p, ambulo__pool *pool,
     metric->users += ambulo__metric_is_users(&p->definition.terms[t]);
   }
   size_t widest = (size_t)ambulo__metric_diagonals(p) + 1;
+  size_t motion = (size_t)(AMBULO__ORDERS * p->coordinates);
   int all = ambulo__channel_count(&p->channels);
   metric->row_capacity = metric->channels + p->coordinates + forms * (metric->composites + 1);
   if (metric->users > 0) {
     metric->row_capacity += p->coordinates + all + metric->users;
     metric->probe = ambulo__pool_doubles(pool, (size_t)(6 * all));
   }
-  metric->stride = ambulo__whole_tiles((int)widest);
+  metric->stride = ambulo__whole_tiles((int)(widest > motion ? widest : motion));
   metric->rows = ambulo__pool_doubles(pool, (size_t)metric->row_capacity * (size_t)metric->stride);
   size_t span = (size_t)ambulo__basis_span(p->basis), form = span * (span + 1) / 2;
   metric->one = ambulo__pool_doubles(pool, widest > form ? widest : form);
   metric->joint = ambulo__pool_blocks(pool, (size_t)p->coordinates, sizeof *metric->joint);
-  metric->gradients = ambulo__pool_blocks(pool, 1, sizeof *metric->gradients);
-  if (pool->failed) return AMBULO_E_MEMORY;
-  return ambulo__channel_gradients_create(p, (int)widest, pool, metric->gradients);
+  if (ambulo__channel_slopes_create(p, pool, &metric->slopes)) return AMBULO_E_MEMORY;
+  return ambulo__spread_create(pool, p->coordinates, &metric->spread);
 }
 
 double ambulo__metric_curvature(const ambulo_workspace *workspace, int node, int channel) {
@@ -118,11 +119,36 @@ double ambulo__metric_curvature(const ambulo_workspace *workspace, int node, int
   return sum * p->quadrature[node];
 }
 
-/* the place of a row of a node; what lies beyond its width is zero */
+/* the place of a row of a node, zero */
 static double *row_at(const ambulo__metric *metric, int row, int width) {
   double *g = metric->rows + (size_t)row * (size_t)metric->stride;
-  for (int j = width; j < ambulo__whole_tiles(width); j++) g[j] = 0.0;
+  memset(g, 0, (size_t)ambulo__whole_tiles(width) * sizeof *g);
   return g;
+}
+
+/* adds factor times the slopes of a channel by the q, qd and qdd of its node */
+static void add_motion(ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+                       int channel, double factor, double *restrict row) {
+  const double *restrict slope =
+      ambulo__channel_slopes_of(&metric->slopes, workspace, node, channel);
+  for (int i = 0; i < AMBULO__ORDERS * metric->problem->coordinates; i++)
+    row[i] += factor * slope[i];
+}
+
+/* of a rate: at node `at`, by the unknowns from those of `node` on */
+static void add_ahead(ambulo__metric *metric, const ambulo_workspace *workspace, int node, int at,
+                      int channel, double factor, double *row) {
+  const ambulo_problem *p = metric->problem;
+  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[at];
+  const int d = p->coordinates;
+  const double *restrict slope = ambulo__channel_slopes_of(&metric->slopes, workspace, at, channel);
+  double *restrict place = row + ambulo__node_first(p, at) - ambulo__node_first(p, node);
+  for (int c = 0; c < point->span; c++, place += d) {
+    const double b0 = factor * point->weight[0][c], b1 = factor * point->weight[1][c];
+    const double b2 = factor * point->weight[2][c];
+    for (int i = 0; i < d; i++)
+      place[i] += b0 * slope[i] + b1 * slope[d + i] + b2 * slope[2 * d + i];
+  }
 }
 
 /* whether a form changes with anything: those of coordinates whose scale is zero do not */
@@ -159,31 +185,31 @@ static int is_zero(int width, const double *row) {
   return 1;
 }
 
-static void write_row(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                      const ambulo__form *form, int node, int width, double root, double *row) {
-  const ambulo_problem *p = metric->problem;
-  memset(row, 0, (size_t)width * sizeof *row);
+/* a form, times `root`: of a rate by the unknowns from those of `node` on, else by its motion */
+static void write_row(ambulo__metric *metric, const ambulo_workspace *workspace,
+                      const ambulo__form *form, int node, int rates, double root, double *row) {
   for (int c = 0; c < form->count; c++) {
     int at = node + form->ahead[c];
-    double *restrict place = row + ambulo__node_first(p, at) - ambulo__node_first(p, node);
-    const double *restrict one =
-        ambulo__channel_gradients_of(metric->gradients, workspace, at, form->channel[c]);
-    const double factor = root * form->slope[c];
-    for (int i = 0; i < ambulo__node_width(p, at); i++) place[i] += factor * one[i];
+    double factor = root * form->slope[c];
+    if (rates) {
+      add_ahead(metric, workspace, node, at, form->channel[c], factor, row);
+    } else {
+      add_motion(metric, workspace, at, form->channel[c], factor, row);
+    }
   }
 }
 
-/* Weighted gradients of one composite term's residuals in `width` unknowns, but for those of one
- * coordinate, which are left to its squares; returns the rows used so far. One over two nodes is
+/* Weighted gradients of one composite term's residuals, of `width` numbers, but for those of one
+ * coordinate, which are left to its squares; returns the rows used so far. A rate over two nodes is
  * kept whole: split, as 2 a^2 + 2 b^2 >= (a + b)^2, the rate of a force between nodes that stand
  * close would look as stiff as the force itself over the square of their distance, where what both
  * have in common cancels (walk_normal: 1.5 times the evaluations).
  */
-static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *workspace,
+static int composite_rows(ambulo__metric *metric, const ambulo_workspace *workspace,
                           const ambulo_term *term, int node, int width, double scale, int count) {
   const ambulo_problem *p = metric->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
-  int forms = ambulo__term_forms(term, &context, node);
+  int forms = ambulo__term_forms(term, &context, node), rates = ambulo__term_is_rate(term->kind);
   double weight = scale * term->weight * ambulo__term_quadrature(p, term, node);
   for (int j = 0; j < forms && count < metric->row_capacity; j++) {
     ambulo__form form;
@@ -197,7 +223,7 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
       continue;
     }
     double *row = row_at(metric, count, width);
-    write_row(metric, workspace, &form, node, width, root, row);
+    write_row(metric, workspace, &form, node, rates, root, row);
     count += !is_zero(width, row);
   }
   return count;
@@ -205,10 +231,10 @@ static int composite_rows(const ambulo__metric *metric, const ambulo_workspace *
 
 /* curvature [channels] of the terms of the caller that are no squares, weighted; of those that are
  * a row each. Returns the rows used so far. */
-static int user_rows(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+static int user_rows(ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                      double scale, int count) {
   const ambulo_problem *p = metric->problem;
-  const int all = workspace->channel_count, width = ambulo__node_width(p, node);
+  const int all = workspace->channel_count, width = AMBULO__ORDERS * p->coordinates;
   double *sum = metric->probe, *one = sum + all, *scratch = one + all;
   memset(sum, 0, (size_t)all * sizeof *sum);
   for (int t = 0; t < p->definition.term_count; t++) {
@@ -220,18 +246,13 @@ static int user_rows(const ambulo__metric *metric, const ambulo_workspace *works
     for (int c = 0; kind > 0 && c < all; c++) sum[c] += weight * one[c];
     if (kind > 0) continue;
     double *row = row_at(metric, count++, width);
-    memset(row, 0, (size_t)width * sizeof *row);
     for (int c = 0; c < all; c++) {
-      if (one[c] == 0.0) continue;
-      ambulo__channel_local_gradient(workspace, node, c, metric->one);
-      for (int j = 0; j < width; j++) row[j] += sqrt(weight) * one[c] * metric->one[j];
+      if (one[c] != 0.0) add_motion(metric, workspace, node, c, sqrt(weight) * one[c], row);
     }
   }
   for (int c = 0; c < all; c++) {
     if (sum[c] == 0.0) continue;
-    double *row = row_at(metric, count++, width), root = sqrt(sum[c]);
-    ambulo__channel_local_gradient(workspace, node, c, row);
-    for (int j = 0; j < width; j++) row[j] *= root;
+    add_motion(metric, workspace, node, c, sqrt(sum[c]), row_at(metric, count++, width));
   }
   return count;
 }
@@ -248,11 +269,11 @@ static void add_light(const ambulo__metric *metric, const ambulo_workspace *work
 
 /* what is left of the squares of coordinates: rows into G, forms into the band. Returns the rows
  * used so far; *light counts the forms. */
-static int joint_rows(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+static int joint_rows(ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                       int count, int *light, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
   const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
-  const int d = p->coordinates, width = ambulo__node_width(p, node);
+  const int d = p->coordinates;
   for (int i = 0; i < d; i++) {
     const ambulo__joint_squares *joint = &metric->joint[i];
     double *weight = metric->one;
@@ -261,19 +282,16 @@ static int joint_rows(const ambulo__metric *metric, const ambulo_workspace *work
       ++*light;
     }
     if (joint->tau == 0.0) continue;
-    double *restrict row = row_at(metric, count++, width);
-    const double *restrict one = ambulo__channel_gradients_of(metric->gradients, workspace, node,
-                                                              ambulo__channel_tau(&p->channels, i));
-    for (int j = 0; j < width; j++) row[j] = joint->tau * one[j];
-    ambulo__joint_squares_motion(joint, point, weight);
-    for (int c = 0; c < point->span; c++) row[c * d + i] += weight[c];
+    double *row = row_at(metric, count++, AMBULO__ORDERS * d);
+    add_motion(metric, workspace, node, ambulo__channel_tau(&p->channels, i), joint->tau, row);
+    for (int o = 0; o < AMBULO__ORDERS; o++) row[o * d + i] += joint->motion[o];
   }
   return count;
 }
 
 /* rows of all composite terms with or without rates */
-static int all_composite_rows(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                              int node, int rates, int width, double scale, int count) {
+static int all_composite_rows(ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+                              int rates, int width, double scale, int count) {
   const ambulo_problem *p = metric->problem;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
@@ -297,17 +315,20 @@ static void add_simple_terms(const ambulo__metric *metric, const ambulo_workspac
 }
 
 /* returns how many forms have a curvature */
-static int add_node(const ambulo__metric *metric, const ambulo_workspace *workspace, int node,
+static int add_node(ambulo__metric *metric, const ambulo_workspace *workspace, int node,
                     double scale, ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
-  int first = ambulo__node_first(p, node), width = ambulo__node_width(p, node);
-  int count = 0, light = 0, rates = 0;
+  int first = ambulo__node_first(p, node), count = 0, light = 0, rates = 0;
   memset(metric->joint, 0, (size_t)p->coordinates * sizeof *metric->joint);
   add_simple_terms(metric, workspace, node, scale);
-  count = all_composite_rows(metric, workspace, node, 0, width, scale, count);
+  count =
+      all_composite_rows(metric, workspace, node, 0, AMBULO__ORDERS * p->coordinates, scale, count);
   if (metric->users > 0) count = user_rows(metric, workspace, node, scale, count);
   count = joint_rows(metric, workspace, node, count, &light, h);
-  ambulo__band_add_rows(h, first, width, count, metric->stride, metric->rows);
+  const ambulo__basis_point *point = &ambulo__lane_map_points(p->map)[node];
+  const double *const b[] = {point->weight[0], point->weight[1], point->weight[2]};
+  ambulo__spread_rows(&metric->spread, count, metric->stride, metric->rows, point->span, b, first,
+                      h);
   if (metric->rates) {
     int reach = reach_of(p, node, 1);
     rates = all_composite_rows(metric, workspace, node, 1, reach, scale, 0);
@@ -325,11 +346,11 @@ static void add_accelerations(const ambulo__metric *metric, const ambulo_workspa
 }
 
 /* (GN) (P.2) sum of curvature g g' over nodes and residuals */
-void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                         double scale, ambulo__band *h) {
+void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
+                         ambulo__band *h) {
   const ambulo_problem *p = metric->problem;
   ambulo__band_clear(h);
-  ambulo__channel_gradients_clear(metric->gradients);
+  ambulo__channel_slopes_clear(&metric->slopes);
   int forms = 0;
   for (int k = 0; k < p->nodes; k++) forms += add_node(metric, workspace, k, scale, h);
   for (int k = 0; k < p->nodes && forms == 0; k++)

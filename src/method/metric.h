@@ -10,8 +10,8 @@
 #ifndef AMBULO_METHOD_METRIC_H
 #define AMBULO_METHOD_METRIC_H
 
-#include "linear/band.h"
-#include "method/channel_gradients.h"
+#include "linear/spread.h"
+#include "method/channel_slopes.h"
 #include "method/joint_squares.h"
 
 typedef struct ambulo__metric {
@@ -22,11 +22,12 @@ typedef struct ambulo__metric {
   int users;      /* terms of the caller */
   int rates;      /* 1: some composite is a rate */
   double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
-  double *rows;   /* [row_capacity][stride]: one node's weighted gradients */
-  int row_capacity, stride;
-  double *one; /* [widest window]: gradient of one channel, a form of one coordinate */
-  ambulo__joint_squares *joint;         /* [coordinates], of one node */
-  ambulo__channel_gradients *gradients; /* of the node and the next */
+  double *rows;   /* [row_capacity][stride]: one node's weighted gradients by its q, qd and qdd; */
+  int row_capacity, stride; /* those of rates by the unknowns of two nodes */
+  double *one;              /* [widest window]: gradient of one channel, a form of one coordinate */
+  ambulo__spread spread;    /* from the former to the unknowns */
+  ambulo__joint_squares *joint;  /* [coordinates], of one node */
+  ambulo__channel_slopes slopes; /* of the node and the next */
 } ambulo__metric;
 
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,
@@ -37,8 +38,8 @@ ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool 
 int ambulo__metric_diagonals(const ambulo_problem *problem);
 
 /* H0 at the point held (ambulo__evaluate_jacobian), without mu. */
-void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                         double scale, ambulo__band *h);
+void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
+                         ambulo__band *h);
 
 /* Terms whose residuals stand on several channels, and those of the caller, with a weight. */
 int ambulo__metric_is_composite(const ambulo_term *term);

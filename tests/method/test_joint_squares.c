@@ -46,13 +46,13 @@ static void turned_squares_have_the_same_sum(void **state) {
   }
 }
 
-/* motion and form by control points are those by q, qd and qdd of these control points */
+/* the form by control points is that by q, qd and qdd of these control points */
 static void control_points_move_the_motion(void **state) {
   (void)state;
   random_source source = {5};
   ambulo__joint_squares s = {0.0, {0.0}, {0.0}};
   ambulo__basis_point point = {.span = SPAN};
-  double x[SPAN], y[3] = {0.0}, weight[SPAN], form[SPAN * (SPAN + 1) / 2];
+  double x[SPAN], y[3] = {0.0}, form[SPAN * (SPAN + 1) / 2];
   assert_int_equal(ambulo__joint_squares_light(&s, &point, form), 0);
   for (int k = 0; k < 4; k++) {
     double slope[4];
@@ -66,11 +66,7 @@ static void control_points_move_the_motion(void **state) {
       y[o] += point.weight[o][c] * x[c];
     }
   }
-  double along = 0.0, by_points = 0.0, want = 0.0;
-  ambulo__joint_squares_motion(&s, &point, weight);
-  for (int o = 0; o < 3; o++) want += s.motion[o] * y[o];
-  for (int c = 0; c < SPAN; c++) along += weight[c] * x[c];
-  assert_close(along, want, 1e-13);
+  double by_points = 0.0;
   assert_int_equal(ambulo__joint_squares_light(&s, &point, form), 1);
   for (int c = 0, at = 0; c < SPAN; c++) {
     for (int b = 0; b <= c; b++) by_points += (b == c ? 1.0 : 2.0) * form[at++] * x[b] * x[c];
