@@ -34,15 +34,11 @@ double ambulo__power_least(double power, double smoothing) {
 }
 
 /* (13.d) (u^2 + s^2)^(p/2) - s^p */
-ambulo__residual ambulo__power_law_from(double u, double power, double smoothing, double least) {
+ambulo__residual ambulo__power_law(double u, double power, double smoothing, double least) {
   double square = u * u + smoothing * smoothing;
   double lower = power == 3.0 ? sqrt(square) : pow(square, 0.5 * power - 1.0);
   double share = square > 0.0 ? u * u / square : 0.0;
   ambulo__residual r = {square * lower - least, power * u * lower,
                         power * lower * (1.0 + (power - 2.0) * share)};
   return r;
-}
-
-ambulo__residual ambulo__power_law(double u, double power, double smoothing) {
-  return ambulo__power_law_from(u, power, smoothing, ambulo__power_least(power, smoothing));
 }

@@ -79,10 +79,11 @@ ambulo__residual ambulo__term_residual_from(const ambulo_term *term, double leas
   if (term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_MECHANICAL_POWER)
     return ambulo__absolute(u, term->smoothing);
   if (term->kind == AMBULO_TORQUE_POWER)
-    return ambulo__power_law_from(u, term->power, term->smoothing, least);
+    return ambulo__power_law(u, term->power, term->smoothing, least);
   return ambulo__squared(u);
 }
 
+/* (13.c) */
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
   return ambulo__term_residual_from(term, ambulo__term_least(term), u);
 }

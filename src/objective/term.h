@@ -32,10 +32,8 @@ typedef struct ambulo__residual {
 /* phi of each shape at u. */
 ambulo__residual ambulo__squared(double u);
 ambulo__residual ambulo__absolute(double u, double smoothing);
-ambulo__residual ambulo__power_law(double u, double power, double smoothing);
-/* The same with least = s^p, which no u changes; where only derivatives are looked at, any will do.
- */
-ambulo__residual ambulo__power_law_from(double u, double power, double smoothing, double least);
+/* least: s^p, which no u changes; where only derivatives are looked at, any will do. */
+ambulo__residual ambulo__power_law(double u, double power, double smoothing, double least);
 double ambulo__power_least(double power, double smoothing);
 
 /* What the evaluation needs to know about a term. */
