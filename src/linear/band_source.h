@@ -215,10 +215,15 @@ static void forward(int n, int ld, const double *a, const int *below, const doub
   }
 }
 
-/* y = sums[0 .. 7] of the columns of a block: those below the corner, times x */
+/* the column of a corner from its row `from` on, zero above: what stands there belongs to others */
+static inline wide corner_column(const double *corner, size_t step, int c, int v, int from) {
+  lanes below = (lanes)(counting + v * W >= (lanes){0} + from);
+  return (wide)((lanes)load(corner + (size_t)c * step + v * W) & below);
+}
+
+/* sums[0 .. 7] of the columns of a block: what they have below the corner, times x, added to sum */
 static inline void sums_below(const double *corner, size_t step, int rows, const double *x,
-                              double *sums) {
-  wide sum[T] = {{0}};
+                              wide sum[T], double *sums) {
   for (int i = T; i < T + rows; i += W) {
     wide other = load(x + i);
     for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
@@ -226,17 +231,22 @@ static inline void sums_below(const double *corner, size_t step, int rows, const
   for (int c = 0; c < T; c += W) *(loose *)(sums + c) = sums_of(sum + c);
 }
 
+/* the same with the corner */
+static inline void sums_from_corner(const double *corner, size_t step, int rows, const double *x,
+                                    double *sums) {
+  wide sum[T] = {{0}};
+  UNROLLED for (int c = 0; c < T; c++) {
+    for (int v = 0; v < V; v++) sum[c] += corner_column(corner, step, c, v, c) * load(x + v * W);
+  }
+  sums_below(corner, step, rows, x, sum, sums);
+}
+
 static void upper_multiply(int n, int ld, const double *a, const int *below, double *x) {
   size_t step = (size_t)ld - 1;
   for (int block = 0; block < blocks_of(n); block++) {
-    const double *corner = a + (size_t)(block * T) * (size_t)ld;
-    double *at = x + block * T, l[T][T], sum[T];
-    take_corner(corner, step, l);
-    sums_below(corner, step, below[block] * T, at, sum);
-    for (int c = 0; c < T; c++) {
-      for (int i = c; i < T; i++) sum[c] += l[c][i] * at[i];
-    }
-    for (int c = 0; c < T; c++) at[c] = sum[c];
+    double *at = x + block * T, sums[T];
+    sums_from_corner(a + place(block * T, block * T, step), step, below[block] * T, at, sums);
+    for (int c = 0; c < T; c++) at[c] = sums[c];
   }
 }
 
@@ -244,16 +254,15 @@ static void multiply(int n, int kd, int ld, const double *a, const double *x, do
   size_t step = (size_t)ld - 1;
   for (int j = 0; j < blocks_of(n) * T; j++) y[j] = 0.0;
   for (int block = 0; block < blocks_of(n); block++) {
-    const double *corner = a + (size_t)(block * T) * (size_t)ld, *v = x + block * T;
-    double *at = y + block * T, l[T][T], sum[T];
+    const double *corner = a + place(block * T, block * T, step), *v = x + block * T;
+    double *at = y + block * T, sums[T];
     int rows = band_below(n, kd, block) * T;
-    take_corner(corner, step, l);
-    sums_below(corner, step, rows, v, sum);
-    for (int c = 0; c < T; c++) {
-      for (int i = c; i < T; i++) sum[c] += l[c][i] * v[i];
-      for (int i = 0; i < c; i++) sum[c] += l[i][c] * v[i];
+    sums_from_corner(corner, step, rows, v, sums);
+    for (int h = 0; h < V; h++) {
+      wide sum = *(loose *)(sums + h * W);
+      UNROLLED for (int c = 0; c < T; c++) sum += corner_column(corner, step, c, h, c + 1) * v[c];
+      store(at + h * W, load(at + h * W) + sum);
     }
-    for (int c = 0; c < T; c++) at[c] += sum[c];
     for (int i = T; i < T + rows; i += W)
       store(at + i, load(at + i) + product(corner + i, step, v));
   }
@@ -266,7 +275,8 @@ static void backward(int n, int ld, const double *a, const int *below, const dou
     const double *corner = a + (size_t)(block * T) * (size_t)ld;
     const double *inverse = corners + (size_t)block * AMBULO__CORNER + T * T;
     double *at = x + block * T, v[T];
-    sums_below(corner, step, below[block] * T, at, v);
+    wide sum[T] = {{0}};
+    sums_below(corner, step, below[block] * T, at, sum, v);
     for (int c = 0; c < T; c++) v[c] = at[c] - v[c];
     for (int h = 0; h < T; h += W) store(at + h, product(inverse + h, T, v));
   }
