@@ -215,37 +215,24 @@ static void forward(int n, int ld, const double *a, const int *below, const doub
   }
 }
 
-/* the column of a corner from its row `from` on, zero above: what stands there belongs to others */
-static inline wide corner_column(const double *corner, size_t step, int c, int v, int from) {
-  lanes below = (lanes)(counting + v * W >= (lanes){0} + from);
-  return (wide)((lanes)load(corner + (size_t)c * step + v * W) & below);
-}
-
-/* sums[0 .. 7] of the columns of a block: what they have below the corner, times x, added to sum */
-static inline void sums_below(const double *corner, size_t step, int rows, const double *x,
-                              wide sum[T], double *sums) {
-  for (int i = T; i < T + rows; i += W) {
+/* sums[0 .. 7] of the columns of a block times x, from row `from` of its corner on: 0, or T for
+ * what is below it. Above the diagonal of the corner are rows below the band of other columns:
+ * zeros. */
+static inline void sums_of_columns(const double *corner, size_t step, int from, int rows,
+                                   const double *x, double *sums) {
+  wide sum[T] = {{0}};
+  for (int i = from; i < T + rows; i += W) {
     wide other = load(x + i);
     for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
   }
   for (int c = 0; c < T; c += W) *(loose *)(sums + c) = sums_of(sum + c);
 }
 
-/* the same with the corner */
-static inline void sums_from_corner(const double *corner, size_t step, int rows, const double *x,
-                                    double *sums) {
-  wide sum[T] = {{0}};
-  UNROLLED for (int c = 0; c < T; c++) {
-    for (int v = 0; v < V; v++) sum[c] += corner_column(corner, step, c, v, c) * load(x + v * W);
-  }
-  sums_below(corner, step, rows, x, sum, sums);
-}
-
 static void upper_multiply(int n, int ld, const double *a, const int *below, double *x) {
   size_t step = (size_t)ld - 1;
   for (int block = 0; block < blocks_of(n); block++) {
     double *at = x + block * T, sums[T];
-    sums_from_corner(a + place(block * T, block * T, step), step, below[block] * T, at, sums);
+    sums_of_columns(a + place(block * T, block * T, step), step, 0, below[block] * T, at, sums);
     for (int c = 0; c < T; c++) at[c] = sums[c];
   }
 }
@@ -257,11 +244,15 @@ static void multiply(int n, int kd, int ld, const double *a, const double *x, do
     const double *corner = a + place(block * T, block * T, step), *v = x + block * T;
     double *at = y + block * T, sums[T];
     int rows = band_below(n, kd, block) * T;
-    sums_from_corner(corner, step, rows, v, sums);
-    for (int h = 0; h < V; h++) {
-      wide sum = *(loose *)(sums + h * W);
-      UNROLLED for (int c = 0; c < T; c++) sum += corner_column(corner, step, c, h, c + 1) * v[c];
-      store(at + h * W, load(at + h * W) + sum);
+    sums_of_columns(corner, step, 0, rows, v, sums);
+    for (int h = 0; h < T;
+         h += W) { /* rows of the corner, which the sums had from the diagonal on */
+      wide sum = load(at + h) + *(loose *)(sums + h);
+      UNROLLED for (int c = 0; c < T; c++) {
+        lanes strictly = (lanes)(counting + h > (lanes){0} + c);
+        sum += (wide)((lanes)load(corner + h + (size_t)c * step) & strictly) * v[c];
+      }
+      store(at + h, sum);
     }
     for (int i = T; i < T + rows; i += W)
       store(at + i, load(at + i) + product(corner + i, step, v));
@@ -275,8 +266,7 @@ static void backward(int n, int ld, const double *a, const int *below, const dou
     const double *corner = a + (size_t)(block * T) * (size_t)ld;
     const double *inverse = corners + (size_t)block * AMBULO__CORNER + T * T;
     double *at = x + block * T, v[T];
-    wide sum[T] = {{0}};
-    sums_below(corner, step, below[block] * T, at, sum, v);
+    sums_of_columns(corner, step, T, below[block] * T, at, v);
     for (int c = 0; c < T; c++) v[c] = at[c] - v[c];
     for (int h = 0; h < T; h += W) store(at + h, product(inverse + h, T, v));
   }
