@@ -70,13 +70,6 @@ static inline int start_of(const int *below, int first, int row) {
 
 /* ----------------------------------------------------------------- factor */
 
-/* the elements of a corner on and below the diagonal; above it stand those of other columns */
-static inline void take_corner(const double *a, size_t step, double l[T][T]) {
-  for (size_t c = 0; c < T; c++) {
-    for (size_t i = 0; i < T; i++) l[c][i] = i < c ? 0.0 : a[c * step + i];
-  }
-}
-
 /* L in place and the inverses of its diagonal elements; l is [column][row]. What the next pivot
  * waits for is a quotient, a product and a difference; the root of this one is beside that. */
 static int factor_corner(double l[T][T], double inverse[T]) {
@@ -158,14 +151,13 @@ ALWAYS void factor_strip(int tiles, double *a, size_t step, const int *below, in
 static void take_products(const double *a, size_t step, const int *below, int start, int block,
                           double l[T][T]) {
   const double *corner = a + place(block * T, block * T, step);
-  take_corner(corner, step, l);
   for (int h = 0; h < T; h += COLUMNS) {
     wide sums[V][COLUMNS];
     strip_products(1, a, step, below, start, block, block * T + h, block * T, sums);
     for (int c = 0; c < COLUMNS; c++) {
       for (int v = 0; v < V; v++) {
-        double *at = l[h + c] + v * W;
-        store(at, load(at) - sums[v][c]);
+        const double *at = corner + (size_t)(h + c) * step + v * W;
+        store(l[h + c] + v * W, load(at) - sums[v][c]);
       }
     }
   }
