@@ -7,8 +7,8 @@
  * rows of a[] below the band stay zero, so that rectangles that reach past it can be read;
  * ld - 1 is a multiple of 8, so that aligned tiles can (band_kernels.h).
  *
- * Reading order: band.h, sparse_rows.h, band.c, band_kernels.h, band_source.h; border.h, kkt.h,
- * kkt.c; mixing.h.
+ * Reading order: band.h, sparse_rows.h, band.c, band_kernels.h, band_source.h, tile_source.h;
+ * spread.h, gram_source.h; border.h, kkt.h, kkt.c; mixing.h.
  */
 #ifndef AMBULO_LINEAR_BAND_H
 #define AMBULO_LINEAR_BAND_H

@@ -70,13 +70,6 @@ static inline int start_of(const int *below, int first, int row) {
 
 /* ----------------------------------------------------------------- factor */
 
-/* the elements of a corner on and below the diagonal; above it stand those of other columns */
-static inline void take_corner(const double *a, size_t step, double l[T][T]) {
-  for (size_t c = 0; c < T; c++) {
-    for (size_t i = 0; i < T; i++) l[c][i] = i < c ? 0.0 : a[c * step + i];
-  }
-}
-
 /* L in place and the inverses of its diagonal elements; l is [column][row]. What the next pivot
  * waits for is a quotient, a product and a difference; the root of this one is beside that. */
 static int factor_corner(double l[T][T], double inverse[T]) {
@@ -158,14 +151,13 @@ ALWAYS void factor_strip(int tiles, double *a, size_t step, const int *below, in
 static void take_products(const double *a, size_t step, const int *below, int start, int block,
                           double l[T][T]) {
   const double *corner = a + place(block * T, block * T, step);
-  take_corner(corner, step, l);
   for (int h = 0; h < T; h += COLUMNS) {
     wide sums[V][COLUMNS];
     strip_products(1, a, step, below, start, block, block * T + h, block * T, sums);
     for (int c = 0; c < COLUMNS; c++) {
       for (int v = 0; v < V; v++) {
-        double *at = l[h + c] + v * W;
-        store(at, load(at) - sums[v][c]);
+        const double *at = corner + (size_t)(h + c) * step + v * W;
+        store(l[h + c] + v * W, load(at) - sums[v][c]);
       }
     }
   }
@@ -215,11 +207,13 @@ static void forward(int n, int ld, const double *a, const int *below, const doub
   }
 }
 
-/* y = sums[0 .. 7] of the columns of a block: those below the corner, times x */
-static inline void sums_below(const double *corner, size_t step, int rows, const double *x,
-                              double *sums) {
+/* sums[0 .. 7] of the columns of a block times x, from row `from` of its corner on: 0, or T for
+ * what is below it. Above the diagonal of the corner are rows below the band of other columns:
+ * zeros. */
+static inline void sums_of_columns(const double *corner, size_t step, int from, int rows,
+                                   const double *x, double *sums) {
   wide sum[T] = {{0}};
-  for (int i = T; i < T + rows; i += W) {
+  for (int i = from; i < T + rows; i += W) {
     wide other = load(x + i);
     for (size_t c = 0; c < T; c++) sum[c] += load(corner + i + c * step) * other;
   }
@@ -229,14 +223,9 @@ static inline void sums_below(const double *corner, size_t step, int rows, const
 static void upper_multiply(int n, int ld, const double *a, const int *below, double *x) {
   size_t step = (size_t)ld - 1;
   for (int block = 0; block < blocks_of(n); block++) {
-    const double *corner = a + (size_t)(block * T) * (size_t)ld;
-    double *at = x + block * T, l[T][T], sum[T];
-    take_corner(corner, step, l);
-    sums_below(corner, step, below[block] * T, at, sum);
-    for (int c = 0; c < T; c++) {
-      for (int i = c; i < T; i++) sum[c] += l[c][i] * at[i];
-    }
-    for (int c = 0; c < T; c++) at[c] = sum[c];
+    double *at = x + block * T, sums[T];
+    sums_of_columns(a + place(block * T, block * T, step), step, 0, below[block] * T, at, sums);
+    for (int c = 0; c < T; c++) at[c] = sums[c];
   }
 }
 
@@ -244,16 +233,19 @@ static void multiply(int n, int kd, int ld, const double *a, const double *x, do
   size_t step = (size_t)ld - 1;
   for (int j = 0; j < blocks_of(n) * T; j++) y[j] = 0.0;
   for (int block = 0; block < blocks_of(n); block++) {
-    const double *corner = a + (size_t)(block * T) * (size_t)ld, *v = x + block * T;
-    double *at = y + block * T, l[T][T], sum[T];
+    const double *corner = a + place(block * T, block * T, step), *v = x + block * T;
+    double *at = y + block * T, sums[T];
     int rows = band_below(n, kd, block) * T;
-    take_corner(corner, step, l);
-    sums_below(corner, step, rows, v, sum);
-    for (int c = 0; c < T; c++) {
-      for (int i = c; i < T; i++) sum[c] += l[c][i] * v[i];
-      for (int i = 0; i < c; i++) sum[c] += l[i][c] * v[i];
+    sums_of_columns(corner, step, 0, rows, v, sums);
+    for (int h = 0; h < T;
+         h += W) { /* rows of the corner, which the sums had from the diagonal on */
+      wide sum = load(at + h) + *(loose *)(sums + h);
+      UNROLLED for (int c = 0; c < T; c++) {
+        lanes strictly = (lanes)(counting + h > (lanes){0} + c);
+        sum += (wide)((lanes)load(corner + h + (size_t)c * step) & strictly) * v[c];
+      }
+      store(at + h, sum);
     }
-    for (int c = 0; c < T; c++) at[c] += sum[c];
     for (int i = T; i < T + rows; i += W)
       store(at + i, load(at + i) + product(corner + i, step, v));
   }
@@ -266,7 +258,7 @@ static void backward(int n, int ld, const double *a, const int *below, const dou
     const double *corner = a + (size_t)(block * T) * (size_t)ld;
     const double *inverse = corners + (size_t)block * AMBULO__CORNER + T * T;
     double *at = x + block * T, v[T];
-    sums_below(corner, step, below[block] * T, at, v);
+    sums_of_columns(corner, step, T, below[block] * T, at, v);
     for (int c = 0; c < T; c++) v[c] = at[c] - v[c];
     for (int h = 0; h < T; h += W) store(at + h, product(inverse + h, T, v));
   }

@@ -3,7 +3,7 @@
  *
  * Gradients are zero on the limbs that they do not concern, in half of all places of a whole body.
  * Of such rows a tile takes those that have something in both of its panels of 8 columns, which a
- * bit for each row and panel says: of 45 coordinates 0.5 to 0.6 of all. The bits are found for as
+ * bit for each row and panel says: of 45 coordinates about half. The bits are found for as
  * many rows and panels at a time as have room on the stack.
  */
 

@@ -11,8 +11,9 @@
  *
  * G'G first takes 9 of the 25 products that (G P)'(G P) takes where splines of degree 4 have five
  * control points, and the rows keep the zeros of the limbs that they do not concern side by side
- * (gram_source.h); to spread it costs as much as some 15 rows. With few rows, or no more control
- * points than orders, there is nothing to win: then it is the rows that become G P. */
+ * (gram_source.h); to spread it costs as much as some 17 rows of G P (45 coordinates). With few
+ * rows, or no more control points than orders, there is nothing to win: then it is the rows that
+ * become G P. */
 #ifndef AMBULO_LINEAR_SPREAD_H
 #define AMBULO_LINEAR_SPREAD_H
 
