@@ -5,14 +5,20 @@
  * its Cholesky factor and of one solve with it (linear/band.h) for d = 6 ... 55 at N = 72 and for
  * N = 12 ... 576 at d = 18, the powers of d and of N they grow with, the rate of the
  * factorization (about order * (half-bandwidth)^2 operations), and how many times as long LAPACK
- * takes (dpbtrf, and dtbsv twice), in turns. */
+ * takes (dpbtrf, and dtbsv twice), in turns. The band is full here; that of a problem ends with
+ * whole control points, and its factor takes a sixth to a quarter less.
+ *
+ * Also the forward solves of 3 d border columns, and the Gram matrix of a node: 2 d rows of which
+ * half is zero, on splines of degree 3 (linear/spread.h; LAPACK: dtrsm with dgemm, and dsyrk). */
 #include "bench_csv.h"
-#include "linear/band.h"
+#include "linear/spread.h"
 
-enum { repeats = 15 };
+#include <stddef.h>
+
+enum { repeats = 15, span = 4 };
 
 typedef struct times {
-  double factor, solve;
+  double factor, solve, wing, node;
 } times;
 
 /* Diagonally dominant. */
@@ -27,7 +33,37 @@ static void fill(ambulo__band *band, double *right) {
   }
 }
 
-static times measure(ambulo__band *band, double *right) {
+/* half of a row in blocks of d / 3: limbs */
+static void fill_rows(int d, double *rows) {
+  int stride = ambulo__whole_tiles(AMBULO__ORDERS * d);
+  for (int r = 0; r < 2 * d; r++) {
+    for (int j = 0; j < AMBULO__ORDERS * d; j++)
+      rows[r * stride + j] = j / (d / 3) % 2 == r % 2 ? 0.0 : sin(r + 0.3 * j);
+  }
+}
+
+/* wing [order rounded up][3 d, in tiles]; rows [2 d][3 d, in tiles] */
+static void measure_many(ambulo__band *band, int d, double *wing, double *rows, times *spent) {
+  static const double weight[span] = {0.04, 0.46, 0.46, 0.04};
+  static const double *const b[] = {weight, weight, weight};
+  ambulo__pool pool;
+  ambulo__spread spread;
+  int width = ambulo__whole_tiles(3 * d);
+  for (int k = 0; k < band->n * width; k++) wing[k] = sin(k);
+  fill_rows(d, rows);
+  ambulo__pool_init(&pool, NULL);
+  if (ambulo__spread_create(&pool, d, &spread)) exit(1);
+  if (!band->kernels) spread.square.kernels = NULL;
+  double start = bench_seconds();
+  ambulo__band_forward_many(band, width, wing);
+  double solved = bench_seconds();
+  ambulo__spread_rows(&spread, 2 * d, width, rows, span, b, 0, band);
+  spent->node = bench_seconds() - solved;
+  spent->wing = solved - start;
+  ambulo__pool_clear(&pool);
+}
+
+static times measure(ambulo__band *band, int d, double *right, double *wing, double *rows) {
   times spent;
   fill(band, right);
   double start = bench_seconds();
@@ -37,39 +73,56 @@ static times measure(ambulo__band *band, double *right) {
   ambulo__band_backward(band, right);
   spent.solve = bench_seconds() - factored;
   spent.factor = factored - start;
+  measure_many(band, d, wing, rows, &spent);
   return spent;
 }
 
-static times report(bench_table *table, int d, int intervals) {
-  double factor[2][repeats], solve[2][repeats];
+/* the median of what runs spent on a part, offset as in struct times */
+static double median_of(const times *run, size_t offset) {
+  double part[repeats];
+  for (int t = 0; t < repeats; t++)
+    memcpy(&part[t], (const char *)(run + t) + offset, sizeof *part);
+  return bench_median(part, repeats);
+}
+
+static times median_times(const times *run) {
+  return (times){median_of(run, offsetof(times, factor)), median_of(run, offsetof(times, solve)),
+                 median_of(run, offsetof(times, wing)), median_of(run, offsetof(times, node))};
+}
+
+static void put(bench_table *table, const char *what, int d, int intervals, const char *unit,
+                double value) {
   char quantity[bench_key];
+  (void)snprintf(quantity, sizeof quantity, "%s %d coordinates at N = %d", what, d, intervals);
+  bench_put(table, quantity, unit, value);
+}
+
+static times report(bench_table *table, int d, int intervals) {
+  times run[2][repeats];
   ambulo__pool pool;
   ambulo__band band[2];
   ambulo__pool_init(&pool, NULL);
-  int order = d * (intervals + 3), width = 4 * d - 1;
+  int order = d * (intervals + 3), kd = 4 * d - 1, width = ambulo__whole_tiles(3 * d);
   double *right = ambulo__pool_doubles(&pool, (size_t)order);
+  double *wing = ambulo__pool_doubles(&pool, (size_t)(ambulo__whole_tiles(order) * width));
+  double *rows = ambulo__pool_doubles(&pool, (size_t)(2 * d * width));
   for (int k = 0; k < 2; k++) {
-    if (!right || ambulo__band_create(&pool, order, width, &band[k])) exit(1);
+    if (!right || !wing || !rows || ambulo__band_create(&pool, order, kd, &band[k])) exit(1);
   }
   band[1].kernels = NULL; /* LAPACK */
   for (int t = 0; t < repeats; t++) {
-    for (int k = 0; k < 2; k++) {
-      times spent = measure(&band[k], right);
-      factor[k][t] = spent.factor;
-      solve[k][t] = spent.solve;
-    }
+    for (int k = 0; k < 2; k++) run[k][t] = measure(&band[k], d, right, wing, rows);
   }
   ambulo__pool_clear(&pool);
-  times own = {bench_median(factor[0], repeats), bench_median(solve[0], repeats)};
-  times lapack = {bench_median(factor[1], repeats), bench_median(solve[1], repeats)};
-  (void)snprintf(quantity, sizeof quantity, "factor of %d coordinates at N = %d", d, intervals);
-  bench_put(table, quantity, "us", 1e6 * own.factor);
-  (void)snprintf(quantity, sizeof quantity, "rate of %d coordinates at N = %d", d, intervals);
-  bench_put(table, quantity, "Gflop/s", 1e-9 * order * (double)width * width / own.factor);
-  (void)snprintf(quantity, sizeof quantity, "solve with %d coordinates at N = %d", d, intervals);
-  bench_put(table, quantity, "us", 1e6 * own.solve);
-  printf("%-44s factor %.2f x, solve %.2f x\n", "  LAPACK", lapack.factor / own.factor,
-         lapack.solve / own.solve);
+  times own = median_times(run[0]), lapack = median_times(run[1]);
+  put(table, "factor of", d, intervals, "us", 1e6 * own.factor);
+  put(table, "rate of", d, intervals, "Gflop/s", 1e-9 * order * (double)kd * kd / own.factor);
+  put(table, "solve with", d, intervals, "us", 1e6 * own.solve);
+  put(table, "border of", d, intervals, "us", 1e6 * own.wing);
+  put(table, "node of", d, intervals, "us", 1e6 * own.node);
+  printf("%-44s factor %.2f x, solve %.2f x, border %.2f x, node %.2f x\n", "  LAPACK",
+         lapack.factor / own.factor, lapack.solve / own.solve, lapack.wing / own.wing,
+         lapack.node / own.node);
   return own;
 }
 

@@ -6,6 +6,7 @@
  * the process's locale is neither read nor changed. */
 #define _GNU_SOURCE
 #include "base/numtext.h"
+#include "base/shortest_digits.h"
 
 #include <float.h>
 #include <locale.h>
@@ -130,6 +131,7 @@ size_t ambulo__print_double(char buffer[AMBULO__NUMTEXT_SIZE], double value) {
     return strlen(word);
   }
   size_t length = print_hundredths(buffer, value);
+  if (length == 0) length = ambulo__shortest_digits(buffer, value);
   if (length > 0) return length;
   /* every text of up to 15 digits survives in a normal double, so that %.15g already
      drops what is not needed; subnormal numbers carry fewer digits */

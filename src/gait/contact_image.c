@@ -61,12 +61,11 @@ static int grow(const ambulo_problem_definition *d, int effector, int modes, amb
     if (!(modes & 1 << d->contacts[i].mode)) continue;
     for (int period = -last; period <= last; period++) {
       ambulo__span image = ambulo__image_span(d, i, period);
-      if (ambulo__image_effector(d, i, period) != effector) continue;
       int touches =
           image.from <= span->to + AMBULO__INSTANT && image.to >= span->from - AMBULO__INSTANT;
       int reaches =
           image.from < span->from - AMBULO__INSTANT || image.to > span->to + AMBULO__INSTANT;
-      if (!touches || !reaches) continue;
+      if (!touches || !reaches || ambulo__image_effector(d, i, period) != effector) continue;
       if (image.from < span->from) {
         span->from = image.from;
         span->begins = i;

@@ -12,13 +12,15 @@ ambulo_status ambulo__band_create(ambulo__pool *pool, int n, int kd, ambulo__ban
   band->n = n;
   band->kd = kd < n ? kd : n - 1;
   band->kernels = ambulo__band_kernels_select();
-  if (band->kernels && band->kd > band->kernels->largest_kd) band->kernels = NULL;
   band->ld = ambulo__whole_tiles(band->kd + (band->kernels ? AMBULO__TILE : BLOCK)) + 1;
   band->a = ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) * (size_t)band->ld);
   band->corner = NULL;
-  if (band->kernels)
-    band->corner =
-        ambulo__pool_doubles(pool, (size_t)ambulo__whole_tiles(n) / AMBULO__TILE * AMBULO__CORNER);
+  band->below = NULL;
+  if (band->kernels) {
+    size_t tiles = (size_t)ambulo__whole_tiles(n) / AMBULO__TILE;
+    band->corner = ambulo__pool_doubles(pool, tiles * AMBULO__CORNER);
+    band->below = ambulo__pool_ints(pool, tiles);
+  }
   band->work = ambulo__pool_doubles(pool, 2 * (size_t)ambulo__whole_tiles(n));
   return pool->failed ? AMBULO_E_MEMORY : AMBULO_OK;
 }
@@ -38,7 +40,9 @@ void ambulo__band_copy(const ambulo__band *from, ambulo__band *to) {
 void ambulo__band_copy_factor(const ambulo__band *from, ambulo__band *to) {
   size_t tiles = (size_t)ambulo__whole_tiles(to->n) / AMBULO__TILE;
   ambulo__band_copy(from, to);
-  if (to->corner) memcpy(to->corner, from->corner, tiles * AMBULO__CORNER * sizeof *to->corner);
+  if (!to->kernels) return;
+  memcpy(to->corner, from->corner, tiles * AMBULO__CORNER * sizeof *to->corner);
+  memcpy(to->below, from->below, tiles * sizeof *to->below);
 }
 
 void ambulo__band_add_diagonal(ambulo__band *band, double value) {
@@ -66,6 +70,15 @@ void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride
   }
 }
 
+void ambulo__band_add_form(ambulo__band *band, int first, int count, int stride,
+                           const double *form) {
+  for (int e = 0, at = 0; e < count; e++) {
+    for (int f = 0; f <= e; f++)
+      band->a[(size_t)(first + f * stride) * (size_t)band->ld + (size_t)((e - f) * stride)] +=
+          form[at++];
+  }
+}
+
 static void add_scaled(int count, double factor, const double *restrict from, double *restrict to) {
   for (int k = 0; k < count; k++) to[k] += factor * from[k];
 }
@@ -73,13 +86,14 @@ static void add_scaled(int count, double factor, const double *restrict from, do
 void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
                              double weight) {
   int from = rows->start[i], to = rows->start[i + 1];
+  const double *value = ambulo__sparse_rows_gradient(rows, i) - from;
   /* columns ascend: (e, f) with f <= e is the lower triangle */
   for (int f = from; f < to; f++) {
-    double factor = weight * rows->value[f];
+    double factor = weight * value[f];
     if (factor == 0.0) continue;
     double *diagonal = band->a + (size_t)rows->column[f] * (size_t)band->ld;
     for (int e = f; e < to; e = rows->run_end[e]) {
-      add_scaled(rows->run_end[e] - e, factor, rows->value + e,
+      add_scaled(rows->run_end[e] - e, factor, value + e,
                  diagonal + rows->column[e] - rows->column[f]);
     }
   }
@@ -90,9 +104,10 @@ void ambulo__band_raise_diagonal(ambulo__band *band, double share) {
 }
 
 double ambulo__band_row_length(const ambulo__band *band, const ambulo__sparse_rows *rows, int i) {
+  const double *value = ambulo__sparse_rows_gradient(rows, i) - rows->start[i];
   double sum = 0.0;
   for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
-    sum += rows->value[e] * rows->value[e] / band->a[(size_t)rows->column[e] * (size_t)band->ld];
+    sum += value[e] * value[e] / band->a[(size_t)rows->column[e] * (size_t)band->ld];
   return sqrt(sum);
 }
 
@@ -123,7 +138,7 @@ static int height(const ambulo__band *band, int j) {
 int ambulo__band_factor(ambulo__band *band) {
   int info = 0;
   if (band->kernels)
-    return band->kernels->factor(band->n, band->kd, band->ld, band->a, band->corner);
+    return band->kernels->factor(band->n, band->kd, band->ld, band->a, band->below, band->corner);
   dpbtrf_("L", &band->n, &band->kd, band->a, &band->ld, &info);
   /* its pivots are asked to be at most zero, which NaN is not */
   for (int j = 0; j < band->n && info == 0; j++)
@@ -161,7 +176,7 @@ void ambulo__band_forward(const ambulo__band *l, double *x) {
   int step = 1;
   if (l->kernels) {
     take_right_side(l, x);
-    l->kernels->forward(l->n, l->kd, l->ld, l->a, l->corner, l->work);
+    l->kernels->forward(l->n, l->ld, l->a, l->below, l->corner, l->work);
     memcpy(x, l->work, bytes);
   } else {
     dtbsv_("L", "N", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
@@ -173,7 +188,7 @@ void ambulo__band_backward(const ambulo__band *l, double *x) {
   int step = 1;
   if (l->kernels) {
     take_right_side(l, x);
-    l->kernels->backward(l->n, l->kd, l->ld, l->a, l->corner, l->work);
+    l->kernels->backward(l->n, l->ld, l->a, l->below, l->corner, l->work);
     memcpy(x, l->work, bytes);
   } else {
     dtbsv_("L", "T", "N", &l->n, &l->kd, l->a, &l->ld, x, &step);
@@ -183,7 +198,7 @@ void ambulo__band_backward(const ambulo__band *l, double *x) {
 void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
   if (l->kernels) {
     take_right_side(l, x);
-    l->kernels->upper_multiply(l->n, l->kd, l->ld, l->a, l->work);
+    l->kernels->upper_multiply(l->n, l->ld, l->a, l->below, l->work);
     memcpy(x, l->work, (size_t)l->n * sizeof *x);
     return;
   }
@@ -194,7 +209,7 @@ void ambulo__band_upper_multiply(const ambulo__band *l, double *x) {
  * leading dimension ld - 1; to LAPACK, which counts by columns, X is its transpose. */
 void ambulo__band_forward_many(const ambulo__band *l, int width, double *x) {
   if (l->kernels) {
-    l->kernels->forward_many(l->n, l->kd, l->ld, l->a, l->corner, width, x);
+    l->kernels->forward_many(l->n, l->ld, l->a, l->below, l->corner, width, x);
     return;
   }
   double one = 1.0, minus = -1.0;

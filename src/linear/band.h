@@ -7,8 +7,8 @@
  * rows of a[] below the band stay zero, so that rectangles that reach past it can be read;
  * ld - 1 is a multiple of 8, so that aligned tiles can (band_kernels.h).
  *
- * Reading order: band.h, sparse_rows.h, band.c, band_kernels.h, band_source.h; border.h, kkt.h,
- * kkt.c; mixing.h.
+ * Reading order: band.h, sparse_rows.h, band.c, band_kernels.h, band_source.h, tile_source.h;
+ * spread.h, gram_source.h; border.h, kkt.h, kkt.c; mixing.h.
  */
 #ifndef AMBULO_LINEAR_BAND_H
 #define AMBULO_LINEAR_BAND_H
@@ -20,7 +20,8 @@ typedef struct ambulo__band {
   int n, kd, ld;
   const ambulo__band_kernels *kernels; /* NULL: LAPACK */
   double *a;                           /* [n rounded up to 8][ld] */
-  double *corner;                      /* with kernels: inverses of the factor's corners */
+  double *corner;                      /* with kernels: inverses of the factor's corners, */
+  int *below;                          /* and its tiles below them (band_kernels.h) */
   double *work;                        /* [2][n rounded up to 8]: a right-hand side and a product */
 } ambulo__band;
 
@@ -41,6 +42,10 @@ void ambulo__band_add_rows(ambulo__band *band, int first, int width, int count, 
  * `first` on. */
 void ambulo__band_add_outer(ambulo__band *band, int first, int count, int stride, double weight,
                             const double *g);
+/* Adds a form of `count` unknowns, `stride` apart from `first` on; its lower triangle row by row.
+ */
+void ambulo__band_add_form(ambulo__band *band, int first, int count, int stride,
+                           const double *form);
 /* Adds weight * g'g of row i of a set of hosted rows. */
 void ambulo__band_add_sparse(ambulo__band *band, const ambulo__sparse_rows *rows, int i,
                              double weight);

@@ -10,28 +10,35 @@
 #ifndef AMBULO_LINEAR_BAND_KERNELS_H
 #define AMBULO_LINEAR_BAND_KERNELS_H
 
+#include <stddef.h>
+
 enum { AMBULO__TILE = 8, AMBULO__CORNER = 2 * AMBULO__TILE * AMBULO__TILE };
 
 typedef struct ambulo__band_kernels {
   const char *name; /* as ambulo_instruction_set() */
-  int largest_kd;   /* beyond this LAPACK factors faster */
-  /* A = L L' in place; the inverses of the corners of L into corner [n / 8][AMBULO__CORNER].
-   * 0, or 1 when A is not positive definite. */
-  int (*factor)(int n, int kd, int ld, double *a, double *corner);
-  /* x = L^-1 x and x = L^-T x */
-  void (*forward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
-  void (*backward)(int n, int kd, int ld, const double *a, const double *corner, double *x);
-  /* with the factor: x = L' x; with the matrix: y = A x */
-  void (*upper_multiply)(int n, int kd, int ld, const double *a, double *x);
-  void (*multiply)(int n, int kd, int ld, const double *a, const double *x, double *y);
+  /* A = L L' in place; tiles below each corner of L that are not zero into below [n / 8], the
+   * inverses of the corners into corner [n / 8][AMBULO__CORNER]. 0, or 1 when A is not positive
+   * definite. */
+  int (*factor)(int n, int kd, int ld, double *a, int *below, double *corner);
+  /* x = L^-1 x, x = L^-T x and x = L' x */
+  void (*forward)(int n, int ld, const double *a, const int *below, const double *corner,
+                  double *x);
+  void (*backward)(int n, int ld, const double *a, const int *below, const double *corner,
+                   double *x);
+  void (*upper_multiply)(int n, int ld, const double *a, const int *below, double *x);
   /* Of rows W [n][width], aligned, width whole tiles: W = L^-1 W, with room for n rounded up */
-  void (*forward_many)(int n, int kd, int ld, const double *a, const double *corner, int width,
-                       double *w);
-  /* a = W'W, a full triangle of `width` unknowns in band storage */
-  void (*gram)(int n, int width, const double *w, int ld, double *a);
+  void (*forward_many)(int n, int ld, const double *a, const int *below, const double *corner,
+                       int width, double *w);
+  /* with the matrix: y = A x */
+  void (*multiply)(int n, int kd, int ld, const double *a, const double *x, double *y);
   /* a += G'G for the first `width` unknowns of `a` in band storage, which need not be aligned, of
    * `count` rows G, aligned, `stride` whole tiles apart and zero from `width` on */
   void (*add_gram)(int count, int width, int stride, const double *g, int ld, double *a);
+  /* the same, faster where half of G is zero (gram_source.h) */
+  void (*add_sparse_gram)(int count, int width, int stride, const double *g, int ld, double *a);
+  /* a += P'MP, m [3 d][step] with leading dimension step (spread.h); sums [3 d] is scratch */
+  void (*spread)(int d, int span, const double *const b[3], const double *m, size_t step,
+                 double *sums, int ld, double *a);
   /* of X [n][8], aligned: y = W'X, y [width][8], aligned; X -= W y */
   void (*cross)(int n, int width, const double *w, const double *x, double *y);
   void (*subtract)(int n, int width, const double *w, const double *y, double *x);

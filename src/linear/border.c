@@ -33,23 +33,12 @@ static void fill_wing(ambulo__border *border, const ambulo__band *factor, const 
   ambulo__band_forward_many(factor, border->width, border->wing);
 }
 
-static void fill_schur(ambulo__border *border) {
-  ambulo__band *schur = &border->schur;
-  double one = 1.0, zero = 0.0;
-  int ld = schur->ld - 1;
-  if (border->kernels) {
-    border->kernels->gram(border->n, border->width, border->wing, schur->ld, schur->a);
-  } else {
-    dsyrk_("L", "N", &border->count, &border->n, &one, border->wing, &border->width, &zero,
-           schur->a, &ld);
-  }
-}
-
 int ambulo__border_factor(ambulo__border *border, const ambulo__band *factor, const int *active,
                           double shift, double relative) {
   if (border->count == 0) return 0;
   fill_wing(border, factor, active);
-  fill_schur(border);
+  ambulo__band_clear(&border->schur);
+  ambulo__band_add_rows(&border->schur, 0, border->count, border->n, border->width, border->wing);
   ambulo__band_add_diagonal(&border->schur,
                             shift + relative * ambulo__band_largest(&border->schur));
   return ambulo__band_factor(&border->schur);

@@ -12,36 +12,6 @@ static const ambulo__basis_point *point_of(const ambulo_problem *p, int node) {
   return &ambulo__lane_map_points(p->map)[node];
 }
 
-/* -------------------------------------------------------------------- hosts */
-
-/* control points [first, last] that a row depends on */
-static void support(const ambulo_problem *p, const ambulo__table_row *row, int *first, int *last) {
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  *first = p->control_points;
-  *last = -1;
-  for (int t = 0; t < row->term_count; t++) {
-    int from = term[t].channel / p->coordinates, to = from;
-    if (term[t].node >= 0) {
-      from = point_of(p, term[t].node)->first;
-      to = from + point_of(p, term[t].node)->span - 1;
-    }
-    if (from < *first) *first = from;
-    if (to > *last) *last = to;
-  }
-}
-
-int ambulo__row_host(const ambulo_problem *p, int row) {
-  const ambulo__table_row *r = &p->table.rows[row];
-  if (r->node >= 0) return r->node;
-  int first, last;
-  support(p, r, &first, &last);
-  for (int k = 0; k < p->nodes; k++) {
-    const ambulo__basis_point *point = point_of(p, k);
-    if (first >= point->first && last < point->first + point->span) return k;
-  }
-  return -1;
-}
-
 /* ------------------------------------------------------------------ pattern */
 
 static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
@@ -51,72 +21,6 @@ static int is_linear(const ambulo_problem *p, const ambulo__table_row *row) {
     if (term[t].node >= 0 && term[t].channel >= ambulo__channel_outputs(&p->channels)) return 0;
   }
   return 1;
-}
-
-static void mark_coordinate(const ambulo_problem *p, int node, int i, double *mark) {
-  const ambulo__basis_point *point = point_of(p, node);
-  for (int c = 0; c < point->span; c++) mark[(point->first + c) * p->coordinates + i] = 1.0;
-}
-
-/* marks the unknowns through which a channel of a node depends on x */
-static void mark_channel(const ambulo_problem *p, int node, int channel, double *mark) {
-  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
-  ambulo__row_part part[AMBULO__MOST_PARTS];
-  int output = channel - ambulo__channel_outputs(&p->channels);
-  if (output < 0) {
-    mark_coordinate(p, node, channel % p->coordinates, mark);
-    return;
-  }
-  int parts = ambulo__plan_parts(p->plan, output, part);
-  for (int k = 0; k < parts; k++) {
-    for (int e = pattern.start[part[k].row]; e < pattern.start[part[k].row + 1]; e++) {
-      mark_coordinate(p, node, pattern.column[e], mark);
-    }
-  }
-}
-
-/* the unknowns among which a row's columns lie: the window of its host, or all */
-static void window_of(const ambulo_problem *p, int host, int *from, int *to) {
-  *from = host < 0 ? 0 : ambulo__node_first(p, host);
-  *to = host < 0 ? p->variables : *from + ambulo__node_width(p, host);
-}
-
-/* marks the unknowns that a row depends on; only its window is written */
-static void mark_row(const ambulo_problem *p, const ambulo__table_row *row, int host,
-                     double *mark) {
-  int from, to;
-  window_of(p, host, &from, &to);
-  memset(mark + from, 0, (size_t)(to - from) * sizeof *mark);
-  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
-  if (curved) {
-    int channel[AMBULO__CURVED_CHANNELS], count = ambulo__curved_channels(curved, channel);
-    for (int k = 0; k < count; k++) mark_channel(p, row->node, channel[k], mark);
-    return;
-  }
-  if (row->user >= 0) {
-    for (int j = from; j < to; j++) mark[j] = 1.0;
-    return;
-  }
-  const ambulo__row_term *term = p->table.terms + row->first_term;
-  for (int t = 0; t < row->term_count; t++) {
-    if (term[t].node < 0) {
-      mark[term[t].channel] = 1.0;
-    } else {
-      mark_channel(p, term[t].node, term[t].channel, mark);
-    }
-  }
-}
-
-/* columns of a row into `column` (NULL: only counted) */
-static int list_columns(const ambulo_problem *p, int host, const double *mark, int *column) {
-  int count = 0, from, to;
-  window_of(p, host, &from, &to);
-  for (int j = from; j < to; j++) {
-    if (mark[j] == 0.0) continue;
-    if (column) column[count] = j;
-    count++;
-  }
-  return count;
 }
 
 void ambulo__sparse_rows_find_runs(ambulo__sparse_rows *s) {
@@ -144,28 +48,35 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
   s->host = ambulo__pool_ints(pool, n);
   s->constant = ambulo__pool_ints(pool, n);
   s->start = ambulo__pool_ints(pool, n + 1);
+  s->support = ambulo__pool_ints(pool, n);
   s->scale = ambulo__pool_doubles(pool, n);
+  s->slopes = ambulo__pool_doubles(pool, 3 * (size_t)p->coordinates);
+  s->blocks = NULL;
+  s->stale = NULL;
   size_t widest = (size_t)ambulo__basis_span(p->basis) * (size_t)p->coordinates;
+  ambulo__row_pattern pattern;
   s->dense = ambulo__pool_doubles(pool, (size_t)p->variables + widest);
-  if (pool->failed) return AMBULO_E_MEMORY;
+  if (ambulo__row_pattern_create(p, pool, &pattern)) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
     const ambulo__table_row *row = &p->table.rows[rows[i]];
+    int entries;
     if (is_over(poll, i)) return AMBULO_E_LIMIT;
     s->row[i] = rows[i];
     s->host[i] = ambulo__row_host(p, rows[i]);
     s->constant[i] = is_linear(p, row);
     s->scale[i] = 1.0;
-    mark_row(p, row, s->host[i], s->dense);
-    s->start[i + 1] = s->start[i] + list_columns(p, s->host[i], s->dense, NULL);
+    s->support[i] = ambulo__row_pattern_columns(&pattern, rows[i], s->host[i], NULL, &entries);
+    s->start[i + 1] = s->start[i] + entries;
   }
   s->column = ambulo__pool_ints(pool, (size_t)s->start[count]);
   s->run_end = ambulo__pool_ints(pool, (size_t)s->start[count]);
   s->value = ambulo__pool_doubles(pool, (size_t)s->start[count]);
   if (pool->failed) return AMBULO_E_MEMORY;
   for (int i = 0; i < count; i++) {
+    int entries;
     if (is_over(poll, i)) return AMBULO_E_LIMIT;
-    mark_row(p, &p->table.rows[rows[i]], s->host[i], s->dense);
-    list_columns(p, s->host[i], s->dense, s->column + s->start[i]);
+    (void)ambulo__row_pattern_columns(&pattern, rows[i], s->host[i], s->column + s->start[i],
+                                      &entries);
   }
   ambulo__sparse_rows_find_runs(s);
   return AMBULO_OK;
@@ -173,9 +84,48 @@ ambulo_status ambulo__sparse_rows_create(const ambulo_problem *p, const int *row
 
 /* ------------------------------------------------------------------- values */
 
+/* the entries of a row on its host from slopes y [orders][support], times its scale */
+static void spread(const ambulo__sparse_rows *s, int i, int orders, const double *restrict y) {
+  const ambulo__basis_point *point = point_of(s->problem, s->host[i]);
+  const int width = s->support[i];
+  double *restrict value = s->value + s->start[i];
+  for (int c = 0; c < point->span; c++, value += width) {
+    const double b0 = s->scale[i] * point->weight[0][c];
+    for (int e = 0; e < width; e++) value[e] = b0 * y[e];
+    if (orders == 1) continue;
+    const double b1 = s->scale[i] * point->weight[1][c], b2 = s->scale[i] * point->weight[2][c];
+    for (int e = 0; e < width; e++) value[e] += b1 * y[width + e] + b2 * y[2 * width + e];
+  }
+}
+
+void ambulo__sparse_rows_expand(const ambulo__sparse_rows *s, int i) {
+  ambulo__row_blocks_recall(s->blocks, i, s->dense);
+  spread(s, i, s->blocks->shape[i].orders, s->dense);
+  s->stale[i] = 0;
+}
+
+static void fill_local(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
+  const int d = s->problem->coordinates, width = s->support[i];
+  const int *column = s->column + s->start[i], first = ambulo__node_first(s->problem, s->host[i]);
+  ambulo__row_slopes(workspace, s->row[i], s->slopes);
+  if (s->stale && s->blocks->block_of[i] >= 0) {
+    ambulo__row_blocks_keep(s->blocks, i, s->slopes);
+    s->stale[i] = 1;
+    return;
+  }
+  for (int o = 0; o < 3; o++) {
+    for (int e = 0; e < width; e++) s->dense[o * width + e] = s->slopes[o * d + column[e] - first];
+  }
+  spread(s, i, 3, s->dense);
+}
+
 static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, int i) {
   const ambulo_problem *p = s->problem;
   int from = 0;
+  if (s->support[i] > 0) {
+    fill_local(s, workspace, i);
+    return;
+  }
   if (ambulo__row_is_local(p, s->row[i])) {
     from = ambulo__node_first(p, s->host[i]);
     ambulo__row_local_gradient(workspace, s->row[i], s->dense);
@@ -188,12 +138,23 @@ static void fill_row(ambulo__sparse_rows *s, const ambulo_workspace *workspace, 
   }
 }
 
+/* of rows that are stale the slopes are looked at */
+static int is_finite(const ambulo__sparse_rows *s) {
+  if (!s->stale) return ambulo__all_finite(s->value, (size_t)s->start[s->count]);
+  for (int i = 0; i < s->count; i++) {
+    size_t entries = (size_t)(s->start[i + 1] - s->start[i]);
+    if (!s->stale[i] && !ambulo__all_finite(s->value + s->start[i], entries)) return 0;
+  }
+  return ambulo__row_blocks_finite(s->blocks);
+}
+
 /* names the first entry that is not finite */
 static void find_fault(const ambulo__sparse_rows *s, ambulo_workspace *workspace) {
   for (int i = 0; i < s->count; i++) {
-    for (int e = s->start[i]; e < s->start[i + 1]; e++) {
-      if (isfinite(s->value[e])) continue;
-      ambulo__fault_of_row(workspace, s->row[i], s->column[e], s->value[e]);
+    const double *value = ambulo__sparse_rows_gradient(s, i);
+    for (int e = 0; e < s->start[i + 1] - s->start[i]; e++) {
+      if (isfinite(value[e])) continue;
+      ambulo__fault_of_row(workspace, s->row[i], s->column[s->start[i] + e], value[e]);
       return;
     }
   }
@@ -204,20 +165,66 @@ ambulo_status ambulo__sparse_rows_fill(ambulo__sparse_rows *s, ambulo_workspace 
   for (int i = 0; i < s->count; i++) {
     if (all || !s->constant[i]) fill_row(s, workspace, i);
   }
-  if (ambulo__all_finite(s->value, (size_t)s->start[s->count])) return AMBULO_OK;
+  if (is_finite(s)) return AMBULO_OK;
   find_fault(s, workspace);
   return AMBULO_E_NUMERIC;
 }
 
 void ambulo__sparse_rows_set_scale(ambulo__sparse_rows *s, int i, double scale) {
   double ratio = scale / s->scale[i];
-  for (int e = s->start[i]; e < s->start[i + 1]; e++) s->value[e] *= ratio;
+  int stale = s->stale && s->stale[i];
+  for (int e = s->start[i]; e < s->start[i + 1] && !stale; e++) s->value[e] *= ratio;
   s->scale[i] = scale;
 }
 
 void ambulo__sparse_rows_values(const ambulo__sparse_rows *s, const ambulo_workspace *workspace,
                                 double *value) {
   for (int i = 0; i < s->count; i++) value[i] = s->scale[i] * workspace->row_value[s->row[i]];
+}
+
+/* how much of the motion of its host a row needs */
+static int orders_of(const ambulo_problem *p, const ambulo__table_row *row) {
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  const ambulo__curved *curved = ambulo__row_curved_of(&p->table, row);
+  int channel[AMBULO__CURVED_CHANNELS], most = 1;
+  if (row->user >= 0 && !curved) return 3;
+  int count = curved ? ambulo__curved_channels(curved, channel) : row->term_count;
+  for (int k = 0; k < count; k++) {
+    int orders = ambulo__channel_orders(p, curved ? channel[k] : term[k].channel);
+    if (orders > most) most = orders;
+  }
+  return most;
+}
+
+/* others than limits on one number, of linear rows, are left to their gradients, which are short */
+static ambulo__row_shape shape_of(const ambulo__sparse_rows *s, int i) {
+  const ambulo_problem *p = s->problem;
+  const ambulo__table_row *row = &p->table.rows[s->row[i]];
+  const ambulo__row_term *term = p->table.terms + row->first_term;
+  ambulo__row_shape shape = {.host = s->host[i], .entry = -1};
+  if (s->support[i] == 0) return shape;
+  shape.support = s->support[i];
+  shape.column = s->column + s->start[i];
+  if (!s->constant[i]) {
+    shape.orders = orders_of(p, row);
+  } else if (row->term_count == 1) {
+    shape.entry = term->channel;
+    shape.coefficient = term->coefficient;
+  }
+  return shape;
+}
+
+ambulo_status ambulo__sparse_rows_lay_blocks(ambulo__sparse_rows *s, ambulo__pool *pool) {
+  ambulo__row_shape *shape = ambulo__pool_blocks(pool, (size_t)s->count, sizeof *shape);
+  ambulo__row_blocks *blocks = ambulo__pool_blocks(pool, 1, sizeof *blocks);
+  int *stale = ambulo__pool_ints(pool, (size_t)s->count);
+  if (pool->failed) return AMBULO_E_MEMORY;
+  for (int i = 0; i < s->count; i++) shape[i] = shape_of(s, i);
+  ambulo_status status = ambulo__row_blocks_create(s->problem, s->count, shape, pool, blocks);
+  if (status) return status;
+  s->blocks = blocks;
+  s->stale = stale;
+  return AMBULO_OK;
 }
 
 /* three sums side by side, since one waits for itself */
@@ -234,15 +241,18 @@ static double product(const ambulo__sparse_rows *s, int i, const double *d) {
 }
 
 void ambulo__sparse_rows_multiply(const ambulo__sparse_rows *s, const double *d, double *out) {
-  for (int i = 0; i < s->count; i++) out[i] = product(s, i, d);
+  if (s->blocks) ambulo__row_blocks_multiply(s->blocks, s->scale, d, out);
+  for (int i = 0; i < s->count; i++) {
+    if (!s->blocks || !ambulo__row_blocks_have(s->blocks, i)) out[i] = product(s, i, d);
+  }
 }
 
 void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double factor, const double *w,
                                        double *restrict y) {
-  const double *restrict value = s->value;
   for (int i = 0; i < s->count; i++) {
     double f = factor * w[i];
     if (f == 0.0) continue;
+    const double *restrict value = ambulo__sparse_rows_gradient(s, i) - s->start[i];
     for (int e = s->start[i]; e < s->start[i + 1]; e = s->run_end[e]) {
       double *restrict to = y + s->column[e];
       for (int k = 0; k < s->run_end[e] - e; k++) to[k] += f * value[e + k];
@@ -251,7 +261,8 @@ void ambulo__sparse_rows_add_transpose(const ambulo__sparse_rows *s, double fact
 }
 
 double ambulo__sparse_rows_norm(const ambulo__sparse_rows *s, int i) {
+  const double *value = ambulo__sparse_rows_gradient(s, i);
   double sum = 0.0;
-  for (int e = s->start[i]; e < s->start[i + 1]; e++) sum += s->value[e] * s->value[e];
+  for (int e = 0; e < s->start[i + 1] - s->start[i]; e++) sum += value[e] * value[e];
   return sqrt(sum);
 }

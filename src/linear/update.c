@@ -84,8 +84,9 @@ static void solve_tile(ambulo__update *u, int tile) {
   memset(wing, 0, (size_t)ambulo__whole_tiles(u->n) * T * sizeof *wing);
   for (int c = 0; c < columns; c++) {
     int i = u->row[tile * T + c];
+    const double *value = ambulo__sparse_rows_gradient(rows, i) - rows->start[i];
     for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
-      wing[rows->column[e] * T + c] = rows->value[e];
+      wing[rows->column[e] * T + c] = value[e];
   }
   ambulo__band_forward_many(u->factor, T, wing);
   if (border->count == 0) return;

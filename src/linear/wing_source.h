@@ -1,52 +1,5 @@
 /* linear/wing_source.h - the part of band_source.h on matrices W [n][width] of columns side by
- * side: products with themselves, with eight columns, with a vector. Included by it alone. */
-
-/* W rows of a tile of W'W, from those columns and the columns of the tile */
-static inline void gram_rows(int n, size_t width, const double *rows, const double *columns,
-                             wide sum[T]) {
-  for (size_t j = 0; j < T; j++) sum[j] = load(rows) * columns[j];
-  for (size_t k = 1; k < (size_t)n; k++) {
-    wide row = load(rows + k * width);
-    for (size_t j = 0; j < T; j++) sum[j] += row * columns[k * width + j];
-  }
-}
-
-static void gram(int n, int width, const double *w, int ld, double *a) {
-  size_t step = (size_t)ld - 1;
-  for (int j = 0; j < width; j += T) {
-    for (int i = j; i < width; i += W) {
-      wide sum[T];
-      gram_rows(n, (size_t)width, w + i, w + j, sum);
-      for (int c = 0; c < T; c++) {
-        double *at = a + (size_t)(j + c) * step + i;
-        if (i >= j + T) {
-          store(at, sum[c]);
-        } else { /* on the diagonal; what is above belongs to other columns */
-          for (int r = 0; r < W; r++) at[r] = i + r >= j + c ? sum[c][r] : at[r];
-        }
-      }
-    }
-  }
-}
-
-static void add_gram(int count, int width, int stride, const double *g, int ld, double *a) {
-  size_t step = (size_t)ld - 1;
-  for (int j = 0; j < width; j += T) {
-    int columns = width - j < T ? width - j : T;
-    for (int i = j; i < width; i += W) {
-      wide sum[T];
-      gram_rows(count, (size_t)stride, g + i, g + j, sum);
-      for (int c = 0; c < columns; c++) {
-        double *at = a + (size_t)(j + c) * step + i;
-        if (i >= j + T) {
-          *(loose *)at += sum[c];
-        } else {
-          for (int r = 0; r < W; r++) at[r] += i + r >= j + c ? sum[c][r] : 0.0;
-        }
-      }
-    }
-  }
-}
+ * side: products with eight columns, with a vector. Included by it alone. */
 
 /* W numbers of 8 rows of Y = W'X */
 static inline void cross_rows(int n, size_t width, const double *w, const double *x, double *y) {
@@ -83,16 +36,18 @@ static void subtract(int n, int width, const double *w, const double *y, double 
   }
 }
 
+/* four sums side by side, since one waits for itself */
 static void gather(int n, int width, const double *w, const double *x, double *y) {
-  size_t stride = (size_t)width, from = 0, end = (size_t)n;
-  for (size_t v = 0; v < stride; v++) y[v] = 0.0;
-  for (; from + T <= end; from += T) {
-    for (size_t v = 0; v < stride; v += W)
-      store(y + v, load(y + v) + product(w + from * stride + v, stride, x + from));
-  }
-  for (; from < end; from++) {
-    for (size_t v = 0; v < stride; v += W)
-      store(y + v, load(y + v) + load(w + from * stride + v) * x[from]);
+  const size_t stride = (size_t)width, end = (size_t)n;
+  for (size_t v = 0; v < stride; v += W) {
+    const double *column = w + v;
+    wide sum[4] = {{0}};
+    size_t k = 0;
+    for (; k + 4 <= end; k += 4, column += 4 * stride) {
+      for (size_t l = 0; l < 4; l++) sum[l] += load(column + l * stride) * x[k + l];
+    }
+    for (; k < end; k++, column += stride) sum[0] += load(column) * x[k];
+    store(y + v, (sum[0] + sum[1]) + (sum[2] + sum[3]));
   }
 }
 

@@ -10,7 +10,9 @@
 #ifndef AMBULO_METHOD_METRIC_H
 #define AMBULO_METHOD_METRIC_H
 
-#include "linear/band.h"
+#include "linear/spread.h"
+#include "method/channel_slopes.h"
+#include "method/joint_squares.h"
 
 typedef struct ambulo__metric {
   const ambulo_problem *problem;
@@ -20,9 +22,12 @@ typedef struct ambulo__metric {
   int users;      /* terms of the caller */
   int rates;      /* 1: some composite is a rate */
   double *probe;  /* [6][channels]: scratch for their curvature; NULL without */
-  double *rows;   /* [row_capacity][stride]: one node's weighted gradients */
-  int row_capacity, stride;
-  double *one; /* [widest window]: gradient of one channel */
+  double *rows;   /* [row_capacity][stride]: one node's weighted gradients by its q, qd and qdd; */
+  int row_capacity, stride; /* those of rates by the unknowns of two nodes */
+  double *one;              /* [widest window]: gradient of one channel, a form of one coordinate */
+  ambulo__spread spread;    /* from the former to the unknowns */
+  ambulo__joint_squares *joint;  /* [coordinates], of one node */
+  ambulo__channel_slopes slopes; /* of the node and the next */
 } ambulo__metric;
 
 ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool *pool,
@@ -33,8 +38,14 @@ ambulo_status ambulo__metric_create(const ambulo_problem *problem, ambulo__pool 
 int ambulo__metric_diagonals(const ambulo_problem *problem);
 
 /* H0 at the point held (ambulo__evaluate_jacobian), without mu. */
-void ambulo__metric_fill(const ambulo__metric *metric, const ambulo_workspace *workspace,
-                         double scale, ambulo__band *h);
+void ambulo__metric_fill(ambulo__metric *metric, const ambulo_workspace *workspace, double scale,
+                         ambulo__band *h);
+
+/* Terms whose residuals stand on several channels, and those of the caller, with a weight. */
+int ambulo__metric_is_composite(const ambulo_term *term);
+int ambulo__metric_is_users(const ambulo_term *term);
+/* Curvature of the simple terms along one channel of one node. */
+double ambulo__metric_curvature(const ambulo_workspace *workspace, int node, int channel);
 
 /* weight * sum_k w_k |qdd_k|^2 in its place. */
 void ambulo__metric_accelerations(const ambulo__metric *metric, const ambulo_workspace *workspace,

@@ -134,8 +134,9 @@ static void rows(unsigned m, double *result, unsigned n, const double *w, double
   if (!gradient) return;
   for (unsigned i = 0; i < m; i++) {
     double *row = gradient + (size_t)i * (size_t)n;
+    const double *value = ambulo__sparse_rows_gradient(c->set, (int)i) - c->set->start[i];
     for (int e = c->set->start[i]; e < c->set->start[i + 1]; e++)
-      row[c->set->column[e]] += c->set->value[e];
+      row[c->set->column[e]] += value[e];
     if (d->whitener) ambulo__band_forward(d->whitener, row);
   }
 }

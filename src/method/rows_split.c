@@ -64,6 +64,7 @@ ambulo_status ambulo__rows_split_create(const ambulo_problem *p, ambulo_workspac
   if (!status)
     status =
         ambulo__sparse_rows_create(p, l.inequality, l.inequalities, &poll, pool, &out->inequality);
+  if (!status) status = ambulo__sparse_rows_lay_blocks(&out->inequality, pool);
   if (!status) status = ambulo__evaluate_jacobian(workspace, start);
   if (status) return status;
   /* gradients that are not finite here are met again, and named, by whoever works with them */

@@ -14,13 +14,13 @@ static double *weight_at(ambulo_workspace *workspace, int node, int channel) {
 static void add_residuals(ambulo_workspace *workspace, const ambulo_term *term, int i,
                           double factor) {
   const ambulo_problem *p = workspace->problem;
-  double u[AMBULO__LANES], slope[AMBULO__LANES];
+  double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
   int channel = ambulo__term_channel(term, &p->channels, i);
   for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
     size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
     double *w = workspace->weight + at;
     ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
-    ambulo__term_slopes(term, u, slope);
+    ambulo__term_shapes(term, 0.0, u, value, slope);
     for (int l = 0; l < AMBULO__LANES; l++) w[l] += factor * p->quadrature[k + l] * slope[l];
   }
 }
@@ -53,7 +53,7 @@ static void add_composite_term(ambulo_workspace *workspace, const ambulo_term *t
     for (int j = 0; j < count; j++) {
       ambulo__form form;
       ambulo__term_form(term, &context, k, j, &form);
-      double slope = weight * ambulo__term_residual(term, form.u).slope;
+      double slope = weight * ambulo__term_residual_from(term, 0.0, form.u).slope;
       for (int c = 0; c < form.count; c++)
         *weight_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
     }
@@ -141,4 +141,21 @@ void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient) {
   size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
   memset(workspace->weight, 0, lanes * sizeof *workspace->weight);
   memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+}
+
+void ambulo__adjoint_begin(ambulo_workspace *workspace, double objective_weight, double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  size_t lanes = (size_t)p->blocks * (size_t)workspace->channel_count * AMBULO__LANES;
+  const double *restrict slope = workspace->term_slope;
+  double *restrict weight = workspace->weight;
+  if (objective_weight == 0.0) { /* slopes may not be finite */
+    ambulo__adjoint_clear(workspace, gradient);
+    return;
+  }
+  memset(gradient, 0, (size_t)p->variables * sizeof *gradient);
+  for (size_t e = 0; e < lanes; e++) weight[e] = objective_weight * slope[e];
+  for (int t = 0; t < p->definition.term_count; t++) {
+    if (ambulo__is_user_term(&p->definition.terms[t]))
+      ambulo__adjoint_term(workspace, t, objective_weight);
+  }
 }

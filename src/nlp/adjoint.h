@@ -9,6 +9,8 @@
 
 /* Adjoints and gradient [variables] to zero. */
 void ambulo__adjoint_clear(ambulo_workspace *workspace, double *gradient);
+/* Those of objective_weight times all terms, at a point that is evaluated, and gradient to zero. */
+void ambulo__adjoint_begin(ambulo_workspace *workspace, double objective_weight, double *gradient);
 /* Adds one term of the objective, times objective_weight. */
 void ambulo__adjoint_term(ambulo_workspace *workspace, int term, double objective_weight);
 /* Adds sum_r weights[r] c_r; what stands on unknowns goes to the gradient at once. */

@@ -53,6 +53,10 @@ static void compute_channels(ambulo_workspace *workspace, const double *x) {
                             workspace->scratch, workspace->device_scratch);
 }
 
+static double *slope_at(ambulo_workspace *workspace, int node, int channel) {
+  return &workspace->term_slope[ambulo__lane_index(node, workspace->channel_count, channel)];
+}
+
 static double user_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
   const ambulo_problem *p = workspace->problem;
   double sum = 0.0;
@@ -62,41 +66,53 @@ static double user_term_value(ambulo_workspace *workspace, const ambulo_term *te
 }
 
 /* one coordinate of a term, block by block; the padding has weight zero */
-static double residual_sum(const ambulo_workspace *workspace, const ambulo_term *term, int i) {
+static double residual_sum(ambulo_workspace *workspace, const ambulo_term *term, double least,
+                           int i) {
   const ambulo_problem *p = workspace->problem;
-  double u[AMBULO__LANES], value[AMBULO__LANES], sum[AMBULO__LANES] = {0.0}, total = 0.0;
+  double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
+  double sum[AMBULO__LANES] = {0.0}, total = 0.0;
+  const double factor = term->weight * ambulo__term_scale(term, i);
   int channel = ambulo__term_channel(term, &p->channels, i);
   for (int k = 0; k < p->nodes; k += AMBULO__LANES) {
-    const double *y = workspace->channel + ambulo__lane_index(k, workspace->channel_count, channel);
-    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, y, u);
-    ambulo__term_values(term, u, value);
-    for (int l = 0; l < AMBULO__LANES; l++) sum[l] += p->quadrature[k + l] * value[l];
+    const size_t at = ambulo__lane_index(k, workspace->channel_count, channel);
+    double *to = workspace->term_slope + at;
+    ambulo__term_lanes(term, p->coordinates, k, p->nodes, i, workspace->channel + at, u);
+    ambulo__term_shapes(term, least, u, value, slope);
+    for (int l = 0; l < AMBULO__LANES; l++) {
+      sum[l] += p->quadrature[k + l] * value[l];
+      to[l] += factor * p->quadrature[k + l] * slope[l];
+    }
   }
   for (int l = 0; l < AMBULO__LANES; l++) total += sum[l];
   return total;
 }
 
-static double residual_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
-  double sum = 0.0;
+static double residual_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
+  double sum = 0.0, least = ambulo__term_least(term);
   for (int i = 0; i < workspace->problem->coordinates; i++) {
-    if (ambulo__term_scale(term, i) != 0.0) sum += residual_sum(workspace, term, i);
+    if (ambulo__term_scale(term, i) != 0.0) sum += residual_sum(workspace, term, least, i);
   }
   return sum;
 }
 
-static double composite_term_value(const ambulo_workspace *workspace, const ambulo_term *term) {
+static double composite_term_value(ambulo_workspace *workspace, const ambulo_term *term) {
   const ambulo_problem *p = workspace->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
-  double sum = 0.0;
+  double sum = 0.0, least = ambulo__term_least(term);
   for (int k = 0; k < p->nodes; k++) {
     int count = ambulo__term_forms(term, &context, k);
-    double node = 0.0;
+    double node = 0.0, quadrature = ambulo__term_quadrature(p, term, k);
     for (int j = 0; j < count; j++) {
       ambulo__form form;
       ambulo__term_form(term, &context, k, j, &form);
-      if (form.count) node += ambulo__term_residual(term, form.u).value;
+      if (form.count == 0) continue;
+      ambulo__residual phi = ambulo__term_residual_from(term, least, form.u);
+      double slope = term->weight * quadrature * phi.slope;
+      for (int c = 0; c < form.count; c++)
+        *slope_at(workspace, k + form.ahead[c], form.channel[c]) += slope * form.slope[c];
+      node += phi.value;
     }
-    sum += ambulo__term_quadrature(p, term, k) * node;
+    sum += quadrature * node;
   }
   return sum;
 }
@@ -107,10 +123,13 @@ static double term_value(ambulo_workspace *workspace, const ambulo_term *term) {
   return composite_term_value(workspace, term);
 }
 
-/* (13) w_k times each term, summed over the nodes */
+/* (13) w_k times each term, summed over the nodes; on the way the slopes of all but those of the
+ * caller, since whoever asks for a value asks for the gradient next */
 static double evaluate_terms(ambulo_workspace *workspace) {
   const ambulo_problem_definition *definition = &workspace->problem->definition;
+  size_t lanes = (size_t)workspace->problem->blocks * (size_t)workspace->channel_count;
   double total = 0.0;
+  memset(workspace->term_slope, 0, lanes * AMBULO__LANES * sizeof *workspace->term_slope);
   for (int t = 0; t < definition->term_count; t++) {
     const ambulo_term *term = &definition->terms[t];
     double value = term_value(workspace, term);

@@ -3,7 +3,7 @@
  * L = s J + sum_r lambda_r c_r. With y the channels and w their adjoints dL/dy, mirrored
  * block by block from evaluate.c:
  *
- *   terms:     w_c(k) += s * weight * w_k phi'(u) scale
+ *   terms:     w_c(k) += s * weight * w_k phi'(u) scale, which evaluate.c leaves behind for s = 1
  *   rows:      w_c(k) += lambda_r * coefficient          (unknowns: straight into dL/dx)
  *   mechanics: (gq, gqd, gqdd) = reverse sweep of (tau, M, F, points) with their adjoints
  *   basis:     dL/dx = B0' (gq + w_q) + B1' (gqd + w_qd) + B2' (gqdd + w_qdd)
@@ -28,9 +28,7 @@ ambulo_status ambulo__gradient(ambulo_workspace *workspace, double objective_wei
                                const double *row_weights, double *gradient) {
   double start = ambulo__seconds_now();
   size_t n = (size_t)workspace->problem->variables;
-  ambulo__adjoint_clear(workspace, gradient);
-  for (int t = 0; t < workspace->problem->definition.term_count; t++)
-    ambulo__adjoint_term(workspace, t, objective_weight);
+  ambulo__adjoint_begin(workspace, objective_weight, gradient);
   if (row_weights) ambulo__adjoint_rows(workspace, row_weights, gradient);
   pull_back(workspace, gradient);
   int finite = ambulo__all_finite(gradient, n);

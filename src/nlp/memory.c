@@ -3,7 +3,7 @@
  * With d coordinates, C channels, E entries of the Jacobian's pattern (D of them dynamic) and N + 1
  * nodes in blocks of 8:
  *
- *     values      8 B a channel and node, twice (channels and their adjoints)
+ *     values      8 B a channel and node, three times (channels, their adjoints, slopes of terms)
  *     Jacobians   8 B (E + 2 D) a node, and 3 x 48 d B with ground reaction; what devices keep
  *     scratch     of inverse dynamics in one block of nodes, once
  *     a row       its table (names, time, terms), its place in the runs, its value
@@ -30,7 +30,7 @@ static double solid_rows(const ambulo_problem *p) {
 double ambulo__workspace_bytes(const ambulo_problem *p, int with_jacobians) {
   ambulo__plan_pattern pattern = ambulo__plan_get_pattern(p->plan);
   double lanes = 8.0 * p->blocks, word = sizeof(double);
-  double bytes = 2.0 * lanes * word * ambulo__channel_count(&p->channels);
+  double bytes = 3.0 * lanes * word * ambulo__channel_count(&p->channels);
   bytes += word * (2.0 * p->variables + 1.5 * p->rows);
   bytes += word * solid_rows(p) * ambulo__channel_count(&p->channels);
   bytes += word * (double)ambulo__plan_scratch(p->plan);

@@ -114,6 +114,8 @@ struct ambulo_workspace {
   int has_values, has_jacobian; /* channels / channel Jacobians are those of x */
   double *channel;              /* [blocks][channels][8] */
   double *weight;               /* [blocks][channels][8]: adjoint of channel */
+  double *term_slope;           /* [blocks][channels][8]: of the objective's terms, but for those of
+                                   the caller, by channel; with has_values */
   double *gradient_lanes;       /* [3][d][8]: a block's gq, gqd, gqdd */
   double *scratch;              /* kernels' scratch, one block at a time */
   double *jq, *jqd, *jqdd;      /* [blocks][pattern entries][8] */
@@ -123,7 +125,8 @@ struct ambulo_workspace {
   double *user_gradient;  /* [user row instances][channels]: slopes of user rows */
   int *user_slot;         /* [rows]: index into user_gradient, or -1 */
   double *node_state;     /* scratch for callbacks: [2][channels] */
-  double *motion_scratch; /* ... for one output's gradient by q, qd, qdd: [3][d] */
+  double *motion_scratch; /* ... for one gradient by q, qd, qdd: [3][d] */
+  double *other_scratch;  /* ... for what devices and hands add to it */
   double *wrench[3];      /* [nodes][6][d]: gradients of the root wrench by q, qd and qdd; NULL
                              without ground reaction */
   double *device_scratch; /* ambulo__room; NULL without devices and holds */
@@ -214,6 +217,14 @@ void ambulo__wrench_gather(ambulo_workspace *workspace, int block);
  * (mechanics/plan.h) at a node by q, qd and qdd. */
 void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
                              double *gradient);
+/* The same times a factor, added. */
+void ambulo__output_add(const ambulo_workspace *workspace, int node, int output, double times,
+                        double *gradient);
+/* After ambulo__evaluate_jacobian: slopes[3][d] of a row by q, qd and qdd of its node (local rows
+ * only). */
+void ambulo__row_slopes(const ambulo_workspace *workspace, int row, double *slopes);
+/* How many of q, qd and qdd a channel depends on: 1, q only, or 3. */
+int ambulo__channel_orders(const ambulo_problem *problem, int channel);
 /* After ambulo__evaluate_jacobian: gradient of row r with respect to the local
  * unknowns of its node (local rows only): gradient[span * d], zero-filled first. */
 void ambulo__row_local_gradient(const ambulo_workspace *workspace, int row, double *gradient);

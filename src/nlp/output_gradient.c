@@ -101,18 +101,31 @@ static int add_devices(const ambulo_workspace *workspace, int node, int output, 
   return device >= 0;
 }
 
-void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
-                             double *gradient) {
+/* what is not of the bodies alone, times `times`; 1: that is all */
+static int add_others(const ambulo_workspace *workspace, int node, int output, double times,
+                      double *gradient) {
+  const ambulo_problem *p = workspace->problem;
+  const int entries = 3 * p->coordinates;
+  double *one = workspace->other_scratch;
+  int all = 0;
+  if (!p->devices && !p->holds) return 0;
+  memset(one, 0, (size_t)entries * sizeof *one);
+  if (p->devices) all = add_devices(workspace, node, output, one);
+  if (p->holds && !all) ambulo__held_add_output(workspace, node, output, one);
+  for (int e = 0; e < entries; e++) gradient[e] += times * one[e];
+  return all;
+}
+
+void ambulo__output_add(const ambulo_workspace *workspace, int node, int output, double times,
+                        double *gradient) {
   const ambulo_problem *p = workspace->problem;
   const int entries = ambulo__plan_get_pattern(p->plan).count;
   ambulo__row_part part[AMBULO__MOST_PARTS];
   wrench_factors wrench = {{0.0}, {0.0}, {0.0}};
-  memset(gradient, 0, 3 * (size_t)p->coordinates * sizeof *gradient);
-  if (p->devices && add_devices(workspace, node, output, gradient)) return;
-  if (p->holds) ambulo__held_add_output(workspace, node, output, gradient);
+  if (add_others(workspace, node, output, times, gradient)) return;
   int parts = ambulo__plan_parts(p->plan, output, part), reacts = 0;
   for (int k = 0; k < parts; k++) {
-    double factor = part[k].factor, *sum = wrench_factor(p, &part[k], &wrench);
+    double factor = times * part[k].factor, *sum = wrench_factor(p, &part[k], &wrench);
     if (part[k].times >= 0) {
       factor *= workspace->jq[ambulo__lane_index(node, entries, part[k].times)];
     }
@@ -124,4 +137,10 @@ void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int ou
     }
   }
   if (reacts) add_wrench(workspace, node, &wrench, gradient);
+}
+
+void ambulo__output_gradient(const ambulo_workspace *workspace, int node, int output,
+                             double *gradient) {
+  memset(gradient, 0, 3 * (size_t)workspace->problem->coordinates * sizeof *gradient);
+  ambulo__output_add(workspace, node, output, 1.0, gradient);
 }

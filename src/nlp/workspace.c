@@ -47,6 +47,7 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->x = ambulo__alloc_aligned(a, (size_t)p->variables, word);
   w->channel = ambulo__alloc_aligned(a, lane_channels, word);
   w->weight = ambulo__alloc_aligned(a, lane_channels, word);
+  w->term_slope = ambulo__alloc_aligned(a, lane_channels, word);
   w->gradient_lanes = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates * AMBULO__LANES, word);
   w->scratch = ambulo__alloc_aligned(a, ambulo__plan_scratch(p->plan), word);
   w->row_value = ambulo__alloc_aligned(a, (size_t)p->rows, word);
@@ -55,12 +56,13 @@ static ambulo_status allocate(ambulo_workspace *w, const ambulo_problem *p) {
   w->user_slot = ambulo__alloc(a, (size_t)p->rows, sizeof *w->user_slot);
   w->node_state = ambulo__alloc_aligned(a, 2 * (size_t)w->channel_count, word);
   w->motion_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
+  w->other_scratch = ambulo__alloc_aligned(a, 3 * (size_t)p->coordinates, word);
   w->fault_scratch = ambulo__alloc_aligned(a, (size_t)p->variables, word);
   if (p->devices || p->holds) w->device_scratch = ambulo__alloc_aligned(a, ambulo__room(p), word);
   if ((p->devices || p->holds) && !w->device_scratch) return AMBULO_E_MEMORY;
-  int complete = w->x && w->channel && w->weight && w->gradient_lanes && w->scratch &&
-                 w->row_value && w->term_value && w->user_gradient && w->user_slot &&
-                 w->node_state && w->motion_scratch && w->fault_scratch;
+  int complete = w->x && w->channel && w->weight && w->term_slope && w->gradient_lanes &&
+                 w->scratch && w->row_value && w->term_value && w->user_gradient && w->user_slot &&
+                 w->node_state && w->motion_scratch && w->other_scratch && w->fault_scratch;
   return complete ? AMBULO_OK : AMBULO_E_MEMORY;
 }
 
@@ -107,6 +109,7 @@ void ambulo_workspace_free(ambulo_workspace *w) {
   double *aligned[] = {w->x,
                        w->channel,
                        w->weight,
+                       w->term_slope,
                        w->gradient_lanes,
                        w->scratch,
                        w->jq,
@@ -117,6 +120,7 @@ void ambulo_workspace_free(ambulo_workspace *w) {
                        w->user_gradient,
                        w->node_state,
                        w->motion_scratch,
+                       w->other_scratch,
                        w->fault_scratch,
                        w->wrench[0],
                        w->wrench[1],

@@ -29,12 +29,15 @@ ambulo__residual ambulo__absolute(double u, double smoothing) {
   return r;
 }
 
+double ambulo__power_least(double power, double smoothing) {
+  return power == 3.0 ? smoothing * smoothing * smoothing : pow(smoothing, power);
+}
+
 /* (13.d) (u^2 + s^2)^(p/2) - s^p */
-ambulo__residual ambulo__power_law(double u, double power, double smoothing) {
+ambulo__residual ambulo__power_law(double u, double power, double smoothing, double least) {
   double square = u * u + smoothing * smoothing;
   double lower = power == 3.0 ? sqrt(square) : pow(square, 0.5 * power - 1.0);
   double share = square > 0.0 ? u * u / square : 0.0;
-  double least = power == 3.0 ? smoothing * smoothing * smoothing : pow(smoothing, power);
   ambulo__residual r = {square * lower - least, power * u * lower,
                         power * lower * (1.0 + (power - 2.0) * share)};
   return r;

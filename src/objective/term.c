@@ -69,12 +69,23 @@ double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, i
   return term->offset[i];
 }
 
+double ambulo__term_least(const ambulo_term *term) {
+  return term->kind == AMBULO_TORQUE_POWER ? ambulo__power_least(term->power, term->smoothing)
+                                           : 0.0;
+}
+
 /* (13.c) u of the simple terms */
-ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
+ambulo__residual ambulo__term_residual_from(const ambulo_term *term, double least, double u) {
   if (term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_MECHANICAL_POWER)
     return ambulo__absolute(u, term->smoothing);
-  if (term->kind == AMBULO_TORQUE_POWER) return ambulo__power_law(u, term->power, term->smoothing);
+  if (term->kind == AMBULO_TORQUE_POWER)
+    return ambulo__power_law(u, term->power, term->smoothing, least);
   return ambulo__squared(u);
+}
+
+/* (13.c) */
+ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
+  return ambulo__term_residual_from(term, ambulo__term_least(term), u);
 }
 
 /* --------------------------------------------------------- composite terms */

@@ -32,7 +32,9 @@ typedef struct ambulo__residual {
 /* phi of each shape at u. */
 ambulo__residual ambulo__squared(double u);
 ambulo__residual ambulo__absolute(double u, double smoothing);
-ambulo__residual ambulo__power_law(double u, double power, double smoothing);
+/* least: s^p, which no u changes; where only derivatives are looked at, any will do. */
+ambulo__residual ambulo__power_law(double u, double power, double smoothing, double least);
+double ambulo__power_least(double power, double smoothing);
 
 /* What the evaluation needs to know about a term. */
 typedef struct ambulo__term_info {
@@ -50,15 +52,19 @@ int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channe
 double ambulo__term_scale(const ambulo_term *term, int i);
 double ambulo__term_offset(const ambulo_term *term, int coordinates, int node, int i);
 ambulo__residual ambulo__term_residual(const ambulo_term *term, double u);
+/* The same with what phi(0) = 0 takes away, found once for all residuals of a term; where only
+ * derivatives are looked at, any will do. */
+ambulo__residual ambulo__term_residual_from(const ambulo_term *term, double least, double u);
+double ambulo__term_least(const ambulo_term *term);
 
 /* Simple terms at a whole block (term_lanes.c). Residuals u[8] on coordinate i from the channel
  * y[8] of the nodes from `node` on; beyond the last of `nodes` whatever the padding gives
  * (tracking: 0), which the caller weighs with zero. */
 void ambulo__term_lanes(const ambulo_term *term, int coordinates, int node, int nodes, int i,
                         const double *y, double *u);
-/* phi and phi' of eight residuals. */
-void ambulo__term_values(const ambulo_term *term, const double *u, double *value);
-void ambulo__term_slopes(const ambulo_term *term, const double *u, double *slope);
+/* phi and phi' of eight residuals; `least` as above. */
+void ambulo__term_shapes(const ambulo_term *term, double least, const double *u, double *value,
+                         double *slope);
 
 /* --------------------------------------------------------- composite terms */
 

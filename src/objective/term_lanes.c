@@ -23,18 +23,18 @@ static int is_squared(const ambulo_term *term) {
          term->kind == AMBULO_TRACKING || term->kind == AMBULO_POSTURE;
 }
 
-void ambulo__term_values(const ambulo_term *term, const double *u, double *value) {
+void ambulo__term_shapes(const ambulo_term *term, double least, const double *u, double *value,
+                         double *slope) {
   if (is_squared(term)) {
-    for (int l = 0; l < AMBULO__LANES; l++) value[l] = u[l] * u[l];
+    for (int l = 0; l < AMBULO__LANES; l++) {
+      value[l] = u[l] * u[l];
+      slope[l] = 2.0 * u[l];
+    }
     return;
   }
-  for (int l = 0; l < AMBULO__LANES; l++) value[l] = ambulo__term_residual(term, u[l]).value;
-}
-
-void ambulo__term_slopes(const ambulo_term *term, const double *u, double *slope) {
-  if (is_squared(term)) {
-    for (int l = 0; l < AMBULO__LANES; l++) slope[l] = 2.0 * u[l];
-    return;
+  for (int l = 0; l < AMBULO__LANES; l++) {
+    ambulo__residual residual = ambulo__term_residual_from(term, least, u[l]);
+    value[l] = residual.value;
+    slope[l] = residual.slope;
   }
-  for (int l = 0; l < AMBULO__LANES; l++) slope[l] = ambulo__term_residual(term, u[l]).slope;
 }

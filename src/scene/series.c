@@ -19,7 +19,8 @@ void ambulo__series(ambulo__json *json, const char *key, const double *values, i
     double scaled = round(values[(size_t)k * (size_t)step] / unit);
     long long now = fabs(scaled) <= largest ? (long long)scaled : last;
     long long change = now - last;
-    ambulo__text_append_format(&line, k ? ",%lld" : "%lld", k < 2 ? change : change - slope);
+    if (k > 0) ambulo__text_append_char(&line, ',');
+    ambulo__text_append_number(&line, (double)(k < 2 ? change : change - slope));
     slope = change;
     last = now;
   }

@@ -4,7 +4,7 @@
  * gradients, what an engine takes (engine.c), in bytes:
  *
  *     8 n (k + 28)       each of three band matrices: metric, whitener, KKT factor
- *     16 J               gradients: value, column, run
+ *     21 J               gradients: value, column, run; slopes by the motion, 3/5 as many
  *     8 n (16 + 12)      vectors, and the mixing of five iterates
  *     8 * 14 m           values, multipliers and marks of rows
  *     8 n (q + 32)       the wings of the border, and of rows that come and go (update.h)
@@ -53,7 +53,7 @@ static double entries_of(const ambulo_problem *p) {
 
 ambulo_memory ambulo_problem_memory(const ambulo_problem *p) {
   double n = p->variables, k = ambulo__metric_diagonals(p) + 28.0, word = sizeof(double);
-  double entries = 16.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
+  double entries = 21.0 * entries_of(p), borders = 2.0 * p->coordinates * 3.0;
   double bands = 3.0 * word * n * k, vectors = word * (28.0 * n + 14.0 * p->rows);
   double wing = word * n * (borders + 32.0);
   ambulo_memory memory;

@@ -10,7 +10,8 @@ static void compare(engine_fixture *f, const ambulo__sparse_rows *rows) {
         AMBULO_OK);
     memset(got, 0, (size_t)f->n * sizeof *got);
     for (int e = rows->start[i]; e < rows->start[i + 1]; e++)
-      got[rows->column[e]] += rows->value[e] / rows->scale[i];
+      got[rows->column[e]] +=
+          ambulo__sparse_rows_gradient(rows, i)[e - rows->start[i]] / rows->scale[i];
     for (int j = 0; j < f->n; j++) assert_close(got[j], want[j], 1e-12);
   }
   free(want);
@@ -39,6 +40,8 @@ static void gradients_are_the_dense_ones(void **state) {
   check_gradients("yardstick_12", NULL, 0.2);
   check_gradients("two_step/walk_normal", NULL, 0.01);
   check_gradients("two_step/walk_normal", "constraints.torque_limits=true", 0.01);
+  check_gradients("walk_carrying", "constraints.torque_limits=true", 0.01); /* by both hands */
+  check_gradients("walk_exotendon", "constraints.torque_limits=true", 0.01);
 }
 
 static void transpose_is_adjoint_of_product(void **state) {
@@ -232,9 +235,27 @@ static void rows_of_the_caller_are_filled_anew(void **state) {
   fixture_close(&f);
 }
 
+/* of a row that nobody has asked for yet, too */
+static void what_is_not_finite_is_found(void **state) {
+  (void)state;
+  engine_fixture f;
+  engine_open(&f, "yardstick_12");
+  ambulo_workspace *w = f.engine->workspace;
+  ambulo__sparse_rows *rows = &f.engine->linearized.rows.inequality;
+  ambulo__plan_pattern pattern = ambulo__plan_get_pattern(f.problem->plan);
+  size_t entries = (size_t)f.problem->blocks * (size_t)pattern.count * AMBULO__LANES;
+  assert_int_equal(ambulo__evaluate_jacobian(w, f.x), AMBULO_OK);
+  assert_int_equal(ambulo__sparse_rows_fill(rows, w, 0), AMBULO_OK);
+  for (size_t e = 0; e < entries; e++) w->jq[e] = (double)NAN;
+  assert_int_equal(ambulo__sparse_rows_fill(rows, w, 0), AMBULO_E_NUMERIC);
+  assert_true(isnan(w->fault.value));
+  engine_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gradients_are_the_dense_ones),
+      cmocka_unit_test(what_is_not_finite_is_found),
       cmocka_unit_test(transpose_is_adjoint_of_product),
       cmocka_unit_test(products_are_sums_over_entries),
       cmocka_unit_test(control_point_rows_find_a_host),

@@ -1,5 +1,6 @@
 /* The reverse sweep against row gradients, central differences, and a sabotaged callback. */
 #include "nlp/nlp.h"
+#include "support/engine_fixture.h"
 #include "support/problem_fixture.h"
 
 static double hand_height(void *user, const ambulo_node_state *state,
@@ -225,6 +226,59 @@ static void flight_agrees_with_central_differences(void **state) {
   expect_curved_rows("models/run.yaml", settings, "flight", AMBULO__CURVED_SPIN);
 }
 
+/* the slopes that an evaluation leaves behind, against each term's own sweep */
+static void expect_sum_of_terms(fixture *f) {
+  const size_t n = (size_t)f->n;
+  double *sum = calloc(n, sizeof *sum), *one = calloc(n, sizeof *one), largest = 0.0;
+  assert_int_equal(ambulo__evaluate(f->workspace, f->x), AMBULO_OK);
+  for (int t = 0; t < f->problem->definition.term_count; t++) {
+    assert_int_equal(ambulo__term_gradient(f->workspace, t, one), AMBULO_OK);
+    for (size_t j = 0; j < n; j++) sum[j] += -1.5 * one[j];
+  }
+  assert_int_equal(ambulo__gradient(f->workspace, -1.5, NULL, f->gradient), AMBULO_OK);
+  for (size_t j = 0; j < n; j++) largest = fmax(largest, fabs(sum[j]));
+  for (size_t j = 0; j < n; j++) assert_close(f->gradient[j] / largest, sum[j] / largest, 1e-13);
+  assert_int_equal(ambulo__gradient(f->workspace, 0.0, NULL, f->gradient), AMBULO_OK);
+  for (size_t j = 0; j < n; j++) assert_true(f->gradient[j] == 0.0);
+  free(sum);
+  free(one);
+}
+
+static void the_objective_is_the_sum_of_its_terms(void **state) {
+  (void)state;
+  static const char *const names[] = {"walk", "walk_normal", "walk_tracking", "fig5b_torque"};
+  for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+    fixture f = {.problem = load_problem(names[n])};
+    f.n = ambulo_problem_variable_count(f.problem);
+    assert_int_equal(ambulo_workspace_create(f.problem, NULL, &f.workspace), AMBULO_OK);
+    f.x = calloc((size_t)f.n, sizeof(double));
+    f.gradient = calloc((size_t)f.n, sizeof(double));
+    for (int j = 0; j < f.n; j++) f.x[j] = 0.1 * sin(1.0 + j);
+    expect_sum_of_terms(&f);
+    fixture_close(&f);
+  }
+}
+
+static void terms_of_the_caller_are_in_the_sum(void **state) {
+  (void)state;
+  static double factor = 0.8;
+  fixture f = {.model = arm_create()};
+  ambulo_term terms[] = {ambulo_term_default(AMBULO_TORQUE_SQUARED),
+                         ambulo_term_default(AMBULO_USER_TERM),
+                         ambulo_term_default(AMBULO_USER_SQUARE)};
+  ambulo_problem_definition definition = arm_definition(f.model);
+  for (int k = 1; k < 3; k++) {
+    terms[k].function = hand_height;
+    terms[k].user = &factor;
+    terms[k].weight = 10.0 * k;
+  }
+  definition.terms = terms;
+  definition.term_count = 3;
+  fixture_open(&f, &definition);
+  expect_sum_of_terms(&f);
+  fixture_close(&f);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_family_and_term_agrees_with_central_differences),
@@ -234,6 +288,8 @@ int main(void) {
       cmocka_unit_test(rows_on_unknowns_and_terms_on_one_channel),
       cmocka_unit_test(feet_that_pass_agree_with_central_differences),
       cmocka_unit_test(flight_agrees_with_central_differences),
+      cmocka_unit_test(the_objective_is_the_sum_of_its_terms),
+      cmocka_unit_test(terms_of_the_caller_are_in_the_sum),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

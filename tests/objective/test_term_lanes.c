@@ -34,8 +34,7 @@ static void blocks_are_their_nodes(void **state) {
         double u[AMBULO__LANES], value[AMBULO__LANES], slope[AMBULO__LANES];
         for (int l = 0; l < AMBULO__LANES; l++) y[l] = random_between(&source, -1.0, 1.0);
         ambulo__term_lanes(&term, COORDINATES, k, NODES, i, y, u);
-        ambulo__term_values(&term, u, value);
-        ambulo__term_slopes(&term, u, slope);
+        ambulo__term_shapes(&term, ambulo__term_least(&term), u, value, slope);
         for (int l = 0; l < AMBULO__LANES && k + l < NODES; l++) {
           double from = ambulo__term_offset(&term, COORDINATES, k + l, i);
           ambulo__residual want = ambulo__term_residual(&term, scale[i] * (y[l] - from));
