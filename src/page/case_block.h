@@ -13,9 +13,16 @@
 
 #include "page/case_data.h"
 
-/* Appends a JSON string of the first `count` cases (packed_text.h). Families whose samples less one
- * are no multiple of `every` keep all of them. Errors: E_MEMORY, E_INTERNAL. */
+/* How well motions are kept: one sample in `every` (families whose samples less one are no multiple
+ * keep all of them), steps (case_data.h) so many times finer. */
+typedef struct ambulo__case_quality {
+  int every;
+  double finer;
+} ambulo__case_quality;
+
+/* Appends a JSON string of the first `count` cases (packed_text.h). Errors: E_MEMORY, E_INTERNAL.
+ */
 ambulo_status ambulo__case_block(ambulo__text_buffer *out, const ambulo__case_data *cases,
-                                 int count, int every);
+                                 int count, const ambulo__case_quality *quality);
 
 #endif

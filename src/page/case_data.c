@@ -246,10 +246,10 @@ void ambulo__case_data_free(ambulo__case_data *data) {
   data->motion = NULL;
 }
 
-void ambulo__case_data_steps(ambulo__text_buffer *out) {
+void ambulo__case_data_steps(ambulo__text_buffer *out, double finer) {
   for (int k = 0; k < KINDS; k++) {
     ambulo__text_append_format(out, "%s\"%c\":", k ? "," : "{", letters[k]);
-    ambulo__text_append_number(out, steps[k]);
+    ambulo__text_append_number(out, steps[k] / finer);
   }
   ambulo__text_append_char(out, '}');
 }

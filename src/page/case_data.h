@@ -35,7 +35,8 @@ ambulo_status ambulo__case_data_create(const ambulo__page_result *result,
                                        const ambulo_allocator *allocator, ambulo__case_data *data);
 void ambulo__case_data_free(ambulo__case_data *data); /* accepts a zero-filled one */
 
-/* Appends {"l": .002, ...}: steps by kind, of a body of one kilogram, or one newton of weight. */
-void ambulo__case_data_steps(ambulo__text_buffer *out);
+/* Appends {"l": .002, ...}: steps by kind, so many times finer, of a body of one kilogram, or one
+ * newton of weight. */
+void ambulo__case_data_steps(ambulo__text_buffer *out, double finer);
 
 #endif

@@ -33,7 +33,8 @@ size_t ambulo__motion_values(const ambulo__motions *motions) {
 void ambulo__motion_row(const ambulo__motions *motions, int i, double *row) {
   const float *from = motions->motion[i];
   for (int s = 0; s < motions->series; s++, from += motions->samples)
-    for (int k = 0; k < motions->samples; k += motions->every) *row++ = (double)from[k];
+    for (int k = 0; k < motions->samples; k += motions->every)
+      *row++ = motions->finer * (double)from[k];
 }
 
 /* ------------------------------------------------------------ whole numbers */

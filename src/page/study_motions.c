@@ -6,7 +6,11 @@
 
 #include "page/case_block.h"
 
-enum { MOST_CASES = 1000, MOST_VALUES = 50000000, THINNEST = 4, AROUND = 64 };
+enum { MOST_CASES = 1000, MOST_VALUES = 50000000, AROUND = 64 };
+
+/* from the best one on; each takes about two thirds of what the one before takes */
+static const ambulo__case_quality qualities[] = {{1, 4.0}, {1, 2.0}, {1, 1.0}, {2, 1.0}, {4, 1.0}};
+enum { LAST = sizeof qualities / sizeof qualities[0] - 1 };
 
 typedef struct block {
   ambulo__case_data *cases;
@@ -37,19 +41,17 @@ static ambulo_status read_block(block *b, char *const *folders, int most, const 
   return status;
 }
 
-/* *fits: as many of its cases as `room` has place for, of those in the block */
+/* as well as `room` allows; *fits: as many of its cases as there is place for */
 static ambulo_status pack(const block *b, double room, ambulo__text_buffer *packed, int *fits) {
   ambulo_status status = AMBULO_OK;
-  int every = 1;
+  int quality = 0;
   for (*fits = b->count; *fits > 0 && !status;) {
     ambulo__text_clear(packed);
-    status = ambulo__case_block(packed, b->cases, *fits, every);
+    status = ambulo__case_block(packed, b->cases, *fits, qualities + quality);
     if (status || (double)packed->length <= room) break;
     double share = fmax(room, 0.0) / (double)packed->length;
-    if (every < THINNEST)
-      every *= 2;
-    else
-      *fits = (int)fmin(*fits - 1, floor(0.98 * share * *fits));
+    if (quality == LAST) *fits = (int)fmin(*fits - 1, floor(0.98 * share * *fits));
+    quality += share < 0.4 && quality + 1 < LAST ? 2 : quality < LAST;
   }
   return status;
 }

@@ -1,4 +1,5 @@
 // Cases of a study, opened one at a time: what src/page/case_block.h and motion_pack.h wrote.
+import { short } from "./dom.js";
 import { bytesOf, inflatedBytes, textOf } from "./inflated.js";
 
 // whole numbers, seven bits a byte from the lowest on; the last bit of all is the sign's
@@ -121,5 +122,16 @@ export class Cases {
       i -= block.count;
     }
     return null;
+  }
+
+  // how near a motion that was opened is to that of the case's own folder
+  precision(scene) {
+    const { steps, every } = this.blocks.find((block) => block.opened).opened;
+    const half = (kind, unit = 1) => short((unit * steps[kind]) / 2, 2);
+    return `Motions in this page are packed: at the ${scene.samples} times that they have`
+      + `${every > 1 ? ` (one in ${every} of the case's own page)` : ""}, places are within `
+      + `${half("l", 1000)} mm, angles within ${half("a", 180 / Math.PI)}°, forces within `
+      + `${half("f", 100)} % of the weight, torques and powers within ${half("t")} N m/kg and `
+      + `${half("p")} W/kg of what the case's folder says. ambulo report of that folder shows all of it.`;
   }
 }

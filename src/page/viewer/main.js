@@ -32,6 +32,8 @@ const page = {
 };
 
 const sceneOf = (result) => result.unpacked ??= unpack(result.scene);
+// for who looks closer, from the console: what is shown, all series as arrays of SI units
+globalThis.ambulo.scene = () => sceneOf(page.results[page.main]);
 
 // ------------------------------------------------------------------- theme
 
@@ -297,6 +299,7 @@ function watch(index) {
   const at = known >= 0 ? known : page.results.push({ name: row.name, state: row.state, index,
     ...cases.open(row.motion) }) - 1;
   show(at, page.ghost === at ? -1 : page.ghost);
+  byId("precision").textContent = cases.precision(sceneOf(page.results[at]));
   if (playing) play(true);
 }
 
