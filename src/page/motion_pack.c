@@ -5,7 +5,6 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "format/deflate.h"
 #include "page/principal.h"
 
 /* numbers of components that are tried, as far as there are motions */
@@ -134,8 +133,9 @@ static void remainder_of(packing *p, int i, int components, double q, const doub
   for (size_t v = 0; v < p->values; v++) p->rest[v] = rint(p->row[v] - p->rest[v] / q);
 }
 
-static ambulo_status append_packed(packing *p, ambulo__text_buffer *out, int components,
-                                   int order) {
+/* *head: how many bytes stand before the motions' rests */
+static ambulo_status append_packed(packing *p, ambulo__text_buffer *out, int components, int order,
+                                   size_t *head) {
   int n = p->motions->count;
   double q = 2.0 * ceil(sqrt(components + 1.0));
   double *scale = ambulo__alloc(&p->allocator, (size_t)components, sizeof *scale);
@@ -148,6 +148,7 @@ static ambulo_status append_packed(packing *p, ambulo__text_buffer *out, int com
     for (int k = 0; k < components; k++)
       for (int i = 0; i < n; i++)
         append_whole(out, rint(p->weights[(size_t)k * (size_t)n + (size_t)i] / scale[k]));
+    *head = out->length;
     for (int i = 0; i < n && !out->failed; i++) {
       remainder_of(p, i, components, q, scale);
       differences(p->rest, p->motions, order);
@@ -158,22 +159,34 @@ static ambulo_status append_packed(packing *p, ambulo__text_buffer *out, int com
   return status ? status : ambulo__text_status(out);
 }
 
-/* *best takes the trial if it is shorter; *size: its length where it is compressed */
+/* what so many bytes take at least, where each is coded by how often it comes (Shannon); matches
+ * that a compressor finds go beyond it, alike in all trials */
+static double entropy(const char *bytes, size_t length) {
+  size_t often[256] = {0};
+  double size = 0.0;
+  for (size_t i = 0; i < length; i++) often[(unsigned char)bytes[i]]++;
+  for (int b = 0; b < 256; b++)
+    if (often[b]) size -= (double)often[b] * log2((double)often[b] / (double)length) / 8.0;
+  return size;
+}
+
+/* *best takes the trial if it is shorter; *size: its length */
 static ambulo_status try_one(packing *p, int components, int order, ambulo__text_buffer *best,
-                             size_t *size) {
-  ambulo__text_buffer trial, packed;
+                             double *size) {
+  ambulo__text_buffer trial;
+  size_t head = 0;
   ambulo__text_init(&trial, &p->allocator);
-  ambulo__text_init(&packed, &p->allocator);
-  ambulo_status status = append_packed(p, &trial, components, order);
-  if (!status) ambulo__deflate(&packed, ambulo__text_data(&trial), trial.length);
-  if (!status) status = ambulo__text_status(&packed);
-  if (!status && (*size == 0 || packed.length < *size)) {
-    ambulo__text_buffer before = *best;
-    *size = packed.length;
-    *best = trial;
-    trial = before;
+  ambulo_status status = append_packed(p, &trial, components, order, &head);
+  if (!status) {
+    const char *bytes = ambulo__text_data(&trial);
+    double length = entropy(bytes, head) + entropy(bytes + head, trial.length - head);
+    if (best->length == 0 || length < *size) {
+      ambulo__text_buffer before = *best;
+      *size = length;
+      *best = trial;
+      trial = before;
+    }
   }
-  ambulo__text_free(&packed);
   ambulo__text_free(&trial);
   return status;
 }
@@ -182,14 +195,13 @@ static ambulo_status try_one(packing *p, int components, int order, ambulo__text
 static ambulo_status try_all(packing *p, ambulo__text_buffer *best) {
   int n = p->motions->count, from = 0;
   while (from + 1 < TRIES && tries[from + 1] < n && p->left[tries[from]] > 1.0) from++;
-  size_t size = 0, before = 0;
+  double size = 0.0, before = -1.0;
   ambulo_status status = AMBULO_OK;
-  for (int t = from; t < TRIES && (t == from || tries[t] < n) && !status; t++) {
-    status = try_one(p, tries[t], 0, best, &size);
-    if (size == before) break;
+  for (int t = from; t < TRIES && (t == from || tries[t] < n) && !status && size != before; t++) {
     before = size;
+    status = try_one(p, tries[t], 0, best, &size);
   }
-  if (!status && n > 1 && (double)size > many * (double)n * (double)p->values)
+  if (!status && n > 1 && size > many * (double)n * (double)p->values)
     status = try_one(p, 0, 2, best, &size);
   return status;
 }
