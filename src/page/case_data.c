@@ -101,10 +101,9 @@ static int take_series(parting *p, const ambulo__yaml_node *list, quantity kind)
     if (!ambulo__yaml_is(item, AMBULO__YAML_SCALAR)) return 0;
     const char *text = ambulo__yaml_text(item);
     if (!ambulo__parse_integer(text, strlen(text), -most, most, &number)) return 0;
-    slope = k < 2 ? number : slope + number;
-    value += slope;
+    slope = k ? slope + number : 0;
+    value = k ? value + slope : number;
     if (llabs(slope) > most || llabs(value) > most) return 0;
-    if (k == 0) slope = 0;
     to[k] = (float)((double)value * p->in_steps[kind]);
   }
   d->length += to ? (size_t)d->samples : 0;

@@ -14,8 +14,7 @@ static const double alike = 1e-5;
 typedef struct table {
   int rows, columns;
   const char **text;
-  double *number;
-  char *basic; /* [columns] 1: numbers that are not all the same, and no multiple of others */
+  double *number; /* NaN: a text, or null */
 } table;
 
 static int column_is(const table *t, int column, int (*holds)(const table *, int, int)) {
@@ -32,7 +31,7 @@ static int is_number(const table *t, int row, int column) {
   return !isnan(t->number[row * t->columns + column]);
 }
 
-/* 1: column is *ratio times `of`, whose largest number tells the ratio best */
+/* 1: the column is *ratio times column `of`, whose largest number tells the ratio best */
 static int is_multiple(const table *t, int column, int of, double *ratio) {
   int best = 0;
   for (int i = 1; i < t->rows; i++)
@@ -45,18 +44,17 @@ static int is_multiple(const table *t, int column, int of, double *ratio) {
   return 1;
 }
 
-static void append_column(ambulo__text_buffer *out, table *t, int column) {
+static void append_column(ambulo__text_buffer *out, const table *t, int column) {
   int same = column_is(t, column, is_first);
   int numbers = !same && column_is(t, column, is_number);
   double ratio;
   for (int of = 0; numbers && of < column; of++) {
-    if (!t->basic[of] || !is_multiple(t, column, of, &ratio)) continue;
+    if (!is_multiple(t, column, of, &ratio)) continue;
     ambulo__text_append_format(out, "{\"of\":%d,\"by\":", of);
     ambulo__text_append_number(out, ratio);
     ambulo__text_append_char(out, '}');
     return;
   }
-  t->basic[column] = (char)numbers;
   ambulo__text_append_char(out, '[');
   for (int i = 0; i < (same ? 1 : t->rows); i++) {
     if (i) ambulo__text_append_char(out, ',');
@@ -82,8 +80,7 @@ static ambulo_status append_form(ambulo__text_buffer *out, const ambulo__case_da
   size_t cells = (size_t)t.rows * (size_t)t.columns;
   t.text = ambulo__alloc(a, cells, sizeof *t.text);
   t.number = ambulo__alloc(a, cells, sizeof *t.number);
-  t.basic = ambulo__alloc(a, (size_t)t.columns, 1);
-  ambulo_status status = t.text && t.number && t.basic ? AMBULO_OK : AMBULO_E_MEMORY;
+  ambulo_status status = t.text && t.number ? AMBULO_OK : AMBULO_E_MEMORY;
   for (int i = first, row = 0; i < count && !status; i++)
     if (form[i] == form[first]) fill_row(&t, row++, cases + i);
   ambulo__text_append(out, "{\"tree\":");
@@ -94,7 +91,6 @@ static ambulo_status append_form(ambulo__text_buffer *out, const ambulo__case_da
     append_column(out, &t, i);
   }
   ambulo__text_append(out, "]}");
-  ambulo__free(a, t.basic);
   ambulo__free(a, t.number);
   ambulo__free(a, (void *)t.text);
   return status;

@@ -6,7 +6,7 @@
 #include "support/packed_motions.h"
 #include "support/yaml.h"
 
-enum { CASES = 5 };
+enum { CASES = 6 };
 
 static ambulo__case_data cases[CASES];
 
@@ -34,6 +34,7 @@ static void make_cases(void) {
   one_case(2, "{\"b\":0}", "la", 9);
   one_case(3, "{\"a\":0}", "", 0);
   one_case(4, "{\"b\":0}", "f", 6);
+  one_case(5, "{\"b\":0}", "f", 2); /* fewer samples: a family of its own */
 }
 
 static void free_cases(void) {
@@ -72,9 +73,10 @@ static void two_families(void **state) {
       text,
       "{\"every\":4,\"steps\":{\"l\":0.001,\"a\":0.0017,\"t\":0.005,\"p\":0.005,\"f\":0.001},"
       "\"forms\":[{\"tree\":{\"a\":0},\"columns\":[[10,11,13]]},{\"tree\":{\"b\":0},"
-      "\"columns\":[[12,14]]}],\"families\":[{\"kinds\":\"la\",\"samples\":3,\"count\":2},{"
-      "\"kinds\":\"f\",\"samples\":6,\"count\":2},{\"kinds\":\"\",\"samples\":0,\"count\":1}],"
-      "\"cases\":[[0,0],[0,1],[1,0],[0,2],[1,1]]}");
+      "\"columns\":[[12,14,15]]}],\"families\":[{\"kinds\":\"la\",\"samples\":3,\"count\":2},{"
+      "\"kinds\":\"f\",\"samples\":6,\"count\":2},{\"kinds\":\"\",\"samples\":0,\"count\":1},{"
+      "\"kinds\":\"f\",\"samples\":2,\"count\":1}],"
+      "\"cases\":[[0,0],[0,1],[1,0],[0,2],[1,1],[1,3]]}");
   size_t at = strlen(text) + 1;
   packed_motions p = read_motions(text + at, size - at, 2, 2, 3);
   assert_motion(p.values, cases + 0, 4, 2.0);
@@ -84,6 +86,10 @@ static void two_families(void **state) {
   p = read_motions(text + at, size - at, 2, 1, 6); /* five intervals: all samples are kept */
   assert_motion(p.values, cases + 1, 1, 2.0);
   assert_motion(p.values + 6, cases + 4, 1, 2.0);
+  free(p.values);
+  at += p.length;
+  p = read_motions(text + at, size - at, 1, 1, 2);
+  assert_motion(p.values, cases + 5, 1, 2.0);
   free(p.values);
   assert_int_equal(at + p.length, size);
   free(text);

@@ -53,7 +53,7 @@ static void columns(void **state) {
   done(&t);
 }
 
-/* the ratio has to hold in every row, to five digits, and not of a column that is one itself */
+/* the ratio has to hold in every row, to five digits */
 static void proportions(void **state) {
   (void)state;
   table t = {.count = 0};
