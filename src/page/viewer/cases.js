@@ -132,6 +132,6 @@ export class Cases {
       + `${every > 1 ? ` (one in ${every} of the case's own page)` : ""}, places are within `
       + `${half("l", 1000)} mm, angles within ${half("a", 180 / Math.PI)}°, forces within `
       + `${half("f", 100)} % of the weight, torques and powers within ${half("t")} N m/kg and `
-      + `${half("p")} W/kg of what the case's folder says. ambulo report of that folder shows all of it.`;
+      + `${half("p")} W/kg of what the case's own folder says, of which a page of its own has all digits.`;
   }
 }
