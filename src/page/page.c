@@ -2,7 +2,7 @@
  *
  * Reading order: page.h, page.c, result_data.c, script_text.h, packed_text.h, motion_data.c,
  * study_data.c, study_motions.h, case_block.h, case_data.h, case_table.h, motion_pack.h,
- * principal.h, viewer.h; the page's own program in viewer/, from main.js on.
+ * motions.h, principal.h, viewer.h; the page's own program in viewer/, from main.js on.
  */
 #include "page/page.h"
 

@@ -10,7 +10,8 @@
 #ifndef AMBULO_PAGE_PRINCIPAL_H
 #define AMBULO_PAGE_PRINCIPAL_H
 
-#include "page/motion_pack.h"
+#include "base/alloc.h"
+#include "page/motions.h"
 
 /* weights[k n + i] = w_ik and left[k]: mean square of what k components leave of a value, both
  * [n]. `mean` [values]. Errors: E_MEMORY, E_INTERNAL (LAPACK gave up). */
