@@ -24,8 +24,8 @@ typedef struct ambulo_page_options {
   double ground_height;
   double from, to;
 
-  /* Motions of a batch that the page of it holds at most, MB as they stand in it; 12. Further cases
-   * lead to their pictures. */
+  /* How large the page of a batch may be, MB; 1.2. Motions that need more have fewer samples; cases
+   * for which there still is no room lead to their pictures. */
   double megabytes;
 } ambulo_page_options;
 AMBULO_DEFAULT(ambulo_page_options);

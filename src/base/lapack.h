@@ -44,6 +44,12 @@ extern void dgels_(const char *trans, const int *m, const int *n, const int *nrh
                    const int *lda, double *b, const int *ldb, double *work, const int *lwork,
                    int *info);
 
+/* eigenvalues w of A, rising, and with jobz "V" its eigenvectors, which become the columns of A;
+ * lwork and liwork -1: only asks for their sizes */
+extern void dsyevd_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda,
+                    double *w, double *work, const int *lwork, int *iwork, const int *liwork,
+                    int *info);
+
 /* --------------------------------------------------------------------- BLAS */
 
 /* C = alpha A A' + beta C or alpha A' A + beta C */

@@ -75,7 +75,7 @@ static int run(const ambulo__cli_input *input) {
 static const ambulo__cli_option options_table[] = {
     {"output", 'o', "FILE", "the page (default: DIR/report.html)"},
     {"force", 0, NULL, "write over a file that is no page by ambulo"},
-    {"size", 0, "MB", "motions of a batch that its page holds at most (default: 12)"},
+    {"size", 0, "MB", "how large the page of a batch may be (default: 1.2)"},
     {"motion", 0, "FILE", "a measured motion (CSV, STO, MOT), as a ghost beside the result"},
     {"body", 0, "FILE", "the model, or the problem, of that motion; a shipped name will do"},
     {"from", 0, "S", "begin with this time of the motion (default: its first)"},

@@ -1,7 +1,8 @@
 /* page/page.c - the page: the viewer with data in it (ambulo/page.h).
  *
  * Reading order: page.h, page.c, result_data.c, script_text.h, packed_text.h, motion_data.c,
- * study_data.c, thin.h, viewer.h; the page's own program in viewer/, from main.js on.
+ * study_data.c, study_motions.h, case_block.h, case_data.h, case_table.h, motion_pack.h,
+ * motions.h, principal.h, viewer.h; the page's own program in viewer/, from main.js on.
  */
 #include "page/page.h"
 
@@ -21,7 +22,7 @@ static const char own_mark[] = "<meta name=\"generator\" content=\"ambulo report
 static const char data_mark[] = "/*DATA*/";
 
 AMBULO__FILL(ambulo_page_options,
-             {.size = size, .from = -(double)INFINITY, .to = (double)INFINITY, .megabytes = 12.0})
+             {.size = size, .from = -(double)INFINITY, .to = (double)INFINITY, .megabytes = 1.2})
 
 static int options_are_valid(const ambulo_page_options *o) {
   if (!isfinite(o->ground_height)) return 0;
@@ -57,7 +58,8 @@ static ambulo_status study(const char *directory, const char *output, double meg
                            ambulo__text_buffer *data, ambulo_diagnostics *diagnostics) {
   char *folder = folder_of(&data->allocator, output);
   if (!folder) return AMBULO_E_MEMORY;
-  ambulo_status status = ambulo__page_add_study(directory, folder, megabytes, data, diagnostics);
+  ambulo_status status = ambulo__page_add_study(directory, folder, megabytes,
+                                                (double)ambulo__viewer_size, data, diagnostics);
   ambulo__free(&data->allocator, folder);
   return status;
 }

@@ -1,11 +1,11 @@
 /* page/page.h - the data of a page: what its program is given to show.
  *
- *     {"results": [{"name", "packed"}, ...]}                of result folders
- *     {"study": {"name", "columns", "cases": [...]}}        of a batch folder, some with "packed"
+ *     {"results": [{"name", "packed"}, ...]}            of result folders
+ *     {"study": {"name", "motions": [...], "table"}}    of a batch folder (study_motions.h)
  *
  * "packed" is {"summary", "scene", "strip"}, compressed (packed_text.h): `summary` and `scene` are
- * the files of the folder (docs/results.md), `strip` its gait.svg as a text. All of it is JSON for
- * a <script> element (script_text.h). */
+ * the files of the folder (docs/results.md), `strip` its gait.svg as a text. "table" is packed too.
+ * All of it is JSON for a <script> element (script_text.h). */
 #ifndef AMBULO_PAGE_PAGE_H
 #define AMBULO_PAGE_PAGE_H
 
@@ -49,8 +49,10 @@ ambulo_status ambulo__page_add_motion(const ambulo_page_options *options, ambulo
 /* 1 if a batch has filled the folder. */
 int ambulo__page_is_batch(const char *directory);
 /* Appends "study". `folder`: where the page will stand, for the ways to pictures of cases whose
- * motion is not in it; `megabytes`: of motions at most. Errors: as of ambulo_batch_collect. */
+ * motion is not in it; `megabytes`: how large the page may be, of which `other` bytes are not data.
+ * Errors: as of ambulo_batch_collect, E_INTERNAL. */
 ambulo_status ambulo__page_add_study(const char *directory, const char *folder, double megabytes,
-                                     ambulo__text_buffer *out, ambulo_diagnostics *diagnostics);
+                                     double other, ambulo__text_buffer *out,
+                                     ambulo_diagnostics *diagnostics);
 
 #endif

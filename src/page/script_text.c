@@ -1,7 +1,10 @@
 /* page/script_text.c - see script_text.h. */
 #include "page/script_text.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "base/numtext.h"
 
 /* 1 if the line ends of JavaScript stand at `at`; their last byte is 0xa8 or 0xa9 */
 static int is_line_end(const char *at, const char *end) {
@@ -81,4 +84,24 @@ void ambulo__script_text(ambulo__text_buffer *out, const char *text) {
     }
   }
   ambulo__text_append_char(out, '"');
+}
+
+/* with the divisor, or the factor, a power of ten without an error, the result is the double that
+ * is nearest to six digits */
+static double six_digits(double value) {
+  if (value == 0.0 || (fabs(value) < 1e15 && value == rint(value))) return value;
+  int below = 5 - (int)floor(log10(fabs(value)));
+  double scale = pow(10.0, fabs((double)below));
+  if (!isfinite(scale)) return value;
+  return below >= 0 ? rint(value * scale) / scale : rint(value / scale) * scale;
+}
+
+void ambulo__script_value(ambulo__text_buffer *out, const char *text) {
+  double number;
+  if (!text[0] || strcmp(text, "null") == 0)
+    ambulo__text_append(out, "null");
+  else if (ambulo__parse_double(text, strlen(text), &number) && isfinite(number))
+    ambulo__text_append_number(out, six_digits(number));
+  else
+    ambulo__script_text(out, text);
 }

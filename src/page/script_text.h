@@ -12,5 +12,8 @@
 void ambulo__script_json(ambulo__text_buffer *out, const char *json, size_t length);
 /* Appends a text of any bytes as a JSON text; what is not UTF-8 becomes U+FFFD. */
 void ambulo__script_text(ambulo__text_buffer *out, const char *text);
+/* Appends a number to six digits, a whole one to all of its digits, where the text reads as one;
+ * null for "null" and for nothing; else the text. */
+void ambulo__script_value(ambulo__text_buffer *out, const char *text);
 
 #endif

@@ -175,6 +175,37 @@
     table.open = false;
   }
 
+  // a case beside the scene.json of its own folder, of which its own page is made (window.own); steps are
+  // those of src/page/case_data.h, four times finer where there is room
+  function nearOwn(own) {
+    const row = [...document.querySelectorAll(".cases tbody tr")].find((r) => r.textContent.includes(own.row));
+    row.click();
+    const scene = globalThis.ambulo.scene(), off = {};
+    const near = (name, got, list, unit, step) => {
+      let value = 0, slope = 0;
+      list.forEach((x, k) => {
+        slope = k ? slope + x : 0;
+        value = k ? value + slope : x;
+        const error = Math.abs(got[k] - value * unit) / (step / 8);
+        if (!(error <= (off[name] ?? 0))) off[name] = error;
+      });
+      if (got.length !== list.length) off[name] = Infinity;
+    };
+    const { units, mass } = own;
+    own.points.forEach((three, p) => three.forEach((list, i) =>
+      near("places", scene.points[p][i], list, units.length, 2e-3)));
+    own.center_of_mass.forEach((list, i) => near("centre", scene.center_of_mass[i], list, units.length, 2e-3));
+    own.coordinates.forEach((c, i) => {
+      near("angles", scene.coordinates[i].q, c.q, units.angle, 3.4e-3);
+      near("torques", scene.coordinates[i].tau, c.tau, units.torque, 1e-2 * mass);
+      near("powers", scene.coordinates[i].power, c.power, units.power, 1e-2 * mass);
+    });
+    const worst = Object.entries(off).map(([name, x]) => `${name} ${x.toFixed(4)}`).join(", ");
+    check(`${own.row} moves as in its own folder`, Object.keys(off).length === 5
+      && Object.values(off).every((x) => x <= 1.001), worst);
+    check(`${own.row} lasts as long`, Math.abs(scene.duration / own.duration - 1) < 1e-5, scene.duration);
+  }
+
   const words = () => document.body.textContent;
   if (kind === "walk") {
     names();
@@ -237,6 +268,9 @@
     check("in space", apart(one, await picture()) > 0.02);
     check("no empty chart of its solve", !document.querySelector(".way"));
     check("its row is marked", document.querySelectorAll("tr.chosen").length === 1);
+    for (const own of window.own) nearOwn(own);
+    check("how near they are is said", /places are within [\d.]+ mm, angles within [\d.]+°/.test(words()),
+      $("precision").textContent);
   } else if (kind === "flat") {
     await frame();
     check("says that there is no WebGL", shown($("no-webgl")) && /no WebGL/.test($("no-webgl").textContent));

@@ -79,6 +79,17 @@ page() {
     END { print "<script>"; put(last); print "</script>" }' "$2"
 }
 for kind in walk failed study; do page $kind $kind.html >"$kind-test.html"; done
+# cases as their own folders have them; their names are those of the folders
+{
+  sed '/^<meta charset/q' study-test.html
+  echo '<script>window.own = ['
+  for scene in study/cases/*/*/scene.json; do
+    sed "1s/^{/{\"row\": \"$(basename "$(dirname "$scene")")\",/" "$scene"
+    echo ','
+  done
+  echo '];</script>'
+  sed '1,/^<meta charset/d' study-test.html
+} >with-own.html && mv with-own.html study-test.html
 "$AMBULO" report "brisk<b>" -o brisk.html >/dev/null
 page flat brisk.html >flat-test.html
 cat >all.html <<'END'

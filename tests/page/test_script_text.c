@@ -48,11 +48,40 @@ static void json_without_blanks(void **state) {
   ambulo__text_free(&out);
 }
 
+/* as JSON: numbers to six digits, whole ones to all of theirs */
+static void values(void **state) {
+  (void)state;
+  static const char *const both[][2] = {
+      {"1.23456789", "1.23457"},
+      {"-0.000123456789", "-0.000123457"},
+      {"9.9999996", "10"},
+      {"123456.789", "123457"},
+      {"12345678", "12345678"},
+      {"1234567.5", "1234570"},
+      {"1e-320", "1e-320"},
+      {"0.1", "0.1"},
+      {"0", "0"},
+      {"", "null"},
+      {"null", "null"},
+      {"nan", "\"nan\""},
+      {"1.2 m", "\"1.2 m\""},
+      {"<b>", "\"\\u003cb>\""},
+  };
+  for (size_t i = 0; i < sizeof both / sizeof both[0]; i++) {
+    ambulo__text_buffer out;
+    ambulo__text_init(&out, NULL);
+    ambulo__script_value(&out, both[i][0]);
+    assert_string_equal(ambulo__text_data(&out), both[i][1]);
+    ambulo__text_free(&out);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(texts),
       cmocka_unit_test(bytes_that_are_no_text),
       cmocka_unit_test(json_without_blanks),
+      cmocka_unit_test(values),
   };
   return cmocka_run_group_tests_name("page/script_text", tests, NULL, NULL);
 }

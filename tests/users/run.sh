@@ -126,11 +126,14 @@ study() {
       check 'the notebook of the study' notebook "$subjects"
   fi
 }
-every_case() { # FOLDER: of each name in the table
+every_case() { # FOLDER: each name of the table, with its motion, in 1.2 MB
   local id
-  cut -d , -f 1 "$1/results.csv" | tail -n +2 | while read -r id; do
-    grep -q "\"$id\"" "$1/report.html" || return 1
-  done
+  local table
+  table=$("$top/tests/page/table_of.sh" "$1/report.html")
+  cut -d , -f 1 "$1/results.csv" | grep -v '^#' | tail -n +2 | while read -r id; do
+    grep -q "\"$id\"" <<<"$table" || return 1
+  done || return 1
+  ! grep -o '"pictures":\[\[' <<<"$table" && [ "$(wc -c <"$1/report.html")" -le 1200000 ]
 }
 notebook() { # SUBJECTS: with the package as it is built, on what was solved before
   local solved

@@ -1,7 +1,9 @@
 // What scene.json holds, unpacked: series of whole numbers in second differences (docs/results.md).
 
-// [first, first difference, then differences of differences] in units of `unit`
+// [first, first difference, then differences of differences] in units of `unit`; of a study's cases
+// they are what they say already (cases.js)
 export function series(list, unit) {
+  if (list instanceof Float32Array) return list;
   const out = new Float32Array(list.length);
   let value = 0, slope = 0;
   for (let k = 0; k < list.length; k++) {
@@ -20,8 +22,7 @@ const places = (three, unit) => three.map((one) => series(one, unit));
 
 // A scene with its series as arrays; `at` are the times of the samples, s.
 export function unpack(raw) {
-  // a study's scenes are coarser, to be smaller
-  const u = Object.fromEntries(Object.entries(raw.units).map(([k, x]) => [k, x * (raw.coarse ?? 1)]));
+  const u = raw.units ?? {};
   const scene = { ...raw, series: undefined };
   scene.at = Float64Array.from({ length: raw.samples },
     (_, k) => (raw.duration * k) / (raw.samples - 1));

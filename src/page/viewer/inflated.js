@@ -1,8 +1,5 @@
-// Reads what src/page/packed_text.h wrote: base64 of the deflate format. Browsers can, too, but not all
-// of them, and not at once.
-import { inflateSync, strFromU8 } from "fflate";
-
-const bytesOf = (base64) => Uint8Array.from(atob(base64.trim()), (c) => c.charCodeAt(0));
+// Texts that stand packed in the page, by what start.js began it with.
+export const { bytesOf, inflatedBytes, textOf } = globalThis.ambulo;
 
 // The text that was packed.
-export const inflated = (base64) => strFromU8(inflateSync(bytesOf(base64)));
+export const inflated = (base64) => textOf(inflatedBytes(bytesOf(base64)));

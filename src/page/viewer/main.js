@@ -2,6 +2,7 @@
 import { css, el, seconds } from "./dom.js";
 import { spoken, unpack } from "./decode.js";
 import { inflated } from "./inflated.js";
+import { Cases } from "./cases.js";
 import { Charts } from "./charts.js";
 import { failure, panels } from "./panels.js";
 import { Stage, hasWebGL } from "./stage.js";
@@ -16,6 +17,14 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)");
 // {name, summary, scene, strip} of {name, packed}
 const opened = (packed) => Object.assign(packed, JSON.parse(inflated(packed.packed)));
 
+// its table is packed; which of the motions is a case's
+if (data.study) {
+  Object.assign(data.study, JSON.parse(inflated(data.study.table)));
+  data.study.shown.forEach((index, motion) => { data.study.cases[index].motion = motion; });
+  for (const [index, picture] of data.study.pictures) data.study.cases[index].picture = picture;
+}
+const cases = data.study && new Cases(data.study.motions);
+
 const page = {
   results: (data.results ?? []).map(opened),
   main: 0, ghost: -1, stage: null, charts: null,
@@ -23,6 +32,8 @@ const page = {
 };
 
 const sceneOf = (result) => result.unpacked ??= unpack(result.scene);
+// for who looks closer, from the console: what is shown, all series as arrays of SI units
+globalThis.ambulo.scene = () => sceneOf(page.results[page.main]);
 
 // ------------------------------------------------------------------- theme
 
@@ -277,7 +288,7 @@ function show(main, ghost) {
 // a case of a batch becomes a result; the one watched before stays as its ghost to choose
 function watch(index) {
   const row = data.study.cases[index];
-  if (!row.packed) {
+  if (row.motion === undefined) {
     byId("failure").replaceChildren(el("section", { class: "failure" }, el("h2", {}, row.name),
       el("p", {}, row.picture ? "Its motion is not in this page: " : "It has no motion.",
         row.picture ? el("a", { href: row.picture }, "its picture") : "")));
@@ -285,9 +296,10 @@ function watch(index) {
   }
   const playing = page.playing;
   const known = page.results.findIndex((r) => r.index === index);
-  const at = known >= 0 ? known : page.results.push(opened({ name: row.name, state: row.state, index,
-    packed: row.packed })) - 1;
+  const at = known >= 0 ? known : page.results.push({ name: row.name, state: row.state, index,
+    ...cases.open(row.motion) }) - 1;
   show(at, page.ghost === at ? -1 : page.ghost);
+  byId("precision").textContent = cases.precision(sceneOf(page.results[at]));
   if (playing) play(true);
 }
 
@@ -320,7 +332,7 @@ function begin() {
   if (data.study) {
     byId("study").hidden = false;
     const study = new Study(byId("study"), data.study, watch);
-    const index = data.study.cases.findIndex((c) => c.packed);
+    const index = data.study.cases.findIndex((c) => c.motion !== undefined);
     if (index >= 0) study.choose(index);
     else {
       byId("title").textContent = data.study.name.replace(/_/g, " ");

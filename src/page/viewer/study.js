@@ -57,6 +57,7 @@ export class Study {
     parent.append(el("div", { class: "bar" }, search, this.count),
       el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "Table of cases" },
         el("table", { class: "cases" }, el("thead", {}, this.head), this.body)));
+    parent.append(el("p", { class: "note", id: "precision" }));
     this.draw();
     if (!this.numeric.length) return;
     new ResizeObserver(() => { // letters keep their size on any screen
