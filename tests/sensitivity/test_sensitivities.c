@@ -157,7 +157,7 @@ static void phases_solved_anew(void **state) {
       "0.05], flat: "                                                                              \
       "[-0.04, 0.05], toe: [-0.05, 0.05], width: 0.05}}",                                          \
       "time.grid=events", "trajectory.knots=events", "trajectory.intervals=15",                    \
-      "trajectory.degree=5", "time.intervals=32", "constraints.foot_strike=false",                 \
+      "trajectory.degree=5", "time.intervals=34", "constraints.foot_strike=false",                 \
       "constraints.ground_penetration=false", "constraints.contact_tolerance=0.005"
 
 /* by other roundings multipliers of such solves differ by hundredths; tests/sensitivity has the
