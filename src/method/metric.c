@@ -21,7 +21,7 @@ static const double pi = 3.14159265358979323846;
 static int has_rates(const ambulo_problem *p) {
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (ambulo__term_is_rate(term->kind) && term->weight > 0.0) return 1;
+    if (ambulo__term_is_rate(term) && term->weight > 0.0) return 1;
   }
   return 0;
 }
@@ -208,7 +208,7 @@ static int all_composite_rows(const ambulo__metric *metric, const ambulo_workspa
   const ambulo_problem *p = metric->problem;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (is_composite(term) && ambulo__term_is_rate(term->kind) == rates)
+    if (is_composite(term) && ambulo__term_is_rate(term) == rates)
       count = composite_rows(metric, workspace, term, node, width, scale, count);
   }
   return count;
