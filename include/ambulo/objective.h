@@ -55,7 +55,7 @@ typedef enum ambulo_term_kind {
                               of strength: scale_i (tau_i - offset_i - passive_i(q)) / strength_i(q) */
   AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
   AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg;
-                              with `tendon` tau_i (qd_i - dtau_i/dt / tendon_i) for tau_i qd_i */
+                              with `tendon` tau_i (qd_i + dtau_i/dt / tendon_i) for tau_i qd_i */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
   AMBULO_UPRIGHT,      /* squared horizontal parts of a line, point[0] to point[1], by its length */
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */

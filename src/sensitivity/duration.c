@@ -64,7 +64,7 @@ static double value_of_differences(const ambulo__stationary *s, const ambulo_ter
   return sum;
 }
 
-/* (S.10) J / T - (L_qd . qd + 2 L_qdd . qdd) / T */
+/* (S.10) J / T - sum w phi' v / T - (L_qd . qd + 2 L_qdd . qdd) / T */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   double sum = 0.0;

@@ -36,7 +36,7 @@ static void check_slopes_exactly(form_fixture *f, const ambulo_term *term, int n
   }
 }
 
-static void muscles_move_at_what_the_tendon_leaves(void **state) {
+static void muscles_shorten_for_the_joint_and_for_the_tendon(void **state) {
   (void)state;
   static const double scale[] = {1.0, 2.0};
   form_fixture f;
@@ -51,8 +51,8 @@ static void muscles_move_at_what_the_tendon_leaves(void **state) {
     *form_at(&f, 2, ambulo__channel_qd(&f.context.channels, i)) = 3.0;
   }
   ambulo__term_form(&term, &f.context, 1, 1, &form);
-  assert_close(form.u, 2.0 * -12.0 * (2.5 + 40.0 / 50.0) / 3.5, 1e-14);
-  assert_close(form.difference, 2.0 * -12.0 * (40.0 / 50.0) / 3.5, 1e-14);
+  assert_close(form.u, 2.0 * -12.0 * (2.5 - 40.0 / 50.0) / 3.5, 1e-14);
+  assert_close(form.difference, 2.0 * -12.0 * (-40.0 / 50.0) / 3.5, 1e-14);
   check_slopes_exactly(&f, &term, 1, 1);
   ambulo__term_form(&term, &f.context, 1, 0, &form); /* of a joint without: means alone */
   assert_close(form.u, -12.0 * 2.5 / 3.5, 1e-14);
@@ -79,14 +79,15 @@ static void what_a_tendon_takes_it_gives(void **state) {
     *form_at(&f, k, ambulo__channel_qd(&f.context.channels, 1)) = 0.0;
   }
   for (int k = 0; k < 2; k++) ambulo__term_form(&term, &f.context, k, 1, &form[k]);
-  assert_close(0.1 * form[0].u, -(17.0 * 17.0 - 3.0 * 3.0) / (2.0 * 50.0) / 3.5, 1e-14);
+  assert_close(0.1 * form[0].u, (17.0 * 17.0 - 3.0 * 3.0) / (2.0 * 50.0) / 3.5, 1e-14);
   assert_close(0.25 * form[1].u, -0.1 * form[0].u, 1e-14);
   form_close(&f);
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(power_is_torque_times_rate_over_mass),
-                                     cmocka_unit_test(muscles_move_at_what_the_tendon_leaves),
-                                     cmocka_unit_test(what_a_tendon_takes_it_gives)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(power_is_torque_times_rate_over_mass),
+      cmocka_unit_test(muscles_shorten_for_the_joint_and_for_the_tendon),
+      cmocka_unit_test(what_a_tendon_takes_it_gives)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
