@@ -54,7 +54,8 @@ typedef enum ambulo_term_kind {
   AMBULO_TORQUE_POWER,     /* sum_i (u_i^2 + s^2)^(p/2) - s^p,  u_i the active torque as a share
                               of strength: scale_i (tau_i - offset_i - passive_i(q)) / strength_i(q) */
   AMBULO_TORQUE_RATE,      /* sum_i (scale_i dtau_i/dt)^2, differences between nodes */
-  AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg */
+  AMBULO_MECHANICAL_POWER, /* sum_i sqrt(u_i^2 + s^2) - s,  u_i = scale_i tau_i qd_i / m, W/kg;
+                              with `tendon` tau_i (qd_i + dtau_i/dt / tendon_i) for tau_i qd_i */
   AMBULO_POSTURE,          /* sum_i (scale_i (q_i - offset_i))^2 */
   AMBULO_UPRIGHT,      /* squared horizontal parts of a line, point[0] to point[1], by its length */
   AMBULO_GROUND_FORCE, /* |F / (m g) - n|^2, F the root force, n up */
@@ -89,6 +90,10 @@ typedef struct ambulo_term {
   const double *reference;       /* [N + 1][d] at the time nodes, for AMBULO_TRACKING */
   ambulo_node_function function; /* AMBULO_USER_TERM */
   void *user;
+  const double *tendon; /* [d]: stiffness in series with the muscles, N m/rad (N/m), >= 0;
+                           0: none. Power then is the muscles', from means and differences
+                           of neighbouring nodes; NULL: that of the joint, at the nodes
+                           (AMBULO_MECHANICAL_POWER) */
 } ambulo_term;
 
 /* A constraint of the caller's own, one row at each node in [from, to]. */

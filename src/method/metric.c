@@ -22,7 +22,7 @@
 static int has_rates(const ambulo_problem *p) {
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (ambulo__term_is_rate(term->kind) && term->weight > 0.0) return 1;
+    if (ambulo__term_is_rate(term) && term->weight > 0.0) return 1;
   }
   return 0;
 }
@@ -209,7 +209,7 @@ static int composite_rows(ambulo__metric *metric, const ambulo_workspace *worksp
                           const ambulo_term *term, int node, int width, double scale, int count) {
   const ambulo_problem *p = metric->problem;
   ambulo__term_context context = ambulo__term_context_of(workspace);
-  int forms = ambulo__term_forms(term, &context, node), rates = ambulo__term_is_rate(term->kind);
+  int forms = ambulo__term_forms(term, &context, node), rates = ambulo__term_is_rate(term);
   double weight = scale * term->weight * ambulo__term_quadrature(p, term, node);
   for (int j = 0; j < forms && count < metric->row_capacity; j++) {
     ambulo__form form;
@@ -295,7 +295,7 @@ static int all_composite_rows(ambulo__metric *metric, const ambulo_workspace *wo
   const ambulo_problem *p = metric->problem;
   for (int t = 0; t < p->definition.term_count; t++) {
     const ambulo_term *term = &p->definition.terms[t];
-    if (ambulo__metric_is_composite(term) && ambulo__term_is_rate(term->kind) == rates)
+    if (ambulo__metric_is_composite(term) && ambulo__term_is_rate(term) == rates)
       count = composite_rows(metric, workspace, term, node, width, scale, count);
   }
   return count;

@@ -242,6 +242,8 @@ static ambulo_status check_term(const ambulo_problem_definition *d, int t,
                   t, info->name);
   if (term->kind == AMBULO_DEVICE_EFFORT && d->device_count == 0)
     return REFUSE(list, "objective[%d] (%s): there are no devices", t, info->name);
+  if (term->kind != AMBULO_MECHANICAL_POWER && term->tendon)
+    return REFUSE(list, "objective[%d] (%s): tendons; expected mechanical_power", t, info->name);
   if (term->kind == AMBULO_TRACKING && !term->reference)
     return REFUSE(list, "objective[%d] (%s): no reference motion", t, info->name);
   if (ambulo__is_user_term(term) && !term->function)
@@ -282,12 +284,13 @@ static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t
                                        ambulo_diagnostics *list) {
   const ambulo_term *term = &d->terms[t];
   int n = ambulo_model_coordinate_count(d->model);
-  char scale[64], offset[64], passive[64], strength[64], reference[64];
+  char scale[64], offset[64], passive[64], strength[64], reference[64], tendon[64];
   (void)snprintf(scale, sizeof scale, "objective[%d]: scale", t);
   (void)snprintf(offset, sizeof offset, "objective[%d]: offset", t);
   (void)snprintf(passive, sizeof passive, "objective[%d]: passive", t);
   (void)snprintf(strength, sizeof strength, "objective[%d]: strength", t);
   (void)snprintf(reference, sizeof reference, "objective[%d]: reference", t);
+  (void)snprintf(tendon, sizeof tendon, "objective[%d]: tendon", t);
   int samples = d->intervals > 0 && d->intervals <= MAX_INTERVALS ? d->intervals + 1 : 0;
   const number_range ranges[] = {
       {scale, "", term->scale, n, -largest, largest, 0},
@@ -296,6 +299,7 @@ static ambulo_status check_term_arrays(const ambulo_problem_definition *d, int t
       {strength, "", term->strength, 6 * n, -largest, largest, 0},
       {reference, "", term->reference, n * samples, -largest, largest, 0},
       {scale, "", term->device_scale, d->device_count, 0.0, largest, 0},
+      {tendon, " N m/rad", term->tendon, n, 0.0, largest, 0},
   };
   return check_ranges(ranges, sizeof ranges / sizeof *ranges, list);
 }

@@ -63,6 +63,7 @@ static void copy_terms(const ambulo_problem_definition *from, const ambulo_alloc
                             : copy_array(a, source->strength, 6 * d, sizeof(double), failed);
     terms[t].device_scale =
         copy_array(a, source->device_scale, (size_t)from->device_count, sizeof(double), failed);
+    terms[t].tendon = copy_array(a, source->tendon, d, sizeof(double), failed);
     terms[t].price = copy_array(a, source->price, 2 * d, sizeof(double), failed);
     terms[t].reference = copy_array(a, source->reference, nodes * d, sizeof(double), failed);
   }
@@ -220,6 +221,7 @@ void ambulo__definition_free(const ambulo_allocator *a, ambulo_problem_definitio
     release(a, d->terms[t].passive);
     release(a, d->terms[t].strength);
     release(a, d->terms[t].price);
+    release(a, d->terms[t].tendon);
     release(a, d->terms[t].device_scale);
     release(a, d->terms[t].reference);
   }

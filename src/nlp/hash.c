@@ -63,6 +63,7 @@ static hash add_terms(hash h, const ambulo_problem *p) {
     h = add_integer(add_integer(h, term->point[0]), term->point[1]);
     h = add_numbers(h, term->reference, (size_t)p->nodes * d);
     h = add_numbers(h, term->device_scale, (size_t)p->definition.device_count);
+    if (term->tendon) h = add_numbers(h, term->tendon, d);
   }
   return h;
 }

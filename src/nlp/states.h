@@ -31,7 +31,7 @@ static inline ambulo__term_context ambulo__term_context_of(const ambulo_workspac
  * interval that begins at the node. */
 static inline double ambulo__term_quadrature(const ambulo_problem *p, const ambulo_term *term,
                                              int node) {
-  if (ambulo__term_is_rate(term->kind))
+  if (ambulo__term_is_rate(term))
     return node + 1 < p->nodes ? p->times[node + 1] - p->times[node] : 0.0;
   return p->quadrature[node];
 }

@@ -25,7 +25,7 @@ void ambulo__force_rate_form(const ambulo__term_context *context, int node, int 
   int channel = ambulo__channel_foot_force(&context->channels, j / 3, j % 3);
   double now = ambulo__frame_value(context, node, channel);
   double next = ambulo__frame_value(context, node + 1, channel);
-  form->u = factor * (next - now);
+  form->u = form->difference = factor * (next - now);
   ambulo__form_add(form, channel, 0, -factor);
   ambulo__form_add(form, channel, 1, factor);
 }

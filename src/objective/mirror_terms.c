@@ -4,7 +4,7 @@
  * partner m is that on i, up to its sign, when
  *
  *     scale_m = scale_i,   offset_m = s offset_i,   passive_m(s q) = s passive_i(q),
- *     strength_m(s q) of direction s D = strength_i(q) of direction D
+ *     strength_m(s q) of direction s D = strength_i(q) of direction D,   tendon_m = tendon_i
  *
  * Curves are compared as functions, at five angles: their constants may be ordered otherwise. Left
  * and right may stand in different terms; the share of term t on i needs as many like it on m as
@@ -82,6 +82,10 @@ static double offset_of(const share *s) {
   return has_offset(s->term->kind) && s->term->offset ? s->term->offset[s->coordinate] : 0.0;
 }
 
+static double tendon_of(const share *s) {
+  return s->term->tendon ? s->term->tendon[s->coordinate] : 0.0;
+}
+
 static double passive_at(const share *s, double q) {
   double slope;
   if (s->term->kind != AMBULO_TORQUE_POWER || !s->term->passive) return 0.0;
@@ -120,6 +124,9 @@ static difference compare(const share *a, const share *b) {
   if ((own == 0.0 && other == 0.0) || (tracked && (own == 0.0 || other == 0.0)))
     return (difference){.what = NULL};
   if (!same(own, other)) return (difference){"scale", "", own, other, 0.0, 0, 0};
+  own = tendon_of(a);
+  other = tendon_of(b);
+  if (!same(own, other)) return (difference){"tendon", " N m/rad", own, other, 0.0, 0, 0};
   own = offset_of(a);
   other = offset_of(b);
   if (!same(own, sign * other)) return (difference){"offset", "", own, other, 0.0, 0, sign < 0.0};
@@ -133,6 +140,7 @@ static int count_like(const ambulo_problem_definition *d, const share *a, share 
     b.term = &d->terms[u];
     if (b.term->kind != a->term->kind || !same(b.term->weight, a->term->weight)) continue;
     if (has_smoothing(a->term->kind) && !same(b.term->smoothing, a->term->smoothing)) continue;
+    if (ambulo__term_is_rate(b.term) != ambulo__term_is_rate(a->term)) continue;
     if (a->term->kind == AMBULO_TORQUE_POWER && !same(b.term->power, a->term->power)) continue;
     count += compare(a, &b).what == NULL;
   }

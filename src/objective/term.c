@@ -51,8 +51,9 @@ int ambulo__term_is_simple(const ambulo_term *term) {
   return 0;
 }
 
-int ambulo__term_is_rate(ambulo_term_kind kind) {
-  return kind == AMBULO_TORQUE_RATE || kind == AMBULO_FORCE_RATE;
+int ambulo__term_is_rate(const ambulo_term *term) {
+  return term->kind == AMBULO_TORQUE_RATE || term->kind == AMBULO_FORCE_RATE ||
+         (term->kind == AMBULO_MECHANICAL_POWER && term->tendon);
 }
 
 int ambulo__term_channel(const ambulo_term *term, const ambulo__channels *channels, int i) {
@@ -93,10 +94,10 @@ ambulo__residual ambulo__term_residual(const ambulo_term *term, double u) {
 int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *context, int node) {
   switch (term->kind) {
   case AMBULO_TORQUE_POWER:
-  case AMBULO_MECHANICAL_POWER:
-    return context->channels.coordinates;
   case AMBULO_TORQUE_RATE:
-    return node + 1 < context->nodes ? context->channels.coordinates : 0;
+  case AMBULO_MECHANICAL_POWER:
+    if (ambulo__term_is_rate(term) && node + 1 >= context->nodes) return 0;
+    return context->channels.coordinates;
   case AMBULO_UPRIGHT:
     return 2;
   case AMBULO_GROUND_FORCE:
@@ -122,7 +123,7 @@ int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *cont
 
 void ambulo__term_form(const ambulo_term *term, const ambulo__term_context *context, int node,
                        int j, ambulo__form *form) {
-  form->u = 0.0;
+  form->u = form->difference = 0.0;
   form->count = 0;
   switch (term->kind) {
   case AMBULO_TORQUE_POWER:

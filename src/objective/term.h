@@ -73,6 +73,7 @@ void ambulo__term_shapes(const ambulo_term *term, double least, const double *u,
 enum { AMBULO__FORM_CHANNELS = 8 };
 typedef struct ambulo__form {
   double u;
+  double difference; /* the part of u that is a difference of nodes over their interval's length */
   int count;
   int channel[AMBULO__FORM_CHANNELS];
   int ahead[AMBULO__FORM_CHANNELS];
@@ -92,8 +93,8 @@ typedef struct ambulo__term_context {
   double ground_height;
 } ambulo__term_context;
 
-/* 1 if its residuals are differences between a node and the next. */
-int ambulo__term_is_rate(ambulo_term_kind kind);
+/* 1 if its residuals are those of the interval between a node and the next. */
+int ambulo__term_is_rate(const ambulo_term *term);
 /* Residuals at one node (0 at nodes where the term says nothing). */
 int ambulo__term_forms(const ambulo_term *term, const ambulo__term_context *context, int node);
 /* Residual j of `term` at `node`. */

@@ -14,7 +14,7 @@ void ambulo__torque_rate_form(const ambulo_term *term, const ambulo__term_contex
   int channel = ambulo__channel_tau(&context->channels, i);
   double now = ambulo__frame_value(context, node, channel);
   double next = ambulo__frame_value(context, node + 1, channel);
-  form->u = factor * (next - now);
+  form->u = form->difference = factor * (next - now);
   ambulo__form_add(form, channel, 0, -factor);
   ambulo__form_add(form, channel, 1, factor);
 }

@@ -37,6 +37,7 @@ SHAPES = {
     ("ambulo_term", "passive"): ("d", 4),
     ("ambulo_term", "strength"): ("d", 2, 3),
     ("ambulo_term", "price"): ("d", 2),
+    ("ambulo_term", "tendon"): ("d",),
     ("ambulo_term", "device_scale"): ("devices",),
     ("ambulo_term", "reference"): ("nodes", "d"),
     ("ambulo_tube", "reference"): ("samples", "d"),

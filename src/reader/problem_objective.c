@@ -140,6 +140,19 @@ static void read_strength(ambulo__problem_reader *reader, const ambulo__yaml_nod
   }
 }
 
+/* stiffness of tendons by coordinate; those not named have none */
+static double *read_tendon(ambulo__problem_reader *reader, const ambulo__yaml_node *node) {
+  if (!node) return NULL;
+  double *tendon = coordinate_array(reader, 0.0);
+  for (int i = 0; tendon && i < ambulo_model_coordinate_count(reader->model); i++) {
+    const ambulo__yaml_node *value =
+        ambulo__yaml_get(node, ambulo_model_coordinate(reader->model, i)->name);
+    tendon[i] = ambulo__yaml_number_in(value, 1e-6, 1e12, 0.0);
+  }
+  ambulo__yaml_close(node);
+  return tendon;
+}
+
 /* `points: [from, to]`, names of the model's points */
 static void read_line(const ambulo__problem_reader *reader, const ambulo__yaml_node *node,
                       ambulo_term *term) {
@@ -221,9 +234,11 @@ static void read_details(ambulo__problem_reader *reader, const ambulo__yaml_node
   case AMBULO_USER_TERM:
   case AMBULO_USER_SQUARE:
   case AMBULO_TORQUE_RATE:
-  case AMBULO_MECHANICAL_POWER:
   case AMBULO_GROUND_FORCE:
   case AMBULO_TERM_KIND_NOT_SET:
+    break;
+  case AMBULO_MECHANICAL_POWER:
+    term->tendon = read_tendon(reader, ambulo__yaml_get(node, "tendon"));
     break;
   case AMBULO_DEVICE_EFFORT:
     term->device_scale = read_device_scale(reader, ambulo__yaml_get(node, "scale"));

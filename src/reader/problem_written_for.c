@@ -12,6 +12,7 @@
  *     rate of a torque, scale in s / N m                       sqrt(longer) / (heavier longer)
  *     turning acceleration, scale in s^2                       longer; of a translation as it is
  *     mechanical power, scale in kg / W                        1 / sqrt(longer)
+ *     tendon, N m/rad; of a translation, N/m                   heavier longer; heavier / longer
  *     rate of a force, weight in s^2 by its square             longer
  *     rest of a translation, m; its scale, 1/m                 longer; 1 / longer
  *
@@ -117,6 +118,18 @@ static const double *scaled_peaks(ambulo__problem_reader *reader, const double *
   return scaled;
 }
 
+static const double *scaled_tendons(ambulo__problem_reader *reader, const double *tendon) {
+  if (!tendon) return NULL;
+  double longer = reader->keys.longer, heavier = reader->keys.heavier;
+  int count = ambulo_model_coordinate_count(reader->model);
+  double *scaled = ambulo__reader_alloc(reader, (size_t)count, sizeof *scaled);
+  for (int i = 0; scaled && i < count; i++) {
+    int turns = ambulo_model_coordinate(reader->model, i)->type == AMBULO_REVOLUTE;
+    scaled[i] = tendon[i] * (turns ? heavier * longer : heavier / longer);
+  }
+  return scaled;
+}
+
 static void scale_term(ambulo__problem_reader *reader, ambulo_term *term) {
   double longer = reader->keys.longer, heavier = reader->keys.heavier;
   int count = ambulo_model_coordinate_count(reader->model);
@@ -133,6 +146,7 @@ static void scale_term(ambulo__problem_reader *reader, ambulo_term *term) {
   if (term->offset) term->offset = offset;
   term->passive = scaled_peaks(reader, term->passive, 2 * count, 2, heavier * longer);
   term->strength = scaled_peaks(reader, term->strength, 2 * count, 3, heavier * longer);
+  term->tendon = scaled_tendons(reader, term->tendon);
   if (term->kind == AMBULO_FORCE_RATE) term->weight *= longer;
   if (term->kind == AMBULO_CLEARANCE) term->height *= longer;
 }

@@ -4,7 +4,8 @@
  * Nodes, contacts and breakpoints are at fixed fractions of T, so that no row comes or goes:
  *
  *     sum_k w_k phi            d/dT = J_t / T           (w_k are proportional to T)
- *     torque rate              u = scale (tau_k+1 - tau_k) N / T: J_t / T - 2 J_t / T
+ *     rates, of u the part     v = (y_k+1 - y_k) / (t_k+1 - t_k): J_t / T - sum_k w_k phi' v / T
+ *       that is a difference
  *     channels                 dL/dT = -(L_qd . qd + 2 L_qdd . qdd) / T, torques among L_qd, L_qdd
  *     matching ends            their scale s_o of order o is proportional to T^o (gait/ends.c)
  *
@@ -16,6 +17,7 @@
 #include "sensitivity/partials.h"
 
 #include "nlp/adjoint.h"
+#include "nlp/states.h"
 
 /* the rows' own part: s_o */
 static double pull_of_ends(const ambulo__stationary *s) {
@@ -45,13 +47,29 @@ static double pull_of_rates(const ambulo__stationary *s) {
   return sum;
 }
 
-/* (S.10) J / T - (L_qd . qd + 2 L_qdd . qdd) / T */
+/* weight sum_k w_k phi' v */
+static double value_of_differences(const ambulo__stationary *s, const ambulo_term *term) {
+  ambulo__term_context context = ambulo__term_context_of(s->workspace);
+  double sum = 0.0;
+  if (!ambulo__term_is_rate(term)) return 0.0;
+  for (int node = 0; node < context.nodes; node++) {
+    double w = term->weight * ambulo__term_quadrature(s->problem, term, node);
+    int count = ambulo__term_forms(term, &context, node);
+    for (int j = 0; j < count; j++) {
+      ambulo__form form;
+      ambulo__term_form(term, &context, node, j, &form);
+      sum += w * ambulo__term_residual(term, form.u).slope * form.difference;
+    }
+  }
+  return sum;
+}
+
+/* (S.10) J / T - sum w phi' v / T - (L_qd . qd + 2 L_qdd . qdd) / T */
 void ambulo__partials_of_duration(const ambulo__stationary *s, ambulo__partials *partials) {
   const ambulo_problem *p = s->problem;
   double sum = 0.0;
   for (int t = 0; t < p->definition.term_count; t++) {
-    int is_rate = ambulo__term_is_rate(p->definition.terms[t].kind);
-    sum += (is_rate ? -1.0 : 1.0) * s->workspace->term_value[t];
+    sum += s->workspace->term_value[t] - value_of_differences(s, &p->definition.terms[t]);
   }
   for (int block = 0; block < p->blocks; block++) ambulo__adjoint_block(s->workspace, block);
   sum += pull_of_ends(s) + pull_of_rates(s);

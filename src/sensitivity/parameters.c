@@ -174,6 +174,8 @@ static double by_written_for(const ambulo__parameters *p) {
   for (int t = 0; p->problem->keys.written_for && t < p->problem->keys.terms; t++) {
     const ambulo_term *term = &d->terms[t];
     int priced = term->kind == AMBULO_TORQUE_POWER && term->strength;
+    for (int i = 0; term->tendon && i < p->problem->coordinates; i++)
+      sum += by->tendon[t * p->problem->coordinates + i] * term->tendon[i];
     int counts = term->kind == AMBULO_TORQUE_POWER || term->kind == AMBULO_TORQUE_SQUARED ||
                  term->kind == AMBULO_TORQUE_ABSOLUTE || term->kind == AMBULO_TORQUE_RATE;
     if (!counts) continue;

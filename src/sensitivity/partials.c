@@ -19,6 +19,7 @@ ambulo_status ambulo__partials_create(const ambulo_problem *problem, ambulo__poo
   partials->scale = ambulo__pool_doubles(pool, terms * n);
   partials->offset = ambulo__pool_doubles(pool, terms * n);
   partials->strength = ambulo__pool_doubles(pool, 2 * terms * n);
+  partials->tendon = ambulo__pool_doubles(pool, terms * n);
   partials->price = ambulo__pool_doubles(pool, 2 * terms * n);
   partials->device = ambulo__pool_doubles(pool, (size_t)d->device_count * AMBULO__DEVICE_NUMBERS);
   partials->hold = ambulo__pool_doubles(pool, (size_t)d->hold_count * AMBULO__HOLD_NUMBERS);

@@ -69,6 +69,7 @@ typedef struct ambulo__partials {
   double *weight, *height; /* [terms] */
   double *scale, *offset;  /* [terms][d] */
   double *strength;        /* [terms][d][2]: of the peaks */
+  double *tendon;          /* [terms][d] */
   double *price;           /* [terms][d][2]: of prices of negative, positive torque */
   double travel, end_rise, ground_height; /* m */
   double duration;                        /* s; contacts and breakpoints at fixed fractions of it */

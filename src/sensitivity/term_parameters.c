@@ -74,6 +74,16 @@ static void add_offset(const term_keys *t, int i) {
   if (m >= 0) add_pair(t, m, sign, key);
 }
 
+static void add_tendon(const term_keys *t, int i) {
+  const double *by = t->p->partials->tendon + t->first;
+  double sign;
+  int m = partner_of(t, i, &sign), pair = m >= 0 && m != i;
+  if (!(t->term->tendon[i] > 0.0)) return;
+  add_by_coordinate(t, i, AMBULO__RATIO, t->term->tendon[i], by[i] + (pair ? by[m] : 0.0),
+                    "stiffness of the tendon", "tendon");
+  if (pair) add_pair(t, m, 1.0, "tendon");
+}
+
 static void add_strength(const term_keys *t, int i) {
   static const char *const words[] = {"positive strength", "negative strength"};
   const ambulo_model *model = t->p->problem->model;
@@ -134,6 +144,7 @@ static void add_coordinate(const term_keys *t, int i) {
       t->term->kind != AMBULO_MECHANICAL_POWER && t->term->kind != AMBULO_TORQUE_RATE)
     add_offset(t, i);
   if (t->term->strength && !t->term->strength_is_limits) add_strength(t, i);
+  if (t->term->tendon) add_tendon(t, i);
 }
 
 void ambulo__parameters_of_terms(ambulo__parameters *p) {

@@ -11,6 +11,8 @@
  *                                     -u / limit, du/dprice = u / price
  *     mechanical power, torque rate   du/dscale = u / scale
  *     power tau qd / m                du/d ln m = -u
+ *     of that of muscles the part of  du/dk = -(that part) / k
+ *       a tendon of stiffness k
  *     ground force F / W - v          du/d ln m = -(u + v),     du/dslope = -dv/dslope
  *     upright, e_0 . (b - a) / L      du/dslope = de_0/dslope . (b - a) / L
  *     clearance, where u > 0,         du/dh = r / H,            du/dH = (r - u) / H
@@ -20,7 +22,8 @@
  * the part in the air:
  *
  *     w_k = (t_k+1 - t_k-1) / 2       dJ/dw_k = weight sum_j phi
- *     torque rate, w = h, u ~ 1 / h   dJ/dh = weight sum_j (phi - phi' u)
+ *     rates, w = h, of u the part     dJ/dh = weight sum_j (phi - phi' v)
+ *       v ~ 1 / h
  *     clearance, u ~ r                dJ/dr^2 = weight w sum_j phi' u / (2 r^2)
  *
  * A slope s turns gravity, -|g| (cos s n + sin s f) in the ground's axes: with v = -g / |g| the
@@ -131,6 +134,8 @@ static void composite_form(const term_sum *t, const ambulo__term_context *contex
     break;
   case AMBULO_MECHANICAL_POWER:
     t->partials->log_mass -= slope * form->u;
+    if (t->term->tendon && t->term->tendon[j] > 0.0)
+      t->partials->tendon[at] -= slope * form->difference / t->term->tendon[j];
     t->partials->scale[at] += slope * form->u / ambulo__term_scale(t->term, j);
     break;
   case AMBULO_TORQUE_RATE:
@@ -163,8 +168,8 @@ static void composite_node(const term_sum *t, const ambulo__term_context *contex
     if (!form.count) continue;
     ambulo__residual phi = ambulo__term_residual(t->term, form.u);
     t->partials->weight[t->index] += w * phi.value;
-    if (ambulo__term_is_rate(t->term->kind)) {
-      double by_step = t->term->weight * (phi.value - phi.slope * form.u);
+    if (ambulo__term_is_rate(t->term)) {
+      double by_step = t->term->weight * (phi.value - phi.slope * form.difference);
       t->partials->node_time[node + 1] += by_step;
       t->partials->node_time[node] -= by_step;
     } else {

@@ -62,9 +62,13 @@ static double bowl(void *user, const ambulo_node_state *s, ambulo_node_gradient 
 static void curvature_is_that_of_the_residuals(void **state) {
   (void)state;
   static const ambulo_term_kind kinds[] = {
-      AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE,  AMBULO_ACCELERATION, AMBULO_TORQUE_POWER,
-      AMBULO_TORQUE_RATE,    AMBULO_MECHANICAL_POWER, AMBULO_POSTURE,      AMBULO_TRACKING,
-      AMBULO_UPRIGHT,        AMBULO_USER_SQUARE,      AMBULO_USER_TERM};
+      AMBULO_TORQUE_SQUARED, AMBULO_TORQUE_ABSOLUTE,
+      AMBULO_ACCELERATION,   AMBULO_TORQUE_POWER,
+      AMBULO_TORQUE_RATE,    AMBULO_MECHANICAL_POWER,
+      AMBULO_POSTURE,        AMBULO_TRACKING,
+      AMBULO_UPRIGHT,        AMBULO_USER_SQUARE,
+      AMBULO_USER_TERM,      AMBULO_MECHANICAL_POWER}; /* once more, with a tendon */
+  static const double tendon[ARM_COORDINATES] = {5.0, 0.0};
   enum { KINDS = sizeof kinds / sizeof *kinds, NODES = 11 };
   static const double scale[ARM_COORDINATES] = {0.5, 2.0};
   static const double offset[ARM_COORDINATES] = {1.0, -0.5};
@@ -84,6 +88,7 @@ static void curvature_is_that_of_the_residuals(void **state) {
       if (!ambulo__is_user_term(term) && kinds[k] != AMBULO_UPRIGHT) term->scale = scale;
       if (kinds[k] == AMBULO_TORQUE_SQUARED || kinds[k] == AMBULO_POSTURE) term->offset = offset;
       if (kinds[k] == AMBULO_TRACKING) term->reference = reference;
+      if (k == KINDS - 1) term->tendon = tendon;
       term->point[0] = 0;
       term->point[1] = 1;
       term->function = kinds[k] == AMBULO_USER_SQUARE ? mixed : bowl;

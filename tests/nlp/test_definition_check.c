@@ -317,12 +317,29 @@ static void strength_that_is_limits(void **state) {
   ambulo_model_free(b.model);
 }
 
+static void tendons_are_those_of_power(void **state) {
+  (void)state;
+  built b;
+  build(&b);
+  double tendon[2] = {40.0, 0.0};
+  b.terms[0].tendon = tendon;
+  b.terms[0].kind = AMBULO_MECHANICAL_POWER;
+  ambulo_diagnostics *list = ambulo_diagnostics_create(NULL);
+  assert_int_equal(create(&b, list), AMBULO_OK);
+  ambulo_diagnostics_free(list);
+  expect_range(&b, &tendon[1], "objective[0]: tendon", 0);
+  expect_refused(&b, &tendon[1], -1.0, "objective[0]: tendon");
+  b.terms[0].kind = AMBULO_TORQUE_SQUARED;
+  expect_refused(&b, &tendon[1], 1.0, "objective[0] (torque_squared): tendons; expected mech");
+  ambulo_model_free(b.model);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_built_is_legal),   cmocka_unit_test(strength_that_is_limits),
-      cmocka_unit_test(grids_are_checked),        cmocka_unit_test(choices_that_are_not_set),
-      cmocka_unit_test(numbers_have_ranges),      cmocka_unit_test(no_bound_is_a_bound),
-      cmocka_unit_test(what_is_missing_is_named), cmocka_unit_test(some_weight_is_not_zero),
-      cmocka_unit_test(a_line_has_a_length)};
+      cmocka_unit_test(tendons_are_those_of_power), cmocka_unit_test(what_is_built_is_legal),
+      cmocka_unit_test(strength_that_is_limits),    cmocka_unit_test(grids_are_checked),
+      cmocka_unit_test(choices_that_are_not_set),   cmocka_unit_test(numbers_have_ranges),
+      cmocka_unit_test(no_bound_is_a_bound),        cmocka_unit_test(what_is_missing_is_named),
+      cmocka_unit_test(some_weight_is_not_zero),    cmocka_unit_test(a_line_has_a_length)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,8 +73,9 @@ static void every_family_and_term_agrees_with_central_differences(void **state) 
   static const double passive[] = {0.2, 1.0, -0.1, -2.0, -0.3, -1.5, 0.2, 1.2};
   static const double strength[] = {20.0, 0.9, 0.4, 30.0, 0.7, -0.2,
                                     25.0, 0.8, 0.1, 15.0, 1.0, 0.3};
+  static const double tendon[] = {0.0, 7.0};
   enum { KINDS = AMBULO_CLEARANCE + 1 };
-  ambulo_term terms[KINDS];
+  ambulo_term terms[KINDS + 1];
   for (int k = 1; k < KINDS; k++) { /* 0 is none */
     terms[k] = ambulo_term_default((ambulo_term_kind)k);
     terms[k].weight = 0.2 * k - 0.1;
@@ -88,10 +89,12 @@ static void every_family_and_term_agrees_with_central_differences(void **state) 
   terms[AMBULO_TRACKING].reference = reference;
   terms[AMBULO_USER_TERM].function = hand_height;
   terms[AMBULO_USER_TERM].user = &factor;
+  terms[KINDS] = terms[AMBULO_MECHANICAL_POWER]; /* with and without */
+  terms[KINDS].tendon = tendon;
   ambulo_user_row row = {"hand", "m", AMBULO_NOT_NEGATIVE, 0.25, 0.75, hand_height, &factor};
   ambulo_problem_definition definition = arm_definition(f.model);
   definition.terms = terms + 1;
-  definition.term_count = KINDS - 1;
+  definition.term_count = KINDS;
   definition.user_rows = &row;
   definition.user_row_count = 1;
   definition.ends = AMBULO_ENDS_PERIODIC;

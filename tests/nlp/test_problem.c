@@ -158,6 +158,28 @@ static void the_hash_sees_every_change(void **state) {
   ambulo_model_free(model);
 }
 
+/* no stiffness at all is still an interval's power */
+static void the_hash_sees_tendons(void **state) {
+  (void)state;
+  ambulo_model *model = arm_create();
+  ambulo_problem_definition d = arm_definition(model);
+  unsigned long long hashes[4];
+  double tendon[2] = {0.0, 0.0};
+  for (int i = 0; i < 4; i++) {
+    ambulo_term term = ambulo_term_default(AMBULO_MECHANICAL_POWER);
+    ambulo_problem *problem = NULL;
+    tendon[1] = i == 3 ? 40.0 : 0.0;
+    term.tendon = i >= 2 ? tendon : NULL;
+    d.terms = &term;
+    d.term_count = 1;
+    assert_int_equal(ambulo_problem_create(&d, NULL, NULL, &problem), AMBULO_OK);
+    hashes[i] = ambulo_problem_hash(problem);
+    ambulo_problem_free(problem);
+  }
+  assert_true(hashes[0] == hashes[1] && hashes[1] != hashes[2] && hashes[2] != hashes[3]);
+  ambulo_model_free(model);
+}
+
 /* where an arc has to be is in no other row: of two footholds one behind the other too */
 static void the_hash_sees_where_arcs_roll(void **state) {
   (void)state;
@@ -262,6 +284,7 @@ int main(void) {
       cmocka_unit_test(the_problem_owns_its_arrays),
       cmocka_unit_test(every_allocation_may_fail),
       cmocka_unit_test(the_hash_sees_every_change),
+      cmocka_unit_test(the_hash_sees_tendons),
       cmocka_unit_test(the_hash_sees_where_arcs_roll),
       cmocka_unit_test(the_hash_sees_how_far_feet_are_apart),
       cmocka_unit_test(limits_are_those_of_both_halves),

@@ -90,7 +90,7 @@ static void a_steady_force_costs_nothing(void **state) {
   ambulo__term_form(&term, &f.context, 1, 1, &form);
   assert_close(form.u, 1.0, 1e-14);
   assert_int_equal(ambulo__term_forms(&term, &f.context, 2), 0);
-  assert_true(ambulo__term_is_rate(AMBULO_FORCE_RATE));
+  assert_true(ambulo__term_is_rate(&term));
   ambulo_model_free(f.model);
 }
 

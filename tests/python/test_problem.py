@@ -78,6 +78,20 @@ class Problems(Case):
                 dt[[0, -1]] /= 2
                 self.close(problem.evaluate(x).objective, float(dt @ (q ** 2).sum(axis=1)), 1e-12)
 
+    def test_muscles_behind_tendons(self):
+        power = ambulo.Term("mechanical_power", tendon=[40, 0])
+        with arm() as model, swing(model, terms=[power]) as problem:
+            x = some_point(problem)
+            motion = problem.motion(x)
+            mean_torque = (motion.tau[1:] + motion.tau[:-1]) / 2
+            mean_speed = (motion.qd[1:] + motion.qd[:-1]) / 2
+            stretch = 12 * numpy.diff(motion.tau, axis=0) * [1 / 40, 0]
+            u = mean_torque * (mean_speed + stretch) / model.mass
+            self.close(problem.evaluate(x).objective,
+                       float((numpy.sqrt(u ** 2 + 0.05 ** 2) - 0.05).sum() / 12), 1e-12)
+            with self.assertRaisesRegex(ValueError, "tendon: got an array"):
+                swing(model, terms=[ambulo.Term("mechanical_power", tendon=[40])])
+
     def test_a_walk_made_of_records_is_that_of_the_file(self):
         """models/walker_2d_step.yaml, number for number."""
         with ambulo.Problem.load(ambulo.MODELS / "walker_2d_step.yaml") as file, \

@@ -107,10 +107,36 @@ static void limits_are_strength(void **state) {
                  AMBULO_E_PROBLEM, "pelvis_tx has none in the model");
 }
 
+/* N m/rad by coordinate, in series with muscles; none where not named */
+static void tendons_are_read(void **state) {
+  (void)state;
+#define BEHIND(more)                                                                               \
+  "ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\ntime: {intervals: 6, duration: 1}\n"       \
+  "objective:\n  - {term: mechanical_power" more "}\n"
+  ambulo_problem *p = problem_of(BEHIND(", tendon: {ankle_angle_r: 400}"));
+  const double *tendon = p->definition.terms[0].tendon;
+  int ankle = ambulo_model_find_coordinate(p->model, "ankle_angle_r");
+  assert_non_null(tendon);
+  for (int i = 0; i < 18; i++) assert_close(tendon[i], i == ankle ? 400.0 : 0.0, 0.0);
+  ambulo_problem_free(p);
+  p = problem_of(BEHIND(""));
+  assert_null(p->definition.terms[0].tendon);
+  ambulo_problem_free(p);
+  expect_refusal(BEHIND(", tendon: {ankle_angle_r: 0}"), AMBULO_E_SCHEMA, "p.yaml:6:54: error");
+  expect_refusal(BEHIND(", tendon: 400"), AMBULO_E_SCHEMA, "p.yaml:6:38: error");
+  expect_refusal(BEHIND(", tendon: {ankle: 400}"), AMBULO_E_SCHEMA, "unknown key 'ankle'");
+  expect_refusal("ambulo: 1\nkind: problem\nmodel: lower_body_18.yaml\n"
+                 "time: {intervals: 6, duration: 1}\n"
+                 "objective: [{term: torque_rate, tendon: {ankle_angle_r: 400}}]\n",
+                 AMBULO_E_SCHEMA, "unknown key 'tendon'");
+}
+
 static void every_allocation_may_fail(void **state) {
   (void)state;
-  static const char text[] = PRICED("[0.5, 4]", ", strength: limits") "written_for: {mass: 60, "
-                                                                      "stature: 1.6}\n";
+  static const char text[] =
+      PRICED("[0.5, 4]",
+             ", strength: limits") "  - {term: mechanical_power, tendon: {ankle_angle_r: 400}}\n"
+                                   "written_for: {mass: 60, stature: 1.6}\n";
   for (long k = 0; k < 100000; k += k < 100 ? 7 : 97) {
     fail_alloc memory = fail_alloc_at(k);
     ambulo_allocator allocator = fail_alloc_hook(&memory);
@@ -135,6 +161,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(terms_are_read), cmocka_unit_test(limits_are_strength),
-      cmocka_unit_test(every_allocation_may_fail), cmocka_unit_test(faults_are_placed)};
+      cmocka_unit_test(tendons_are_read), cmocka_unit_test(every_allocation_may_fail),
+      cmocka_unit_test(faults_are_placed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

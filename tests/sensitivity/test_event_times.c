@@ -127,6 +127,7 @@ static void terms_written_for(void **state) {
   "}, {term: torque_power, name: curves, scale: {default: 0, knee_angle_r: 1, knee_angle_l: 1}, "  \
   "strength: {knee_angle_r: [100, 1, 0.5, 200, 0.9, 0.8], knee_angle_l: [100, 1, 0.5, 200, 0.9, "  \
   "0.8]}}, {term: torque_squared, scale: 0.01, offset: {pelvis_ty: body_weight}}, "                \
+  "{term: mechanical_power, tendon: {ankle_angle_r: 300, ankle_angle_l: 300}}, "                   \
   "{term: torque_absolute, scale: 0.01}, {term: torque_rate, scale: 0.001}]"
   static const setting c = {"models/walk_normal.yaml",
                             {TERMS(""), LOADED, "written_for={mass: 60, stature: 1.6}"},
@@ -201,13 +202,16 @@ static void a_walk_with_other_terms_on_events(void **state) {
       "tests/two_step/walk_loaded.yaml",
       {"objective=[{term: clearance, height: 0.06, weight: 3}, "
        "{term: torque_rate, weight: 0.0001}, {term: mechanical_power, weight: 0.01}, "
+       "{term: mechanical_power, name: muscles, weight: 0.02, tendon: {ankle_angle_r: 300, "
+       "ankle_angle_l: 300, knee_angle_r: 500, knee_angle_l: 500}}, "
        "{term: upright, weight: 10, points: [pelvis, head_top]}, "
        "{term: ground_force, weight: 0.3}]",
        "time.duration=null", "gait.speed=1.26", "trajectory.degree=5", ON_EVENTS},
       {"gait.phases.foot_flat", "gait.phases.heel_off", "gait.phases.toe_off",
        "objective[clearance].height", "gait.speed", "gait.step_length",
        "constraints.clearance.turn", "constraints.clearance.ceiling", "load.mass",
-       "constraints.ground_height", "objective[torque_rate].weight"}};
+       "constraints.ground_height", "objective[torque_rate].weight",
+       "objective[muscles].tendon.ankle_angle_r"}};
   check(&c, NULL);
 }
 

@@ -9,12 +9,14 @@ static void an_arm(void **state) {
       {"objective=[{term: torque_absolute, smoothing: 2, scale: {shoulder: 1.1, elbow: 0.9}, "
        "offset: {shoulder: 3, elbow: -1}}, "
        "{term: torque_rate, weight: 0.001, scale: {shoulder: 0.7}}, "
+       "{term: mechanical_power, weight: 0.3, scale: {shoulder: 0.8}, tendon: {shoulder: 60}}, "
        "{term: torque_power, power: 2.5, scale: {shoulder: .01, elbow: .02}, "
        "strength: {shoulder: [40, 0.3, 0.1, 50, 0.2, -0.1], elbow: [30, 0.4, 1, 20, 0.5, 0.8]}, "
        "passive: {elbow: [-1, 0.5, 0.3, -0.7]}, offset: {elbow: 2}}]",
        "constraints.speed_limits=true"},
       {"time.duration", "ends.initial.shoulder", "ends.final_speed.elbow",
        "objective[torque_rate].scale.shoulder", "objective[torque_rate].weight",
+       "objective[mechanical_power].tendon.shoulder", "objective[mechanical_power].scale.shoulder",
        "objective[torque_absolute].offset.shoulder", "objective[torque_power].strength.elbow[3]",
        "objective[torque_power].strength.shoulder[0]", "objective[torque_power].offset.elbow",
        "model.links[upper].coordinate.torque[0]", "model.links[lower].coordinate.range[1]"}};
