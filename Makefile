@@ -256,8 +256,8 @@ check-slurm: build/.ready-build
 # Python, from PyPI, in build/python-venv; `make check` uses what there is
 PYTHON_PATH = PATH='$(CURDIR)/build/python-venv/bin':"$$PATH"
 wheel: build/.ready-build build/.ready-python
-	$(submake) $(OUT)/libambulo.so $(OUT)/ambulo
-	@$(PYTHON_PATH) python src/python/package.py wheel $(OUT)/libambulo.so $(OUT)/wheel
+	$(submake) $(SHARED_LIBRARY) $(OUT)/ambulo
+	@$(PYTHON_PATH) python src/python/package.py wheel $(SHARED_LIBRARY) $(OUT)/wheel
 
 check-python: build/.ready-build build/.ready-python
 	$(submake) all

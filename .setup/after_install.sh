@@ -13,6 +13,10 @@ case :$(pkg-config --variable pc_path pkg-config 2>/dev/null):${PKG_CONFIG_PATH:
   echo "  the library:  export PKG_CONFIG_PATH=$libdir/pkgconfig:\$PKG_CONFIG_PATH"
   ;;
 esac
+if command -v zsh >/dev/null 2>&1 &&
+  ! zsh -f -c 'print -l $fpath' | grep -qxF "$prefix/share/zsh/site-functions"; then
+  echo "  zsh completes:  fpath=($prefix/share/zsh/site-functions \$fpath)   # in .zshrc, before compinit"
+fi
 echo "  programs that are linked by pkg-config find it at run time (rpath), and so do those of CMake"
 echo "  where they are built; for others"
 if [ "$(id -u)" = 0 ] && { [ "$prefix" = /usr ] || grep -qsxF "$libdir" /etc/ld.so.conf /etc/ld.so.conf.d/*.conf; }; then

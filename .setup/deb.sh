@@ -41,6 +41,8 @@ rm "$work/all/usr/share/doc/ambulo/LICENSE" # as doc/*/copyright
 move "libambulo$so" "$lib/$soname" "$lib/libambulo.so.$version"
 move libambulo-dev usr/include "$lib/libambulo.a" "$lib/libambulo.so" "$lib/pkgconfig" "$lib/cmake"
 rmdir "$work/all/$lib" "$work/all/usr/lib"
+# where the zsh of Debian looks for what packages bring; it does not look into site-functions
+mv "$work/all/usr/share/zsh/site-functions" "$work/all/usr/share/zsh/vendor-completions"
 mv "$work/all" "$work/ambulo"
 
 strip --remove-section=.comment --remove-section=.note "$work/ambulo/usr/bin/ambulo"
@@ -60,6 +62,21 @@ needs() { # FILE: "libc6 (>= 2.34), ..."
 }
 program=$(needs "$work/ambulo/usr/bin/ambulo")
 library=$(needs "$work/libambulo$so/$lib/libambulo.so.$version")
+# what libambulo.a is linked with: the package of each -lNAME that pkg-config tells
+static=
+for option in $(sed -n 's/^Libs.private: //p' "$work/libambulo-dev/$lib/pkgconfig/ambulo.pc"); do
+  case $option in
+  -lnlopt) static="$static, libnlopt-dev" ;;
+  -lyaml) static="$static, libyaml-dev" ;;
+  -lopenblas) static="$static, libopenblas-dev" ;;
+  -llapack) static="$static, liblapack-dev" ;;
+  -lblas) static="$static, libblas-dev" ;;
+  -lexpat) static="$static, libexpat1-dev" ;;
+  -lz) static="$static, zlib1g-dev" ;;
+  -lm | -lpthread | -L*) ;; # libc6-dev, which a compiler brings
+  *) echo "deb.sh: no package is known for $option" >&2; exit 1 ;;
+  esac
+done
 
 mkdir -p "$folder"
 for package in ambulo "libambulo$so" libambulo-dev; do
@@ -72,7 +89,7 @@ for package in ambulo "libambulo$so" libambulo-dev; do
     gzip -9n >"$doc/changelog.gz"
   sed "s/@so@/$so/g" "$here/.setup/debian/control" |
     awk -v package="$package" -v RS= '$2 == package' |
-    sed "s/@version@/$version/; s/@program@/$program/; s/@library@/$library/" >"$work/stanza"
+    sed "s/@version@/$version/; s/@program@/$program/; s/@library@/$library/; s/@static@/${static#, }/" >"$work/stanza"
   {
     sed -n 1p "$work/stanza"
     [ "$package" = ambulo ] || echo 'Source: ambulo'

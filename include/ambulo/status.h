@@ -63,6 +63,7 @@ extern "C" {
 #ifdef AMBULO_DECLARATIONS_ONLY
 #define AMBULO_DEFAULT(name) AMBULO_API void name##_fill(name *filled, size_t size)
 #else
+/* NOLINTBEGIN(bugprone-macro-parentheses): a type takes none */
 #define AMBULO_DEFAULT(name)                                                                       \
   AMBULO_API void name##_fill(name *filled, size_t size);                                          \
   static inline name name##_default(void) {                                                        \
@@ -71,6 +72,7 @@ extern "C" {
     return usual;                                                                                  \
   }                                                                                                \
   struct ambulo_allocator
+/* NOLINTEND(bugprone-macro-parentheses) */
 #endif
 
 /* One list for codes, names and texts: X(identifier, name, exit status, text).

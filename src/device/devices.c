@@ -107,7 +107,11 @@ ambulo_status ambulo__devices_create(const ambulo_problem_definition *d,
   all->allocator = a;
   all->coordinates = ambulo_model_coordinate_count(d->model);
   all->elements = ambulo__alloc(&a, (size_t)d->device_count, sizeof *all->elements);
-  ambulo_status status = all->elements ? AMBULO_OK : AMBULO_E_MEMORY;
+  if (!all->elements) {
+    ambulo__free(&a, all);
+    return AMBULO_E_MEMORY;
+  }
+  ambulo_status status = AMBULO_OK;
   for (; !status && all->count < d->device_count; all->count++) {
     element *e = &all->elements[all->count];
     status = compile(d->model, &d->devices[all->count], &a, e);

@@ -96,7 +96,10 @@ static void keep_named(const ambulo_problem_definition *d, ambulo__pairs *pairs)
 
 static double radical_inverse(int number, int base) {
   double value = 0.0, part = 1.0 / base;
-  for (; number > 0; number /= base, part /= base) value += part * (number % base);
+  for (; number > 0; number /= base) {
+    value += part * (number % base);
+    part /= base;
+  }
   return value;
 }
 

@@ -4,9 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double shortest_line = 0.01;  /* m */
-static const double lightest_body = 0.001; /* of the whole: below, it is a sensor, or noise */
-static const double head_radius = 0.105;   /* m, of an adult */
+static const double shortest_line = 0.01; /* m */
+/* of the whole: below, what is fixed to a link is a sensor, a kneecap (0.0012), a cover */
+static const double lightest_body = 0.002;
+static const double head_radius = 0.105; /* m, of an adult */
 
 /* --------------------------------------------------------------------- sides */
 

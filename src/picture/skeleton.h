@@ -5,7 +5,8 @@
  * point named "head_top" with a head below it, or to the centre of mass of a body at whose
  * joint no line begins. A model with `origin`s, an imported one, has several links at one joint
  * (model/placement.h): they count as one. Not drawn: virtual links that place the whole body in
- * the world, and frames beyond which there is nothing that weighs, moves or touches (sensors).
+ * the world, and frames beyond which there is nothing that weighs, moves or touches (sensors,
+ * kneecaps).
  */
 #ifndef AMBULO_PICTURE_SKELETON_H
 #define AMBULO_PICTURE_SKELETON_H

@@ -54,7 +54,7 @@ def stage(library, folder):
     shutil.rmtree(fresh, ignore_errors=True)
     shutil.copytree(HERE / "ambulo", fresh, ignore=shutil.ignore_patterns("__pycache__"))
     generate.generate(TOP / "include", fresh)
-    shutil.copy2(library, fresh / "libambulo.so")
+    shutil.copy2(library, fresh / "libambulo.so")  # of this name on macOS, too: cffi asks for no other
     (fresh / "bin").mkdir()
     shutil.copy2(Path(library).with_name("ambulo"), fresh / "bin" / "ambulo")
     for source in sorted((TOP / "models").rglob("*")):
@@ -120,8 +120,8 @@ def write_wheel(library, folder):
 
 
 def strip(binary):
-    """Leaves debugging information out: five sixths of the file."""
-    if shutil.which("strip"):
+    """Leaves debugging information out: five sixths of the file. That of macOS stays in the objects."""
+    if shutil.which("strip") and sys.platform != "darwin":
         subprocess.run(["strip", "--strip-unneeded", str(binary)], check=True)
 
 
@@ -162,8 +162,9 @@ def get_requires_for_build_wheel(config_settings=None):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    subprocess.run(["make", "-C", str(TOP), "build/libambulo.so", "build/ambulo"], check=True)
-    return make_wheel(TOP / "build" / "libambulo.so", wheel_directory).name
+    library = "build/libambulo.dylib" if sys.platform == "darwin" else "build/libambulo.so"
+    subprocess.run(["make", "-C", str(TOP), library, "build/ambulo"], check=True)
+    return make_wheel(TOP / library, wheel_directory).name
 
 
 if __name__ == "__main__":

@@ -3,6 +3,8 @@
 
 #include "stride/economy.h"
 
+#include <math.h>
+
 enum { SAMPLES = 1001 }; /* a stride of 1 s by the millisecond: work of a walk to 0.1 % */
 
 static const double shortest_way = 0.01; /* m: nothing is said by the metre of less */
@@ -16,7 +18,7 @@ static void work(ambulo__json *json, const ambulo__stride *s, const ambulo__econ
   ambulo__json_number(json, "positive", e->positive_sum);
   ambulo__json_number(json, "negative", e->negative_sum);
   ambulo__json_number(json, "metabolic", metabolic);
-  if (e->distance >= shortest_way) {
+  if (fmin(e->distance, e->feet) >= shortest_way) {
     ambulo__json_number(json, "positive_per_kg_metre", e->positive_sum / way);
     ambulo__json_number(json, "negative_per_kg_metre", e->negative_sum / way);
     ambulo__json_number(json, "metabolic_per_kg_metre", metabolic / way);

@@ -36,6 +36,21 @@ static void widen(extent *e, double value) {
   e->most = fmax(e->most, value);
 }
 
+/* how far heels go: standing up and lifting move the centre of mass, but the body goes nowhere */
+static void follow_feet(const ambulo__stride *s, ambulo__pose *pose, ambulo__economy *e) {
+  const ambulo_model *m = s->model;
+  double first[3], last[3];
+  const double *end = s->q + (size_t)(s->samples - 1) * (size_t)s->coordinates;
+  for (int f = 0; f < m->foot_count; f++) {
+    const ambulo_point *heel = &m->points[m->feet[f].heel_center];
+    ambulo__pose_at(pose, s->q);
+    ambulo__pose_point(pose, heel->link, heel->position, first);
+    ambulo__pose_at(pose, end);
+    ambulo__pose_point(pose, heel->link, heel->position, last);
+    e->feet = fmax(e->feet, ambulo__dot(last, m->forward) - ambulo__dot(first, m->forward));
+  }
+}
+
 /* the rise is measured from a line from the first to the last place: stairs are no excursion */
 static void follow_center(const ambulo__stride *s, ambulo__pose *pose, ambulo__economy *e) {
   const ambulo_model *m = s->model;
@@ -75,6 +90,7 @@ ambulo_status ambulo__economy_of(const ambulo__stride *stride, const ambulo_allo
   }
   add_work(stride, &e);
   follow_center(stride, &pose, &e);
+  follow_feet(stride, &pose, &e);
   ambulo__pose_free(&pose);
   *economy = e;
   return AMBULO_OK;

@@ -19,6 +19,7 @@ typedef struct ambulo__economy {
   double *positive, *negative;       /* [coordinates], J; 0 of those that are not actuated */
   double positive_sum, negative_sum; /* J */
   double distance;                   /* of the centre of mass along forward, m */
+  double feet; /* of the foot that goes farthest, m; 0 without feet, or where none goes forward */
   double rise, sway; /* largest less smallest height above the mean path along up, and place along
                         left, m */
 } ambulo__economy;

@@ -356,7 +356,9 @@ def osims():
     wanted = os.environ.get("AMBULO_OSIM")
     if wanted:
         return wanted.split(":")
-    return sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "*.osim")))
+    here = os.path.dirname(os.path.abspath(__file__))
+    fetched = os.environ.get("AMBULO_OPENSIM", os.path.join(here, "..", "..", "build", "opensim"))
+    return [path for folder in (here, fetched) for path in sorted(glob.glob(os.path.join(folder, "*.osim")))]
 
 
 def urdfs():
@@ -379,7 +381,7 @@ def urdfs():
 
 def main():
     ambulo, scratch = (os.path.abspath(path) for path in sys.argv[1:3])
-    for name in ("AMBULO_URDF", "AMBULO_OSIM", "AMBULO_MJCF"):
+    for name in ("AMBULO_URDF", "AMBULO_OSIM", "AMBULO_MJCF", "AMBULO_OPENSIM"):
         if name in os.environ:
             paths = os.environ[name].split(":")
             os.environ[name] = ":".join(os.path.abspath(path) for path in paths)
@@ -396,6 +398,8 @@ def main():
         print("skipped: OpenSim models against OpenSim (no package `opensim`)")
     else:
         sources += [(compare_osim, path) for path in osims()]
+        if "AMBULO_OSIM" not in os.environ and all("Rajagopal" not in path for _, path in sources):
+            print("skipped: published models against OpenSim (tests/users/fetch_opensim.sh build/opensim brings them)")
     if importlib.util.find_spec("mujoco") is None:
         print("skipped: MuJoCo models against MuJoCo (no package `mujoco`)")
     else:

@@ -243,11 +243,21 @@ if [ -z "$sanitized" ] && has dpkg-deb 'Debian packages' && has dpkg-shlibdeps '
     local package
     for package in "$work"/deb/*.deb; do dpkg-deb -x "$package" "$work/unpacked" || return 1; done
     gzip -d "$work"/unpacked/usr/share/man/man*/*.gz
-    diff <(cd "$work/unpacked/usr" && find . ! -type d | sed 's|lib/[^/]*-[^/]*/|lib/|' |
+    diff <(cd "$work/unpacked/usr" && find . ! -type d | sed 's|lib/[^/]*-[^/]*/|lib/|; s|zsh/vendor-completions|zsh/site-functions|' |
       grep -v 'doc/[^/]*/\(copyright\|changelog.gz\)$' | LC_ALL=C sort) \
       <(cd "$root$prefix" && find . ! -type d ! -name manifest ! -path ./share/doc/ambulo/LICENSE | LC_ALL=C sort)
   }
   check 'the packages hold what make install writes, each file once' together
+  check 'zsh of Debian finds its completion' test -f "$work/unpacked/usr/share/zsh/vendor-completions/_ambulo"
+  links_with_its_packages() { # a package for each library that the static one is linked with
+    local libraries needs
+    libraries=$(sed -n 's/^Libs.private: //p' "$root$prefix/lib/pkgconfig/ambulo.pc" | tr ' ' '\n' |
+      grep '^-l' | grep -vxe -lm -e -lpthread | sort -u)
+    needs=$(dpkg-deb -f "$work"/deb/libambulo-dev_*.deb Depends | tr ',' '\n' | grep -e '-dev')
+    echo "$libraries" "$needs"
+    [ "$(wc -l <<<"$libraries")" = "$(wc -l <<<"$needs")" ]
+  }
+  check 'the package of headers asks for what the static library needs' links_with_its_packages
   from_package() {
     mkdir "$work/elsewhere"
     (cd "$work/elsewhere" && "$work/unpacked/usr/bin/ambulo" solve pendulum_swing -q -o swing)

@@ -96,18 +96,19 @@ static double length_of(const ambulo__skeleton *s, int b) {
   "<joint name='" name "' type='fixed'><parent link='" parent "'/><child link='" child             \
   "'/><origin xyz='" place "'/></joint>\n"
 
-/* a trunk with a hip of two hinges, a thigh and a shank, and a camera on a mast of two metres:
- * trunk to hip, hip to knee, shank to its centre of mass; no spikes to the masses of what is joined
- * at both ends, none to the camera */
+/* a trunk with a hip of two hinges, a thigh with a kneecap and a shank, and a camera on a mast of
+ * two metres: trunk to hip, hip to knee, shank to its centre of mass; no spikes to the masses of
+ * what is joined at both ends, none to the camera, no second thigh to the kneecap */
 static void test_an_imported_leg_is_three_lines(void **state) {
   import_case c =
       import_text(state,
                   "<robot name='r'>" BODY("trunk", "9") BODY("ball", "0.3") BODY("thigh", "5")
-                      BODY("shank", "3") "<link name='camera'/>" HINGE("hip_a", "trunk", "ball",
-                                                                       "0.02 0.1 -0.3", "1 0 0")
+                      BODY("shank", "3") BODY("cap", "0.02") "<link name='camera'/>" HINGE(
+                          "hip_a", "trunk", "ball", "0.02 0.1 -0.3", "1 0 0")
                           HINGE("hip_b", "ball", "thigh", "0 0 0", "0.6 0.8 0")
                               HINGE("knee", "thigh", "shank", "0 0 -0.4", "0 1 0")
-                                  WELD("mast", "trunk", "camera", "0 0 2") "</robot>",
+                                  WELD("tendon", "thigh", "cap", "0.05 0 -0.4")
+                                      WELD("mast", "trunk", "camera", "0 0 2") "</robot>",
                   NULL);
   assert_int_equal(c.status, AMBULO_OK);
   ambulo__skeleton s;

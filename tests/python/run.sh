@@ -11,6 +11,8 @@ here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.." || exit 1
 out=$(cd "${OUT:-build}" && pwd) || exit 1
 python=${PYTHON:-python3}
+library=$out/libambulo.so
+[ -f "$library" ] || library=$out/libambulo.dylib # macOS
 work=$(mktemp -d "${TMPDIR:-/tmp}/ambulo-python-XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 skip() {
@@ -36,7 +38,7 @@ passed=0
 
 # the environment sees the cffi and numpy of this interpreter, and nothing else of this folder
 make_environment() {
-  "$python" src/python/package.py wheel "$out/libambulo.so" "$work/wheel" &&
+  "$python" src/python/package.py wheel "$library" "$work/wheel" &&
     "$python" -m venv "$work/venv" &&
     "$python" -c 'import site, sysconfig; print(sysconfig.get_path("purelib"), *site.getsitepackages(), sep="\n")' \
       >"$("$work/venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/outer.pth" &&
@@ -49,7 +51,7 @@ if "$python" -c 'import venv, ensurepip' 2>/dev/null; then
   run=("$work/venv/bin/python")
 else
   echo 'skipped: tests/python/run.sh: no venv: the package is tested without its wheel'
-  "$python" src/python/package.py stage "$out/libambulo.so" "$work/staged" >"$work/log" 2>&1 ||
+  "$python" src/python/package.py stage "$library" "$work/staged" >"$work/log" 2>&1 ||
     fail 'the package'
   run=(env "PYTHONPATH=$work/staged" "$python")
 fi

@@ -102,7 +102,8 @@ static void a_walk_says_what_it_costs(void **state) {
   ambulo__text_free(&text);
 }
 
-/* without ground reaction torques are not those of joints; standing there is no metre */
+/* without ground reaction torques are not those of joints; standing there is no metre, nor where
+ * feet stay and the centre of mass moves, as in lifting */
 static void what_there_is_not_is_not_said(void **state) {
   (void)state;
   ambulo__text_buffer text;
@@ -112,6 +113,10 @@ static void what_there_is_not_is_not_said(void **state) {
   ambulo__text_free(&text);
   write("models/stand_quietly.yaml", &text);
   assert_non_null(strstr(ambulo__text_data(&text), "\"work\": {"));
+  assert_null(strstr(ambulo__text_data(&text), "per_kg_metre"));
+  ambulo__text_free(&text);
+  write("models/lift.yaml", &text);
+  assert_true(number(ambulo__text_data(&text), "\"distance\": ") > 0.01);
   assert_null(strstr(ambulo__text_data(&text), "per_kg_metre"));
   ambulo__text_free(&text);
 }

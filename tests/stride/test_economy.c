@@ -39,6 +39,7 @@ static void work_lifts_a_pendulum(void **state) {
   assert_true(e->positive_sum > 14.7 && e->negative_sum < 0.0);
   assert_close(e->positive[0], e->positive_sum, 0.0);
   assert_close(e->distance, 0.5, 1e-6);
+  assert_close(e->feet, 0.0, 0.0); /* it has none */
   assert_close(ambulo__economy_metabolic(e), e->positive_sum / 0.25 - e->negative_sum / 1.2, 1e-12);
   release(&s);
 }
@@ -77,6 +78,7 @@ static void a_walk_gains_no_energy(void **state) {
   const ambulo__economy *e = &s.economy;
   assert_true(fabs(e->positive_sum + e->negative_sum) < 0.015 * e->positive_sum);
   assert_close(e->distance, 2.0 * s.problem->definition.travel, 1e-6);
+  assert_close(e->feet, e->distance, 1e-6); /* in a whole stride heels go as far as the body */
   for (int i = 0; i < m->coordinate_count; i++) {
     const ambulo_coordinate *c = &m->coordinates[i];
     if (!c->actuated) {
@@ -133,6 +135,15 @@ static void a_climb_is_no_excursion(void **state) {
   release(&s);
 }
 
+/* who rises from a chair goes forward with the centre of mass, not with the feet */
+static void rising_is_no_way(void **state) {
+  (void)state;
+  solved s = solve("models/sit_to_stand.yaml", 101);
+  assert_true(s.economy.distance > 0.1);
+  assert_true(s.economy.feet < 5e-3);
+  release(&s);
+}
+
 static void every_allocation_may_fail(void **state) {
   (void)state;
   solved s = solve("models/pendulum_swing.yaml", 11);
@@ -157,6 +168,7 @@ int main(void) {
                                      cmocka_unit_test(forces_move_the_center_of_mass),
                                      cmocka_unit_test(a_walk_gains_no_energy),
                                      cmocka_unit_test(a_climb_is_no_excursion),
+                                     cmocka_unit_test(rising_is_no_way),
                                      cmocka_unit_test(sway_is_from_side_to_side),
                                      cmocka_unit_test(what_is_not_actuated_does_no_work),
                                      cmocka_unit_test(every_allocation_may_fail)};
