@@ -168,6 +168,7 @@ static ambulo_status doubt_gaps(const reader *r) {
   static const char *const names[2] = {"force", "moment"};
   const ambulo_model *model = r->source->model;
   int idle = -1;
+  if (!r->columns) return AMBULO_OK; /* hands hold nothing */
   ambulo_status status = ambulo__idle_axis(model, &r->load->allocator, &idle);
   for (int at = 0; !status && at < 4 * r->load->loads; at++) {
     const ambulo_hold *hold = &r->load->hold[at / 4];
