@@ -27,7 +27,8 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
   double change = fabs(point->objective - s->objective), violation = point->violation;
   double relative = s->loose ? AMBULO__COARSE_CHANGE : AMBULO__VALUE_CHANGE;
   int steady = change <= relative * fabs(point->objective);
-  int small = point->gradient_norm <= AMBULO__GRADIENT_SMALL * fmax(1.0, fabs(point->objective));
+  double enough = s->loose ? AMBULO__COARSE_GRADIENT : AMBULO__GRADIENT_SMALL;
+  int small = point->gradient_norm <= enough * fmax(1.0, fabs(point->objective));
   int near = violation <= fmax(tolerance, AMBULO__NEAR_VIOLATION);
   s->settled = near && steady ? s->settled + 1 : 0;
   if (s->points++ == 0) s->first = fabs(point->objective);
@@ -42,7 +43,7 @@ static ambulo_ending settle(ambulo__stopping *s, const ambulo__engine *e, double
     s->halved = violation;
     s->since_halved = 0;
   }
-  if (s->settled >= 1 && (small || s->loose)) return AMBULO_ENDING_CONVERGED;
+  if (s->settled >= 1 && small) return AMBULO_ENDING_CONVERGED;
   if (has_vanished(e, s)) return AMBULO_ENDING_VANISHED;
   return s->settled >= AMBULO__SETTLED ? AMBULO_ENDING_SETTLED : AMBULO_ENDING_NONE;
 }
