@@ -2,7 +2,9 @@
  * whitened coordinates.
  *
  * Rounds of: metric at the point (model_step.c), NLopt from there in w. SLSQP's quadratic
- * model starts as the identity, which in w is the metric; a few rounds settle to rounding.
+ * model starts as the identity, which in w is the metric; a few rounds settle to rounding. AUGLAG
+ * comes to points that are better and hold their rows nearly: where a round has none that holds
+ * them, the next one starts from its last, carried onto the equalities.
  * run->ending says why they ended.
  */
 #include "method/nlopt_direct.h"
@@ -55,18 +57,31 @@ static ambulo_status round_from(ambulo__engine *e, ambulo__direct *d, ambulo_alg
   return AMBULO_OK;
 }
 
-/* rounds until one of them, or the run, ends them */
+/* the last point that NLopt was at, on the equalities: into x; 1 when there is none */
+static int take_last(ambulo__engine *e, const ambulo__direct *d, double *x) {
+  double error;
+  memcpy(x, d->last_x, (size_t)e->setup->n * sizeof *x);
+  return ambulo__restore(e, x, &error) || !(error <= AMBULO__RESTORED);
+}
+
+/* rounds from x until one of them, or the run, ends them */
 static ambulo_status rounds(ambulo__engine *e, ambulo__direct *d, ambulo_algorithm algorithm,
-                            int most, const double *x) {
+                            int most, double *x) {
   ambulo_status status = AMBULO_OK;
   ambulo_ending ending = AMBULO_ENDING_NONE;
-  int idle = 0;
+  int idle = 0, from_last = 0;
+  const double *from = x;
   for (int k = 0; !status && !ending && !e->run->stopped; k++) {
     if (k == most) {
       ending = AMBULO_ENDING_ITERATIONS;
-    } else {
-      status = round_from(e, d, algorithm, k == 0 ? x : d->best_x, &idle, &ending);
+      break;
     }
+    status = round_from(e, d, algorithm, from, &idle, &ending);
+    from = d->best_x;
+    from_last = ending == AMBULO_ENDING_SETTLED && algorithm == AMBULO_AUGLAG && !from_last;
+    if (status || !from_last || take_last(e, d, x)) continue;
+    ending = AMBULO_ENDING_NONE;
+    from = x;
   }
   if (ending) ambulo__run_end(e->run, ending);
   return status;
