@@ -211,8 +211,8 @@
 #define AMBULO__COARSE_VIOLATION 1e-2
 #define AMBULO__COARSE_CHANGE 3e-3
 
-/* whitened gradient, of max(1, |f|), on a coarse grid: its metric foresees that half a hundredth of f
- * is still to be had, COARSE_CHANGE about twice. A change alone is small by chance: run at 4 m/s
+/* whitened gradient, of max(1, |f|), on a coarse grid: its metric foresees that half a hundredth of
+ * f is still to be had, COARSE_CHANGE about twice. A change alone is small by chance: run at 4 m/s
  * went on from where it was .2 to .8, and rounding chose between 1.95, 1.97 and 2.26. 0.05, 0.03:
  * +10 % iterations of running. T: stopping. */
 #define AMBULO__COARSE_GRADIENT 0.1

@@ -241,7 +241,7 @@ int main(void) {
                                      cmocka_unit_test(what_vanishes_ends_it),
                                      cmocka_unit_test(stalls_raise_the_bound),
                                      cmocka_unit_test(slow_rows_raise_the_bound),
-      cmocka_unit_test(coarse_grids_stall_sooner),
+                                     cmocka_unit_test(coarse_grids_stall_sooner),
                                      cmocka_unit_test(only_points_near_the_rows_count),
                                      cmocka_unit_test(terms_without_a_measure_vanish_too),
                                      cmocka_unit_test(what_counts_as_progress),
