@@ -59,6 +59,8 @@ static void add_gram(int count, int width, int stride, const double *g, int ld, 
 
 enum { BITS = 64, WORDS = 2, PANELS = 32 };
 
+typedef uint64_t marks __attribute__((vector_size(8 * AMBULO__WIDTH)));
+
 typedef struct gram {
   int count; /* rows, at most BITS * WORDS */
   size_t stride;
@@ -71,13 +73,13 @@ typedef struct gram {
 static void find_rows(const gram *m, int panel, uint64_t use[WORDS]) {
   for (int w = 0; w < WORDS; w++) {
     const double *row = m->g + (size_t)(w * BITS) * m->stride + (size_t)(panel * T);
-    lanes bits[V] = {{0}}, bit = (lanes){0} + 1;
+    marks bits[V] = {{0}}, bit = (marks){0} + 1;
     int left = m->count - w * BITS, end = left < BITS ? left : BITS;
     for (int k = 0; k < end; k++, bit += bit, row += m->stride) {
-      for (int v = 0; v < V; v++) bits[v] |= (lanes)(load(row + v * W) != (wide){0}) & bit;
+      for (int v = 0; v < V; v++) bits[v] |= (marks)(load(row + v * W) != (wide){0}) & bit;
     }
     use[w] = 0;
-    for (int i = 0; i < T; i++) use[w] |= (uint64_t)bits[i / W][i % W];
+    for (int i = 0; i < T; i++) use[w] |= bits[i / W][i % W];
   }
 }
 

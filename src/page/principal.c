@@ -54,10 +54,10 @@ ambulo_status ambulo__principal_weights(const ambulo__motions *motions, const do
   if (!status) status = products(motions, mean, allocator, g);
   if (!status) status = eigenvectors(n, allocator, g, w);
   double sum = 0.0;
-  double values = (double)((ambulo__motion_values(motions) + EVERY - 1) / EVERY);
+  size_t values = (ambulo__motion_values(motions) + EVERY - 1) / EVERY;
   for (int k = 0; k < n && !status; k++) {
     sum += fmax(w[k], 0.0);
-    left[n - 1 - k] = sum / (values * n);
+    left[n - 1 - k] = sum / ((double)values * n);
   }
   for (int k = 0; k < n && !status; k++)
     for (int i = 0; i < n; i++)
