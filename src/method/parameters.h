@@ -212,14 +212,15 @@
 #define AMBULO__COARSE_CHANGE 3e-3
 
 /* whitened gradient, of max(1, |f|), on a coarse grid: its metric foresees that half a hundredth of
- * f is still to be had, COARSE_CHANGE about twice. A change alone is small by chance: run at 4 m/s
- * went on from where it was .2 to .8, and rounding chose between 1.95, 1.97 and 2.26. 0.05, 0.03:
- * +10 % iterations of running. T: stopping. */
+ * f is still to be had, COARSE_CHANGE about twice. A change alone is small by chance: without this
+ * rounding chose between 1.95, 1.97 and 2.26 for run at 4 m/s. Seven speeds of it on three
+ * instruction sets: without -7 % iterations; 0.05, 0.03: +22 %, +31 %. T: stopping. */
 #define AMBULO__COARSE_GRADIENT 0.1
 /* points at the bound of the penalty without progress, or without half the violation, that show
  * that a coarse grid has no room for the rows: it is left, and its multipliers with it. Over the 48
- * shipped problems 2554 iterations; never: 3127 (reach_standing 403 for 37, squat_whole_body 157
- * for 63, jump 261 for 148 and 2.6 % higher, the others as they are). T: stopping, refine. */
+ * shipped problems, before COARSE_GRADIENT: 2554 iterations; never: 3127 (reach_standing 403 for
+ * 37, squat_whole_body 157 for 63, jump 261 for 148 and 2.6 % higher, the others as they are).
+ * T: stopping, refine. */
 #define AMBULO__COARSE_STALL 6
 
 /* ------------------------------------------------------------------------ polishing (polish.c) */

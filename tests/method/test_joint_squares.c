@@ -3,6 +3,7 @@
 #include "method/joint_squares.h"
 #include "support/engine_fixture.h"
 #include "support/gauss_newton.h"
+#include "support/metric_along.h"
 #include "support/problem_fixture.h"
 #include "support/random_model.h"
 #include "support/test.h"
@@ -84,27 +85,6 @@ static void what_is_no_number_stays_none(void **state) {
   ambulo__joint_squares s = {2.0, {0.0}, {0.0}};
   ambulo__joint_squares_add(&s, (double)NAN, motion);
   assert_true(isnan(s.tau));
-}
-
-/* the metric's own d'H d, for an objective times 1.7 */
-static double metric_along(ambulo_workspace *w, const double *x, const double *d) {
-  const ambulo_problem *p = w->problem;
-  const double scale = 1.7;
-  ambulo__pool pool;
-  ambulo__metric metric;
-  ambulo__band h;
-  double *hd = calloc((size_t)p->variables, sizeof *hd), sum = 0.0;
-  ambulo__pool_init(&pool, NULL);
-  assert_int_equal(ambulo__metric_create(p, &pool, &metric), AMBULO_OK);
-  assert_int_equal(ambulo__band_create(&pool, p->variables, ambulo__metric_diagonals(p), &h),
-                   AMBULO_OK);
-  assert_int_equal(ambulo__evaluate_jacobian(w, x), AMBULO_OK);
-  ambulo__metric_fill(&metric, w, scale, &h);
-  ambulo__band_multiply(&h, d, hd);
-  for (int j = 0; j < p->variables; j++) sum += d[j] * hd[j];
-  ambulo__pool_clear(&pool);
-  free(hd);
-  return sum / scale;
 }
 
 /* d'H d from the gradients of all residuals, one at a time */

@@ -98,6 +98,7 @@ static void expect_box(const char *name, double longest) {
   task k;
   open_task(&k, name);
   const ambulo_model *m = ambulo_problem_model(k.p);
+  assert_int_equal(k.count, 6); /* both hands beside trunk, pelvis and head */
   for (int i = 0; i < k.count; i++) assert_true(k.list[i].gap >= 0.12 - 0.001);
   int hand[2] = {ambulo_model_find_point(m, "hand_r"), ambulo_model_find_point(m, "hand_l")};
   ambulo__pose pose;
